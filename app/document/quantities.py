@@ -47,8 +47,10 @@ class Quantity(ABC):
     has_anchors: ClassVar[bool] = False
     """Whether it is made of the document's anchors."""
 
-    interpolates: bool = False
-    """Whether it has the anchors' values at the anchors, so that extrema elsewhere tell against it."""
+    @property
+    def interpolates(self) -> bool:
+        """Whether it has the anchors' values at the anchors, so that extrema elsewhere tell against it."""
+        return False
 
     compares_meshes: ClassVar[bool] = False
     """Whether it says what a change of the mesh does to a distance."""

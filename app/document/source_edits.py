@@ -63,7 +63,7 @@ def without_member(document: Document, panel: int, member: Member) -> Document:
     return put_point(document, name, source_from(left), document.panel(panel).surface) if left else document
 
 
-def with_moved(document: Document, name: str, whole: Source, member: Member, to: Source) -> Document:
+def with_moved(document: Document, name: str, whole: Source | None, member: Member, to: Source) -> Document:
     """The point of a name is at `whole`, of which one member is now elsewhere."""
     members = [other for each in members_of(whole) for other in (members_of(to) if each == member else (each,))]
     return put_point(document, name, source_from(members), document.point(name).surface)

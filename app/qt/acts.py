@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
@@ -74,15 +75,23 @@ def _change_part(context: Context) -> None:
 
 
 def _turn(right: int, up: int) -> Callable[[Context], object]:
-    return lambda context: context.active and context.active.view.turn_by(right, up)
+    return lambda context: context.active.view.turn_by(right, up) if context.active else None
 
 
 def _shift(right: int, up: int) -> Callable[[Context], object]:
-    return lambda context: context.active and context.active.view.shift_by(right, up)
+    return lambda context: context.active.view.shift_by(right, up) if context.active else None
 
 
 def _zoom(factor: float) -> Callable[[Context], object]:
-    return lambda context: context.active and context.active.view.zoom(factor)
+    return lambda context: context.active.view.zoom(factor) if context.active else None
+
+
+def _see_from(name: str, context: Context) -> None:
+    context[Views].reset(name)
+
+
+def _edit_panel(word: str, context: Context) -> None:
+    context[Choices].edit_panel(context.grid.active, word)
 
 
 def _of_view(word: str, text: str, do: Callable[[Context], object], *keys: str) -> Act:
@@ -197,7 +206,7 @@ VIEW = (
         Act(
             f"view {name}",
             VIEW_TEXTS.get(name, f"&{name.capitalize()}"),
-            lambda c, name=name: c[Views].reset(name),
+            partial(_see_from, name),
             (str(number),),
             needs_mesh=True,
         )
@@ -293,7 +302,7 @@ TURNS = (
     _of_view(
         "accept pair",
         "Accept the predicted partner",
-        lambda c: c[Guide].go_on() or _gestures(c).accept(),
+        lambda c: None if c[Guide].go_on() else _gestures(c).accept(),
         "Return",
         "Enter",
     ),
@@ -309,7 +318,7 @@ PANELS = (
         needs_mesh=True,
     ),
     *(
-        Act(f"panel {word}", word, lambda c, word=word: c[Choices].edit_panel(c.grid.active, word), needs_mesh=True)
+        Act(f"panel {word}", word, partial(_edit_panel, word), needs_mesh=True)
         for word in PANEL_EDITS
         if word != "Add a panel"
     ),

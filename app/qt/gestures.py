@@ -4,8 +4,6 @@ from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core.arrays import AnyArray
-
 from ..document.tools import tools
 from .context import Context
 from .dragging import Dragging
@@ -209,8 +207,9 @@ class Gestures(QtCore.QObject):
         menu.addAction("Copy position", lambda: _copy(" ".join(f"{x:.9g}" for x in self._place(panel, vertex))))
         menu.addAction("Copy values", lambda: _copy(self._values(panel, vertex)))
 
-    def _place(self, panel: int, vertex: int) -> AnyArray:
-        return self._context.session.surface_in(panel).vertices[vertex]
+    def _place(self, panel: int, vertex: int) -> list[float]:
+        place: list[float] = self._context.session.surface_in(panel).vertices[vertex].tolist()
+        return place
 
     def _values(self, id: int, vertex: int) -> str:
         """What every panel of the same surface has there."""

@@ -155,7 +155,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self._opening.setText(self._opening.fontMetrics().elidedText(words, cut, room))
         self._stack.setCurrentWidget(self._opening)
 
-    def show_start(self) -> None:
+    def show_start(self) -> "StartPage":
         """Nothing is open: how to begin."""
         if self._start_page is None:
             from .pages.start_page import StartPage
@@ -168,6 +168,7 @@ class MainWindow(QtWidgets.QMainWindow):
             self._start_page.commands_wanted.connect(guide.show_commands)
             self._stack.addWidget(self._start_page)
         self._stack.setCurrentWidget(self._start_page)
+        return self._start_page
 
     def closeEvent(self, event: QtGui.QCloseEvent) -> None:
         context, choices = self.context, self.context[Choices]
@@ -258,8 +259,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.refused.emit(message)
         if self.session.surface is None and self.context.is_built:
             self.context[ProgressDisplay].end()
-            self.show_start()
-            self._start_page.show_message(message)
+            self.show_start().show_message(message)
         elif not self.context.quiet:
             self._tell(message)
 

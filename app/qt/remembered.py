@@ -38,7 +38,7 @@ class Recent:
     """A file that was opened; when, in local time, is unknown of those remembered without it."""
 
     path: str
-    loaded: datetime | None
+    opened_at: datetime | None
 
 
 def recent_files() -> list[Recent]:
@@ -60,17 +60,17 @@ def remember(path: str) -> None:
     """Put a file first among the recent ones."""
     path = os.path.abspath(path)
     files = [Recent(path, datetime.now(timezone.utc)), *(file for file in recent_files() if file.path != path)]
-    entries = [{"path": file.path, "opened": file.loaded and file.loaded.isoformat()} for file in files]
+    entries = [{"path": file.path, "opened": file.opened_at and file.opened_at.isoformat()} for file in files]
     _write(folder() / "recent.json", json.dumps(entries[:MOST_RECENT], indent=1))
 
 
 def _file_of(entry: object) -> Recent | None:
     """An entry of the list: a path with its time, or, as it used to be, a path alone."""
-    path, loaded = (entry.get("path"), entry.get("opened")) if isinstance(entry, dict) else (entry, None)
+    path, opened_at = (entry.get("path"), entry.get("opened")) if isinstance(entry, dict) else (entry, None)
     if not isinstance(path, str):
         return None
     try:
-        return Recent(path, datetime.fromisoformat(loaded).astimezone())
+        return Recent(path, datetime.fromisoformat(str(opened_at)).astimezone())
     except (TypeError, ValueError, OverflowError, OSError):
         return Recent(path, None)
 

@@ -112,7 +112,8 @@ class Viewer:
 
         BihdistError for one that cannot be shown.
         """
-        return self._session.document
+        document: Document = self._session.document
+        return document
 
     @document.setter
     def document(self, document: Document) -> None:

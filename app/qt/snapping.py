@@ -27,7 +27,7 @@ class Snapping:
         if self.is_on:
             return hit.vertex
         faces = self._context.session.surface_in(panel).faces
-        return place_at(faces[hit.face], hit.face, hit.weights)
+        return place_at(faces[hit.face], hit.face, hit.weights.tolist())
 
     def set(self, is_on: bool) -> None:
         """Whether the source is put on vertices, or anywhere in faces, also at the next start."""

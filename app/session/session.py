@@ -238,15 +238,26 @@ class Session:
         loaded = self.loaded()
         return None if loaded is None else loaded.surface
 
-    def opened_in(self, panel: int) -> LoadedMesh | None:
+    def loaded_in(self, panel: int) -> LoadedMesh | None:
         """The surface of a panel; None before it is there, and where there is no such panel."""
         name = next((each.surface for each in self.document.panels if each.id == panel), None)
         return None if name is None else self.loaded(name)
 
-    def surface_in(self, panel: int) -> Surface | None:
-        """The same."""
-        loaded = self.opened_in(panel)
-        return None if loaded is None else loaded.surface
+    @property
+    def first_surface(self) -> Surface:
+        """The first surface of the document; LookupError before there is one."""
+        return self.mesh().surface
+
+    def mesh(self, name: str | None = None) -> LoadedMesh:
+        """A surface of the document, the first if no name is given; LookupError before it is there."""
+        loaded = self.loaded(name)
+        if loaded is None:
+            raise LookupError(f"The surface {name or 'of the document'} is not loaded yet.")
+        return loaded
+
+    def surface_in(self, panel: int) -> Surface:
+        """The surface of a panel; LookupError before it is there, and where there is no such panel."""
+        return self.mesh(self.document.panel(panel).surface).surface
 
     @property
     def can_undo(self) -> bool:

@@ -187,7 +187,7 @@ class InstrumentHands(Hands):
         way = self.chance.choice(["eye", "keys", "slide", "samples", "delete"])
         self.done[-1] += f" {way}"
         if way == "eye":
-            row.eye.loaded.emit()
+            row.eye.activated.emit()
         elif way == "keys":
             row.slider.setFocus()
             self.tool("key", self.chance.choice(["Down", "Up", "Left", "Right", "Delete"]))

@@ -60,7 +60,7 @@ def test_recent_files_have_the_time_they_were_opened(remembered, tmp_path):
         remembered.remember(path)
     files = remembered.recent_files()
     assert [file.path for file in files] == remembered.recent() == [first, second]
-    assert before <= files[1].loaded <= files[0].loaded <= datetime.now(timezone.utc)
+    assert before <= files[1].opened_at <= files[0].opened_at <= datetime.now(timezone.utc)
     os.unlink(first)
     assert remembered.recent() == [second]
 
@@ -70,7 +70,7 @@ def test_a_list_of_paths_without_times_is_read_and_kept(remembered, tmp_path):
     (remembered.folder() / "recent.json").write_text(json.dumps([old]))
     assert remembered.recent_files() == [remembered.Recent(old, None)]
     remembered.remember(new)
-    assert [file.loaded is None for file in remembered.recent_files()] == [False, True]
+    assert [file.opened_at is None for file in remembered.recent_files()] == [False, True]
 
 
 def test_what_is_damaged_in_the_list_is_left_out(remembered, tmp_path):
@@ -83,7 +83,7 @@ def test_what_is_damaged_in_the_list_is_left_out(remembered, tmp_path):
     damaged = [None, 5, [], {}, {"path": 7}, {"path": "a\0b"}, {"opened": "2026-01-01"}]
     file.write_text(json.dumps([*damaged, *({"path": path, "opened": time} for time in times)]))
     assert [found.path for found in remembered.recent_files()] == [path] * len(times)
-    assert [found.loaded for found in remembered.recent_files()] == [None] * len(times)
+    assert [found.opened_at for found in remembered.recent_files()] == [None] * len(times)
 
 
 def test_times_are_said_in_plain_words():

@@ -178,7 +178,7 @@ class Brushing(QtCore.QObject):
         for panel in self._grid.panels:
             panel.marks.show_dabs(None)
         surface = self._context.session.surface
-        if self.cuts and stroke is not None and surface is self._surface:
+        if self.cuts and stroke is not None and surface is not None and surface is self._surface:
             within = np.flatnonzero(stroke[surface.faces].all(axis=1))
             self.cut.emit(np.union1d(within, np.array(sorted(touched), np.int64)), self._is_erasing)
         elif stroke is not None and surface is self._surface:

@@ -42,7 +42,7 @@ class DockHead(QtWidgets.QWidget):
         self.close_button = FlatButton(self, "close")
         self.close_button.setToolTip(f"Close {title.lower()}")
         self.close_button.setAccessibleName(f"Close {title.lower()}")
-        self.close_button.loaded.connect(self.closed)
+        self.close_button.activated.connect(self.closed)
         self._row = QtWidgets.QHBoxLayout(self)
         self._row.setContentsMargins(PAD, 0, 4, 0)
         self._row.setSpacing(8)

@@ -157,7 +157,7 @@ class Docks:
             # Its outline is for keys.
             button.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
         dock.wants_closed.connect(self.close)
-        dock.topLevelChanged.connect(lambda floats: floats and self._context[HeldKeys].watch(dock))
+        dock.topLevelChanged.connect(lambda floats: self._context[HeldKeys].watch(dock) if floats else None)
         dock.hide()
         self._docks[word] = dock
         return dock

@@ -32,7 +32,7 @@ class Export(QtCore.QObject):
     _progress = QtCore.Signal(float, str)
     _ended = QtCore.Signal(object)
 
-    def __init__(self, work: Callable[..., None], path: str, what: str, exports: "Exports") -> None:
+    def __init__(self, work: Callable[..., object], path: str, what: str, exports: "Exports") -> None:
         super().__init__(exports)
         self.path, self.what = path, what
         self.fraction, self.words = 0.0, "starting…"
@@ -85,7 +85,7 @@ class Exports(QtCore.QObject):
         self.folder = ""
         self.previews = Draughtsman(self)
 
-    def start(self, work: Callable[..., None], path: str, what: str) -> Export:
+    def start(self, work: Callable[..., object], path: str, what: str) -> Export:
         """Run `work(progress=...)`, whose result is the file at `path`.
 
         Raises OutputError while another one is drawn to that path, and where no process can be started.
@@ -221,7 +221,7 @@ class ExportChip(QtWidgets.QWidget):
                 action.triggered.connect(lambda _=False, export=export: self._exports.cancel(export))
             if len(running) > 1:
                 self.menu.addSeparator()
-                self.menu.addAction("Cancel all", lambda: [self._exports.cancel(export) for export in running])
+                self.menu.addAction("Cancel all", lambda: list(map(self._exports.cancel, running)))
         for export, action in self._listed:
             name = self.fontMetrics().elidedText(
                 os.path.basename(export.path), QtCore.Qt.TextElideMode.ElideMiddle, 240

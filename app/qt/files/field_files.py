@@ -59,7 +59,8 @@ class FieldFiles:
         session = self._context.session
         there = [panel for panel in panels if self._has_field(panel)]
         names = field_names(session.document, there)
-        return {name: session.shown[panel.id].answer.field for name, panel in zip(names, there, strict=True)}
+        answers = {name: session.shown[panel.id].answer for name, panel in zip(names, there, strict=True)}
+        return {name: answer.field for name, answer in answers.items() if answer.field is not None}
 
     def _has_field(self, panel: Panel) -> bool:
         """Whether it shows one that answers what it is asked: nothing of before, and no stand-in."""

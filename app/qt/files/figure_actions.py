@@ -67,7 +67,7 @@ def _has_one_unit(context: Context) -> bool:
 
 
 def _surfaces(context: Context, recipe: Recipe) -> Surfaces:
-    return {mesh.name: context.session.loaded(mesh.name) for mesh in recipe.document.surfaces}
+    return {mesh.name: context.session.mesh(mesh.name) for mesh in recipe.document.surfaces}
 
 
 def _complete_recipe(context: Context) -> Recipe | None:

@@ -87,7 +87,7 @@ class Files(QtCore.QObject):
         copy(self._context, what)
 
     def choose_screenshot(self) -> None:
-        name = file_name([self._context.session.surface.name], "window")
+        name = file_name([self._context.session.first_surface.name], "window")
         path = ask_path(self._context, "Save a picture of the window", name, (".png",))
         if path:
             try:

@@ -34,10 +34,12 @@ class Levels:
 
 def levels_of(context: Context, panel: int) -> Levels | None:
     """Those of a panel by its id; None where it has no field."""
-    shown, loaded = context.session.shown.get(panel), context.session.opened_in(panel)
-    if shown is None or loaded is None or shown.answer.field is None:
+    shown, loaded = context.session.shown.get(panel), context.session.loaded_in(panel)
+    if shown is None or loaded is None:
         return None
     answer, document = shown.answer, context.document
+    if answer.field is None:
+        return None
     (name,) = field_names(document, [document.panel(panel)])
     values = np.array(context.grid.panel(panel).view.scene.isolines)
     return Levels(

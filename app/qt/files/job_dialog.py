@@ -91,7 +91,7 @@ class JobDialog(QtWidgets.QDialog):
         """BihdistError, or `WrongBox`, for what stands in the dialog and makes no sense."""
         raise NotImplementedError
 
-    def work(self, path: str) -> Callable[..., None]:
+    def work(self, path: str) -> Callable[..., object]:
         """What draws the file at `path`; BihdistError if it cannot be."""
         raise NotImplementedError
 

@@ -61,7 +61,7 @@ class MovieDialog(LooksDialog):
         self._movie()
         self.check_size(self.chosen())
 
-    def work(self, path: str) -> Callable[..., None]:
+    def work(self, path: str) -> Callable[..., object]:
         check_movie(path)
         return partial(write_movie, self._movie(), path, given=self._given)
 

@@ -196,15 +196,13 @@ class SessionFile(QtCore.QObject):
                 raise ParameterError(f"The window shows up to {MOST_SHOWN} meshes, and {path} has {count}.")
             style_of(recipe.page.style, recipe.document.colours)
             self._context.session.given.update(ArrayStore.read(recipe))
-            recipe = self._with_meshes(recipe)
+            found = self._with_meshes(recipe)
         except BihdistError as error:
             self._context.fail(error)
             return
-        if recipe is None:
-            return
-
-        # Nothing changes before the mesh is there: it may not open.
-        self.show_document(recipe.document, recipe.page, arrived)
+        if found is not None:
+            # Nothing changes before the mesh is there: it may not open.
+            self.show_document(found.document, found.page, arrived)
 
     def show_document(
         self, document: Document, page: Page | None = None, arrived: Callable[[], None] = lambda: None

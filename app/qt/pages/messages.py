@@ -137,10 +137,10 @@ class _PathRows(QtWidgets.QStyledItemDelegate):
 
     HIGH = 46
 
-    def sizeHint(self, option, index) -> QtCore.QSize:
+    def sizeHint(self, option: QtWidgets.QStyleOptionViewItem, index: QtCore.QModelIndex) -> QtCore.QSize:
         return QtCore.QSize(100, self.HIGH)
 
-    def paint(self, painter: QtGui.QPainter, option, index) -> None:
+    def paint(self, painter: QtGui.QPainter, option: QtWidgets.QStyleOptionViewItem, index: QtCore.QModelIndex) -> None:
         theme, path = LOOK.theme, index.data(QtCore.Qt.ItemDataRole.UserRole)
         state, middle = QtWidgets.QStyle.StateFlag, QtCore.Qt.TextElideMode.ElideMiddle
         painter.save()
@@ -286,7 +286,7 @@ class _TwoLines(QtWidgets.QWidget):
         metrics = QtGui.QFontMetrics(LOOK.font())
         layout = QtGui.QTextLayout(self._text, LOOK.font())
         layout.beginLayout()
-        starts = []
+        starts: list[int] = []
         while len(starts) <= self.MOST:
             line = layout.createLine()
             if not line.isValid():

@@ -85,7 +85,7 @@ class RecentRow(OpenButton):
     def show_file(self, file: Recent, now: datetime) -> None:
         self.path = file.path
         self.name, self.folder = os.path.basename(file.path), from_home(os.path.dirname(file.path))
-        self.when = when(file.loaded, now)
+        self.when = when(file.opened_at, now)
         self.setToolTip(file.path)
         self.setAccessibleName(f"{self.name}, {self.folder}")
         self.update()
@@ -109,16 +109,16 @@ class RecentRow(OpenButton):
         _write(painter, inside, self.when, theme.quiet, right)
 
 
-def when(loaded: datetime | None, now: datetime) -> str:
+def when(opened_at: datetime | None, now: datetime) -> str:
     """ "today, 14:20", "yesterday", "12 Nov", "12 Nov 2023"; both in local time."""
-    if loaded is None:
+    if opened_at is None:
         return ""
-    if loaded.date() == now.date():
-        return f"today, {loaded:%H:%M}"
-    if loaded.date() == now.date() - timedelta(days=1):
+    if opened_at.date() == now.date():
+        return f"today, {opened_at:%H:%M}"
+    if opened_at.date() == now.date() - timedelta(days=1):
         return "yesterday"
-    year = "" if loaded.year == now.year else f" {loaded.year}"
-    return f"{loaded.day} {MONTHS[loaded.month - 1]}{year}"
+    year = "" if opened_at.year == now.year else f" {opened_at.year}"
+    return f"{opened_at.day} {MONTHS[opened_at.month - 1]}{year}"
 
 
 def from_home(folder: str) -> str:

@@ -156,7 +156,8 @@ def lay_out(reading: Reading | None, width: int, is_compact: bool = False) -> La
     under_it = _tick_line(reading, QtCore.QRectF(left, under * scale, across, 16 * scale))
     zero = left + across * reading.place(0.0) if reading.signed else None
     pointer = None if reading.value is None else left + across * reading.place(reading.value)
-    return Layout(bar, line, under_it, *_isolines(reading, bar), zero, pointer, is_whole)
+    isolines, bold, through = _isolines(reading, bar)
+    return Layout(bar, line, under_it, isolines, bold, through, zero, pointer, is_whole)
 
 
 # ---------------------------------------------------------------------- the first line

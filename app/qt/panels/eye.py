@@ -130,6 +130,6 @@ class Eye(QtCore.QObject):
 
     def _source_seen(self) -> AnyArray | None:
         """(3,) the way out of the surface where the first panel's field starts."""
-        document, surface = self._session.document, self._loaded.surface
+        document, surface = self._session.document, self._session.mesh(self.surface).surface
         names = [name for panel in document.panels_of(self.surface) for name in panel.shows.points]
         return outwards_at(surface, vertex_at(document.point(names[0]).at, surface)) if names else None

@@ -26,7 +26,7 @@ class FlatButton(BareButton):
     text: what it says; symbol: quiet, before the text where there is room; icon_name: instead of words.
     """
 
-    loaded = QtCore.Signal()  # by mouse or keyboard, where there is no menu
+    activated = QtCore.Signal()  # by mouse or keyboard, where there is no menu
 
     def __init__(
         self,
@@ -40,7 +40,7 @@ class FlatButton(BareButton):
         self.symbol, self.icon_name = "", icon_name
         self.bold, self.quiet = bold, quiet
         self.has_arrow = has_arrow and not icon_name
-        self.clicked.connect(self.loaded)
+        self.clicked.connect(self.activated)
         LOOK.changed.connect(self.update)
 
     @property

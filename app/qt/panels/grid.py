@@ -271,8 +271,8 @@ class PanelGrid(QtWidgets.QWidget):
         eye = self.eye_of(panel.surface)
         before, after = eye.known, eye.note()
         seen = {eye.surface: after}
-        for other in self.eyes if self._session.document.linked and before is not None else ():
-            followed = None if other is eye else other.follow(before, after)
+        for other in self.eyes if self._session.document.linked else ():
+            followed = None if other is eye or before is None else other.follow(before, after)
             if followed is not None:
                 seen[other.surface] = followed
         self.moving.moved()

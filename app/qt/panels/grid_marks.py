@@ -57,10 +57,10 @@ class GridMarks:
     def expect_sources(self, document: Document) -> None:
         """Tell each panel where its field starts."""
         for panel in document.panels:
-            loaded = self._session.loaded(panel.surface)
+            surface = self._session.surface_in(panel.id)
             places = [document.point(name).at for name in panel.shows.points]
-            start = vertex_at(places[0], loaded.surface) if places else None
-            self._panels[panel.id].marks.expect_source(start, [pieces_at(at, loaded.surface) for at in places])
+            start = vertex_at(places[0], surface) if places else None
+            self._panels[panel.id].marks.expect_source(start, [pieces_at(at, surface) for at in places])
 
     def draw_on(self, is_drawn_on: bool) -> None:
         """Whether the left button draws on the surfaces, and no longer turns them there."""
@@ -71,7 +71,7 @@ class GridMarks:
     def mark_anchors(self, document: Document) -> None:
         """Let the anchors of each panel's surface be taken hold of, with their values beside them."""
         for panel in document.panels:
-            loaded, marks = self._session.loaded(panel.surface), self._panels[panel.id].marks
+            loaded, marks = self._session.mesh(panel.surface), self._panels[panel.id].marks
             anchors = anchors_on(document, panel.surface, loaded)
             marks.expect_anchors([vertex for vertex, _ in anchors])
             if not any(part.has_anchors for part in panel.shows.parts):
@@ -133,7 +133,7 @@ class GridMarks:
             None if candidate is None else candidate.misfit,
             # Once for each surface, and where it waits.
             (pair_words(document, panel.surface) if is_first else ("",)) if is_plain else colours_words(answer),
-            self._session.loaded(panel.surface).surface.name if is_plain and alone else "",
+            self._session.surface_in(panel.id).name if is_plain and alone else "",
         )
 
     def choose_pair(self, point: str) -> None:

@@ -63,7 +63,7 @@ class PanelHead(QtWidgets.QWidget):
         self.warning.hide()
         self.info = FlatButton(self, "info")
         self.info.setAccessibleName("What to look for, and how exact it is")
-        self.info.loaded.connect(lambda: self._open_info(self.info))
+        self.info.activated.connect(lambda: self._open_info(self.info))
         self.more = FlatButton(self, "more")
         self.more.setToolTip("Add, duplicate, move or remove panels, save the field")
         self.more.setAccessibleName("The panel: add, duplicate, move, remove, save")

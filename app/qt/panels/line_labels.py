@@ -55,7 +55,7 @@ class Asked:
     widths: dict[str, float]
 
     @property
-    def sight_key(self) -> tuple:
+    def sight_key(self) -> tuple[object, ...]:
         """Equal for what is seen alike."""
         projection = self.projection
         return id(self.surface), self.picture, projection.view.tobytes(), projection.matrix.tobytes()
@@ -177,7 +177,7 @@ class Finder:
     """Finds labels; keeps what is hidden from one panel to the next, which sees the same surface alike."""
 
     def __init__(self) -> None:
-        self._kept: tuple = (None,)
+        self._kept: tuple[object, ...] = (None,)
 
     def find(self, asked: Asked) -> list[Written]:
         """On any thread."""

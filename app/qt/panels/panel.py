@@ -76,7 +76,7 @@ class DistancePanel(QtWidgets.QWidget):
         layout.addWidget(self.bar)
         self.view.resized.connect(self._place_waiting)
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Ignored)
-        self._opened: LoadedMesh | None = None
+        self._loaded: LoadedMesh | None = None
         self._shape: Surface | None = None
         self._raised: tuple[int, float, float] | None = None  # the field, its top, and the height
         self._shading, self._drawn = AS_IT_IS, None  # of the surface as it lies
@@ -118,7 +118,7 @@ class DistancePanel(QtWidgets.QWidget):
         self._forget()
 
     def _forget(self) -> None:
-        self._opened = self.answer = self._shape = self._raised = self._drawn = None
+        self._loaded = self.answer = self._shape = self._raised = self._drawn = None
         self._zooms = ()
         self.marks.rest()
         self.view.picker = None
@@ -132,10 +132,10 @@ class DistancePanel(QtWidgets.QWidget):
     # ------------------------------------------------------------------ state into pixels
     def show_surface(self, loaded: LoadedMesh) -> None:
         """Another surface, without a field yet; or the same in another look, with what others have added to it."""
-        if loaded is not self._opened:
+        if loaded is not self._loaded:
             self.view.plotter.clear()
         self._forget()
-        self._opened = loaded
+        self._loaded = loaded
         self.head.show_surface(loaded.surface)
         self.marks.begin(loaded.surface)
         self.view.picker = loaded.prepared.picker
@@ -165,8 +165,8 @@ class DistancePanel(QtWidgets.QWidget):
 
     def settle_insets(self) -> None:
         """Put the insets where they hide the least."""
-        if self._opened is not None and self._zooms:
-            samples = self._opened.prepared.samples if self._raised is None else self.positions
+        if self._loaded is not None and self._zooms:
+            samples = self._loaded.prepared.samples if self._raised is None else self.positions
             marked = list(self.marks.anchors) + ([] if self.source is None else [self.source])
             self.view.scene.insets.settle(samples, self.positions[marked])
 
@@ -203,12 +203,12 @@ class DistancePanel(QtWidgets.QWidget):
     @property
     def loaded(self) -> LoadedMesh | None:
         """The surface that it shows."""
-        return self._opened
+        return self._loaded
 
     @property
     def shape(self) -> Surface | None:
         """The surface as it is drawn, perhaps as a height field; None if there is none."""
-        return self._opened.surface if self._opened is not None and self._raised is None else self._shape
+        return self._loaded.surface if self._loaded is not None and self._raised is None else self._shape
 
     @property
     def isolines(self) -> Isolines:
@@ -289,7 +289,7 @@ class DistancePanel(QtWidgets.QWidget):
 
     def _raise(self, answer: Answer, top: float, height: float) -> None:
         """Let the surface be a height field of the answer, or flat again."""
-        prepared, surface = self._opened.prepared, self._opened.surface
+        prepared, surface = self._loaded.prepared, self._loaded.surface
         is_relief = bool(height) and answer.field is not None and prepared.is_flat
         raised = (id(answer.field), top, height) if is_relief else None
         if raised == self._raised:
@@ -363,7 +363,7 @@ class DistancePanel(QtWidgets.QWidget):
     def point_at(self, vertex: int | None, is_own: bool, is_hidden: bool = False) -> None:
         """Put the ring at a vertex, and its value into the bar and, under the pointer, beside it."""
         words = value_words(None if self._is_waiting else self.answer, vertex, self.head.shows)
-        if vertex is None or self._opened is None:
+        if vertex is None or self._loaded is None:
             self.view.over.point_at(None)
         else:
             value, part = words if is_own else ("", "")
@@ -384,7 +384,7 @@ class DistancePanel(QtWidgets.QWidget):
     def echo(self, place: Places | None) -> None:
         """Put a ring at one place, and its value into the bar: somewhere else the pointer is there."""
         answer = self.answer
-        if place is None or self._opened is None:
+        if place is None or self._loaded is None:
             self.point_at(None, False)
             return
         position = place.values(self.positions)[0]

@@ -84,7 +84,7 @@ class NumberControl(QtWidgets.QWidget):
         self.slider.setAccessibleName(self.tip)
         self.slider.chosen.connect(self._choose)
         self.button = FlatButton(self)
-        self.button.loaded.connect(lambda: self.open_under(self))
+        self.button.activated.connect(lambda: self.open_under(self))
         self.pop_up = NumberPopUp(parameter, self)
         self.pop_up.chosen.connect(self._choose)
         self.show_slider(False)

@@ -60,7 +60,8 @@ class CandidateErrors(QtCore.QObject):
         if not any(map(predicts_in, document.panels)):
             return None
         loaded = [session.loaded(mesh.name) for mesh in document.surfaces[:2]]
-        if len(loaded) < 2 or None in loaded:
+        first, second = [*loaded, None, None][:2]
+        if first is None or second is None:
             return None
         candidates = {}
         for panel in document.panels:
@@ -68,7 +69,7 @@ class CandidateErrors(QtCore.QObject):
             found = candidate_in(document, panel, None if shown is None else shown.answer)
             if found is not None and session.is_answered(panel.id):
                 candidates[panel.id] = found.vertex
-        return candidates_asked(document, *loaded, candidates)
+        return candidates_asked(document, first, second, candidates)
 
     def _ask(self, asked: CandidatesAsked | None) -> None:
         if self._background is None:

@@ -94,7 +94,7 @@ class PairsDock(Instrument):
         ):
             button.setToolTip(tip)
             button.setAccessibleName(tip)
-            button.loaded.connect(do)
+            button.activated.connect(do)
         menu = QtWidgets.QMenu(more)
         menu.addAction("Give the waiting point up\tEsc", self._drop)
         menu.addSeparator()
@@ -156,7 +156,7 @@ class PairsDock(Instrument):
         self.accept.setVisible(found is not None)
         hint = f"Click its partner on\u00a0{other}"
         if found is not None:
-            by = kind_name(document.panel(found[0]).shows.spec.kind).lower()
+            by = kind_name(document.panel(found[0]).shows.specs[0].kind).lower()
             hint = f"Enter takes\u00a0{found[1].vertex}, by\u00a0{by}; or click another\u00a0vertex on\u00a0{other}"
         self.or_click.setText(hint)
         has_maps = shows_maps(document)  # the section of errors leads back to predictions

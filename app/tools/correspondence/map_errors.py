@@ -38,7 +38,7 @@ class MapErrors(QtWidgets.QWidget):
         self.context = context
         self.judgement: Judgement | None = None
         self.asked: Asked | None = None
-        self._answered: tuple = ()  # what the judgement is about
+        self._answered: tuple[object, ...] = ()  # what the judgement is about
         self._dotted: list[Any] = []  # panels that have a dot of these
         self.truth = MapTruth(self)
         self.chart, self.table = ErrorChart(), ErrorTable()
@@ -93,12 +93,12 @@ class MapErrors(QtWidgets.QWidget):
     def show_document(self, document: Document) -> None:
         """The document is another: are its maps, or is what is right?"""
         loaded = [self.context.session.loaded(mesh.name) for mesh in document.surfaces[:2]]
-        is_there = len(loaded) == 2 and None not in loaded
-        self.setVisible(is_there)
-        if not is_there:
+        there = [each for each in loaded if each is not None]
+        self.setVisible(len(there) == 2)
+        if len(there) < 2:
             self._ask(None)
             return
-        self._ask(asked_of(document, *loaded))
+        self._ask(asked_of(document, *there))
         self._show()
 
     def show_answer(self) -> None:
@@ -239,8 +239,9 @@ class MapErrors(QtWidgets.QWidget):
         for panel in self._document.panels:
             shown = session.shown.get(panel.id)
             is_by_pairs = panel.shows.is_map and panel.shows.specs
-            is_there = is_by_pairs and shown is not None and session.is_answered(panel.id)
-            if is_there and shown.answer.leads_to is not None:
+            if not is_by_pairs or shown is None or not session.is_answered(panel.id):
+                continue
+            if shown.answer.leads_to is not None:
                 found[panel.shows.specs[0]] = shown.answer.leads_to
         return found
 

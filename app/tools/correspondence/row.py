@@ -26,7 +26,7 @@ class PairRow(QtWidgets.QWidget):
         self.point, self.first, self.second = point, "", ""
         self._number, self._colour, self._is_waiting, self._is_chosen = 0, "", False, False
         self.bin = FlatButton(self, "delete")
-        self.bin.loaded.connect(self._remove)
+        self.bin.activated.connect(self._remove)
         self.bin.hide()
         self.setFocusPolicy(QtCore.Qt.FocusPolicy.StrongFocus)
         self.setFixedHeight(round(HEIGHT * LOOK.scale))

@@ -116,7 +116,7 @@ class AnchorsDock(Instrument):
         ):
             button.setToolTip(tip)
             button.setAccessibleName(tip)
-            button.loaded.connect(do)
+            button.activated.connect(do)
         menu = QtWidgets.QMenu(more)
         menu.addAction("Save the interpolants as fields…", self.save_fields)
         menu.addAction("Pins become anchors", self.take_pins)
@@ -335,7 +335,7 @@ class AnchorsDock(Instrument):
             is_meant = any(isinstance(part, Interpolant) for part in panel.shows.parts)
             if is_meant and shown is not None and shown.answer.field is not None:
                 fields[str(panel.shows)] = shown.answer.field
-        name = file_name([session.surface.name], "interpolants")
+        name = file_name([session.first_surface.name], "interpolants")
         save(self.context, "Save interpolants", name, FIELD_FORMATS, lambda p: write_fields(p, session.surface, fields))
 
 

@@ -67,7 +67,7 @@ class AnchorExtrema(FactTable):
         found = self._context[Findings].found(panel).extrema
         if found is None or self._ends is None:
             return None
-        near = int(at_tips(self._context.session.surface, found.vertices, self._ends).sum())
+        near = int(at_tips(self._context.session.first_surface, found.vertices, self._ends).sum())
         return near, len(found.vertices) - near
 
     def leave(self) -> None:

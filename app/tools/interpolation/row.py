@@ -51,8 +51,8 @@ class AnchorRow(QtWidgets.QWidget):
         for widget, stretch in ((self.eye, 0), (self.name, 1), (self.slider, 1), (self.box, 0), (self.cross, 0)):
             row.addWidget(widget, stretch)
         self.setFixedHeight(round(HEIGHT * LOOK.scale))
-        self.eye.loaded.connect(self._turn_eye)
-        self.cross.loaded.connect(self._remove)
+        self.eye.activated.connect(self._turn_eye)
+        self.cross.activated.connect(self._remove)
         self.name.editingFinished.connect(self._name)
         self.slider.valueChanged.connect(self._slide)
         self.slider.sliderReleased.connect(self._settle)

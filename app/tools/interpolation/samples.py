@@ -58,7 +58,9 @@ class AnchorSamples(QtWidgets.QWidget):
         self._asked = (document, np.array(there, int), panel.id)
         at = start[0] if len(start) == 1 else SourceSet(tuple(start))
         more = self.count.value() + len(there)
-        self._sampling.ask(SamplesQuestion(document.mesh(panel.surface), document.areas, part.spec, at, more), loaded)
+        self._sampling.ask(
+            SamplesQuestion(document.mesh(panel.surface), document.areas, part.specs[0], at, more), loaded
+        )
 
     def _sampled(self, sampled: Sampled) -> None:
         self._context.status.show_progress("")

@@ -1,7 +1,7 @@
 """The dock of pins: a list with what every panel has there, and below it the distances among them."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -13,7 +13,7 @@ from bihdist_core.distances.answers import Answer
 from bihdist_core.sources.words import short_words_of, source_from_words
 
 from ...document.document import Document
-from ...document.pins import Pins, add_pins, change_pin, move_pin, remove_pins
+from ...document.pins import Pin, Pins, add_pins, change_pin, move_pin, remove_pins
 from ...document.quantities import quantity_name
 from ...qt.context import Context
 from ...qt.docks.instrument import Instrument
@@ -138,7 +138,7 @@ class PinsDock(Instrument):
         ):
             button.setToolTip(tip)
             button.setAccessibleName(tip)
-            button.loaded.connect(do)
+            button.activated.connect(do)
         more.setToolTip("Read, copy, rename, colour, move, remove")
         more.setAccessibleName("More about pins")
         more.setMenu(self.menu.whole)
@@ -256,7 +256,7 @@ class PinsDock(Instrument):
             self.files.copy_list([(title, answer) for title, answer, _ in self.answers()])
 
     # ------------------------------------------------------------------ edits
-    def _show(self, make, key: str = "") -> None:
+    def _show(self, make: Callable[[Document], Document], key: str = "") -> None:
         """Show what an edit makes of the document, or say why it cannot be."""
         session = self.context.session
         try:
@@ -266,7 +266,7 @@ class PinsDock(Instrument):
 
     def _add(self) -> None:
         """Pins at the vertices, or the places in faces, that are typed."""
-        surface = self.context.session.surface
+        surface = self.context.session.first_surface
         words = WORD.findall(self.box.text())
         if not words:
             return
@@ -327,7 +327,7 @@ class PinsDock(Instrument):
     def remove(self, points: Sequence[str]) -> None:
         self._show(lambda document: remove_pins(document, points))
 
-    def _pin(self, point: str):
+    def _pin(self, point: str) -> Pin:
         return next(place.pin for place in self.places if place.point == point)
 
 

@@ -1,5 +1,6 @@
 """Pins to and from files, and to the clipboard."""
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -8,13 +9,14 @@ from qtpy import QtWidgets
 from bihdist_core import BihdistError
 from bihdist_core.arrays import FloatArray
 from bihdist_core.counts import counted
+from bihdist_core.distances.answers import Answer
 from bihdist_core.formats.pins import PIN_FORMATS, Pins, read_pins, write_pins
 
 from ...document.file_names import file_name
 from ...qt.context import Context
 from ...qt.files.saving import ask_path
 from ...qt.look.numbers import number, share
-from ...session.pin_locations import matrix_text, pins_text, pins_to_write, with_pins
+from ...session.pin_locations import LocatedPin, matrix_text, pins_text, pins_to_write, with_pins
 
 READ = f"Pins ({' '.join(f'*{extension}' for extension in PIN_FORMATS)});;All files (*)"
 
@@ -22,7 +24,7 @@ READ = f"Pins ({' '.join(f'*{extension}' for extension in PIN_FORMATS)});;All fi
 class PinFiles:
     """What the menu of pins offers; `pins()` gives the places that there are now."""
 
-    def __init__(self, context: Context, pins) -> None:
+    def __init__(self, context: Context, pins: Callable[[], Sequence[LocatedPin]]) -> None:
         self._context, self._pins = context, pins
 
     @property
@@ -31,14 +33,14 @@ class PinFiles:
 
     # ------------------------------------------------------------------ files
     def choose_and_save(self) -> None:
-        surface = self._context.session.surface
+        surface = self._context.session.first_surface
         path = ask_path(self._context, "Save pins", file_name([surface.name], "pins"), PIN_FORMATS)
         if path:
             self.save(path)
 
     def save(self, path: str) -> None:
         """Write the pins, or say why not; how far those in faces are from the vertices that are written is said."""
-        surface = self._context.session.surface
+        surface = self._context.session.first_surface
         try:
             written = pins_to_write(self._pins(), surface)
             write_pins(path, surface, written)
@@ -59,7 +61,7 @@ class PinFiles:
     def read(self, path: str) -> None:
         """Pins of a file besides those that there are; how far they were from vertices is said."""
         session = self._context.session
-        document, surface = session.document, session.surface
+        document, surface = session.document, session.first_surface
         try:
             found = read_pins(path, surface)
             session.show(with_pins(document, found, document.surfaces[0].name))
@@ -70,9 +72,9 @@ class PinFiles:
         self._context.tell(snapped(found, size) or f"Read {counted(len(found), 'pin')} from {Path(path).name}")
 
     # ------------------------------------------------------------------ the clipboard
-    def copy_list(self, answers: list) -> None:
+    def copy_list(self, answers: Sequence[tuple[str, Answer]]) -> None:
         """The list with all digits, with a tab between columns."""
-        self._copy(pins_text(self._pins(), self._context.session.surface, answers), "The list of pins")
+        self._copy(pins_text(self._pins(), self._context.session.first_surface, answers), "The list of pins")
 
     def copy_matrix(self, matrix: FloatArray) -> None:
         """The same of the distances among them."""

@@ -92,8 +92,9 @@ class PinGestures(Gesture):
     def _move_source(self, panel: int, point: str) -> None:
         session = self.context.session
         document = session.document
-        if document.point(point).surface == document.panel(panel).surface:
-            session.show(move_source(document, panel, document.point(point).at))
+        pinned = document.point(point)
+        if pinned.at is not None and pinned.surface == document.panel(panel).surface:
+            session.show(move_source(document, panel, pinned.at))
 
 
 def _name(pin: Pin, number: int) -> str:

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from qtpy import QtCore, QtWidgets
 
@@ -15,6 +15,9 @@ from ...document.profile import SECTIONS, Profile, points_along
 from ...qt.docks.badges import badge_of
 from ...qt.look.text_box import TextBox
 
+if TYPE_CHECKING:
+    from .dock import ProfileDock
+
 WAYS = {
     "auto": "shortest geodesic",
     "exact": "shortest geodesic, exact",
@@ -26,7 +29,7 @@ WAYS = {
 
 
 class ProfileChoices:
-    def __init__(self, dock) -> None:
+    def __init__(self, dock: "ProfileDock") -> None:
         self._dock = dock
 
     def show(self, document: Document, **profile: Any) -> None:

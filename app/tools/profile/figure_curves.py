@@ -24,10 +24,10 @@ def profile_figure(document: Document, page: Page, path: SurfacePath, answers: M
     answers: those that there are of panels on the path's surface, by the panels' ids.
     """
     style = style_of(page.style, document.colours)
-    found = {id: answer for id, answer in answers.items() if answer.field is not None}
-    along = {panel.id: path.along(found[panel.id].field) for panel in document.panels if panel.id in found}
+    fields = {id: answer.field for id, answer in answers.items() if answer.field is not None}
+    along = {panel.id: path.along(fields[panel.id]) for panel in document.panels if panel.id in fields}
     curves = tuple(
-        profile_curve(document, id, found[id], values, curve_colours(style))
+        profile_curve(document, id, answers[id], values, curve_colours(style))
         for id, values in along.items()
         if np.isfinite(values).any()
     )

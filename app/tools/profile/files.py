@@ -9,6 +9,7 @@ from qtpy import QtWidgets
 
 from bihdist_core import BihdistError, ParameterError
 from bihdist_core.analysis.profile_output import PROFILE_FORMATS, write_profile
+from bihdist_core.analysis.surface_paths import SurfacePath
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.whole_file import check_output
@@ -18,13 +19,14 @@ from ...qt.files.exports import Exports
 from ...qt.files.saving import ask_path
 
 if TYPE_CHECKING:
+    from .dock import ProfileDock
     from .figure import ProfileFigure
 
 FIGURE_FORMATS = (".pdf", ".png", ".svg", ".eps")
 
 
 class ProfileFiles:
-    def __init__(self, dock) -> None:
+    def __init__(self, dock: "ProfileDock") -> None:
         self._dock = dock
         self._actions: list[QtWidgets.QAction] = []
 
@@ -51,7 +53,7 @@ class ProfileFiles:
 
     def _choose(self, title: str, formats: tuple[str, ...], save: Callable[[str], None]) -> None:
         context = self._dock.context
-        path = ask_path(context, title, file_name([context.session.surface.name], "profile"), formats)
+        path = ask_path(context, title, file_name([context.session.first_surface.name], "profile"), formats)
         if path:
             try:
                 save(path)
@@ -91,7 +93,7 @@ class ProfileFiles:
         QtWidgets.QApplication.clipboard().setText("\n".join(rows) + "\n")
         self._dock.context.tell(f"{len(rows) - 1:,} points of the profile are on the clipboard")
 
-    def _there(self):
+    def _there(self) -> SurfacePath:
         if self._dock.path is None:
             raise ParameterError("There is no path yet; wait until it has been found.")
         return self._dock.path

@@ -88,7 +88,7 @@ class QualityDock(Instrument):
         self.copy_button = FlatButton(self, "copy")
         self.copy_button.setToolTip("Copy the table as text")
         self.copy_button.setAccessibleName("Copy the table as text")
-        self.copy_button.loaded.connect(self.copy)
+        self.copy_button.activated.connect(self.copy)
         context[Findings].quality_changed.connect(self._fill)
         LOOK.follow(self, self._restyle)
 

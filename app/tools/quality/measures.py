@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bihdist_core.analysis.quality import FieldQuality
+
 from ...qt.look.numbers import number, share
 from ...session.quality import Found
 
@@ -22,11 +24,11 @@ class Measure:
     tip: str
     written: Callable[[Found], str]
     sentence: Callable[[Found], str] = lambda found: ""
-    value: Callable[[Found], float] | None = None
+    value: Callable[[FieldQuality], float] | None = None
 
     def with_all_digits(self, found: Found) -> str:
         """As it is copied."""
-        exact = None if self.value is None or found.whole is None else float(self.value(found))
+        exact = None if self.value is None or found.whole is None else float(self.value(found.whole))
         return repr(exact) if exact is not None and np.isfinite(exact) else self.written(found)
 
 
@@ -55,26 +57,14 @@ def _maxima_sentence(found: Found) -> str:
     return f"After the farthest point, that at vertex {second} stands out most, by {share(height)} of the maximum"
 
 
-def _of_whole(value: Callable[[Found], float]) -> Callable[[Found], str]:
+def _of_whole(value: Callable[[FieldQuality], float]) -> Callable[[Found], str]:
     def written(found: Found) -> str:
         if found.whole is None:
             return NONE if found.failure else WAITING
         # Infinite, too, where the field is 0 beside the source; NaN becomes NONE.
-        return "∞" if np.isinf(value(found)) else number(value(found))
+        return "∞" if np.isinf(value(found.whole)) else number(value(found.whole))
 
     return written
-
-
-def _isotropy(found: Found) -> float:
-    return found.whole.isotropy
-
-
-def _kink(found: Found) -> float:
-    return found.whole.kink
-
-
-def _kink_length(found: Found) -> float:
-    return found.whole.kink_length
 
 
 def _isotropy_sentence(found: Found) -> str:
@@ -133,24 +123,24 @@ MEASURES = (
         "Isotropy",
         "The greatest over the least value on the geodesic circle around the source whose radius is 4 % of the root of "
         "the area, or four edges if that is more. 1 where the distance grows equally in all directions.",
-        _of_whole(_isotropy),
+        _of_whole(lambda whole: whole.isotropy),
         _isotropy_sentence,
-        _isotropy,
+        lambda whole: whole.isotropy,
     ),
     Measure(
         "Largest kink",
         "How far the gradient jumps across an edge away from the source, over its length. About 2 where it turns "
         "round, as on a ridge; a smooth field's shrinks with the edges.",
-        _of_whole(_kink),
+        _of_whole(lambda whole: whole.kink),
         _kink_sentence,
-        _kink,
+        lambda whole: whole.kink,
     ),
     Measure(
         "Kink length",
         "The length of all edges with a kink of 1 or more, over the root of the surface's area: long where there is a "
         "ridge, next to nothing where a few edges are too long for the field.",
-        _of_whole(_kink_length),
-        value=_kink_length,
+        _of_whole(lambda whole: whole.kink_length),
+        value=lambda whole: whole.kink_length,
     ),
     Measure(
         "Triangles",

@@ -101,7 +101,7 @@ class RegionsDock(Instrument):
         self.copy_button = FlatButton(self, "copy")
         self.copy_button.setToolTip("Copy the areas as text")
         self.copy_button.setAccessibleName("Copy the areas as text")
-        self.copy_button.loaded.connect(self.copy)
+        self.copy_button.activated.connect(self.copy)
         self.save_button = FlatButton(self, "save")
         self.save_button.setToolTip("Save regions: labels, mesh, boundaries")
         self.save_button.setAccessibleName("Save regions")
@@ -192,9 +192,9 @@ class RegionsDock(Instrument):
                 k for k, pin in enumerate(document[Pins].pins) if document.point(pin.point).surface == panel.surface
             ]
             known = regions is not None and len(regions.areas) == len(rows)
-            total = float(self.context.session.loaded(panel.surface).surface.face_areas.sum())
+            total = float(self.context.session.surface_in(panel.id).face_areas.sum())
             for row in range(self.table.rowCount()):
-                area = float(regions.areas[rows.index(row)]) if known and row in rows else None
+                area = float(regions.areas[rows.index(row)]) if regions is not None and known and row in rows else None
                 text = "…" if area is None else number(area) if self.unit.choice() == "area" else share(area / total)
                 item = self.table.item(row, column)
                 item.setText(text)
@@ -235,7 +235,7 @@ class RegionsDock(Instrument):
 
     def _save(self, panel: int, way: str) -> None:
         shows = self.context.document.panel(panel).shows
-        name = file_name([self.context.session.surface.name], "regions", way, str(shows))
+        name = file_name([self.context.session.first_surface.name], "regions", way, str(shows))
         title = f"{TITLES[way].removesuffix('…')}, by {quantity_name(shows)}"
         save(self.context, title, name, FORMATS[way], partial(self.write, panel, way))
 
@@ -246,10 +246,10 @@ class RegionsDock(Instrument):
     def write(self, panel: int, way: str, path: str) -> None:
         """The same; labels are the pins' numbers."""
         document, divided = self.context.document, self._findings.divided(panel)
-        if divided is None or divided.regions is None:
+        if divided is None or divided.regions is None or divided.columns is None:
             return
         name = document.panel(panel).surface
-        surface = self.context.session.loaded(name).surface
+        surface = self.context.session.mesh(name).surface
         numbers = [k for k, pin in enumerate(document[Pins].pins, 1) if document.point(pin.point).surface == name]
         if way == "labels":
             write_labels(path, surface, divided.regions, numbers)

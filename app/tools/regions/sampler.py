@@ -90,13 +90,13 @@ class Sampler(QtWidgets.QWidget):
         self._ask(write)
 
     def _save(self) -> None:
-        surface = self._surface
+        surface, shown = self._surface, "" if self._panel is None else str(self._panel.shows)
 
         def ask(vertices: IntArray) -> None:
             save(
                 self._context,
                 "Save farthest points",
-                file_name([surface.name], "samples", str(self._panel.shows)),
+                file_name([surface.name], "samples", shown),
                 SAMPLE_FORMATS,
                 lambda path: write_samples(path, surface, vertices),
             )
@@ -113,12 +113,12 @@ class Sampler(QtWidgets.QWidget):
     def _ask(self, then: Callable[[AnyArray], None]) -> None:
         session, panel = self._context.session, self._panel
         loaded = session.loaded(panel.surface) if panel is not None else None
-        if panel is None or loaded is None:
+        document = session.document
+        at = document.point(panel.shows.points[0]).at if panel is not None else None
+        if panel is None or loaded is None or at is None:
             return
         self._then = then
-        document = session.document
-        at = document.point(panel.shows.point).at
-        spec = panel.shows.spec
+        spec = panel.shows.specs[0]
         self._sampling.ask(
             SamplesQuestion(document.mesh(panel.surface), document.areas, spec, at, self.count.value()), loaded
         )
@@ -140,10 +140,8 @@ class Sampler(QtWidgets.QWidget):
         return "" if self._panel is None else self._panel.surface
 
     @property
-    def _surface(self) -> Surface | None:
-        return (
-            self._context.session.surface if self._panel is None else self._context.session.surface_in(self._panel.id)
-        )
+    def _surface(self) -> Surface:
+        return self._context.session.mesh(self._name or None).surface
 
     @property
     def _panel(self) -> Panel | None:

@@ -24,6 +24,7 @@ from ...qt.docks.plain import fill
 from ...qt.files.saving import MESH_FILES, save
 from ...qt.look.segments import Segments
 from ...qt.panels.flat_button import FlatButton
+from ...session.loaded_mesh import LoadedMesh
 from .confirmation import ChangeAsking
 from .gestures import ChangeGestures
 from .rows import AmountRow, ChosenRow, Scale, label, quiet
@@ -152,7 +153,7 @@ class RobustnessDock(Instrument):
         self._picking.changed.connect(self._show_picked)
         for word, row in self._joins.items():
             row.button.clicked.connect(lambda _=False, word=word: self._pick(word))
-            row.removed.connect(lambda word=word: self._set(word, **{word: None}))
+            row.removed.connect(lambda word=word: self._join(word, None, word))
         self.pose.button.clicked.connect(self.choose_pose)
         self.pose.removed.connect(self._stand_again)
         self.save_button.clicked.connect(self.choose_and_save)
@@ -171,7 +172,7 @@ class RobustnessDock(Instrument):
         write, more = FlatButton(self, "save"), FlatButton(self, "more")
         write.setToolTip("Save the changed mesh…")
         write.setAccessibleName("Save the changed mesh")
-        write.loaded.connect(self.choose_and_save)
+        write.activated.connect(self.choose_and_save)
         menu = QtWidgets.QMenu(more)
         menu.addAction("Copy the numbers", self.copy)
         menu.addAction("Remove change", self.remove)
@@ -244,7 +245,7 @@ class RobustnessDock(Instrument):
             self.show_document(session.document, None)
 
     def _show_settings(self) -> None:
-        change, surface = self.settings, self.context.session.surface
+        change, surface = self.settings, self.context.session.first_surface
         count = int((surface.component_of_vertex >= 0).sum())
         self.noise.show_value(change.noise)
         self.along.choose(change.along)
@@ -289,6 +290,9 @@ class RobustnessDock(Instrument):
         self._show_ends()
         self.asking.want(self.settings, f"change: {key}" if key else "", is_live)
 
+    def _join(self, word: str, pair: tuple[int, int] | None, key: str = "") -> None:
+        self._set(key, False, **{word: pair})
+
     def _make_noise(self, amount: float, is_live: bool) -> None:
         self._set("noise", is_live, noise=amount)
 
@@ -302,7 +306,7 @@ class RobustnessDock(Instrument):
         self.seed.setValue((self.seed.value() + 1) % (MOST_SEEDS + 1))
 
     def _simplify(self, count: float, is_live: bool) -> None:
-        surface = self.context.session.surface
+        surface = self.context.session.first_surface
         whole = int((surface.component_of_vertex >= 0).sum())
         self._set("simplify", is_live, simplify=None if count >= whole else int(count))
 
@@ -328,7 +332,7 @@ class RobustnessDock(Instrument):
             return
         if self._brushing.cuts:
             self._brushing.switch(False)
-        self._picking.pick(word, lambda pair: self._set(**{word: pair}))
+        self._picking.pick(word, lambda pair: self._join(word, pair))
 
     def choose_pose(self) -> None:
         folder = self.context.folder
@@ -364,7 +368,7 @@ class RobustnessDock(Instrument):
         save(self.context, "Save the changed mesh", name, MESH_FORMATS, lambda path: write_mesh(path, loaded.surface))
 
 
-def _size_of(loaded) -> str:
+def _size_of(loaded: LoadedMesh | None) -> str:
     return "" if loaded is None else f"{len(loaded.surface.faces):,} faces"
 
 

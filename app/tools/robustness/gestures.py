@@ -55,7 +55,7 @@ class ChangeGestures(Gesture):
 
     def click(self, panel: int, click: Click) -> None:
         vertex = click.hit.vertex
-        loaded = self.context.session.opened_in(panel)
+        loaded = self.context.session.loaded_in(panel)
         if loaded is None:
             return
         if loaded.origin is not None:

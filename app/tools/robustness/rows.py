@@ -122,7 +122,7 @@ class ChosenRow(QtWidgets.QWidget):
         self.cross = FlatButton(self, "close")
         self.cross.setToolTip(f"{words}: take it back")
         self.cross.setAccessibleName(self.cross.toolTip())
-        self.cross.loaded.connect(self.removed)
+        self.cross.activated.connect(self.removed)
         keeps = self.cross.sizePolicy()
         keeps.setRetainSizeWhenHidden(True)
         self.cross.setSizePolicy(keeps)

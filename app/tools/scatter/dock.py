@@ -78,11 +78,11 @@ class ScatterDock(Instrument):
         self._new = FlatButton(self, "add-panel")
         self._new.setToolTip("Begin a new selection: the brush adds to none that is there")
         self._new.setAccessibleName("Begin a new selection")
-        self._new.loaded.connect(self._begin)
+        self._new.activated.connect(self._begin)
         self._more = FlatButton(self, "more")
         self._more.setToolTip("Save, colour, rename or delete the selection")
         self._more.setAccessibleName("What to do with the selection")
-        self._more.loaded.connect(self._open_menu)
+        self._more.activated.connect(self._open_menu)
         heading = QtWidgets.QHBoxLayout()
         self._heading = QtWidgets.QLabel("Selections")
         self._heading.setProperty("heading", True)
@@ -358,7 +358,7 @@ class ScatterDock(Instrument):
     def _file_name(self) -> str:
         session = self.context.session
         panels = [session.document.panel(id) for id in self._pair(session.document)]
-        return file_name([session.surface.name], "scatter", *(str(panel.shows) for panel in panels))
+        return file_name([session.first_surface.name], "scatter", *(str(panel.shows) for panel in panels))
 
     def save_figure(self, *_: object, path: str = "") -> None:
         """path: asks for one if it is empty."""

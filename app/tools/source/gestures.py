@@ -50,7 +50,7 @@ class SourceGestures(Gesture):
         super().__init__(context)
         self._grid, self.at = context.grid, context[Snapping].at
         self.is_drawing = False
-        self._moved: tuple[str, Source, Member] | None = None  # a point, what it was, and which member moves
+        self._moved: tuple[str, Source | None, Member] | None = None  # a point, what it was, and which member moves
         self._strokes: list[list[SurfacePoint]] = []
         self._is_beside = True  # the pointer is not on the surface, or the button was up
         self._stepped_soon = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
@@ -113,10 +113,9 @@ class SourceGestures(Gesture):
     def step(self, right: int, up: int) -> None:
         """Along the edge that leads most nearly to where a direction of the screen points."""
         session, id = self.context.session, self._grid.active
-        sources = session.document.panel(id).shows.points if id >= 0 else ()
-        surface = session.surface_in(id)
-        if surface is None or not sources:
+        if session.surface is None or id < 0 or not session.document.panel(id).shows.points:
             return
+        surface = session.surface_in(id)
         panel = self._grid.panel(id)
         vertex = panel.source
         if vertex is None:
@@ -124,11 +123,8 @@ class SourceGestures(Gesture):
         faces = surface.faces[(surface.faces == vertex).any(axis=1)]
         others = np.setdiff1d(faces, [vertex])
         at = panel.view.place_of(panel.positions[vertex])
-        ways = []
-        for other in others:
-            place = panel.view.place_of(panel.positions[other])
-            ways.append((place.x() - at.x(), at.y() - place.y()))
-        ways = np.array(ways)
+        places = [panel.view.place_of(panel.positions[other]) for other in others]
+        ways = np.array([(place.x() - at.x(), at.y() - place.y()) for place in places])
         towards = ways @ (right, up) / np.maximum(np.linalg.norm(ways, axis=1), 1e-9)
         if towards.max() > LEAST_TOWARDS:
             # Held, the key is a drag: stand-ins will do.
@@ -207,7 +203,8 @@ class SourceGestures(Gesture):
         way = stop - start
         share = np.einsum("kx,kx->k", hit.position - start, way) / np.maximum(np.einsum("kx,kx->k", way, way), 1e-300)
         points = start + np.clip(share, 0, 1)[:, None] * way
-        return points[np.linalg.norm(points - hit.position, axis=1).argmin()]
+        nearest: AnyArray = points[np.linalg.norm(points - hit.position, axis=1).argmin()]
+        return nearest
 
     def _is_near(self, panel: int, point: FloatArray, hit: "Hit", pixels: float) -> bool:
         view = self._grid.panel(panel).view
@@ -260,7 +257,7 @@ class SourceGestures(Gesture):
         if hit is None:
             self._is_beside = True
             return
-        place = place_in(hit.face, hit.weights)
+        place = place_in(hit.face, hit.weights.tolist())
         if self._is_beside:
             self._strokes.append([])
             self._is_beside = False

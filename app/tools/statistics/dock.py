@@ -146,7 +146,7 @@ class StatisticsDock(Instrument):
         """For the numbers of the active panel, if they are not there."""
         context = self.context
         session, id = context.session, context.grid.active
-        shown, loaded = session.shown.get(id), session.opened_in(id)
+        shown, loaded = session.shown.get(id), session.loaded_in(id)
         self._panel = id
         if loaded is None or shown is None:
             return  # on its way

@@ -126,6 +126,8 @@ class LevelBox(QtWidgets.QWidget):
             mark_wrong(box, bool(box.text().strip()))
 
     def _take(self, request: object, found: Band) -> None:
+        if self._levels is None:
+            return  # the field has gone meanwhile
         self.band = found
         self.more.setEnabled(True)
         part = found.area / self._levels.surface.face_areas.sum()
