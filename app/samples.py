@@ -10,6 +10,7 @@ SAMPLES = next((_ROOT / name for name in ("bihdist_assets", "assets") if (_ROOT 
 
 
 def sample_names() -> list[str]:
+    """The names of the sample meshes, sorted."""
     return sorted(path.stem for path in SAMPLES.glob("*.ply"))
 
 

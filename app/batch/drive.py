@@ -127,6 +127,7 @@ class Outcome:
     failures: list[Failure] = field(default_factory=list)
 
     def add(self, report: Report) -> None:
+        """Add the rows and the failures of a report."""
         self.rows += report.rows
         self.failures += report.failures
 

@@ -58,9 +58,11 @@ class Processes:
         self._pool: concurrent.futures.ProcessPoolExecutor | None = None
 
     def submit(self, task: Task) -> None:
+        """Let the task be done by one of the processes."""
         self._waiting.append(task)
 
     def reports(self) -> Iterator[Report]:
+        """Reports as tasks end, in any order; what a process took with it when it was lost is done again."""
         while self._waiting or self._alone or self._under_way:
             try:
                 self._fill()
@@ -133,6 +135,7 @@ class Processes:
                 self._alone.append(task)
 
     def close(self) -> None:
+        """End the processes at once."""
         if self._pool is not None:
             for process in list((getattr(self._pool, "_processes", None) or {}).values()):
                 process.kill()
@@ -211,6 +214,7 @@ class Cluster:
         self._lost = ""
 
     def submit(self, task: Task) -> None:
+        """Let the task be done by a worker of the cluster."""
         self._tries[task] += 1
         key = f"bihdist-{task.words}-{task.digest}-{self._tries[task]}"
         # Also what is never begun has a report: that the cluster was lost.
@@ -233,6 +237,7 @@ class Cluster:
         self._ended.add(future)
 
     def reports(self) -> Iterator[Report]:
+        """Reports as tasks end, in any order; a lost worker's tasks are done again."""
         while self._under_way:
             report = None
             if not self._lost:
@@ -282,6 +287,7 @@ class Cluster:
         return {address: int(about["memory_limit"] or 1 << 62) for address, about in workers.items()}
 
     def close(self) -> None:
+        """Leave the cluster, which goes on without."""
         self._client.close()
 
 

@@ -42,6 +42,7 @@ class Blocks:
             begin = end
 
     def whole(self) -> AnyArray:
+        """The array with all blocks in memory."""
         array = np.empty(self.shape, self.dtype)
         self.into(array)
         return array

@@ -129,6 +129,7 @@ class Folder:
                 self.remove(str(path.relative_to(self.local)))
 
     def write(self, name: str, content: bytes) -> None:
+        """Write a file, which is there as a whole or not at all."""
         with self.writing(name) as path:
             path.write_bytes(content)
 

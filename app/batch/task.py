@@ -54,6 +54,7 @@ class Task:
         return hashlib.sha256(repr(self).encode()).hexdigest()[:16]
 
     def key(self, work: str, distance: str) -> str:
+        """What tells the result of a kind of work apart: what is wanted, the files that are read, and the version."""
         own, others = self.read(work)
         read = "+".join([own, *(f"{what}={sum}" for what, sum in others.items())])
         return self.wanted.key(work, distance, read, self.version)

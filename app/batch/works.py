@@ -48,6 +48,7 @@ class Mesh:
 
     @cached_property
     def distances(self) -> Distances:
+        """The distances on the scaled surface, whose factor all kinds of work share."""
         return Distances(Laplacian(self.scaled, self.wanted.areas))
 
     @cached_property
@@ -59,9 +60,11 @@ class Mesh:
 
     @property
     def scale(self) -> float:
+        """By what vertices are multiplied: 1, or what makes the area 1."""
         return 1 / float(np.sqrt(self.surface.face_areas.sum())) if self.wanted.normalise else 1.0
 
     def distance(self, words: str) -> Distance:
+        """The distance of these words, such as "diffusion(t=1/4)"; ParameterError if there is none."""
         return self.distances.get(Spec.parse(words))
 
     def sources(self, words: str) -> list[Source]:
@@ -141,6 +144,7 @@ def fields(mesh: Mesh, words: str, begin: int = 0, end: int | None = None) -> Ma
 
 
 def facts_of_fields(distance: Distance, sources: list[Source], rule: str = "") -> dict[str, Any]:
+    """What stands beside fields in their JSON: the distance, its unit and accuracy, and the sources."""
     is_all = rule == "all" and len(sources) == len(distance.surface.vertices)
     return {**_facts_of_distance(distance), "sources": "all" if is_all else _named(sources)}
 
@@ -184,12 +188,14 @@ def sources_as_vertices(sources: list[Source]) -> list[int]:
 def neighbours_made(
     mesh: Mesh, distance: Distance, sources: list[Source], indices: IntArray, values: FloatArray
 ) -> Made:
+    """Nearest vertices (m, k) and their distances (m, k), with the facts about them."""
     facts = {"indices": "-1 where there is none", "order": "nearest first, equal ones by number"}
     arrays = {"indices": indices, "distances": _in(values, mesh.wanted.dtype)}
     return Made(arrays, {**facts_of_fields(distance, sources, mesh.wanted.sources.rule), **facts})
 
 
 def parcels_made(distance: Distance, found: Parcels, dtype: str) -> Made:
+    """Mean distances between parcels (m, m), with their labels and sizes."""
     facts = {**_facts_of_distance(distance), "labels": found.labels.tolist(), "counts": found.counts.tolist()}
     return Made({"means": _in(found.means, dtype)}, {**facts, "means": "of the distances of all pairs of vertices"})
 

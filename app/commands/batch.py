@@ -32,6 +32,7 @@ WORDS = "the same work on many meshes: fields, pairs, neighbours, eigenpairs, fa
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `batch` to its parser."""
     parser.add_argument("meshes", help="a folder with meshes, or a list of paths or samples, one a line")
     parser.add_argument("--out", metavar="DIR", required=True, help="a folder, or s3://... and what else fsspec knows")
     parser.add_argument(
@@ -88,6 +89,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Do the chosen work for all meshes and write the tables; the exit status is 1 if some of it failed."""
     from ..batch.drive import Outcome, do_all, found_meshes, write_tables
     from ..batch.execution import PARTS
     from ..batch.results import check_format

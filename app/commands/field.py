@@ -14,6 +14,7 @@ TEXT = ".csv"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `field` to its parser."""
     add_meshes(parser)
     parser.add_argument(
         "--source", type=source, metavar="V", nargs="+", required=True, help=f"{SOURCE}; several words, several fields"
@@ -30,6 +31,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Write the distances of all vertices from each source; the exit status is 1 if a mesh failed."""
     return into_each(options, _one)
 
 

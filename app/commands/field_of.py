@@ -31,6 +31,7 @@ class FieldOf:
 
     @property
     def surface(self) -> "Surface":
+        """The surface that the field is on."""
         return self.laplacian.surface
 
     @property

@@ -12,11 +12,13 @@ WORDS = "the window's comparison as a picture, without a window"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `figure` to its parser."""
     add_figure_options(parser, "a .png, .pdf, .svg or .eps file")
     parser.add_argument("--tex", action="store_true", help="a LaTeX snippet beside it, with a caption")
 
 
 def run(options: argparse.Namespace) -> int:
+    """Draw the figure and write its recipe; the exit status is 1 if a panel failed."""
     from ..document.document import starting_points
     from ..figures.draw import described
     from ..figures.export import export

@@ -18,6 +18,7 @@ WORDS = "what a mesh file holds and what would be repaired"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `info` to its parser."""
     parser.add_argument("meshes", nargs="+", metavar="mesh", help="mesh files, or the names of samples")
     parser.add_argument(
         "--accuracy", action="store_true", help="how accurate its exact distances are; factors the mesh"
@@ -27,6 +28,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Print what is known of each mesh; the exit status is 1 if one could not be read."""
     return each_mesh(options.meshes, lambda mesh: _facts(mesh, options), options.json, _print)
 
 

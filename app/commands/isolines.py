@@ -21,6 +21,7 @@ TEXT = ".csv"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `isolines` to its parser."""
     parser.add_argument("mesh", help="mesh file, or the name of a sample")
     parser.add_argument("--source", type=source, metavar="V", required=True, help=SOURCE)
     parser.add_argument("-o", "--output", metavar="OUT", help="the isolines: a .csv, .obj, .vtp or .json file")
@@ -35,6 +36,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
+    """Print the lengths of isolines, and write them and the region between two values where asked."""
     from bihdist_core.analysis.bands import band
     from bihdist_core.analysis.isoline_output import ISOLINE_FORMATS, write_isolines
     from bihdist_core.analysis.isoline_tracing import isolines

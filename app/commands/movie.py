@@ -10,6 +10,7 @@ WORDS = "a figure that turns, or whose source wanders, as MP4 or GIF"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `movie` to its parser."""
     add_figure_options(parser, "a .mp4 or .gif file")
     parser.add_argument(
         "--turn", type=float, metavar="DEGREES", help="how far the shape turns (default: 360, or 0 with --path)"
@@ -23,6 +24,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Draw the movie and write its recipe; the exit status is 1 if a panel failed."""
     from bihdist_core import ParameterError
 
     from ..figures.movie import Movie, check_movie, write_movie

@@ -83,6 +83,7 @@ source, vertex = _argument(source_from_words), _argument(vertex_from_words)
 
 
 def add_areas(parser: argparse.ArgumentParser) -> None:
+    """Add the option of how vertex areas are measured."""
     add_rows(parser, VERTEX_AREAS)
 
 
@@ -124,6 +125,7 @@ def check_parameters(options: argparse.Namespace, specs: Sequence[Spec]) -> None
 
 
 def vertices(text: str) -> list[int]:
+    """Vertex ids from a text such as "3,17,42"; argparse.ArgumentTypeError for another text."""
     return [vertex(word) for word in text.split(",")]
 
 
@@ -147,6 +149,7 @@ def _number(text: str) -> float:
 
 
 def positive(text: str) -> float:
+    """A positive finite number from a text; argparse.ArgumentTypeError for another text."""
     value = _number(text)
     if not 0 < value < math.inf:
         raise argparse.ArgumentTypeError(f"{text!r} is not a positive number")
@@ -154,6 +157,7 @@ def positive(text: str) -> float:
 
 
 def share(text: str) -> float:
+    """A fraction from 0 to 1 from a text; argparse.ArgumentTypeError for another text."""
     value = _number(text)
     if not 0 <= value <= 1:
         raise argparse.ArgumentTypeError(f"{text!r} is not a fraction from 0 to 1")

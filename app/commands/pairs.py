@@ -21,6 +21,7 @@ TEXT = ".csv"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `pairs` to its parser."""
     add_meshes(parser)
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument("--vertices", type=vertices, metavar="I,J,K", help="all distances among these")
@@ -51,6 +52,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Write the distances between pairs of vertices; the exit status is 1 if a mesh failed."""
     return into_each(options, _one)
 
 

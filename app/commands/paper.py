@@ -12,6 +12,7 @@ WORDS = "every figure and table of the paper, computed anew, as one page"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `paper` to its parser."""
     parser.add_argument("--out", metavar="DIR", required=True, help="folder for index.html, pictures and numbers")
     parser.add_argument("--only", metavar="IDS", default="", help="a choice, such as fig4,table2")
     parser.add_argument(

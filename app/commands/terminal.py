@@ -75,6 +75,7 @@ def tell(text: str) -> None:
 
 
 def warn(text: str) -> None:
+    """Print a warning to standard error."""
     print(f"bihdist: warning: {text}", file=sys.stderr)
 
 

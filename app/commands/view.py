@@ -17,6 +17,7 @@ WORDS = "open the viewer"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `view` to its parser."""
     parser.add_argument(
         "mesh",
         nargs="?",
@@ -38,6 +39,7 @@ def _rows() -> list[Row]:
 
 
 def run(options: argparse.Namespace) -> NoReturn:
+    """Open the window, and end the process once it is closed."""
     from ..document.beside_edits import open_beside
     from ..document.document import COMPARISON, Document, MeshFile, comparison
 

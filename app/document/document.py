@@ -249,15 +249,19 @@ class Document:
         return frozenset(self.isolines.through).union(*(panel.shows.points for panel in self.panels), *of_parts)
 
     def mesh(self, name: str = "A") -> MeshFile:
+        """The surface of a name; ParameterError if there is none."""
         return _named(self.surfaces, name, "surface")
 
     def point(self, name: str = "source") -> Point:
+        """The point of a name; ParameterError if there is none."""
         return _named(self.points, name, "point")
 
     def field(self, name: str) -> FieldArray:
+        """The field of the user's own of a name; ParameterError if there is none."""
         return _named(self.fields, name, "field")
 
     def panel(self, id: int) -> Panel:
+        """The panel of an id; ParameterError if there is none."""
         for panel in self.panels:
             if panel.id == id:
                 return panel

@@ -101,6 +101,7 @@ def add_panel(document: Document, shows: Quantity, surface: str = "A") -> Docume
 
 
 def remove_panel(document: Document, panel: int) -> Document:
+    """The document without a panel."""
     return replace(document, panels=tuple(p for p in document.panels if p.id != document.panel(panel).id))
 
 

@@ -147,6 +147,7 @@ def _source(data: Any, where: str) -> Source:
 
 
 def read_isolines(data: Any, where: str) -> Isolines:
+    """Isolines from their count, or from a record; ParameterError, with the place, for anything else."""
     if not isinstance(data, dict):
         return placed(Isolines, where, count=whole(data, where), round=False)
     return placed(Isolines, where, **{"round": False, **record(data, where, field_readers(Isolines), set())})

@@ -26,10 +26,12 @@ class History:
 
     @property
     def can_undo(self) -> bool:
+        """Whether there is a document before this one."""
         return bool(self._past)
 
     @property
     def can_redo(self) -> bool:
+        """Whether a document has been left by undo."""
         return bool(self._future)
 
     def change(self, document: Document, key: str = "") -> Document:

@@ -34,6 +34,8 @@ def record(data: Any, where: str, readers: Mapping[str, Reader], needed: set[str
 
 
 def listed(read: Reader) -> Reader:
+    """A reader of lists, whose entries `read` reads."""
+
     def reader(data: Any, where: str) -> tuple[Any, ...]:
         if not isinstance(data, list):
             raise ParameterError(f"{where} must be a list, not {shown(data)}.")
@@ -43,6 +45,8 @@ def listed(read: Reader) -> Reader:
 
 
 def numbers(count: int) -> Reader:
+    """A reader of lists of so many finite numbers."""
+
     def reader(data: Any, where: str) -> tuple[Any, ...]:
         values: tuple[float, ...] = listed(number)(data, where)
         if len(values) != count:
@@ -53,6 +57,7 @@ def numbers(count: int) -> Reader:
 
 
 def or_none(read: Reader) -> Reader:
+    """A reader of null, and of what `read` reads."""
     return lambda data, where: None if data is None else read(data, where)
 
 
@@ -65,24 +70,28 @@ def placed(make: Callable[..., Made], where: str, **values: Any) -> Made:
 
 
 def text(data: Any, where: str) -> str:
+    """A text; ParameterError, with the place, for anything else."""
     if not isinstance(data, str):
         raise ParameterError(f"{where} must be a text, not {shown(data)}.")
     return data
 
 
 def flag(data: Any, where: str) -> bool:
+    """True or false; ParameterError, with the place, for anything else."""
     if not isinstance(data, bool):
         raise ParameterError(f"{where} must be true or false, not {shown(data)}.")
     return data
 
 
 def whole(data: Any, where: str) -> int:
+    """A whole number from 0 to 2**63 - 1; ParameterError, with the place, for anything else."""
     if not isinstance(data, int) or isinstance(data, bool) or not 0 <= data < 2**63:
         raise ParameterError(f"{where} must be a whole number of at least 0, not {shown(data)}.")
     return data
 
 
 def number(data: Any, where: str) -> float:
+    """A finite number; ParameterError, with the place, for anything else."""
     # A whole number of many digits is no float.
     fits = isinstance(data, float) or (isinstance(data, int) and abs(data) < 10**300)
     if isinstance(data, bool) or not fits or not math.isfinite(data):

@@ -13,7 +13,8 @@ LONGEST_NAME = 60
 
 class Coloured(Protocol):
     @property
-    def colour(self) -> int: ...
+    def colour(self) -> int:
+        """Number of the colour in `PINS`."""
 
 
 def check_name(name: str, what: str) -> None:

@@ -66,6 +66,7 @@ class Option:
 
     @property
     def is_switch(self) -> bool:
+        """Whether the option has no value: given or not."""
         return self.default is False and self.bare is None
 
     def words(self, value: Any) -> "list[tuple[str, str | Starts | None]]":

@@ -19,6 +19,7 @@ class Starts:
     at: Source
 
     def words(self, files: Mapping[Curve, str]) -> str:
+        """The source as an option says it; ParameterError if a curve has no file."""
         if any(curve not in files for curve in curves_of(self.at)):
             raise ParameterError("A source is a curve, which a line names by a file; save it first.")
         return words_of(self.at, files)

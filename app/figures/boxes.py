@@ -16,14 +16,17 @@ class Box:
 
     @property
     def right(self) -> float:
+        """The x of the right side."""
         return self.x + self.width
 
     @property
     def bottom(self) -> float:
+        """The y of the lower side."""
         return self.y + self.height
 
     @property
     def middle(self) -> tuple[float, float]:
+        """The x and y of the centre."""
         return self.x + self.width / 2, self.y + self.height / 2
 
     def without(self, edge: float) -> Box:
@@ -32,6 +35,7 @@ class Box:
         return Box(self.x + edge, self.y + edge, self.width - 2 * edge, self.height - 2 * edge)
 
     def meets(self, other: Box) -> bool:
+        """Whether two boxes overlap."""
         return self.x < other.right and other.x < self.right and self.y < other.bottom and other.y < self.bottom
 
     def holds(self, x: float, y: float, edge: float = 0.0) -> bool:

@@ -111,6 +111,7 @@ def as_jpeg(picture: Image.Image) -> bytes:
 
 
 def as_png(picture: Image.Image) -> bytes:
+    """The picture as the bytes of a PNG file."""
     return _bytes(picture, "PNG", optimize=True)
 
 

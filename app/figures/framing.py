@@ -38,6 +38,7 @@ class Seen:
 
     @property
     def aspect(self) -> float:
+        """Width by height."""
         return (self.right - self.left) / (self.top - self.bottom)
 
 

@@ -64,6 +64,7 @@ def grid_of(figure: Figure) -> Grid:
 
 
 def most_views(figure: Figure) -> int:
+    """The largest number of views that a panel of the figure has."""
     return max(len(panel.views) for panel in figure.panels)
 
 

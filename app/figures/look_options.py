@@ -180,6 +180,7 @@ RANGE = Row(
 def with_range(
     recipe: Recipe, values: Mapping[str, Any], tell: Callable[[str], None], progress: Progress | None
 ) -> Recipe:
+    """The recipe with the range of colours that the options say."""
     document, range = recipe.document, values.get("range")
     if "shared_range" in values:
         word = "shared" if values["shared_range"] else "own"

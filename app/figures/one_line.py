@@ -56,6 +56,7 @@ def recipe_command_line(path: str, output: str) -> str:
 
 
 def recipe_python_line(path: str, output: str) -> str:
+    """A line of Python that draws the figure of a recipe's file again."""
     return f"import bihdist; bihdist.figure_again({path!r}).save({output!r})"
 
 

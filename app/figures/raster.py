@@ -58,6 +58,7 @@ class RenderWindow:
         self._window.AddRenderer(self._renderer)
 
     def close(self) -> None:
+        """Give back what the graphics library holds."""
         self._window.Finalize()
 
     def shade(

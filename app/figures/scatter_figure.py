@@ -41,6 +41,7 @@ class ScatterAxis:
 
     @property
     def words(self) -> str:
+        """The name, with the unit if there is one."""
         return f"{self.name} ({self.unit})" if self.unit else self.name
 
 

@@ -90,6 +90,7 @@ class RenderCache:
         self.close()
 
     def close(self) -> None:
+        """Close the render window, if one was opened."""
         if self._render_window is not None:
             self._render_window.close()
         self._render_window = None
@@ -107,6 +108,7 @@ class RenderCache:
         self._meshes = {key: entry for key, entry in self._meshes.items() if key[0] in ids}
 
     def mesh(self, surface: Surface, shading: Shading) -> vtkPolyData:
+        """The surface as VTK draws it with this shading, made once."""
         key = (id(surface), normals_shading(shading))
         if key not in self._meshes:
             self._meshes[key] = (surface, drawable(surface, shading))

@@ -35,6 +35,7 @@ class Lettering:
     stays: bool = False
 
     def width(self, text: str, size: float, bold: bool = False) -> float:
+        """The width of a text in points."""
         return text_width(text, size, bold, self.family)
 
     def fitted(

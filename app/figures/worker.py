@@ -80,9 +80,11 @@ class FigureJob:
 
     @property
     def is_running(self) -> bool:
+        """Whether the figure is still being drawn."""
         return self._thread.is_alive()
 
     def wait(self, timeout: float | None = None) -> None:
+        """Wait until the figure is drawn, at most so many seconds; None for any time."""
         self._thread.join(timeout)
 
     def _run(self, work: Callable[..., None], progress: Progress, ended: Ended) -> None:

@@ -36,6 +36,7 @@ class Background(QtCore.QObject):
         self._worker.submit(request)
 
     def close(self) -> None:
+        """End the thread; what it computes is not wanted any more."""
         self._latest = None
         self._worker.close()
 

@@ -69,6 +69,7 @@ class Choices:
 
     # ------------------------------------------------------------------ how fields are shown
     def isolines(self, count: int) -> None:
+        """Draw about so many isolines at round values, 0 for none."""
         self.isoline.steps(count)
 
     def shading(self, word: str) -> None:
@@ -76,9 +77,11 @@ class Choices:
         self._shade(normals=word)
 
     def wireframe(self, is_shown: bool) -> None:
+        """Draw the edges of the faces, or no longer."""
         self._shade(wireframe=is_shown)
 
     def ask_crease(self) -> None:
+        """Ask for the angle beyond which an edge is drawn as a crease."""
         shading = self._context.document.shading
         words = "Normals are split where faces meet at more than so many degrees:"
         crease, chosen = QtWidgets.QInputDialog.getDouble(
@@ -115,9 +118,11 @@ class Choices:
         self._colour(Colours("" if is_own else word, (), now.reversed, now.bands))
 
     def reverse_colours(self, is_on: bool) -> None:
+        """Run the colour map backwards, or no longer."""
         self._colour(replace(self._context.document.colours, reversed=is_on))
 
     def band_colours(self, is_on: bool) -> None:
+        """Fill the space between isolines with one colour, or no longer."""
         self._colour(replace(self._context.document.colours, bands=is_on))
 
     def ask_colours(self) -> None:
@@ -197,6 +202,7 @@ class Choices:
             self._context.prefer(geometry=bytes(self._context.widget.saveGeometry()))
 
     def ask_preferences(self) -> None:
+        """Open the dialog of preferences."""
         from .pages.preferences_dialog import PreferencesDialog
 
         dialog = PreferencesDialog(self._context.preferences, self._context.widget)

@@ -70,6 +70,7 @@ class Context(QtCore.QObject):
     # ------------------------------------------------------------------ what is shown
     @property
     def document(self) -> Document:
+        """What is shown now."""
         return self.session.document
 
     def edit(self, document: Document, key: str = "", live: bool = False) -> None:
@@ -95,6 +96,7 @@ class Context(QtCore.QObject):
 
     @property
     def grid(self) -> "PanelGrid":
+        """The panels; RuntimeError before they are built."""
         if self._grid is None:
             raise RuntimeError("There are no panels yet; see once_built.")
         return self._grid

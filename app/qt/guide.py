@@ -36,6 +36,7 @@ class Guide:
         return commands_of(menus, context.session.surface is not None)
 
     def show_commands(self) -> None:
+        """Open the list of all commands and gestures."""
         from .pages.commands import GESTURES
         from .pages.palette import Palette
 
@@ -69,6 +70,7 @@ class Guide:
 
     @property
     def is_touring(self) -> bool:
+        """Whether the tour is under way."""
         return self._tour is not None and self._tour.is_on
 
     def end_tour(self) -> bool:
@@ -86,4 +88,5 @@ class Guide:
         return is_on
 
     def show_about(self) -> None:
+        """Tell the program's version and where it comes from."""
         tell(self._context.widget, f"Biharmonic distance {version()}", ABOUT)

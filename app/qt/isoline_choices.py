@@ -30,6 +30,7 @@ class IsolineChoices:
         self._change("isolines", count=count, spacing=None, values=())
 
     def ask_steps(self) -> None:
+        """Ask for the number of isolines."""
         now = self._context.document.isolines.count
         count, chosen = QtWidgets.QInputDialog.getInt(
             self._context.widget, "Isolines", "About how many in each panel:", now, 0, MOST_ISOLINES
@@ -39,6 +40,7 @@ class IsolineChoices:
         self._context.choice_changed.emit()
 
     def ask_spacing(self) -> None:
+        """Ask for the step from one isoline to the next."""
         now = self._context.document.isolines.spacing
         question = f"From one isoline to the next, {IN_UNIT}:"
         self._ask(question, "" if now is None else f"{now:.6g}", self.spacing)
@@ -55,6 +57,7 @@ class IsolineChoices:
         self._change("", spacing=wanted.spacing, values=())
 
     def ask_values(self) -> None:
+        """Ask for the values of the isolines."""
         now = self._context.document.isolines.values
         question = f"Isolines at these values, {IN_UNIT}, with spaces between them:"
         self._ask(question, " ".join(f"{value:.6g}" for value in now), self.values)
@@ -74,9 +77,11 @@ class IsolineChoices:
         self._change("", round=not is_on)
 
     def bold(self, is_on: bool) -> None:
+        """Draw every fifth isoline bold, or none."""
         self._change("", bold=BOLD if is_on else 0)
 
     def labels(self, is_on: bool) -> None:
+        """Write values on isolines, or none."""
         self._change("", labels=is_on)
 
     # ------------------------------------------------------------------ through points
@@ -87,6 +92,7 @@ class IsolineChoices:
         session.show(pass_through(session.document, (vertex,), surface))
 
     def pass_through_none(self) -> None:
+        """Remove the isolines through chosen points."""
         session = self._context.session
         session.show(pass_through_none(session.document))
 

@@ -13,6 +13,8 @@ SAY_EVERY = 0.25
 
 
 class LiveRate:
+    """How many answers a second are shown while the source follows the pointer, for the status bar."""
+
     def __init__(self, session: Session, status: StatusBar) -> None:
         self._session, self._status = session, status
         self._shown: deque[float] = deque()

@@ -137,6 +137,7 @@ class MainWindow(QtWidgets.QMainWindow):
 
     @property
     def grid(self) -> "PanelGrid":
+        """The panels; RuntimeError before they are built."""
         return self.context.grid
 
     def open(self, path: str, source: int | None = None) -> None:
@@ -202,6 +203,7 @@ class MainWindow(QtWidgets.QMainWindow):
 
     # ------------------------------------------------------------------ what the session tells
     def document_changed(self, before: Document) -> None:
+        """Show the session's document, where the one before is shown."""
         self.build_panels()
         self._stack.setCurrentWidget(self._scroll)
         context = self.context
@@ -230,11 +232,13 @@ class MainWindow(QtWidgets.QMainWindow):
                 remembered.remember(each.mesh.path)
 
     def answer_changed(self, panel: int) -> None:
+        """Show another answer in a panel."""
         self.grid.show_answer(panel)
         self.context[Dragging].rate.note()
         self._tell_of_answer(panel)
 
     def error_estimate_changed(self, panel: int) -> None:
+        """Show in a panel's head how accurate its answer is."""
         self.grid.show_error_estimate(panel)
         self._tell_of_answer(panel)
         self.announce_soon()
@@ -252,10 +256,12 @@ class MainWindow(QtWidgets.QMainWindow):
         self.actions_by_word["redo"].setEnabled(self.session.can_redo)
 
     def progress_changed(self) -> None:
+        """Show how far the work is."""
         self._offer_steps()
         self.context[ProgressDisplay].progress_changed()
 
     def failed(self, message: str) -> None:
+        """Say why something could not be opened or done."""
         self.refused.emit(message)
         if self.session.surface is None and self.context.is_built:
             self.context[ProgressDisplay].end()

@@ -48,6 +48,7 @@ class Preferences:
 
 
 def path() -> Path:
+    """Where the preferences are kept."""
     return remembered.folder() / "preferences.ini"
 
 

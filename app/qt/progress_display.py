@@ -55,6 +55,7 @@ class ProgressDisplay(QtCore.QObject):
         self._context.session.retry(id)
 
     def progress_changed(self) -> None:
+        """Show the progress soon, or its end at once."""
         if not self._context.session.progress:
             self.show()
         elif not self._show_soon.isActive():
@@ -70,6 +71,7 @@ class ProgressDisplay(QtCore.QObject):
         self.show()
 
     def show(self) -> None:
+        """Show how far each panel's work is, and opening a file."""
         self._show_soon.stop()
         context = self._context
         load, session = self._load, context.session

@@ -189,6 +189,7 @@ class Viewer:
 
     @property
     def is_open(self) -> bool:
+        """Whether the window is still there."""
         return self._window is not None
 
     def __repr__(self) -> str:

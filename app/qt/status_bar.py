@@ -159,6 +159,7 @@ class Words(QtWidgets.QWidget):
         self.setSizePolicy(policy.Preferred if is_meant else policy.Ignored, policy.Preferred)
 
     def show_text(self, text: str) -> None:
+        """Show a text, "" for none."""
         if text != self.text:
             self.text = text
             self.setAccessibleName(text)
@@ -210,10 +211,12 @@ class Chip(QtWidgets.QToolButton):
 
     @property
     def sentences(self) -> list[str]:
+        """All that is to be told, a sentence each."""
         return [sentence for some in self._lists for sentence in some]
 
     @property
     def words(self) -> str:
+        """How many there are of each kind, in a few words."""
         counted = zip(self._lists, self._kinds, strict=True)
         return ", ".join(f"{len(some):,} {one if len(some) == 1 else many}" for some, (one, many) in counted if some)
 

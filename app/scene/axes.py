@@ -38,6 +38,7 @@ class Arm:
 
     @property
     def letter_at(self) -> tuple[float, float] | None:
+        """Where the axis' letter stands beside the middle, in pixels; None if the axis points at the eye."""
         length = float(np.hypot(self.x, self.y))
         away = ARM + AWAY / length if length >= SHORT else 0.0
         return (away * self.x, away * self.y) if away else None

@@ -117,6 +117,7 @@ class PanelScene:
 
     @property
     def can_stand_in(self) -> bool:
+        """Whether a coarser surface can be drawn while the camera moves."""
         return self._field.stand_in.can_stand_in
 
     @property

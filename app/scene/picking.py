@@ -80,9 +80,11 @@ class LatePicker:
         return self._made
 
     def pick(self, *where: Any) -> Hit | None:
+        """What `Picker.pick` finds, once the picker has been built."""
         return self._picker.pick(*where)
 
     def sees(self, *where: Any) -> bool:
+        """What `Picker.sees` finds, once the picker has been built."""
         return self._picker.sees(*where)
 
 

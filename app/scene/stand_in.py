@@ -173,6 +173,7 @@ class StandInActor:
 
     @property
     def can_stand_in(self) -> bool:
+        """Whether there is a coarser surface."""
         return self._stand_in is not None
 
     def show(

@@ -21,6 +21,7 @@ class AnswerCache:
         self._lock = threading.Lock()
 
     def get(self, question: Question) -> Answer | None:
+        """The answer to a question, None if it is not held."""
         with self._lock:
             if question in self._answers:
                 self._answers.move_to_end(question)

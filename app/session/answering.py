@@ -28,9 +28,14 @@ SMALL = 12_000
 class AnswerView(Protocol):
     """Who is told, on the view's thread, by the ids of the panels."""
 
-    def answer_changed(self, panel: int) -> None: ...
-    def error_estimate_changed(self, panel: int) -> None: ...
-    def progress_changed(self) -> None: ...
+    def answer_changed(self, panel: int) -> None:
+        """Called when a panel has another answer."""
+
+    def error_estimate_changed(self, panel: int) -> None:
+        """Called when it becomes known how accurate a panel's answer is."""
+
+    def progress_changed(self) -> None:
+        """Called when work begins, goes on or ends."""
 
 
 @dataclass(frozen=True, eq=False)

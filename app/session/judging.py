@@ -115,6 +115,7 @@ class KeptGeodesics:
         self._columns: dict[int, FloatArray] = {}
 
     def missing(self, vertices: Sequence[int]) -> list[int]:
+        """Those of the vertices whose geodesic distances are not known yet, each once."""
         return [vertex for vertex in dict.fromkeys(vertices) if vertex not in self._columns]
 
     def find(self, vertices: Sequence[int], progress: Progress | None = None) -> None:
@@ -174,6 +175,7 @@ class Judgement:
 
     @property
     def is_whole(self) -> bool:
+        """Whether all that was wanted is known."""
         return self.known == self.wanted or not self.curves
 
 

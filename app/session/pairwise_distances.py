@@ -79,6 +79,7 @@ class PairwiseDistances:
         return None if (rows < 0).any() else known.matrix[np.ix_(rows, rows)]
 
     def unit(self, loaded: LoadedMesh, areas: str, spec: Spec) -> str:
+        """The unit of the distances, "" as long as none are known."""
         return self._units.get((loaded, areas, spec), "")
 
     def failure(self, loaded: LoadedMesh, areas: str, spec: Spec) -> str:

@@ -120,6 +120,7 @@ class PathMaker:
         self._last: tuple[PathWanted, SurfacePath] | None = None
 
     def path(self, wanted: PathWanted, progress: Progress) -> SurfacePath:
+        """The wanted path; the one before is returned again if it is the same."""
         if self._last is None or not wanted.is_as(self._last[0]):
             self._last = wanted, self._made(wanted, progress)
         return self._last[1]

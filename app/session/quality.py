@@ -61,10 +61,12 @@ class Found:
 
     @property
     def is_whole(self) -> bool:
+        """Whether the measures of the whole field are known, or have failed."""
         return self.whole is not None or bool(self.failure)
 
     @property
     def is_complete(self) -> bool:
+        """Whether all measures are known, or have failed."""
         return self.is_whole and (self.is_sampled or bool(self.triangles_failure))
 
 

@@ -163,10 +163,12 @@ class DifferenceQuestion(Question):
 
     @property
     def mesh(self) -> MeshFile:  # type: ignore[override]
+        """The surface of both fields."""
         return self.minuend.mesh
 
     @property
     def areas(self) -> str:  # type: ignore[override]
+        """The vertex areas of both fields."""
         return self.minuend.areas
 
     @property

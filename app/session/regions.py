@@ -125,6 +125,7 @@ class Dividing:
 
     @property
     def is_complete(self) -> bool:
+        """Whether the regions of all panels are known."""
         return all(self.is_answered(panel) for panel in self._asked)
 
     def close(self) -> None:

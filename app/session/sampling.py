@@ -51,18 +51,21 @@ class Sampling:
         self._worker: LatestRequestWorker[tuple[SamplesQuestion, LoadedMesh]] | None = None
 
     def ask(self, question: SamplesQuestion, loaded: LoadedMesh) -> None:
+        """Look for samples beside the window's thread, in place of those asked for before."""
         self._asked = question
         if self._worker is None:
             self._worker = LatestRequestWorker("samples", self._sample, self._report, lambda *_: None)
         self._worker.submit((question, loaded))
 
     def cancel(self) -> None:
+        """Stop looking for samples."""
         self._asked = None
         if self._worker is not None:
             self._worker.submit(None)
 
     @property
     def is_going(self) -> bool:
+        """Whether samples are being looked for."""
         return self._asked is not None
 
     def close(self) -> None:

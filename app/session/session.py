@@ -36,7 +36,8 @@ AHEAD = 60_000
 class View(AnswerView, LoadingView, Protocol):
     """What the session tells whoever shows it; panels are named by their ids."""
 
-    def document_changed(self, before: Document) -> None: ...
+    def document_changed(self, before: Document) -> None:
+        """Called when another document is shown."""
 
 
 class Session:
@@ -216,6 +217,7 @@ class Session:
             self._answering.ask({panel: (asked, loaded)}, live=False)
 
     def close(self) -> None:
+        """End all threads and child processes."""
         self._surfaces.end()
         self._answering.end()
         self._surfaces.close()
@@ -261,10 +263,12 @@ class Session:
 
     @property
     def can_undo(self) -> bool:
+        """Whether there is a document before this one."""
         return self.history.at(self._steps_on_their_way - 1) is not None
 
     @property
     def can_redo(self) -> bool:
+        """Whether a document has been left by undo."""
         return self.history.at(self._steps_on_their_way + 1) is not None
 
     @property

@@ -29,8 +29,11 @@ SPARED_MADE = 2
 class LoadingView(Protocol):
     """Who is told, on the view's thread."""
 
-    def progress_changed(self) -> None: ...
-    def failed(self, message: str) -> None: ...
+    def progress_changed(self) -> None:
+        """Called as a file is being read."""
+
+    def failed(self, message: str) -> None:
+        """Called with the reason if a file cannot be opened."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,9 @@
 """Every public name of the library has a docstring that is understood where it pops up, alone."""
 
 import ast
+import inspect
 import re
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -9,7 +11,8 @@ import pytest
 from app.figures.picture import figure, figure_again
 from app.qt.show import show
 
-CORE = Path(__file__).parents[2] / "bihdist_core"
+ROOT = Path(__file__).parents[2]
+CORE = ROOT / "bihdist_core"
 
 NOT_ALONE = {
     r"^(The same|Its?|They|Theirs?|Those of|That of|These)\b": "what it is about stands in no line before it",
@@ -42,6 +45,23 @@ DOCSTRINGS = dict(docstrings())
 def test_all_that_is_public_has_a_docstring():
     assert len(DOCSTRINGS) > 500
     assert [name for name, text in DOCSTRINGS.items() if not text] == []
+
+
+def has_none(found, name):
+    """Whether an attribute of a class or module has no docstring, and none of a base class."""
+    places = found.__mro__ if inspect.isclass(found) else [found]
+    return not any(inspect.getdoc(place.__dict__[name]) for place in places if name in place.__dict__)
+
+
+def test_what_the_application_adds_has_docstrings_of_its_own_or_of_what_it_overrides():
+    missing = []
+    for path in sorted((ROOT / "app").rglob("*.py")):
+        module = import_module(".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"))
+        for name, _ in public(ast.parse(path.read_text(encoding="utf-8")).body):
+            owner, _, attribute = name.rpartition(".")
+            if has_none(getattr(module, owner) if owner else module, attribute):
+                missing.append(f"{module.__name__} {name}")
+    assert missing == []
 
 
 @pytest.mark.parametrize("pattern", NOT_ALONE)

@@ -74,6 +74,7 @@ class ToolBar(QtWidgets.QToolBar):
         self.fit()
 
     def allow(self, has_mesh: bool) -> None:
+        """Enable the buttons that need a mesh, or disable them."""
         for name in ("tools", "isolines", "colours", "range", "views", "up"):
             # The action a button is put in by enables it whenever it is shown or hidden.
             self._shown_as[name].setEnabled(has_mesh)

@@ -24,6 +24,7 @@ class ToolButton(BareButton):
         LOOK.changed.connect(self._refit)
 
     def show_value(self, value: str) -> None:
+        """Show the present choice beside the button's name."""
         if value != self._value:
             self._value = value
             self.setAccessibleDescription(value)

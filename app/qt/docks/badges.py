@@ -34,6 +34,7 @@ def badge_of(document: Document, point: str) -> Badge:
 
 
 def paint_badge(painter: QtGui.QPainter, at: QtCore.QPointF, badge: Badge) -> None:
+    """Paint a disc with a number, or a small ring without one."""
     if not badge.text:
         painter.setPen(QtGui.QPen(QtGui.QColor(RIM), 1.5))
         painter.setBrush(QtGui.QColor(badge.colour))
@@ -61,6 +62,7 @@ class BadgeRow(QtWidgets.QWidget):
         LOOK.follow(self, self.update)
 
     def show_badges(self, badges: tuple[Badge, ...]) -> None:
+        """Show these badges in a row; the row is hidden without any."""
         self._badges = badges
         self.setVisible(bool(badges))
         self.setToolTip(", ".join(badge.name for badge in badges))
@@ -96,6 +98,7 @@ class BadgeButton(FlatButton):
         self.setMenu(QtWidgets.QMenu(self))
 
     def show_badge(self, badge: Badge | None) -> None:
+        """Show the badge that is chosen, None for none."""
         self._badge = badge
         self.setText("" if badge is not None else "choose")
         description = f"{self._name}: {badge.name if badge is not None else 'none yet'}"

@@ -111,6 +111,7 @@ class Brushing(QtCore.QObject):
         self.cut_switched.emit(self.cuts)
 
     def enlarge(self, radius: int) -> None:
+        """Set the radius of the brush in pixels, kept within its limits."""
         self.radius = min(max(radius, RADII[0]), RADII[1])
         self._take()
 

@@ -32,6 +32,7 @@ class Axis:
 
     @property
     def span(self) -> float:
+        """The length of the axis in its own unit, 1 for an empty one."""
         return (self.high - self.low) or 1.0
 
     def ticks(self, room: float, apart: float) -> list[float]:
@@ -139,6 +140,7 @@ class Chart(QtWidgets.QWidget):
 
     # ------------------------------------------------------------------ events
     def show_axes(self, across: Axis, up: Axis) -> None:
+        """Take other axes and draw the chart again."""
         self.across, self.up = across, up
         self.redraw()
 

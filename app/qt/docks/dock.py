@@ -63,6 +63,7 @@ class DockHead(QtWidgets.QWidget):
         self._row.insertWidget(place, widget)
 
     def say(self, note: str) -> None:
+        """Write a short note beside the dock's title."""
         self._note.setText(note)
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:

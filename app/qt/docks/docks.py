@@ -55,6 +55,7 @@ class Docks:
 
     # ------------------------------------------------------------------ open and close
     def toggle(self, word: str) -> None:
+        """Open the dock of a tool, or close it."""
         document = self._context.document
         if word in document.docks:
             self.close(word)
@@ -107,6 +108,7 @@ class Docks:
             self._context.actions[f"dock {word}"].setChecked(word in wanted)
 
     def answer_changed(self, panel: int) -> None:
+        """Let all open docks show another answer of a panel."""
         for instrument in self._open():
             instrument.show_answer(panel)
 

@@ -42,6 +42,7 @@ class Findings(QtCore.QObject):
 
     # ------------------------------------------------------------------ what is told
     def document_changed(self, _: object = None) -> None:
+        """Ask for regions and extrema of what is shown now."""
         session = self._context.session
         if session.surface is None or self._is_closed:
             return
@@ -54,6 +55,7 @@ class Findings(QtCore.QObject):
         self._quality_wanted()
 
     def answer_changed(self, _: int) -> None:
+        """Ask for the extrema of another answer."""
         self._quality_wanted()
 
     def show_again(self) -> None:

@@ -14,6 +14,7 @@ def curve_colour(place: int) -> str:
 
 
 def dot(colour: str) -> QtGui.QIcon:
+    """An icon with a disc of a colour."""
     side = 2 * SIDE
     picture = QtGui.QPixmap(side, side)
     picture.fill(QtCore.Qt.GlobalColor.transparent)

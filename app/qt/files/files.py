@@ -28,6 +28,7 @@ class Files(QtCore.QObject):
 
     # ------------------------------------------------------------------ opening
     def choose(self) -> None:
+        """Ask for a file, and open it."""
         context = self._context
         path, _ = QtWidgets.QFileDialog.getOpenFileName(context.widget, "Open", context.folder, FILES)
         if path:
@@ -71,11 +72,13 @@ class Files(QtCore.QObject):
 
     # ------------------------------------------------------------------ writing
     def export_figure(self) -> None:
+        """Open the dialog of figures."""
         from .figure_actions import export_figure
 
         export_figure(self._context)
 
     def export_movie(self) -> None:
+        """Open the dialog of movies."""
         from .figure_actions import export_movie
 
         export_movie(self._context)
@@ -87,6 +90,7 @@ class Files(QtCore.QObject):
         copy(self._context, what)
 
     def choose_screenshot(self) -> None:
+        """Ask for a file, and save a picture of the window there."""
         name = file_name([self._context.session.first_surface.name], "window")
         path = ask_path(self._context, "Save a picture of the window", name, (".png",))
         if path:

@@ -124,6 +124,7 @@ class JobDialog(QtWidgets.QDialog):
     # ------------------------------------------------------------------ what is wrong
     @contextmanager
     def refusals_shown(self) -> Iterator[None]:
+        """A context in which errors are shown at the box they are about, or under all boxes."""
         self._forget_wrong()
         try:
             yield
@@ -175,6 +176,7 @@ class JobDialog(QtWidgets.QDialog):
         self.room_for_wrong(box)
 
     def tick(self, words: str, is_on: bool, tip: str) -> QtWidgets.QCheckBox:
+        """Add a box that can be ticked."""
         box = QtWidgets.QCheckBox(words, checked=is_on)
         self._name_box(box, words.replace("&", ""), tip)
         self.column.addWidget(box)

@@ -140,11 +140,13 @@ class PreviewPane(QtWidgets.QWidget):
         self.is_waiting = True
 
     def show_picture(self, pixels: AnyArray, caption: str, is_warning: bool) -> None:
+        """Show pixels (height, width, 3) with a caption."""
         self.image, self.is_true = image_of(pixels), True
         self._small = QtGui.QImage()
         self.say(caption, is_warning)
 
     def say(self, caption: str, is_warning: bool) -> None:
+        """Show another caption under the picture that is there."""
         self.caption, self.is_warning, self.is_waiting = caption, is_warning, False
         self.setAccessibleDescription(caption)
         self.update()

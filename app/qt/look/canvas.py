@@ -26,6 +26,7 @@ def offered_styles(now: str) -> list[str]:
 
 
 def style_name(word: str) -> str:
+    """What a figure's style is called in the window."""
     return STYLE_NAMES.get("paper" if word == UNIFORM else word, word)
 
 

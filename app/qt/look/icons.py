@@ -15,6 +15,7 @@ SCALES = (1, 2, 3)
 
 
 def icon_names() -> list[str]:
+    """The names of all icons, sorted."""
     return sorted(path.stem for path in ICONS.glob("*.svg"))
 
 

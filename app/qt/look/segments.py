@@ -37,6 +37,7 @@ class Segments(QtWidgets.QWidget):
         LOOK.changed.connect(self._measure)
 
     def choice(self) -> str:
+        """The word of the segment that is on, "" for none."""
         return next((word for word, button in self.buttons.items() if button.isChecked()), "")
 
     def choose(self, word: str) -> None:

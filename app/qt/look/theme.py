@@ -49,6 +49,7 @@ class Theme:
 
     @property
     def is_dark(self) -> bool:
+        """Whether surfaces stand on a dark ground."""
         return lightness(self.canvas) < 0.5
 
 

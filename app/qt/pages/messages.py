@@ -129,6 +129,7 @@ class WhichFile(QtWidgets.QDialog):
 
     @property
     def chosen(self) -> str:
+        """The path of the file that is chosen."""
         return str(self.list.currentItem().data(QtCore.Qt.ItemDataRole.UserRole))
 
 
@@ -228,6 +229,7 @@ class Notice(QtWidgets.QWidget):
             self._soon.start(round(1000 * seconds))
 
     def clear(self) -> None:
+        """Hide the notice."""
         self.show_text("")
 
     def _do(self) -> None:

@@ -171,6 +171,7 @@ class Refusal(QtWidgets.QLabel):
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
 
     def show_text(self, text: str) -> None:
+        """Show a sentence, shortened to what there is room for; "" hides it."""
         self.whole = text
         self.setToolTip(text)
         self.setVisible(bool(text))
@@ -231,6 +232,7 @@ class DropZone(QtWidgets.QWidget):
         LOOK.changed.connect(self.update)
 
     def set_dropping(self, dropping: bool) -> None:
+        """Show whether a file is held over the zone."""
         self.is_dropping = dropping
         self.word.setText("Let go to open it" if dropping else "Drop a file here")
         self.update()

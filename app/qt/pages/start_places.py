@@ -83,6 +83,7 @@ class RecentRow(OpenButton):
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Fixed)
 
     def show_file(self, file: Recent, now: datetime) -> None:
+        """Show a file by its name, its folder and when it was opened."""
         self.path = file.path
         self.name, self.folder = os.path.basename(file.path), from_home(os.path.dirname(file.path))
         self.when = when(file.opened_at, now)
@@ -169,6 +170,7 @@ class SampleTile(OpenButton):
 
     @staticmethod
     def height_for(width: int) -> int:
+        """The height in pixels of a tile of this width."""
         return _picture_side(width) + round(18 + 40 * LOOK.scale)
 
     def paint(self, painter: QtGui.QPainter) -> None:

@@ -99,6 +99,7 @@ class Tour(QtCore.QObject):
 
     @property
     def is_on(self) -> bool:
+        """Whether the tour is under way."""
         return bool(self._again.isActive())
 
     def start(self) -> None:
@@ -120,6 +121,7 @@ class Tour(QtCore.QObject):
         self.place()
 
     def end(self) -> None:
+        """End the tour, if it is under way."""
         if not self.is_on:
             return
         self._again.stop()

@@ -105,13 +105,16 @@ class Word:
 
     @property
     def font(self) -> QtGui.QFont:
+        """The font in which the word is painted."""
         return LOOK.font(self.size, self.is_bold)
 
     @property
     def width(self) -> float:
+        """The width of the word in pixels."""
         return number_width(self.font, self.text)
 
     def at(self, x: float, row: QtCore.QRectF) -> "Word":
+        """The word with its left end at x in a row."""
         return replace(self, box=QtCore.QRectF(x, row.top(), self.width, row.height()))
 
     def within(self, room: float) -> "Word":

@@ -20,9 +20,11 @@ class Events:
         self._handlers: defaultdict[type, list[Callable[[int, Any], object]]] = defaultdict(list)
 
     def on(self, kind: type[Event], handler: Callable[[int, Event], object]) -> None:
+        """Call the handler with the panel and the event, for each event of a kind."""
         self._handlers[kind].append(handler)
 
     def emit(self, panel: int, event: object) -> None:
+        """Hand an event of a panel to all who asked for its kind."""
         for handler in tuple(self._handlers[type(event)]):
             handler(panel, event)
 
@@ -37,6 +39,7 @@ class Click:
 
     @property
     def is_plain(self) -> bool:
+        """Whether neither Shift nor Ctrl was held."""
         return not (self.has_shift or self.has_ctrl)
 
 

@@ -45,6 +45,7 @@ class Eye(QtCore.QObject):
 
     @cached_property
     def camera(self) -> "pyvista.Camera":
+        """The camera that all panels of the surface share."""
         import pyvista  # with the first panel, not with the window
 
         return pyvista.Camera()

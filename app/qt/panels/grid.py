@@ -79,6 +79,7 @@ class PanelGrid(QtWidgets.QWidget):
         return list(self._panels.values())
 
     def panel(self, id: int) -> DistancePanel:
+        """The panel of an id; KeyError if there is none."""
         return self._panels[id]
 
     def has(self, id: int) -> bool:
@@ -238,6 +239,7 @@ class PanelGrid(QtWidgets.QWidget):
         self.pointing.show_again_soon()
 
     def show_error_estimate(self, id: int) -> None:
+        """Show in a panel's head how accurate its answer is."""
         self._panels[id].show_error_estimate(self._session.shown[id])
 
     # ------------------------------------------------------------------ the camera
@@ -246,6 +248,7 @@ class PanelGrid(QtWidgets.QWidget):
         self.redraw()
 
     def show_axes(self, has_axes: bool) -> None:
+        """Show in all panels which way the axes point, or no longer."""
         for panel in self.panels:
             panel.view.over.show_axes(has_axes)
 

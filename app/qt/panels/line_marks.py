@@ -29,6 +29,7 @@ class LineMarks:
 
     @property
     def points(self) -> np.ndarray:
+        """All points (k, 3) of the lines."""
         return np.concatenate([np.empty((0, 3)), *(points for _, points in self._lines)])
 
     def show(self, lines: Sequence[Course]) -> bool:

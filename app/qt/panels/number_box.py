@@ -43,6 +43,7 @@ def _ends(parameter: Parameter) -> tuple[float, float]:
 
 
 def symbol(parameter: Parameter) -> str:
+    """The symbol of a parameter, such as t, or its name."""
     return SYMBOLS.get(parameter.name, parameter.name)
 
 

@@ -212,6 +212,7 @@ class DistancePanel(QtWidgets.QWidget):
 
     @property
     def isolines(self) -> Isolines:
+        """Which isolines the panel draws."""
         return self._isolines
 
     @property

@@ -99,6 +99,7 @@ class NumberControl(QtWidgets.QWidget):
         self.button.setAccessibleName(f"{self.tip}: {self.parameter.written(value)}")
 
     def show_slider(self, shown: bool) -> None:
+        """Show the slider where there is room for one, or the value alone."""
         self._has_slider = shown and self._may_have_slider
         self.slider.setVisible(self._has_slider)
         self.button.symbol = "" if self._has_slider else self.sign
@@ -115,6 +116,7 @@ class NumberControl(QtWidgets.QWidget):
         return self._needed(with_slider, SLIDER_MOST)
 
     def open_under(self, control: QtWidgets.QWidget) -> None:
+        """Open the box in which the value is typed, under a control."""
         self.pop_up.open_under(control)
 
     def add_to(self, menu: QtWidgets.QMenu) -> None:

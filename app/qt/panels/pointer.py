@@ -57,6 +57,7 @@ class Pointer:
 
     # ------------------------------------------------------------------ what Qt tells
     def press(self, event: QtGui.QMouseEvent) -> None:
+        """A button goes down: what it holds from here on is decided."""
         view = self._view
         view.pressed.emit()
         if not self.is_up:
@@ -80,6 +81,7 @@ class Pointer:
             view.setCursor(QtCore.Qt.CursorShape.ClosedHandCursor)
 
     def move(self, event: QtGui.QMouseEvent) -> None:
+        """The pointer moves: it points, or what is held follows."""
         view = self._view
         if event.buttons() == _NONE:
             self._button = _NONE
@@ -111,6 +113,7 @@ class Pointer:
             self._drag(step, event.modifiers())
 
     def release(self, event: QtGui.QMouseEvent) -> None:
+        """The button comes up: a click, or the end of a drag."""
         view = self._view
         if event.button() != self._button:
             return

@@ -31,6 +31,7 @@ class Stopped(QtWidgets.QWidget):
         self.hide()
 
     def show_words(self, words: str) -> None:
+        """Show why there is no field, and the button that starts it again."""
         self.words.setText(words)
         self.fit()
         self.show()

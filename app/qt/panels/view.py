@@ -62,11 +62,13 @@ class View(QtWidgets.QWidget):
     # ------------------------------------------------------------------ what is seen
     @property
     def renderer(self) -> vtkRenderer:
+        """The renderer of the view's scene, as large as the view."""
         self.offscreen.fit(self.pixels)
         return self.scene.renderer
 
     @property
     def camera(self) -> vtkCamera:
+        """The camera of the view's scene."""
         return self.scene.renderer.GetActiveCamera()
 
     @property
@@ -87,6 +89,7 @@ class View(QtWidgets.QWidget):
 
     @property
     def is_empty(self) -> bool:
+        """Whether there is no surface in the view."""
         return self._is_empty
 
     @property

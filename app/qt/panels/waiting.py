@@ -35,6 +35,7 @@ class Waiting(QtWidgets.QWidget):
 
     @property
     def text(self) -> str:
+        """What is waited for, with how much of it is done where that is known."""
         known = 0.0 <= self._fraction <= 1.0
         return f"{self._words}, {self._fraction:.0%}".replace("%", " %") if known else f"{self._words}…"
 

@@ -32,6 +32,7 @@ class CandidateErrors(QtCore.QObject):
 
     # ------------------------------------------------------------------ what is told
     def document_changed(self, _: object = None) -> None:
+        """Ask for the errors of the candidates that are shown now."""
         asked, before = self._wanted(), self._asked
         if asked is None and before is None:
             return
@@ -47,6 +48,7 @@ class CandidateErrors(QtCore.QObject):
         self._show()
 
     def answer_changed(self, _: int) -> None:
+        """Ask for the errors of other candidates."""
         self.document_changed()
 
     def show_again(self) -> None:

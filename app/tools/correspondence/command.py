@@ -13,6 +13,7 @@ TEXT = ".txt"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `correspond` to its parser."""
     parser.add_argument("mesh", help="the mesh A that is mapped: a file, or the name of a sample")
     parser.add_argument("other", help="the mesh B that it is mapped to")
     parser.add_argument(
@@ -31,6 +32,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
+    """Write the map of the first mesh to the second that corresponding points predict."""
     from bihdist_core.applications.correspondence import Correspondence
     from bihdist_core.distances.answers import Distances, same_on
     from bihdist_core.formats.vertex_maps import MAP_FORMATS, read_map, read_pairs, write_map

@@ -201,6 +201,7 @@ class PairsDock(Instrument):
         self.context.edit(predict(self._document))
 
     def end_tool(self) -> None:
+        """Show distances again in place of predictions and maps."""
         self.context.edit(show_distances(self._document))
 
     def _open_beside(self) -> None:
@@ -237,10 +238,12 @@ class PairsDock(Instrument):
             self._choose(rows[number])
 
     def remove_all(self) -> None:
+        """Remove all pairs."""
         self.context.edit(remove_pairs(self._document, self._document[Pairs].pairs))
 
     # ------------------------------------------------------------------ files
     def choose_and_read(self) -> None:
+        """Ask for a file of pairs, and read it."""
         folder = self.context.folder
         path, _ = QtWidgets.QFileDialog.getOpenFileName(self, "Read pairs", folder, READ)
         if path:
@@ -263,6 +266,7 @@ class PairsDock(Instrument):
         self.context.tell(f"Read {len(found):,} pairs from {Path(path).name}{known}")
 
     def choose_and_save(self) -> None:
+        """Ask for a file, and write the pairs."""
         session, document = self.context.session, self._document
         loaded = [session.loaded(mesh.name) for mesh in document.surfaces[:2]]
         name = file_name([each.surface.name for each in loaded if each is not None], "pairs")

@@ -58,10 +58,12 @@ class ErrorChart(Chart):
         self.setFixedHeight(round(self.HEIGHT * LOOK.scale))
 
     def show_curves(self, curves: Sequence[MapCurve]) -> None:
+        """Show a curve for each map."""
         self.curves = curves
         self.redraw()
 
     def show_at(self, threshold: float | None) -> None:
+        """Mark a threshold on the curves, None for none."""
         if threshold != self.at:
             self.at = threshold
             self.update()

@@ -23,6 +23,7 @@ METHODS = ("auto", "exact", "heat", "dijkstra")
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `evaluate` to its parser."""
     parser.add_argument("mesh", help="the mesh A that is mapped: a file, or the name of a sample")
     parser.add_argument("other", help="the mesh B that it is mapped to")
     parser.add_argument(
@@ -47,6 +48,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
+    """Print the errors of maps between two meshes, and write their curves where asked."""
     import numpy as np
 
     from bihdist_core.applications.map_errors import sampled_vertices

@@ -127,6 +127,7 @@ class PairGestures(Gesture):
         return True
 
     def remove(self, pairs: list[Pair]) -> None:
+        """Remove these pairs."""
         self.context.edit(remove_pairs(self._document, pairs))
 
     def remove_chosen(self) -> bool:

@@ -111,6 +111,7 @@ class MapErrors(QtWidgets.QWidget):
             self._put_dots(self._colours())
 
     def show_closed(self) -> None:
+        """Ask for nothing while the dock is closed."""
         self._ask(None)
         self._put_dots({})
 
@@ -253,6 +254,7 @@ class MapErrors(QtWidgets.QWidget):
             action.triggered.connect(lambda *_, spec=spec, found=found: self.save_map(spec, found))
 
     def save_map(self, spec: Spec, found: Any) -> None:
+        """Ask for a file, and write a map's vertices (n,)."""
         asked = self.asked
         meshes = [] if asked is None else [each.surface.name for each in (asked.one, asked.two)]
         name = file_name(meshes, "map", str(spec))

@@ -82,12 +82,15 @@ class MapTruth:
 
     # ------------------------------------------------------------------ by a dialog
     def choose(self) -> None:
+        """Ask for the file of the true map."""
         self._ask("Where each vertex of A belongs on B", self.take)
 
     def choose_partners(self) -> None:
+        """Ask for the file of symmetric partners."""
         self._ask("The symmetric partner of each vertex of B", self.take_partners)
 
     def choose_map(self) -> None:
+        """Ask for the file of a map to be compared."""
         self._ask("A map from A to B", self.take_map)
 
     def _ask(self, title: str, take: Callable[[str], None]) -> None:
@@ -157,6 +160,7 @@ class MapTruth:
         save_figure(context, "Save the curves as a figure", self._file_name(), save_error_figure, figure, path)
 
     def save_numbers(self) -> None:
+        """Ask for a file, and write the curves of errors as a table."""
         from ...figures.error_figure import ErrorFigure, save_error_figure
 
         curves = self._section.named_curves()

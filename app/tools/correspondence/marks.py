@@ -36,6 +36,7 @@ def marks(marked: MarkedPanel) -> list[PointMark | LegendRow]:
 
 
 def pair_mark(located: LocatedPairPoint) -> PointMark:
+    """A pin marker at one point of a pair."""
     colour = WAITING if located.is_waiting else PINS[located.pair.colour]
     return PointMark(
         located.vertex, PIN, colour, number=located.number, name=f"Point {located.number}", point=located.point

@@ -45,6 +45,7 @@ class Prediction(ByDistance):
         return Choice("Prediction by it", tip, cls(spec)) if has_other else None
 
     def question(self, document: Document, surface: str) -> "PredictionQuestion":
+        """What has to be answered to predict the partner of the next point."""
         from ...session.prediction_answers import prediction_question
 
         return prediction_question(document, surface, self.spec)

@@ -44,6 +44,7 @@ class PairRow(QtWidgets.QWidget):
             self.update()
 
     def show_chosen(self, is_chosen: bool) -> None:
+        """Let the row stand out, or no longer."""
         self._is_chosen = is_chosen
         self._show_bin()
         self.update()

@@ -18,6 +18,7 @@ TEXT = ".csv"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `interpolate` to its parser."""
     parser.add_argument("mesh", help="mesh file, or the name of a sample")
     parser.add_argument(
         "--anchors",
@@ -39,6 +40,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
+    """Write the interpolant of values at a few vertices, and print its other extrema."""
     import numpy as np
 
     from bihdist_core.analysis.quality import other_extrema

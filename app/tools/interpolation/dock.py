@@ -218,6 +218,7 @@ class AnchorsDock(Instrument):
         self._show(interpolate(self._document))
 
     def end_tool(self) -> None:
+        """Show distances again in place of interpolants."""
         self._show(show_distances(self._document))
 
     def _value(self, point: str, value: float, is_live: bool) -> None:
@@ -260,6 +261,7 @@ class AnchorsDock(Instrument):
             self._choose(row.point)
 
     def remove_all(self) -> None:
+        """Remove all anchors."""
         self._show(remove_anchors(self._document, [anchor.point for anchor in self._anchors(self._document)]))
 
     def _weigh(self) -> None:
@@ -294,6 +296,7 @@ class AnchorsDock(Instrument):
 
     # ------------------------------------------------------------------ files
     def choose_and_read(self) -> None:
+        """Ask for a file of anchors, and read it."""
         folder = self.context.folder
         path, _ = QtWidgets.QFileDialog.getOpenFileName(self, "Read anchors", folder, READ)
         if path:
@@ -315,6 +318,7 @@ class AnchorsDock(Instrument):
         self.context.tell(f"Read {len(found):,} anchors from {Path(path).name}{moved}")
 
     def choose_and_save(self) -> None:
+        """Ask for a file, and write the anchors."""
         document, surface = self._document, self.context.session.surface
         anchors = self._anchors(document)
         vertices = [vertex_at(document.point(anchor.point).at, surface) for anchor in anchors]

@@ -32,6 +32,7 @@ class AnchorExtrema(FactTable):
         context[Findings].quality_changed.connect(self.show_counts)
 
     def show_document(self, document: Document) -> None:
+        """Look for the tips of another surface's limbs, and count extrema anew."""
         loaded = self._context.session.loaded()
         about = (loaded, document.areas)
         if loaded is not None and about != self._about:
@@ -48,6 +49,7 @@ class AnchorExtrema(FactTable):
         self.show_counts()
 
     def show_counts(self) -> None:
+        """Show how many extrema each interpolant has beside its anchors."""
         session, grid = self._context.session, self._context.grid
         if session.surface is None or "anchors" not in session.document.docks:
             return

@@ -69,6 +69,7 @@ class AnchorGestures(Gesture):
         self.chosen.emit(point)
 
     def remove(self, points: list[str]) -> None:
+        """Remove the anchors at these points."""
         session = self.context.session
         session.show(remove_anchors(session.document, points))
 

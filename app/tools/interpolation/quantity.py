@@ -62,6 +62,7 @@ class Interpolant(ByDistance):
         return Choice("Interpolant by it", "Values at anchors, interpolated by this distance", cls(spec))
 
     def question(self, document: Document, surface: str) -> "InterpolantQuestion":
+        """What has to be answered to show the interpolant of the anchors on a surface."""
         from .answers import InterpolantQuestion
 
         anchors = [

@@ -92,6 +92,7 @@ class AnchorRow(QtWidgets.QWidget):
         self.slider.setEnabled(not is_out)
 
     def show_chosen(self, is_chosen: bool) -> None:
+        """Let the row stand out, or no longer."""
         if is_chosen != self._is_chosen:
             self._is_chosen = is_chosen
             self._show_cross()

@@ -46,6 +46,7 @@ class AnchorSamples(QtWidgets.QWidget):
         context.closed.connect(self._sampling.close)
 
     def add_them(self) -> None:
+        """Look for farthest points, and make anchors of them."""
         session, panel = self._context.session, self._panel
         loaded = None if panel is None else session.loaded(panel.surface)
         if panel is None or loaded is None:

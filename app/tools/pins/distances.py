@@ -82,6 +82,7 @@ class PinDistances(QtWidgets.QWidget):
         self._ask()
 
     def end(self) -> None:
+        """End the thread."""
         self._among.close()
 
     @property
@@ -90,6 +91,7 @@ class PinDistances(QtWidgets.QWidget):
 
     @property
     def is_known(self) -> bool:
+        """Whether the distances among the pins are there."""
         return self.matrix() is not None
 
     def matrix(self) -> FloatArray | None:

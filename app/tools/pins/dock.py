@@ -235,6 +235,7 @@ class PinsDock(Instrument):
         return self.context.document[Pins].pin_list.positions
 
     def show_positions(self, is_on: bool) -> None:
+        """Show x, y and z in the list, or no longer."""
         self.list_otherwise(positions=is_on)
 
     def list_otherwise(self, **changes: Any) -> None:
@@ -252,6 +253,7 @@ class PinsDock(Instrument):
             self.files.copy_matrix(matrix)
 
     def copy_list(self) -> None:
+        """Copy the list to the clipboard with all digits."""
         if self.places:
             self.files.copy_list([(title, answer) for title, answer, _ in self.answers()])
 
@@ -300,6 +302,7 @@ class PinsDock(Instrument):
         self.wrong.hide()
 
     def rename(self, point: str, name: str) -> None:
+        """Give the pin at a point another name."""
         self._show(lambda document: change_pin(document, replace(self._pin(point), name=name)))
 
     def recolour(self, colour: int) -> None:
@@ -325,6 +328,7 @@ class PinsDock(Instrument):
                 self.move_to(self.table.points[0], place)
 
     def remove(self, points: Sequence[str]) -> None:
+        """Remove the pins at these points."""
         self._show(lambda document: remove_pins(document, points))
 
     def _pin(self, point: str) -> Pin:

@@ -33,6 +33,7 @@ class PinFiles:
 
     # ------------------------------------------------------------------ files
     def choose_and_save(self) -> None:
+        """Ask for a file, and write the pins."""
         surface = self._context.session.first_surface
         path = ask_path(self._context, "Save pins", file_name([surface.name], "pins"), PIN_FORMATS)
         if path:
@@ -54,6 +55,7 @@ class PinFiles:
         )
 
     def choose_and_read(self) -> None:
+        """Ask for a file of pins, and read it."""
         path, _ = QtWidgets.QFileDialog.getOpenFileName(self._context.widget, "Read pins", str(self._folder), READ)
         if path:
             self.read(path)

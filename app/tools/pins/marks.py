@@ -13,6 +13,7 @@ def marks(marked: MarkedPanel) -> list[PointMark]:
 
 
 def pin_mark(pin: LocatedPin) -> PointMark:
+    """A pin marker with its number and colour."""
     colour = PINS[pin.pin.colour]
     if pin.vertex is not None:
         return PointMark(pin.vertex, PIN, colour, number=pin.number, point=pin.point)

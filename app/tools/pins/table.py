@@ -75,6 +75,7 @@ class PinRows(QtCore.QAbstractTableModel):
         return 0 if parent.isValid() else 3 + len(self.titles)
 
     def title(self, column: int) -> str:
+        """What stands over a column."""
         return ("", "Name", "Vertex", *self.titles)[column]
 
     def show_lines(self, lines: dict[int, str]) -> None:
@@ -84,6 +85,7 @@ class PinRows(QtCore.QAbstractTableModel):
             self.headerDataChanged.emit(QtCore.Qt.Orientation.Horizontal, 0, self.columnCount() - 1)
 
     def text(self, row: PinRow, column: int) -> str:
+        """What stands in a column of a row."""
         return (str(row.number), row.name, row.vertex, *row.values)[column]
 
     def data(self, index: QtCore.QModelIndex, role: int = ROLE.DisplayRole) -> object:
@@ -167,6 +169,7 @@ class PinTable(QtWidgets.QTableView):
 
     # ------------------------------------------------------------------ what is shown
     def show_rows(self, rows: Sequence[PinRow], titles: Sequence[str], tips: Sequence[str]) -> None:
+        """Show these rows; those still there stay selected."""
         points = self._points
         self.rows.show(rows, titles, tips)
         there = {row.point for row in rows}

@@ -36,18 +36,22 @@ class ProfileCharts(QtWidgets.QWidget):
 
     @property
     def at(self) -> float | None:
+        """The arc length that is marked on all charts, None for none."""
         return self.charts[0].at
 
     @property
     def arcs(self) -> AnyArray:
+        """Arc lengths (k,) of the points of the path."""
         return self.charts[0].arcs
 
     @property
     def knots(self) -> Sequence[tuple[float, Badge]]:
+        """Arc lengths of the points the path was led through, with their badges."""
         return self.charts[0].knots
 
     @property
     def sentence(self) -> str:
+        """What the charts say in place of curves, "" if there are some."""
         return self.charts[0].sentence
 
     @property

@@ -29,10 +29,13 @@ WAYS = {
 
 
 class ProfileChoices:
+    """The menus of the profile's dock: its ends, and how the path is found."""
+
     def __init__(self, dock: "ProfileDock") -> None:
         self._dock = dock
 
     def show(self, document: Document, **profile: Any) -> None:
+        """Show a document with these fields of its profile changed."""
         self._dock.context.edit(document.with_part(replace(document[Profile], **profile)))
 
     def choose_way(self, way: str) -> None:
@@ -73,6 +76,7 @@ class ProfileChoices:
             self._dock.context.fail(error)
 
     def fill_ends(self, k: int) -> None:
+        """Fill the menu of the first (0) or last (1) point."""
         menu, document = self._dock.ends[k].menu(), self._dock.document
         menu.clear()
         through = points_along(document)
@@ -98,6 +102,7 @@ class ProfileChoices:
         QtCore.QTimer.singleShot(0, partial(self.type_end, k, text))
 
     def fill_ways(self) -> None:
+        """Fill the menu of how the path goes from point to point."""
         menu, document = self._dock.way.menu(), self._dock.document
         menu.clear()
         through = points_along(document)

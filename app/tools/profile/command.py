@@ -15,6 +15,7 @@ TEXT = ".csv"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `profile` to its parser."""
     parser.add_argument("mesh", help="mesh file, or the name of a sample")
     parser.add_argument("--source", type=source, metavar="V", help=f"{SOURCE} (default: the highest vertex)")
     parser.add_argument("--pins", metavar="FILE", help="a .csv, .json or MeshLab's .pp file")
@@ -42,6 +43,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Write distances along a path as numbers or a chart; the exit status is 1 if one of them failed."""
     from dataclasses import replace
 
     from bihdist_core.analysis.profile_output import PROFILE_FORMATS, write_profile

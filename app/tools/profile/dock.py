@@ -164,6 +164,7 @@ class ProfileDock(Instrument):
         return [self.context.grid.panel(panel.id) for panel in panels if panel.surface == self.surface]
 
     def surface_of(self, name: str) -> Surface:
+        """The surface of a name in the document."""
         return self.context.session.loaded(name).surface
 
     def seen(self) -> tuple[float, float, float]:

@@ -26,11 +26,14 @@ FIGURE_FORMATS = (".pdf", ".png", ".svg", ".eps")
 
 
 class ProfileFiles:
+    """The profile as numbers and as a figure: the menu, the dialogs and what they write."""
+
     def __init__(self, dock: "ProfileDock") -> None:
         self._dock = dock
         self._actions: list[QtWidgets.QAction] = []
 
     def menu(self, parent: QtWidgets.QWidget) -> QtWidgets.QMenu:
+        """The menu of what can be saved and copied."""
         menu = QtWidgets.QMenu(parent)
         self._actions = [
             menu.addAction("Save the numbers…", self.choose_numbers),
@@ -41,14 +44,17 @@ class ProfileFiles:
         return menu
 
     def allow(self, is_there: bool) -> None:
+        """Enable the menu's entries, or disable them."""
         for action in self._actions:
             action.setEnabled(is_there)
 
     # ------------------------------------------------------------------ by a dialog
     def choose_numbers(self) -> None:
+        """Ask for a file, and write the numbers."""
         self._choose("Save the profile's numbers", tuple(PROFILE_FORMATS), self.save_numbers)
 
     def choose_figure(self) -> None:
+        """Ask for a file, and draw the chart."""
         self._choose("Save the profile as a figure", FIGURE_FORMATS, self.save_figure)
 
     def _choose(self, title: str, formats: tuple[str, ...], save: Callable[[str], None]) -> None:

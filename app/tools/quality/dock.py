@@ -196,6 +196,7 @@ class QualityDock(Instrument):
         return "\n".join("\t".join(line) for line in lines)
 
     def copy(self) -> None:
+        """Copy the table to the clipboard."""
         QtWidgets.QApplication.clipboard().setText(self.text())
         self.context.tell("The table is in the clipboard")
 

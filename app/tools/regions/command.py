@@ -14,6 +14,7 @@ TEXT = ".csv"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `regions` to its parser."""
     parser.add_argument("mesh", help="mesh file, or the name of a sample")
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument("--pins", metavar="FILE", help="a .csv, .json or MeshLab's .pp file")
@@ -31,6 +32,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
+    """Write which of some vertices each vertex is nearest to, and print the areas of the regions."""
     from bihdist_core.analysis.region_boundaries import region_boundaries, write_boundaries
     from bihdist_core.analysis.region_mesh import region_mesh
     from bihdist_core.analysis.region_output import LABEL_FORMATS, REGION_MESH_FORMATS, write_labels, write_region_mesh

@@ -216,6 +216,7 @@ class RegionsDock(Instrument):
         return "\n".join("\t".join(line) for line in lines)
 
     def copy(self) -> None:
+        """Copy the areas to the clipboard."""
         QtWidgets.QApplication.clipboard().setText(self.text())
         self.context.tell("The areas are in the clipboard")
 

@@ -74,10 +74,12 @@ class Sampler(QtWidgets.QWidget):
             self._say(f"By the active panel's distance: {name[0].lower()}{name[1:]}")
 
     def end(self) -> None:
+        """End the thread."""
         self._sampling.close()
 
     # ------------------------------------------------------------------ what is done
     def pin_them(self) -> None:
+        """Look for farthest points, and put pins there."""
         self._ask(self._pin)
 
     def save_to(self, path: str) -> None:

@@ -14,6 +14,7 @@ TEXT = ".txt"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `samples` to its parser."""
     parser.add_argument("mesh", help="mesh file, or the name of a sample")
     parser.add_argument("--count", type=count, metavar="K", required=True, help="so many, the source among them")
     parser.add_argument(
@@ -34,6 +35,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
+    """Write vertices each of which is farthest from those before it."""
     from bihdist_core.analysis.sampling import SAMPLE_FORMATS, farthest_points, starts_of, write_samples
     from bihdist_core.analysis.upright import guess_up
     from bihdist_core.distances.answers import Distances

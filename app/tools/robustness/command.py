@@ -21,6 +21,7 @@ WORDS = "a mesh with noise, fewer vertices, holes, or parts grown together, to s
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `perturb` to its parser."""
     parser.add_argument("mesh", help="mesh file, or the name of a sample")
     parser.add_argument("--pose", default="", metavar="FILE", help="another pose, with the same vertices and faces")
     parser.add_argument("--cut", type=_faces, default=(), metavar="FACES", help="take out faces, as in 3+10-20")
@@ -40,6 +41,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
+    """Write a changed mesh, and print how much a distance on it differs."""
     from bihdist_core.applications.changes import Perturbation
     from bihdist_core.applications.perturbation import perturbed
     from bihdist_core.errors import ParameterError

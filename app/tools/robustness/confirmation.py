@@ -48,6 +48,7 @@ class ChangeAsking(QtCore.QObject):
             self._soon.start()
 
     def forget(self) -> None:
+        """Ask for no change any more."""
         self.wanted = None
         self._soon.stop()
 

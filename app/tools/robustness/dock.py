@@ -335,6 +335,7 @@ class RobustnessDock(Instrument):
         self._picking.pick(word, lambda pair: self._join(word, pair))
 
     def choose_pose(self) -> None:
+        """Ask for the file of another pose, and take it."""
         folder = self.context.folder
         path, _ = QtWidgets.QFileDialog.getOpenFileName(self, "Another pose", folder, MESH_FILES)
         if path:
@@ -354,10 +355,12 @@ class RobustnessDock(Instrument):
 
     # ------------------------------------------------------------------ what is written
     def copy(self) -> None:
+        """Copy the numbers to the clipboard."""
         QtWidgets.QApplication.clipboard().setText(self.table.text())
         self.context.tell("The numbers are in the clipboard")
 
     def choose_and_save(self) -> None:
+        """Ask for a file, and write the changed mesh."""
         session = self.context.session
         mesh = changed_mesh(session.document)
         loaded = None if mesh is None else session.loaded(mesh.name)

@@ -39,6 +39,7 @@ class ChangeGestures(Gesture):
         self.changed.emit()
 
     def stop(self) -> None:
+        """Let clicks pick no points of a change any more."""
         if self.word:
             self.word, self._done, self.picked = "", _nothing, ()
             self.context.tell("")

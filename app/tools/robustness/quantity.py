@@ -44,6 +44,7 @@ class ChangeOf(FromPoint):
         return "positive where it is larger after the change, negative where it was before"
 
     def question(self, document: "Document", surface: str) -> "ChangeQuestion":
+        """What has to be answered to show how a distance differs on the changed surface."""
         from .answers import ChangeQuestion
 
         return ChangeQuestion(document.mesh(surface), document.areas, self.spec, document.point(self.point).at)

@@ -26,9 +26,11 @@ class Scale:
     digits: int = 0
 
     def at(self, step: int) -> float:
+        """The value at a step of the slider."""
         return round(self.low + (self.high - self.low) * float((step / STEPS) ** self.power), self.digits)
 
     def step_of(self, value: float) -> int:
+        """The step of the slider that is nearest to a value."""
         share = (value - self.low) / (self.high - self.low) if self.high > self.low else 0.0
         return round(STEPS * float(min(max(share, 0.0), 1.0) ** (1 / self.power)))
 
@@ -170,6 +172,7 @@ def label(words: str) -> QtWidgets.QLabel:
 
 
 def quiet(words: str) -> QtWidgets.QLabel:
+    """A label in the quiet colour of secondary text."""
     found = QtWidgets.QLabel(words)
     found.setProperty("quiet", True)
     return found

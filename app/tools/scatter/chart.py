@@ -53,6 +53,7 @@ class ScatterChart(Chart):
         self.show_axes(*axes)
 
     def show_nothing(self, sentence: str) -> None:
+        """Show a sentence in place of points."""
         self.scatter = None
         self.say(sentence)
 

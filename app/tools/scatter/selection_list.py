@@ -60,6 +60,7 @@ class SelectionList(QtWidgets.QTreeWidget):
 
     # ------------------------------------------------------------------ what is shown
     def show_selections(self, selections: tuple[Selection, ...], current: str) -> None:
+        """Show the selections, and which of them the brush changes."""
         self._is_filling = True
         if selections != self._shown:
             self._shown = selections
@@ -118,6 +119,7 @@ class SelectionList(QtWidgets.QTreeWidget):
             self._context.edit(select(self._document, self.current, np.empty(0, np.int64)))
 
     def recolour(self, colour: int) -> None:
+        """Give the selection that the brush changes another colour."""
         if self.current:
             self._context.edit(change_selection(self._document, self.current, colour=colour))
 

@@ -18,6 +18,7 @@ BINS = 40
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `statistics` to its parser."""
     parser.add_argument("mesh", help="mesh file, or the name of a sample")
     parser.add_argument("--source", type=source, metavar="V", required=True, help=SOURCE)
     add_distance(parser, "two to compare them (default: biharmonic)")
@@ -35,6 +36,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
+    """Print statistics of a field, or of the difference of two."""
     from bihdist_core.analysis.truncation import truncation_loss
     from bihdist_core.errors import ParameterError
     from bihdist_core.whole_file import check_outputs

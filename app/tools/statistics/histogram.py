@@ -39,6 +39,7 @@ class Histogram(QtWidgets.QWidget):
         self.update()
 
     def clear(self) -> None:
+        """Show no bars."""
         self._ends, self._shares = np.empty(0), np.empty(0)
         self.update()
 

@@ -135,6 +135,7 @@ class LevelBox(QtWidgets.QWidget):
 
     # ------------------------------------------------------------------ what becomes of it
     def select(self) -> None:
+        """Select the vertices between the two values."""
         if self.band is not None:
             self._context[Brushing].select(self.band.vertices)
 
@@ -143,9 +144,11 @@ class LevelBox(QtWidgets.QWidget):
         save_isolines(self._context, self._context.grid.active, path)
 
     def save_ids(self, path: str = "") -> None:
+        """Write the ids of the vertices between the two values; with "" a file is asked for."""
         self._save_region("ids", path)
 
     def save_mesh(self, path: str = "") -> None:
+        """Write the part of the mesh between the two values; with "" a file is asked for."""
         self._save_region("mesh", path)
 
     def _save_region(self, way: str, path: str) -> None:

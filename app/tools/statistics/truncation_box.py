@@ -98,6 +98,7 @@ class TruncationBox(QtWidgets.QWidget):
                 self._show()
 
     def compute(self) -> None:
+        """Compute the error of truncation for growing numbers of eigenpairs."""
         if self._wanted is None:
             return
         self._is_on, self._request = True, self._wanted
@@ -167,6 +168,7 @@ class LossCurves(QtWidgets.QWidget):
         LOOK.follow(self, self.update)
 
     def show_loss(self, loss: TruncationLoss, at: int) -> None:
+        """Show the curves, and mark the number of eigenpairs `at`."""
         self._loss, self._at = loss, at
         self.update()
 
