@@ -48,9 +48,9 @@ def ask_path(context: Context, title: str, name: str, formats: Sequence[str]) ->
     dialog.setDefaultSuffix(formats[0].removeprefix("."))
 
     def take_format(chosen: str) -> None:
-        extension = re.search(r"\*\.(\w+)", chosen)
-        if extension:
-            dialog.setDefaultSuffix(extension[1])
+        found = re.search(r"\*(\.\w+)", chosen)
+        extension = found[1] if found else formats[0]
+        dialog.setDefaultSuffix(extension.removeprefix("."))
         for path in dialog.selectedFiles()[:1]:  # a dialog of the desktop may have none yet
             stem, typed = os.path.splitext(os.path.basename(path))
             if typed in formats:
