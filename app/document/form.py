@@ -17,7 +17,7 @@ from bihdist_core.sources.words import curve_rows, places_from
 from .camera import Camera, View
 from .document import Document, MeshFile
 from .json_values import Reader, field_readers, flag, listed, numbers, placed, reader_of, record, text, whole
-from .looks import Isolines
+from .looks import Isolines, one_of
 from .quantities import Quantity, quantity_from, read_spec
 from .tools import part_types
 
@@ -48,7 +48,8 @@ def document_from(data: Any, where: str = "document") -> Document:
         kind: {kind.key: reader_of(kind, READERS)} if kind.key else field_readers(kind, READERS)
         for kind in part_types()
     }
-    readers: dict[str, Reader] = {**own, "tool": text}  # which was always the same
+    # Files of before name the tool that is on, which follows from what is shown.
+    readers: dict[str, Reader] = {**own, "tool": lambda data, _: one_of(text(data, "tool"), ("source",), "tool")}
     for more in of_parts.values():
         readers |= more
     values = record(data, where, readers, ALWAYS)
