@@ -2,12 +2,10 @@
 
 With G = matrix^-1 and a diagonal A, the diagonal of G A G costs no more than a few factorizations (paper, Eq. 9 and
 10 need it for every vertex): it is minus the derivative of diag((matrix + t A)^-1) at t = 0, and since A is diagonal
-that derivative lives on the factor's own pattern.  So everything carries its derivative (see `elimination`).
+that derivative lives on the factor's own pattern.  So everything carries its derivative (see `kernel/kernel.h`).
 """
 
-import math
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -16,30 +14,28 @@ import scipy.sparse as sp
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..progress import Progress
-from .blas import one_blas_thread
-from .elimination import Block, eliminate_branch, entries_by_stack
-from .elimination_tree import EliminationTree
-from .selected_inversion import invert_branch
-from .substitution import Run, sandwich_columns, solve_into
-from .worker_threads import Job, side_by_side
+from .compiled_factor import CompiledFactor
+from .compiled_tree import CompiledTree
+from .elimination_tree import EliminationTree, canonical
+from .plain import PlainFactor
+from .worker_threads import Job, Run, in_turn, side_by_side
 
 ReceivePiece = Callable[[IntArray, slice, FloatArray], None]
 """Takes some rows (r,), a slice of the columns asked for, and the values (r, k) there, which it may overwrite."""
 
-TINY = -100
-"""Areas are scaled to about 2**TINY of the diagonal: the square of that is lost in rounding whatever the condition,
-and is still far from where numbers end."""
-
 WIDE = 32
 """How many columns are solved for together: more would not stay in the cache."""
+
+SMALL = 1 << 23
+"""A factor of fewer bytes is read by one thread faster than several begin."""
 
 
 class Factor:
     """Factor of one matrix on an elimination tree that it may share with others.  Usable from several threads.
 
     matrix: (n, n) sparse, symmetric positive definite, with no entry outside the tree's pattern; only the diagonal and
-    what is below it are read.  areas: (n,), at least 0: the diagonal of A, needed for `diagonal`,
-    `sandwich_diagonal` and `sandwich_columns`.  `progress` is called from the calling thread only.
+    one side of it are read.  areas: (n,), at least 0: the diagonal of A, needed for `diagonal`, `sandwich_diagonal` and
+    `sandwich_columns`.  `progress` is called from the calling thread only.
 
     Raises SolverError if the matrix is not positive definite, ParameterError if shapes or values do not fit.
     """
@@ -53,37 +49,20 @@ class Factor:
     ) -> None:
         matrix, weights = _checked_matrix(tree, matrix), _checked_areas(tree, areas)
         self.tree = tree
+        layout = tree.layout
+        # The inversion takes about as long as the elimination.
+        job = Job(progress, "Factoring the matrix", layout.work * (1 + (weights is not None)))
+        if isinstance(layout, CompiledTree):
+            self._blocks: CompiledFactor | PlainFactor = CompiledFactor(layout, matrix, weights, job)
+        else:
+            self._blocks = PlainFactor(layout, matrix, weights, job)
         self._diagonals: tuple[FloatArray, FloatArray] | None = None
         if weights is not None:
-            self._scale = _tiny_scale(weights, matrix.diagonal())
-            weights = weights * self._scale
-        with one_blas_thread():
-            # Measured: the inversion and the gathers of an elimination take about as long as each other.
-            work = sum(stack.work for stack in tree.stacks) * (1 + (weights is not None))
-            job = Job(progress, "Factoring the matrix", work)
-            entries = entries_by_stack(tree, matrix, weights)
-            blocks: list[Block | None] = [None] * len(tree.stacks)
-            schur = job.run(lambda q: eliminate_branch(tree, q, [], entries, blocks, job), tree.branches)
-            below = [pair for pairs in schur for pair in pairs]
-            del schur
-            if tree.top.levels:
-                job.run(lambda q: eliminate_branch(tree, q, below, entries, blocks, job), [tree.top])
-            self._blocks: list[Block] = [block for block in blocks if block is not None]
-            if weights is not None:
-                self._diagonals = self._inverted(job)
-            job.finish()
-
-    def _inverted(self, job: Job) -> tuple[FloatArray, FloatArray]:
-        tree, blocks = self.tree, self._blocks
-        result = np.empty(tree.n, complex)
-        (above,) = job.run(lambda top: invert_branch(tree, top, np.empty(0), blocks, result, job), [tree.top])
-        job.run(lambda branch: invert_branch(tree, branch, above, blocks, result, job), tree.branches)
-        with np.errstate(over="ignore"):
-            diagonals = result.real.copy(), result.imag / self._scale
-        for diagonal in diagonals:
-            _check_result(diagonal)
-            diagonal.flags.writeable = False
-        return diagonals
+            self._diagonals = self._blocks.diagonals(job)
+            for diagonal in self._diagonals:
+                _check_result(diagonal)
+                diagonal.flags.writeable = False
+        job.finish()
 
     @property
     def diagonal(self) -> FloatArray:
@@ -98,7 +77,7 @@ class Factor:
     @property
     def nbytes(self) -> int:
         """How many bytes the factor holds, the tree not counted."""
-        return sum(block.nbytes for block in self._blocks) + sum(d.nbytes for d in self._diagonals or ())
+        return self._blocks.nbytes + sum(d.nbytes for d in self._diagonals or ())
 
     def solve(self, b: npt.ArrayLike) -> FloatArray:
         """matrix^-1 b, in the shape of b: (n,) or (n, k)."""
@@ -112,10 +91,9 @@ class Factor:
         result = np.empty(columns.shape)
 
         def solve(some: slice, run: Run) -> None:
-            solve_into(result[:, some], self.tree, self._blocks, columns[:, some], run)
+            result[:, some] = self._blocks.solve(columns[:, some], run)
 
-        with one_blas_thread():
-            _in_slices(columns.shape[1], WIDE, solve)
+        self._in_slices(columns.shape[1], WIDE, solve)
         _check_result(result)
         return result.reshape(b.shape)
 
@@ -138,15 +116,22 @@ class Factor:
 
         def sweep(some: slice, run: Run) -> None:
             def finish(rows: IntArray, values: FloatArray) -> None:
-                values = values / self._scale
                 _check_result(values)
                 receive(rows, some, values)
 
-            sandwich_columns(self.tree, self._blocks, index[some], run, finish)
+            self._blocks.each_sandwich_piece(index[some], run, finish)
 
-        with one_blas_thread(), np.errstate(over="ignore"):
-            # Complex numbers are twice as large.
-            _in_slices(len(index), WIDE // 2, sweep)
+        # Each column comes with one of G.
+        self._in_slices(len(index), WIDE // 2, sweep)
+
+    def _in_slices(self, count: int, width: int, work: Callable[[slice, Run], None]) -> None:
+        """work(columns, run) for all columns: a few with the branches side by side, many in slices side by side."""
+        if not count:
+            return
+        if count <= width:
+            work(slice(0, count), in_turn if self._blocks.nbytes < SMALL else side_by_side)
+        else:
+            side_by_side(lambda start: work(slice(start, start + width), in_turn), range(0, count, width))
 
     def _with_areas(self) -> tuple[FloatArray, FloatArray]:
         if self._diagonals is None:
@@ -154,26 +139,10 @@ class Factor:
         return self._diagonals
 
 
-def _in_slices(count: int, width: int, work: Callable[[slice, Run], None]) -> None:
-    """work(columns, run) for all columns: a few with the branches side by side, many in slices side by side."""
-    if not count:
-        return
-    if count <= width:
-        work(slice(0, count), side_by_side)
-    else:
-        side_by_side(lambda start: work(slice(start, start + width), _in_turn), range(0, count, width))
-
-
-def _in_turn(function: Any, items: Any) -> list[Any]:
-    return [function(item) for item in items]
-
-
 def _checked_matrix(tree: EliminationTree, matrix: sp.spmatrix) -> sp.csr_matrix:
     if matrix.shape != (tree.n, tree.n):
         raise ParameterError(f"A matrix of shape {matrix.shape} does not fit a tree of {tree.n:,} vertices.")
-    # A copy, since SciPy sums duplicate entries in place.
-    matrix = sp.csr_matrix(matrix, dtype=np.float64, copy=True)
-    matrix.sum_duplicates()
+    matrix = canonical(matrix)
     if not np.isfinite(matrix.data).all():
         raise SolverError("The matrix has entries that are not finite numbers.")
     return matrix
@@ -186,12 +155,6 @@ def _checked_areas(tree: EliminationTree, areas: npt.ArrayLike | None) -> FloatA
     if areas.shape != (tree.n,) or not (np.isfinite(areas) & (areas >= 0)).all():
         raise ParameterError(f"Areas must be {tree.n} finite numbers of at least 0.")
     return areas
-
-
-def _tiny_scale(areas: FloatArray, diagonal: FloatArray) -> float:
-    """What the areas are multiplied by; a power of two, so that no digit changes."""
-    ratio = float(np.max(areas / np.maximum(np.abs(diagonal), 1e-300), initial=0))
-    return math.ldexp(1.0, TINY - math.frexp(ratio)[1]) if 0 < ratio < np.inf else 1.0
 
 
 def _check_result(x: FloatArray) -> None:

@@ -1,27 +1,30 @@
-"""Our own two worker threads, for work on independent parts of one array problem.
+"""Our own worker threads, for work on independent parts of one array problem.
 
-NumPy's products, sorts and gathers release the interpreter lock, so two parts really run side by side.  What is
-computed never depends on which thread does it, nor on how many there are.
+The compiled kernel and NumPy's products, sorts and gathers release the interpreter lock, so that parts really run side
+by side.  What is computed never depends on which thread does it, nor on how many there are.
 """
 
+import os
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import FIRST_EXCEPTION, Future, ThreadPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ..errors import Cancelled
+from ..kernel.library import Watch
 from ..progress import Progress, silent
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
-WORKERS = 2
+WORKERS = min(16, len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1)
+"""As many as there are cores for this process."""
 REPORT_SECONDS = 0.1
 
 
@@ -77,74 +80,101 @@ def side_by_side(function: Callable[[Item], Result], items: Sequence[Item]) -> l
             with lock:
                 list(waiting)
 
-    if len(items) < 2 or _alone.get():
+    others = 0 if _alone.get() else min(len(items), WORKERS) - 1
+    lanes = [_pool().submit(lane) for _ in range(others)]
+    try:
         lane()
-    else:
-        helper = _pool().submit(lane)
-        try:
-            lane()
-        finally:
-            if not helper.cancel():
-                wait([helper])
-        if not helper.cancelled():
-            helper.result()
+    finally:
+        wait([other for other in lanes if not other.cancel()])
+    for other in lanes:
+        if not other.cancelled():
+            other.result()
     return [results[k] for k in range(len(items))]
+
+
+Run = Callable[[Callable[[Any], Any], Any], list[Any]]
+"""[function(item) for item in items], somehow: `in_turn` or `side_by_side`."""
+
+
+def in_turn(function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
+    """[function(item) for item in items]."""
+    return [function(item) for item in items]
 
 
 class Job:
     """Long work in the worker threads, while the thread that asked for it reports progress and may stop it.
 
-    work: how much there is to do in all, in any unit; `advance` counts it.
+    work: how much there is to do in all, in any unit.  `watch` is for functions of the compiled kernel, which count it
+    there and look whether they are to stop; others call `advance`.
     """
 
     def __init__(self, progress: Progress | None, text: str, work: float) -> None:
         self._progress = None if progress is silent else progress
         self._text, self._work = text, max(work, 1e-300)
-        self._lock = threading.Lock()
-        self._done = 0.0
-        self._stopped = False
         self._reported = time.monotonic()
+        self.watch = Watch()
 
-    def advance(self, work: float) -> None:
-        """Workers call this after every small piece of work; raises Cancelled once the job is to stop."""
-        if self._stopped:
+    def advance(self, work: int) -> None:
+        """Count a piece of work; raises Cancelled once the job is to stop."""
+        if self.watch.stop:
             raise Cancelled("The work was stopped.")
-        with self._lock:
-            self._done += work
+        self.watch.done += work
 
     def report(self) -> None:
         """Tell the progress how far the work is, unless that was done a moment ago."""
         if self._progress is not None and time.monotonic() - self._reported >= REPORT_SECONDS:
             self._reported = time.monotonic()
-            self._progress(min(1.0, self._done / self._work), self._text)
+            self._progress(min(1.0, self.watch.done / self._work), self._text)
 
     def finish(self) -> None:
         """Tell the progress that all is done."""
         if self._progress is not None:
             self._progress(1.0, self._text)
 
-    def run(self, function: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
-        """[function(item) for item in items] in the workers; their first error, or the progress', ends all of it."""
+    def run(
+        self, function: Callable[[Item], Result], items: Iterable[Item], after: Sequence[Sequence[int]] | None = None
+    ) -> list[Result]:
+        """[function(item) for item in items] in the workers; their first error, or the progress', ends all of it.
+
+        after: for each item the numbers of those that come before it; without it they are independent.  A single item,
+        if there is no progress, and all of them within `without_workers`, are done by the thread that asks.
+        """
         items = list(items)
-        if _alone.get() or (self._progress is None and len(items) == 1):
-            results = []
-            for item in items:
-                results.append(_quietly(function, item))
-                self.report()
-            return results
-        futures: list[Future[Result]] = [_pool().submit(_quietly, function, item) for item in items]
+        missing = [len(before) for before in after] if after else [0] * len(items)
+        followers: list[list[int]] = [[] for _ in items]
+        for k, before in enumerate(after or ()):
+            for other in before:
+                followers[other].append(k)
+        ready = [k for k, count in enumerate(missing) if not count]
+        results: dict[int, Result] = {}
+        pending: dict[Future[Result], int] = {}
+
+        def finished(k: int, result: Result) -> None:
+            results[k] = result
+            for follower in followers[k]:
+                missing[follower] -= 1
+                if not missing[follower]:
+                    ready.append(follower)
+
+        here = _alone.get() or (self._progress is None and len(items) == 1)
         try:
-            pending = set(futures)
-            while pending:
-                done, pending = wait(pending, REPORT_SECONDS, FIRST_EXCEPTION)
-                for future in done:
-                    future.result()
-                self.report()
-            return [future.result() for future in futures]
+            while ready or pending:
+                while ready:
+                    k = ready.pop(0)
+                    if here:
+                        finished(k, _quietly(function, items[k]))
+                        self.report()
+                    else:
+                        pending[_pool().submit(_quietly, function, items[k])] = k
+                if pending:
+                    for future in wait(pending, REPORT_SECONDS, FIRST_COMPLETED).done:
+                        finished(pending.pop(future), future.result())
+                    self.report()
         finally:
             # After an error nothing may be left running; after success there is nothing to stop.
-            if any(not future.done() for future in futures):
-                self._stopped = True
-                for future in futures:
+            if pending:
+                self.watch.stop = 1
+                for future in pending:
                     future.cancel()
-                wait(futures)
+                wait(pending)
+        return [results[k] for k in range(len(items))]

@@ -1,0 +1,1 @@
+"""The exact kernel in C, and its binding."""

@@ -1,0 +1,191 @@
+/* The numeric factorization: fronts are eliminated bottom up, with their derivatives along A if areas are given. */
+#include "kernel.h"
+
+static const double STIFF = 3e-2; /* Below this fraction of its diagonal entry a pivot has lost digits that matter: beside
+  a degenerate face, of height h, rows have entries of size 1 / h, and what K lacks comes back in S magnified by that. */
+
+typedef struct {
+  const Factor *factor;
+  const Rows *matrix;  /* on and above the diagonal and below it, equal */
+  const double *areas; /* (n,), or NULL */
+  double *stack, *shared;
+  double *F, *F1, *work;
+  i64 row, column; /* an entry outside the pattern */
+} Elimination;
+
+static double *schur_of(const Elimination *e, i64 q) {
+  const Tree *t = e->factor->tree;
+  return (t->shared[q] ? e->shared : e->stack) + (1 + e->factor->dual) * t->stack[q];
+}
+
+static i64 work_of(Front f, int dual) {
+  i64 products = dual ? f.c * (f.cp + 2 * f.mp) : 0;
+  return most(sweep_work(f.c, f.sp), most(products, f.c * f.mp)) + f.cp + PAD;
+}
+
+/* What eliminating the fronts first to last needs, in doubles: room[0] for the stack, room[1] for the largest front,
+ * room[2] in all. */
+API void bih_elimination_room(const Tree *t, i32 dual, i64 first, i64 last, i64 *room) {
+  i64 stack = 0, front = 0, work = 0;
+  for (i64 q = first; q <= last; q++) {
+    Front f = front_of(t, q);
+    if (!t->shared[q]) stack = most(stack, (1 + dual) * (t->stack[q] + f.m * f.mp));
+    front = most(front, f.s * f.sp), work = most(work, work_of(f, dual));
+  }
+  room[0] = padded(stack), room[1] = front + PAD, room[2] = room[0] + (1 + dual) * room[1] + work;
+}
+
+/* F and F1 of a front: the matrix' entries, areas, and the Schur complements of its children; above the diagonal. */
+static i32 assemble(Elimination *e, i64 q, Front f) {
+  const Tree *t = e->factor->tree;
+  const Rows *L = e->matrix;
+  double *F = e->F, *F1 = e->F1;
+  int dual = e->factor->dual;
+  i64 ld = f.sp;
+  zero(F, 8 * f.s * ld);
+  if (dual) zero(F1, 8 * f.s * ld);
+  for (i64 i = 0; i < f.c; i++) {
+    i64 v = t->vertices[f.first + i];
+    for (i64 k = L->start[v]; k < L->start[v + 1]; k++) {
+      i64 to = t->place[L->index[k]], at = to - f.first;
+      if (at < i || L->value[k] == 0) continue;
+      if (at >= f.c) { /* in the boundary, which ascends */
+        i64 low = 0, high = f.m;
+        while (low < high) {
+          i64 middle = (low + high) / 2;
+          if (f.rows[middle] < to) low = middle + 1;
+          else high = middle;
+        }
+        at = f.c + low;
+        if (low == f.m || f.rows[low] != to) {
+          e->row = v, e->column = L->index[k];
+          return OUTSIDE;
+        }
+      }
+      F[i * ld + at] += L->value[k];
+    }
+    if (dual) F1[i * ld + i] = e->areas[v];
+  }
+  for (int k = 0; k < 2 && t->children[2 * q] >= 0; k++) {
+    i64 child = t->children[2 * q + k];
+    Front g = front_of(t, child);
+    const double *S = schur_of(e, child), *S1 = S + g.m * g.mp;
+    for (i64 i = 0; i < g.m; i++)
+      for (i64 j = i, end; j < g.m; j = end) { /* runs of places that follow each other */
+        for (end = j + 1; end < g.m && g.up[end] == g.up[end - 1] + 1;) end++;
+        double *to = F + g.up[i] * ld + g.up[j], *to1 = F1 + g.up[i] * ld + g.up[j];
+        const double *from = S + i * g.mp + j, *from1 = S1 + i * g.mp + j;
+        for (i64 r = 0; r < end - j; r++) to[r] += from[r];
+        if (dual)
+          for (i64 r = 0; r < end - j; r++) to1[r] += from1[r];
+      }
+  }
+  return DONE;
+}
+
+/* One step of iterative refinement: N F = -R then holds to rounding, as after a solve with a Cholesky factor.  F as
+ * assembled; overwrites its boundary block with S. */
+static void refine(const Front f, const double *K, double *N, i64 ln, double *F, double *work) {
+  i64 ld = f.sp;
+  double *E = work; /* R + F N */
+  for (i64 i = 0; i < f.c; i++) {
+    for (i64 j = 0; j < i; j++) F[i * ld + j] = F[j * ld + i];
+    copy(E + i * f.mp, F + i * ld + f.c, 8 * f.m);
+    zero(E + i * f.mp + f.m, 8 * (f.mp - f.m));
+  }
+  add_product(f.c, f.m, f.c, 1, F, ld, 1, N, ln, E, f.mp);
+  add_product(f.c, f.m, f.c, -1, K, f.cp, 1, E, f.mp, N, ln);
+  add_upper_product(f.m, f.m, f.c, 1, F + f.c, 1, ld, N, ln, F + f.c * ld + f.c, ld);
+}
+
+/* K1, N1 and, in the boundary block of F1, S1. */
+static void derive(const Front f, int leaf, const double *K, double *K1, const double *N, double *N1, i64 ln, double *F1,
+                   double *work) {
+  i64 c = f.c, m = f.m, cp = f.cp, mp = f.mp, ld = f.sp;
+  double *T = work, *U = T + c * cp, *P = U + c * mp, *S1 = F1 + c * ld + c;
+  zero(K1, 8 * c * cp);
+  for (i64 i = 0; i < c; i++) zero(N1 + i * ln, 8 * mp);
+  if (leaf) /* F1 is diagonal, R1 nothing */
+    for (i64 i = 0; i < c; i++) {
+      double area = F1[i * ld + i];
+      for (i64 j = 0; j < cp; j++) T[i * cp + j] = area * K[i * cp + j];
+      for (i64 j = 0; j < mp; j++) U[i * mp + j] = area * N[i * ln + j];
+    }
+  else {
+    for (i64 i = 0; i < c; i++)
+      for (i64 j = 0; j < i; j++) F1[i * ld + j] = F1[j * ld + i];
+    zero(T, 8 * c * (cp + mp));
+    add_product(c, c, c, 1, F1, ld, 1, K, cp, T, cp);
+    add_product(c, m, c, 1, F1, ld, 1, N, ln, U, mp);
+    for (i64 i = 0; i < c; i++)
+      for (i64 j = 0; j < m; j++) {
+        double r = F1[i * ld + c + j], u = U[i * mp + j];
+        P[i * mp + j] = r + u / 2, U[i * mp + j] = r + u;
+      }
+  }
+  add_upper_product(c, c, c, 1, K, cp, 1, T, cp, K1, cp);
+  for (i64 i = 0; i < c; i++)
+    for (i64 j = 0; j < i; j++) K1[i * cp + j] = K1[j * cp + i];
+  add_product(c, m, c, 1, K, cp, 1, U, mp, N1, ln);
+  if (leaf) add_upper_product(m, m, c, 1, U, 1, mp, N, ln, S1, ld); /* X + X^T = U^T N is symmetric there */
+  else {
+    add_upper_product(m, m, c, 1, P, 1, mp, N, ln, S1, ld);
+    add_upper_product(m, m, c, 1, N, 1, ln, P, mp, S1, ld);
+  }
+}
+
+static i32 eliminate(Elimination *e, i64 q) {
+  const Tree *t = e->factor->tree;
+  Front f = front_of(t, q);
+  i64 c = f.c, m = f.m, ld = f.sp, ln = (1 + e->factor->dual) * f.mp;
+  double *F = e->F, *scale = e->work, *work = scale + f.cp, left = 1;
+  i32 status = assemble(e, q, f);
+  if (status) return status;
+  for (i64 i = 0; i < c; i++) { /* the matrix' own diagonal, before Schur complements came on top */
+    i64 v = t->vertices[f.first + i];
+    scale[i] = 0;
+    for (i64 k = e->matrix->start[v]; k < e->matrix->start[v + 1]; k++)
+      if (e->matrix->index[k] == v) scale[i] += e->matrix->value[k];
+    if (!(scale[i] > 0)) return NOT_POSITIVE;
+  }
+  if (!sweep(c, f.s, F, ld, scale, work, &left)) return NOT_POSITIVE;
+  double *K = block_K(e->factor, q), *K1 = K + c * f.cp, *N = block_N(e->factor, q), *N1 = N + f.mp;
+  for (i64 i = 0; i < c; i++) {
+    for (i64 j = i; j < c; j++) K[i * f.cp + j] = K[j * f.cp + i] = -F[i * ld + j];
+    for (i64 j = c; j < f.cp; j++) K[i * f.cp + j] = 0;
+    for (i64 j = 0; j < m; j++) N[i * ln + j] = -F[i * ld + c + j];
+    for (i64 j = m; j < f.mp; j++) N[i * ln + j] = 0;
+  }
+  if (left < STIFF) {
+    assemble(e, q, f); /* the children's Schur complements are still there */
+    refine(f, K, N, ln, F, work);
+  }
+  if (e->factor->dual) derive(f, t->children[2 * q] < 0, K, K1, N, N1, ln, e->F1, work);
+  double *S = schur_of(e, q), *S1 = S + m * f.mp;
+  for (i64 i = 0; i < m; i++) {
+    copy(S + i * f.mp + i, F + (c + i) * ld + c + i, 8 * (m - i));
+    if (e->factor->dual) copy(S1 + i * f.mp + i, e->F1 + (c + i) * ld + c + i, 8 * (m - i));
+  }
+  return DONE;
+}
+
+/* Eliminate the fronts first to last, one task.  work: as much as bih_elimination_room says; where (2,): the entry if
+ * one is OUTSIDE. */
+API i32 bih_eliminate(const Factor *factor, const Rows *matrix, const double *areas, i64 first, i64 last, double *shared,
+                      double *work, i64 *where, Watch *watch) {
+  i64 room[3];
+  bih_elimination_room(factor->tree, factor->dual, first, last, room);
+  double *F = work + room[0];
+  Elimination e = {factor, matrix, areas, work, shared, F, F + room[1], F + (1 + factor->dual) * room[1], 0, 0};
+  for (i64 q = first; q <= last; q++) {
+    if (stopped(watch)) return STOPPED;
+    i32 status = eliminate(&e, q);
+    if (status) {
+      where[0] = e.row, where[1] = e.column;
+      return status;
+    }
+    Front f = front_of(factor->tree, q);
+    advance(watch, f.c * f.s * f.s);
+  }
+  return DONE;
+}

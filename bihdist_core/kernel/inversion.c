@@ -1,0 +1,86 @@
+/* Takahashi's selected inversion: the diagonals of G = L^-1 and of G A G without most of their other entries.
+ *
+ * Top down each front gets the block Z of G on its own rows (1: pivots, 2: boundary), of which the boundary's is part of
+ * its parent's, and Z1, that of G A G:
+ *
+ *     Z12 = N Z22      Z11 = K + Z12 N^T      Z1_12 = N1 Z22 + N Z1_22      Z1_11 = K1 + Z12 N1^T + Z1_12 N^T */
+#include "kernel.h"
+
+static i64 work_of(Front f) { return 2 * f.c * f.mp + 2 * f.m * f.cp; }
+
+/* What inverting the fronts first to last needs, in doubles: room[0] for the stack, room[1] in all. */
+API void bih_inversion_room(const Tree *t, i64 first, i64 last, i64 *room) {
+  i64 stack = 0, work = 0;
+  for (i64 q = first; q <= last; q++) {
+    Front f = front_of(t, q);
+    if (!t->top[q]) stack = most(stack, t->inverse[q] + 2 * f.s * f.sp);
+    work = most(work, work_of(f));
+  }
+  room[0] = padded(stack) + PAD, room[1] = room[0] + work + PAD;
+}
+
+static void transpose(i64 rows, i64 columns, const double *A, i64 lda, double *B, i64 ldb) {
+  for (i64 i = 0; i < rows; i++)
+    for (i64 j = 0; j < columns; j++) B[j * ldb + i] = A[i * lda + j];
+}
+
+static void invert(const Factor *factor, i64 q, double *shared, double *stack, double *work, double *diagonal,
+                   double *sandwich) {
+  const Tree *t = factor->tree;
+  Front f = front_of(t, q);
+  i64 c = f.c, m = f.m, ld = f.sp, cp = f.cp, mp = f.mp, ln = 2 * mp, parent = t->parent[q];
+  const double *K = block_K(factor, q), *K1 = K + c * cp, *N = block_N(factor, q), *N1 = N + mp;
+  double *Z = (t->top[q] ? shared : stack) + t->inverse[q], *Z1 = Z + f.s * ld;
+  double *Y = work, *Y1 = Y + c * mp, *Nt = Y1 + c * mp, *Nt1 = Nt + m * cp;
+  if (parent >= 0) {
+    Front p = front_of(t, parent);
+    const double *Zp = (t->top[parent] ? shared : stack) + t->inverse[parent], *Zp1 = Zp + p.s * p.sp;
+    for (i64 i = 0; i < m; i++) {
+      const double *from = Zp + f.up[i] * p.sp, *from1 = Zp1 + f.up[i] * p.sp;
+      double *to = Z + (c + i) * ld + c, *to1 = Z1 + (c + i) * ld + c;
+      for (i64 j = 0; j < m; j++) to[j] = from[f.up[j]], to1[j] = from1[f.up[j]];
+      for (i64 j = m; j < ld - c; j++) to[j] = to1[j] = 0;
+    }
+  }
+  zero(Y, 16 * c * mp);
+  add_product(c, m, m, 1, N, ln, 1, Z + c * ld + c, ld, Y, mp);
+  add_product(c, m, m, 1, N1, ln, 1, Z + c * ld + c, ld, Y1, mp);
+  add_product(c, m, m, 1, N, ln, 1, Z1 + c * ld + c, ld, Y1, mp);
+  const i32 *vertices = t->vertices + f.first;
+  if (t->children[2 * q] < 0) { /* of a leaf only the diagonal is wanted */
+    for (i64 i = 0; i < c; i++) {
+      double z = K[i * cp + i], z1 = K1[i * cp + i];
+      for (i64 j = 0; j < m; j++) {
+        z += Y[i * mp + j] * N[i * ln + j];
+        z1 += Y[i * mp + j] * N1[i * ln + j] + Y1[i * mp + j] * N[i * ln + j];
+      }
+      diagonal[vertices[i]] = z, sandwich[vertices[i]] = z1;
+    }
+    return;
+  }
+  for (i64 i = 0; i < m; i++) zero(Nt + i * cp + c, 8 * (cp - c)), zero(Nt1 + i * cp + c, 8 * (cp - c));
+  transpose(c, m, N, ln, Nt, cp), transpose(c, m, N1, ln, Nt1, cp);
+  for (i64 i = 0; i < c; i++) copy(Z + i * ld, K + i * cp, 8 * c), copy(Z1 + i * ld, K1 + i * cp, 8 * c);
+  add_upper_product(c, c, m, 1, Y, mp, 1, Nt, cp, Z, ld);
+  add_upper_product(c, c, m, 1, Y, mp, 1, Nt1, cp, Z1, ld);
+  add_upper_product(c, c, m, 1, Y1, mp, 1, Nt, cp, Z1, ld);
+  for (i64 i = 0; i < c; i++) {
+    copy(Z + i * ld + c, Y + i * mp, 8 * m), copy(Z1 + i * ld + c, Y1 + i * mp, 8 * m);
+    for (i64 j = i; j < f.s; j++) Z[j * ld + i] = Z[i * ld + j], Z1[j * ld + i] = Z1[i * ld + j];
+    diagonal[vertices[i]] = Z[i * ld + i], sandwich[vertices[i]] = Z1[i * ld + i];
+  }
+}
+
+/* The diagonals (n,) at the pivots of the fronts last to first, one task.  work: as much as bih_inversion_room says. */
+API i32 bih_invert(const Factor *factor, i64 first, i64 last, double *shared, double *work, double *diagonal,
+                   double *sandwich, Watch *watch) {
+  i64 room[2];
+  bih_inversion_room(factor->tree, first, last, room);
+  for (i64 q = last; q >= first; q--) {
+    if (stopped(watch)) return STOPPED;
+    invert(factor, q, shared, work, work + room[0], diagonal, sandwich);
+    Front f = front_of(factor->tree, q);
+    advance(watch, f.c * f.s * f.s);
+  }
+  return DONE;
+}

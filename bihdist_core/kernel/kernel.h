@@ -1,0 +1,116 @@
+/* The exact kernel: nested dissection, dual multifrontal elimination and selected inversion of a sparse symmetric
+ * positive definite matrix L, and solves with its factor.  Plain C11 without libc (but memcpy and memset), without
+ * global state: every array is the caller's.
+ *
+ * A front is a dense block of the elimination: c pivots, which it eliminates, and m boundary rows above them, s = c + m.
+ * Fronts are numbered in postorder, their pivots are consecutive places of the elimination order.  With F the pivots'
+ * block of a front, R the rows right of it (c x m) and Q the boundary's block, L's derivative along L + t A beside each:
+ *
+ *     K = F^-1          N = -K R           S = Q + R^T N            (S: Schur complement, added into the parent)
+ *     K1 = K F1 K       N1 = -K (R1 + F1 N)    S1 = Q1 + X + X^T,   X = (R1 + F1 N / 2)^T N
+ *
+ * K1 and N1 are minus the derivatives of K and N, so that all that follows adds up to +G A G, G = L^-1. */
+#ifndef BIHDIST_KERNEL_H
+#define BIHDIST_KERNEL_H
+#include <stddef.h>
+#include <stdint.h>
+
+typedef int32_t i32;
+typedef int64_t i64;
+
+#if defined(_WIN32)
+#define API __declspec(dllexport)
+#else
+#define API __attribute__((visibility("default")))
+#endif
+
+/* What functions return: 0, or how they failed. */
+enum { DONE = 0, STOPPED = -1, NOT_POSITIVE = -2, OUTSIDE = -3, ASYMMETRIC = -4, NO_ROOM = -5 };
+
+/* Rows of dense blocks are padded to so many doubles. */
+enum { PAD = 4 };
+static inline i64 padded(i64 k) { return (k + PAD - 1) & -(i64)PAD; }
+static inline i64 least(i64 a, i64 b) { return a < b ? a : b; }
+static inline i64 most(i64 a, i64 b) { return a > b ? a : b; }
+
+/* Set by one thread while others work: whether to stop, and how much is done. */
+typedef struct {
+  i32 stop;
+  i64 done;
+} Watch;
+static inline int stopped(const Watch *w) { return __atomic_load_n(&w->stop, __ATOMIC_RELAXED); }
+static inline void advance(Watch *w, i64 work) { __atomic_fetch_add(&w->done, work, __ATOMIC_RELAXED); }
+
+/* A symmetric sparse matrix, or a graph (value NULL), by rows. */
+typedef struct {
+  i64 n;
+  const i32 *start; /* (n + 1,) */
+  const i32 *index;
+  const double *value;
+} Rows;
+
+/* Nested dissection of a graph whose vertices are numbered breadth first (ordering.c). */
+typedef struct {
+  Rows graph;
+  float *charts;       /* (7, n) positions, then edge counts to four landmarks */
+  i32 *vertices;       /* (n,) in elimination order; each region is a stretch of it */
+  i32 *region;         /* (n,) the first place of a vertex' region, -1 in separators */
+  i32 *bin, *band, *at; /* (n,) each */
+  i32 *flow;           /* (8 n,) */
+  float *key;          /* (n,) */
+  unsigned char *side; /* (n,) 0 or 1, 2 in the separator */
+} Dissection;
+
+/* The elimination tree (symbolic.c). */
+typedef struct {
+  i64 n, fronts;
+  const i32 *vertices;   /* (n,) the vertex at each place of the elimination order */
+  const i32 *place;      /* (n,) the place of each vertex */
+  const i32 *first;      /* (fronts + 1,) the first pivot of each front */
+  const i32 *children;   /* (fronts, 2), or -1 */
+  const i32 *parent;     /* (fronts,), or -1 */
+  const i64 *bound;      /* (fronts + 1,) where each front's boundary begins in rows */
+  const i32 *rows;       /* places of boundary rows, ascending in each front */
+  const i32 *up;         /* where each of these is in the parent's front */
+  const i64 *pivot_block; /* (fronts,) where each front's K begins, in doubles of a factor without derivatives */
+  const i64 *row_block;   /* (fronts,) the same of N */
+  const i64 *stack;      /* (fronts,) where its Schur complement lies while eliminating, in its area */
+  const i64 *inverse;    /* (fronts,) where its block of the inverse lies while inverting, in its area */
+  const unsigned char *shared; /* (fronts,) whether its Schur complement lies in the area all tasks share */
+  const unsigned char *top;    /* (fronts,) whether the front is a task of its own; its inverse is shared */
+  const i32 *rank; /* (n,) of a place among the pivots of top fronts */
+} Tree;
+
+typedef struct {
+  const Tree *tree;
+  i32 dual;           /* whether derivatives along A are kept */
+  double *pivots;     /* K, with derivatives K1 after each K */
+  double *boundaries; /* N, (c, m); with derivatives rows of N and of N1 take turns */
+} Factor;
+
+typedef struct {
+  i64 c, m, s; /* pivots, boundary rows, both */
+  i64 cp, mp, sp; /* padded */
+  i64 first;   /* place of the first pivot */
+  const i32 *rows, *up;
+} Front;
+
+static inline Front front_of(const Tree *t, i64 q) {
+  i64 c = t->first[q + 1] - t->first[q], m = t->bound[q + 1] - t->bound[q];
+  return (Front){c, m, c + m, padded(c), padded(m), padded(c + m), t->first[q], t->rows + t->bound[q],
+                 t->up + t->bound[q]};
+}
+static inline double *block_K(const Factor *f, i64 q) { return f->pivots + (1 + f->dual) * f->tree->pivot_block[q]; }
+static inline double *block_N(const Factor *f, i64 q) { return f->boundaries + (1 + f->dual) * f->tree->row_block[q]; }
+
+/* dense.c */
+void add_product(i64 rows, i64 columns, i64 inner, double scale, const double *A, i64 row, i64 column, const double *B,
+                 i64 ldb, double *C, i64 ldc);
+void add_upper_product(i64 rows, i64 columns, i64 inner, double scale, const double *A, i64 row, i64 column,
+                       const double *B, i64 ldb, double *C, i64 ldc);
+int sweep(i64 c, i64 s, double *F, i64 ld, const double *scale, double *work, double *left);
+i64 sweep_work(i64 c, i64 sp);
+
+static inline void zero(void *p, i64 bytes) { __builtin_memset(p, 0, (size_t)bytes); }
+static inline void copy(void *to, const void *from, i64 bytes) { __builtin_memcpy(to, from, (size_t)bytes); }
+#endif

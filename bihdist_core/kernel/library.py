@@ -1,0 +1,148 @@
+"""The compiled kernel: its structures and functions, as `kernel.h` has them.
+
+ctypes lets go of the interpreter lock while a function runs.
+"""
+
+import ctypes
+import os
+from ctypes import POINTER, Structure, c_int32, c_int64, c_void_p
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..arrays import AnyArray
+from ..errors import Cancelled
+
+DONE, STOPPED, NOT_POSITIVE, OUTSIDE, ASYMMETRIC, NO_ROOM = 0, -1, -2, -3, -4, -5
+"""What functions return; `kernel.h` says it."""
+
+PLAIN = "BIHDIST_PLAIN"
+"""The environment variable that, if set, leaves the compiled kernel aside."""
+
+
+class Watch(Structure):
+    """Whether to stop, and how much is done."""
+
+    _fields_ = (("stop", c_int32), ("done", c_int64))
+
+    stop: int
+    done: int
+
+
+class Rows(Structure):
+    """A symmetric sparse matrix, or a graph, by rows."""
+
+    _fields_ = (("n", c_int64), ("start", c_void_p), ("index", c_void_p), ("value", c_void_p))
+
+
+class Dissection(Structure):
+    """A graph under nested dissection, and its workspace."""
+
+    _fields_ = (
+        ("graph", Rows),
+        *((name, c_void_p) for name in ("charts", "vertices", "region", "bin", "band", "at", "flow", "key", "side")),
+    )
+
+
+TREE_ARRAYS = {
+    "vertices": np.int32,
+    "place": np.int32,
+    "first": np.int32,
+    "children": np.int32,
+    "parent": np.int32,
+    "bound": np.int64,
+    "rows": np.int32,
+    "up": np.int32,
+    "pivot_block": np.int64,
+    "row_block": np.int64,
+    "stack": np.int64,
+    "inverse": np.int64,
+    "shared": np.uint8,
+    "top": np.uint8,
+    "rank": np.int32,
+}
+"""The arrays of `Tree`, in their order."""
+
+
+class Tree(Structure):
+    """The elimination tree."""
+
+    _fields_ = (("n", c_int64), ("fronts", c_int64), *((name, c_void_p) for name in TREE_ARRAYS))
+
+
+class Factor(Structure):
+    """The factor's blocks."""
+
+    _fields_ = (("tree", POINTER(Tree)), ("dual", c_int32), ("pivots", c_void_p), ("boundaries", c_void_p))
+
+
+class _Array:
+    """An argument: a contiguous array, or None; it is kept while the function runs."""
+
+    @classmethod
+    def from_param(cls, array: AnyArray | None) -> Any:
+        if array is not None and not array.flags.c_contiguous:
+            raise TypeError("The kernel takes contiguous arrays only.")
+        return array if array is None else array.ctypes
+
+
+_P, _A, _I = c_void_p, _Array, c_int64
+_SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
+    "check_symmetric": (c_int32, (_P, _A)),
+    "number_graph": (None, (_P, *(_A,) * 9)),
+    "begin_dissection": (None, (_P,)),
+    "cut": (None, (_P, _I, _I, _A)),
+    "dissect": (c_int64, (_P, _I, _I, _I, _A, _A, _P)),
+    "boundaries": (c_int64, (_P, _P, _A, _A, _I, _A)),
+    "places_in_parents": (None, (_P, _A, _A)),
+    "stack": (None, (_P, _A, _A)),
+    "elimination_room": (None, (_P, c_int32, _I, _I, _A)),
+    "eliminate": (c_int32, (_P, _P, _A, _I, _I, _A, _A, _A, _P)),
+    "inversion_room": (None, (_P, _I, _I, _A)),
+    "invert": (c_int32, (_P, _I, _I, _A, _A, _A, _A, _P)),
+    "sweep_room": (c_int64, (_P, _I, _I, _I)),
+    "sweep_up": (c_int32, (_P, _I, _I, _I, _I, _A, _A, _A, _P)),
+    "sweep_down": (c_int32, (_P, _I, _I, _I, _A, _A, _P)),
+    "send_units": (None, (_P, _A, _A, _I, _A, _A, _A)),
+    "sweep_down_both": (c_int32, (_P, _I, _I, _I, _A, _A, _A, _A, _P)),
+    "stiffness": (c_int64, (_I, _I, _A, _A, _A, _A, _A, _A)),
+}
+
+
+@cache
+def library() -> Any:
+    """The library with its functions' signatures, or None where there is none, or PLAIN is set."""
+    if os.environ.get(PLAIN):
+        return None
+    for path in sorted(Path(__file__).parent.glob("libbihdist*")):
+        try:
+            found = ctypes.CDLL(str(path))
+        except OSError:
+            continue
+        for name, (result, arguments) in _SIGNATURES.items():
+            function = getattr(found, f"bih_{name}")
+            function.restype, function.argtypes = result, arguments
+        return found
+    return None
+
+
+def at(array: AnyArray | None) -> int | None:
+    """The address of a contiguous array, for a structure; the array must outlive it."""
+    if array is None:
+        return None
+    assert array.flags.c_contiguous
+    return array.ctypes.data
+
+
+def rows_of(start: AnyArray, index: AnyArray, value: AnyArray | None = None) -> Rows:
+    """A sparse matrix by rows of int32 start (n + 1,) and index (e,), float64 value (e,)."""
+    return Rows(len(start) - 1, at(start), at(index), at(value))
+
+
+def check_stopped(status: int) -> int:
+    """Raises Cancelled where a function was told to stop."""
+    if status == STOPPED:
+        raise Cancelled("The work was stopped.")
+    return status

@@ -1,0 +1,324 @@
+/* Nested dissection: in which order to eliminate the vertices of a graph so that little fill appears.
+ *
+ * A region is cut in two by a small separator, each half again, down to LEAF vertices.  Where to cut is read off charts
+ * of the vertices: positions fail on folded sheets, so edge counts to far-apart landmarks are tried as well: they see
+ * along the surface, in the measure that separators are paid in. */
+#include "kernel.h"
+
+enum {
+  LEAF = 16,    /* most vertices of a region that is not cut */
+  SMALL = 150,  /* up to so many, regions are cut by positions alone */
+  LARGE = 3000, /* from so many on, separators are made as small as can be */
+  SAMPLE = 200, /* so many vertices of a region tell its principal axes */
+  BINS = 512,   /* places where a cut along an axis is tried */
+  REACH = 2,    /* how many edges from the cut a separator may move */
+  POSITIONS = 3,
+  LANDMARKS = 4
+};
+static const double UNEVEN = 0.12; /* a half may differ by this fraction of the region from one half */
+
+/* ------------------------------------------------------------------ the graph, numbered breadth first */
+
+/* Number vertices breadth first from `from`, in `order`; hops: edge counts.  Further components begin two further out. */
+static void breadth_first(const Rows *g, i64 from, i32 *hops, i32 *order) {
+  i64 tail = 0, head = 0;
+  i32 start = 0;
+  for (i64 v = 0; v < g->n; v++) hops[v] = -1;
+  for (i64 next = 0; tail < g->n; from = next) {
+    while (hops[from] >= 0) from = next++;
+    hops[from] = start, order[tail++] = (i32)from;
+    for (; head < tail; head++)
+      for (i64 v = order[head], e = g->start[v]; e < g->start[v + 1]; e++) {
+        i32 u = g->index[e];
+        if (hops[u] < 0) hops[u] = hops[v] + 1, order[tail++] = u;
+      }
+    start = hops[order[tail - 1]] + 2;
+  }
+}
+
+/* Whether each entry has its mirror image; rows ascend.  cursor: (n,). */
+API i32 bih_check_symmetric(const Rows *g, i32 *cursor) {
+  for (i64 v = 0; v < g->n; v++) cursor[v] = g->start[v];
+  for (i64 v = 0; v < g->n; v++)
+    for (i64 e = g->start[v]; e < g->start[v + 1]; e++) {
+      i32 u = g->index[e];
+      if (u < v && (cursor[u] >= g->start[u + 1] || g->index[cursor[u]++] != v)) return ASYMMETRIC;
+      if (u <= v) cursor[v] = (i32)(e + 1);
+    }
+  for (i64 v = 0; v < g->n; v++)
+    if (cursor[v] != g->start[v + 1]) return ASYMMETRIC;
+  return DONE;
+}
+
+/* The graph of a matrix without its diagonal, numbered breadth first: vertices[k] is what k was.  start (n + 1,), index
+ * (entries,); x (n, 3) within single precision's range -> charts (7, n); place, hops (n,). */
+API void bih_number_graph(const Rows *matrix, const double *x, i32 *vertices, i32 *place, i32 *start, i32 *index,
+                          float *charts, i32 *hops, i32 *order, float *far) {
+  i64 n = matrix->n, put = 0;
+  if (!n) return;
+  breadth_first(matrix, 0, hops, vertices);
+  for (i64 k = 0; k < n; k++) place[vertices[k]] = (i32)k;
+  for (i64 k = 0; k < n; k++) {
+    start[k] = (i32)put;
+    for (i64 v = vertices[k], e = matrix->start[v]; e < matrix->start[v + 1]; e++)
+      if (matrix->index[e] != v) index[put++] = place[matrix->index[e]];
+    for (int a = 0; a < POSITIONS; a++) charts[a * n + k] = (float)x[3 * (i64)vertices[k] + a];
+  }
+  start[n] = (i32)put;
+  Rows graph = {n, start, index, NULL};
+  i64 from = n - 1; /* a far end to begin from */
+  for (int a = 0; a < LANDMARKS; a++) {
+    float *chart = charts + (POSITIONS + a) * n;
+    breadth_first(&graph, from, hops, order);
+    from = 0;
+    for (i64 v = 0; v < n; v++) {
+      chart[v] = (float)hops[v];
+      far[v] = a && far[v] < chart[v] ? far[v] : chart[v];
+      if (far[v] > far[from]) from = v;
+    }
+  }
+}
+
+/* ------------------------------------------------------------------ where to cut */
+
+/* The first axis of the covariance C by power iteration; it is then taken out of C. */
+static void principal_axis(double C[4][4], int d, double *axis) {
+  double length = 0, next[4];
+  for (int k = 0; k < d; k++) axis[k] = 1 - 0.1 * k;
+  for (int round = 0; round < 24; round++) {
+    length = 0;
+    for (int i = 0; i < d; i++) {
+      next[i] = 0;
+      for (int j = 0; j < d; j++) next[i] += C[i][j] * axis[j];
+      length += next[i] * next[i];
+    }
+    if (!(length > 0)) return;
+    length = __builtin_sqrt(length);
+    for (int i = 0; i < d; i++) axis[i] = next[i] / length;
+  }
+  for (int i = 0; i < d; i++)
+    for (int j = 0; j < d; j++) C[i][j] -= length * axis[i] * axis[j];
+}
+
+static void covariance(const Dissection *D, i64 lo, i64 hi, const float *chart, int d, double C[4][4]) {
+  double mean[4] = {0}, count = 0;
+  i64 step = most(1, (hi - lo) / SAMPLE), n = D->graph.n;
+  for (i64 t = lo; t < hi; t += step, count++)
+    for (int k = 0; k < d; k++) mean[k] += chart[k * n + D->vertices[t]];
+  for (int k = 0; k < d; k++) mean[k] /= count;
+  for (i64 t = lo; t < hi; t += step)
+    for (int k = 0; k < d; k++)
+      for (int l = 0; l < d; l++)
+        C[k][l] += (chart[k * n + D->vertices[t]] - mean[k]) * (chart[l * n + D->vertices[t]] - mean[l]);
+}
+
+/* side = 0 or 1: across a principal axis of a chart, where the fewest edges are cut. */
+static void halve(Dissection *D, i64 lo, i64 hi) {
+  i64 m = hi - lo, n = D->graph.n;
+  double best = 1e300;
+  for (i64 t = lo; t < hi; t++) D->side[D->vertices[t]] = t - lo >= m / 2;
+  for (int by_hops = 0; by_hops < (m > SMALL ? 2 : 1); by_hops++) {
+    int d = by_hops ? LANDMARKS : POSITIONS;
+    const float *chart = D->charts + (by_hops ? POSITIONS * n : 0);
+    double C[4][4] = {{0}}, axis[4];
+    covariance(D, lo, hi, chart, d, C);
+    for (int tried = 0; tried <= by_hops; tried++) {
+      i32 here[BINS] = {0}, cut[BINS] = {0};
+      principal_axis(C, d, axis);
+      float low = 3e38f, high = -3e38f;
+      for (i64 t = lo; t < hi; t++) {
+        i32 v = D->vertices[t];
+        float key = 0;
+        for (int k = 0; k < d; k++) key += (float)axis[k] * chart[k * n + v];
+        D->key[v] = key, low = key < low ? key : low, high = key > high ? key : high;
+      }
+      float scale = high > low ? (BINS - 1) / (high - low) : 0;
+      for (i64 t = lo; t < hi; t++) {
+        i32 v = D->vertices[t];
+        here[D->bin[v] = (i32)((D->key[v] - low) * scale)]++;
+      }
+      for (i64 t = lo; t < hi; t++)
+        for (i64 v = D->vertices[t], e = D->graph.start[v]; e < D->graph.start[v + 1]; e++) {
+          i32 u = D->graph.index[e];
+          if (u >= v || __atomic_load_n(&D->region[u], __ATOMIC_RELAXED) != lo) continue;
+          i32 p = D->bin[u], q = D->bin[v];
+          cut[p < q ? p : q]++, cut[p < q ? q : p]--;
+        }
+      i64 run = 0, across = 0, at = -1;
+      for (i64 b = 0; b < BINS - 1; b++) {
+        run += here[b], across += cut[b];
+        double off = (double)run / (double)m - 0.5, far = off < 0 ? -off : off;
+        double cost = (double)(across + 1) * (1 + 2 * far);
+        if (far < UNEVEN && cost < best) best = cost, at = b;
+      }
+      if (at >= 0)
+        for (i64 t = lo; t < hi; t++) D->side[D->vertices[t]] = D->bin[D->vertices[t]] > at;
+    }
+  }
+}
+
+/* ------------------------------------------------------------------ separators */
+enum { NONE = -1, RIM = -2 };
+
+typedef struct {
+  const Dissection *D;
+  i64 lo, k;       /* the region's first place; how many vertices the band has */
+  i32 *next, *prev; /* (k,) along the disjoint paths found so far */
+  i32 *seen;       /* (2 k,) the round in which an entry 2 b or an exit 2 b + 1 was last reached */
+  i32 *edge;       /* (k,) the next edge to try from an exit */
+  i32 *path;       /* (2 k,) the path under way */
+  i32 *flags;      /* (k,) 1: at the band's rim, 2: on a path */
+  i32 round;
+} Flow;
+
+static int inside(const Flow *w, i32 u) {
+  return __atomic_load_n(&w->D->region[u], __ATOMIC_RELAXED) == w->lo && w->D->at[u] >= 0;
+}
+
+/* Depth first from the rim at s on side 0 to the rim on side 1, along what is left; the path's length, or 0. */
+static i64 find_path(Flow *w, i64 s) {
+  const Dissection *D = w->D;
+  i64 length = 1;
+  w->path[0] = (i32)(2 * s), w->seen[2 * s] = w->round;
+  while (length) {
+    i32 x = w->path[length - 1], b = x >> 1, to = NONE;
+    int full = w->flags[b] & 2;
+    if (!(x & 1)) { /* at an entry: through the vertex, or back along the path that passes it */
+      to = !full ? x + 1 : w->prev[b] >= 0 ? 2 * w->prev[b] + 1 : NONE;
+      if (to >= 0 && w->seen[to] == w->round) to = NONE;
+      else if (to >= 0) w->edge[to >> 1] = D->graph.start[D->band[w->lo + (to >> 1)]];
+    } else {
+      i64 v = D->band[w->lo + b];
+      if ((w->flags[b] & 1) && D->side[v] && w->next[b] != RIM) break;
+      if (full && w->seen[x - 1] != w->round) to = x - 1;
+      for (; to < 0 && w->edge[b] < D->graph.start[v + 1]; w->edge[b]++) {
+        i32 u = D->graph.index[w->edge[b]];
+        if (inside(w, u) && w->seen[2 * D->at[u]] != w->round) to = 2 * D->at[u];
+      }
+    }
+    if (to < 0) length--;
+    else w->seen[to] = w->round, w->path[length++] = to;
+  }
+  return length;
+}
+
+/* Add a path: first take back what it runs against, then lay it. */
+static void lay_path(Flow *w, i64 length) {
+  const i32 *path = w->path;
+  for (i64 t = 0; t + 1 < length; t++) {
+    i32 x = path[t], y = path[t + 1], b = x >> 1, c = y >> 1;
+    if (b == c) w->flags[b] = (w->flags[b] & 1) | (x & 1 ? 0 : 2);
+    else if (!(x & 1)) {
+      if (w->next[c] == b) w->next[c] = NONE;
+      if (w->prev[b] == c) w->prev[b] = NONE;
+    }
+  }
+  for (i64 t = 0; t + 1 < length; t++) {
+    i32 b = path[t] >> 1, c = path[t + 1] >> 1;
+    if ((path[t] & 1) && b != c) w->next[b] = c, w->prev[c] = b;
+  }
+  w->prev[path[0] >> 1] = RIM, w->next[path[length - 1] >> 1] = RIM;
+}
+
+/* side = 2 for the fewest vertices that part the sides, within `reach` edges of the cut; a vertex cover of the cut
+ * (Koenig) if reach is 0.  By Menger's theorem: as many as disjoint paths through that band, where each of its vertices
+ * is an entry and an exit.  0, and nothing is changed, if the sides would get too uneven. */
+static int separate(Dissection *D, i64 lo, i64 hi, int reach) {
+  const Rows *g = &D->graph;
+  i64 k = 0, done = 0, count[3] = {0};
+  i32 *band = D->band + lo, *at = D->at;
+  for (i64 t = lo; t < hi; t++)
+    for (i64 v = D->vertices[t], e = g->start[v]; e < g->start[v + 1]; e++) {
+      i32 u = g->index[e];
+      if (__atomic_load_n(&D->region[u], __ATOMIC_RELAXED) != lo || D->side[u] == D->side[v]) continue;
+      at[v] = (i32)k, band[k++] = (i32)v;
+      break;
+    }
+  for (int r = 0; r < reach; r++)
+    for (i64 stop = k; done < stop; done++)
+      for (i64 v = band[done], e = g->start[v]; e < g->start[v + 1]; e++) {
+        i32 u = g->index[e];
+        if (__atomic_load_n(&D->region[u], __ATOMIC_RELAXED) == lo && at[u] < 0) at[u] = (i32)k, band[k++] = u;
+      }
+  i32 *f = D->flow + 8 * lo;
+  Flow w = {D, lo, k, f, f + k, f + 2 * k, f + 4 * k, f + 5 * k, f + 7 * k, 0};
+  for (i64 b = 0; b < k; b++) {
+    i64 v = band[b];
+    w.next[b] = w.prev[b] = NONE, w.seen[2 * b] = w.seen[2 * b + 1] = 0, w.flags[b] = !reach;
+    for (i64 e = g->start[v]; e < g->start[v + 1]; e++) {
+      i32 u = g->index[e];
+      w.flags[b] |= __atomic_load_n(&D->region[u], __ATOMIC_RELAXED) == lo && at[u] < 0;
+    }
+  }
+  for (int found = 1; found;) {
+    found = 0, w.round++;
+    for (i64 s = 0; s < k; s++) {
+      if (!(w.flags[s] & 1) || D->side[band[s]] || w.seen[2 * s] == w.round) continue;
+      i64 length = find_path(&w, s);
+      if (length) lay_path(&w, length), found = 1;
+    }
+  }
+  i32 *part = w.edge; /* side 0 is what the last round reached */
+  for (i64 b = 0; b < k; b++) part[b] = w.seen[2 * b + 1] == w.round ? 0 : w.seen[2 * b] == w.round ? 2 : 1;
+  for (i64 t = lo; t < hi; t++) {
+    i32 v = D->vertices[t];
+    count[at[v] < 0 ? D->side[v] : part[at[v]]]++;
+  }
+  int good = !reach || least(count[0], count[1]) * 4 >= hi - lo;
+  for (i64 b = 0; b < k; b++) {
+    if (good) D->side[band[b]] = (unsigned char)part[b];
+    at[band[b]] = -1;
+  }
+  return good;
+}
+
+/* ------------------------------------------------------------------ the recursion */
+
+/* All vertices in one region. */
+API void bih_begin_dissection(Dissection *D) {
+  for (i64 v = 0; v < D->graph.n; v++) D->vertices[v] = (i32)v, D->region[v] = 0, D->at[v] = -1;
+}
+
+/* Cut the region at places lo to hi - 1: afterwards its halves come first, then the separator.  halves[0], halves[1]:
+ * how many vertices they have; both 0 where the region is not cut. */
+API void bih_cut(Dissection *D, i64 lo, i64 hi, i64 *halves) {
+  i64 count[3] = {0}, put[3];
+  halves[0] = halves[1] = 0;
+  if (hi - lo <= LEAF) return;
+  halve(D, lo, hi);
+  if (hi - lo <= LARGE || !separate(D, lo, hi, REACH)) separate(D, lo, hi, 0);
+  for (i64 t = lo; t < hi; t++) count[D->side[D->vertices[t]]]++;
+  if (!count[0] || !count[1]) return;
+  put[0] = lo, put[1] = lo + count[0], put[2] = put[1] + count[1];
+  i64 right = put[1];
+  for (i64 t = lo; t < hi; t++) {
+    i32 v = D->vertices[t];
+    int side = D->side[v];
+    D->band[put[side]++] = v;
+    __atomic_store_n(&D->region[v], side == 2 ? -1 : side ? (i32)right : (i32)lo, __ATOMIC_RELAXED);
+  }
+  copy(D->vertices + lo, D->band + lo, 4 * (hi - lo));
+  halves[0] = count[0], halves[1] = count[1];
+}
+
+/* Dissect the region at places lo to hi - 1 to the end.  Appends its fronts in postorder: last[q], one past the last
+ * pivot, and how many fronts its left child's subtree and its right child's have (0 for leaves); returns how many there
+ * are by then, STOPPED if told to stop. */
+API i64 bih_dissect(Dissection *D, i64 lo, i64 hi, i64 fronts, i32 *last, i32 *subtrees, Watch *watch) {
+  i64 halves[2], left = 0, right = 0;
+  if (stopped(watch)) return STOPPED;
+  bih_cut(D, lo, hi, halves);
+  if (halves[0]) {
+    i64 begin = fronts, middle = lo + halves[0], end = middle + halves[1];
+    fronts = bih_dissect(D, lo, middle, fronts, last, subtrees, watch);
+    if (fronts < 0) return fronts;
+    left = fronts - begin;
+    fronts = bih_dissect(D, middle, end, fronts, last, subtrees, watch);
+    if (fronts < 0) return fronts;
+    right = fronts - begin - left;
+    advance(watch, hi - end);
+  } else
+    advance(watch, hi - lo);
+  last[fronts] = (i32)hi, subtrees[2 * fronts] = (i32)left, subtrees[2 * fronts + 1] = (i32)right;
+  return fronts + 1;
+}
