@@ -297,8 +297,10 @@ def as_laplacian(laplacian: Laplacian | Surface) -> Laplacian:
 
 
 def _pinned(matrix: sp.csr_matrix, pin: int) -> sp.csr_matrix:
-    """The matrix with row and column `pin` replaced by the identity's."""
-    pinned = matrix.tocoo(copy=True)
-    pinned.data[(pinned.row == pin) | (pinned.col == pin)] = 0
-    pinned.data[(pinned.row == pin) & (pinned.col == pin)] = 1
-    return pinned.tocsr()
+    """The symmetric matrix with row and column `pin` replaced by the identity's; it shares the pattern's arrays."""
+    start, index, value = matrix.indptr, matrix.indices, matrix.data.copy()
+    for row in index[start[pin] : start[pin + 1]]:
+        entries = slice(start[row], start[row + 1])
+        value[entries][index[entries] == pin] = 0
+    value[start[pin] : start[pin + 1]] = index[start[pin] : start[pin + 1]] == pin
+    return sp.csr_matrix((value, index, start), shape=matrix.shape)

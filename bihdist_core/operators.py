@@ -15,7 +15,8 @@ import scipy.sparse as sp
 from .arrays import FloatArray
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError
-from .surface import FLAT, Surface, dots
+from .kernel.library import library
+from .surface import FLAT, Surface
 
 AREAS = ("voronoi", "barycentric")
 
@@ -23,8 +24,17 @@ AREAS = ("voronoi", "barycentric")
 def stiffness(surface: Surface) -> sp.csr_matrix:
     """(n, n) cotangent stiffness matrix; the rows of unreferenced vertices are empty."""
     n, f = len(surface.vertices), surface.faces
+    weights = face_weights(surface)
+    if lib := library():
+        room = n + 6 * len(f)
+        start, index, value = np.empty(n + 1, np.int32), np.empty(room, np.int32), np.empty(room)
+        count = lib.bih_stiffness(
+            n, len(f), np.ascontiguousarray(f, np.int64), np.ascontiguousarray(weights), start, index, value,
+            np.empty(n, np.int32),
+        )  # fmt: skip
+        return sp.csr_matrix((value[:count].copy(), index[:count].copy(), start), shape=(n, n))
     i, j = (np.concatenate([f[:, (k + s) % 3] for k in range(3)]) for s in (1, 2))
-    half = sp.coo_matrix((face_weights(surface).ravel(), (i, j)), shape=(n, n)).tocsr()
+    half = sp.coo_matrix((weights.ravel(), (i, j)), shape=(n, n)).tocsr()
     weights = half + half.T
     return (sp.diags_array(np.asarray(weights.sum(axis=1)).ravel()) - weights).tocsr()
 
@@ -87,12 +97,28 @@ def face_sides(surface: Surface, true: bool = False) -> list[FloatArray]:
 
 def _corners(surface: Surface) -> tuple[FloatArray, FloatArray, FloatArray]:
     """(3, m) cotangent of each corner, (3, m) squared length of the side opposite to it, (m,) face areas."""
-    side = face_sides(surface)
-    squares = np.stack([dots(s, s) for s in side])
-    products = np.stack([-dots(side[(k + 1) % 3], side[(k + 2) % 3]) for k in range(3)])
-    area = surface.face_areas.copy()
-    flat = surface.degenerate_faces
+    area, flat, m = surface.face_areas, surface.degenerate_faces, len(surface.faces)
+    if lib := library():
+        cotangents, squares = np.empty((2, 3, m))
+        lib.bih_corners(m, *map(np.ascontiguousarray, (surface.vertices, surface.faces, area)), cotangents, squares)
+    else:
+        cotangents, squares = _cotangents(surface.sides(), area)
     if len(flat):
-        (ax, ay), (bx, by) = side[0][:2, flat], side[1][:2, flat]
+        side, area = DegenerateFaces.of(surface).sides(), area.copy()
+        (ax, ay), (bx, by) = side[0][:2], side[1][:2]
         area[flat] = np.abs(ax * by - ay * bx) / 2
-    return products / (2 * area), squares, area
+        cotangents[:, flat], squares[:, flat] = _cotangents(side, area[flat])
+    return cotangents, squares, area
+
+
+def _cotangents(side: list[FloatArray], area: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """(3, m) cotangents of corners and (3, m) squared lengths of the sides opposite to them."""
+    products = [-_inner(side[(k + 1) % 3], side[(k + 2) % 3]) for k in range(3)]
+    with np.errstate(divide="ignore", invalid="ignore"):  # of degenerate faces, which are overwritten
+        return np.stack(products) / (2 * area), np.stack([_inner(s, s) for s in side])
+
+
+def _inner(a: FloatArray, b: FloatArray) -> FloatArray:
+    """(m,) inner products of columns, (2, m) or (3, m)."""
+    product: FloatArray = sum(x * y for x, y in zip(a, b, strict=True))
+    return product

@@ -48,3 +48,19 @@ API i64 bih_stiffness(i64 n, i64 m, const i64 *faces, const double *weight, i32 
   start[n] = (i32)put;
   return put;
 }
+
+/* Of each face (m, 3) the cotangents of its corners (3, m) and the squared lengths of the sides opposite to them (3, m);
+ * x (n, 3), area (m,). */
+API void bih_corners(i64 m, const double *x, const i64 *faces, const double *area, double *cotangent, double *square) {
+  for (i64 f = 0; f < m; f++) {
+    double side[3][3];
+    for (int k = 0; k < 3; k++)
+      for (int a = 0; a < 3; a++)
+        side[k][a] = x[3 * faces[3 * f + (k + 2) % 3] + a] - x[3 * faces[3 * f + (k + 1) % 3] + a];
+    for (int k = 0; k < 3; k++) {
+      const double *s = side[k], *t = side[(k + 1) % 3], *u = side[(k + 2) % 3];
+      square[k * m + f] = s[0] * s[0] + s[1] * s[1] + s[2] * s[2];
+      cotangent[k * m + f] = -(t[0] * u[0] + t[1] * u[1] + t[2] * u[2]) / (2 * area[f]);
+    }
+  }
+}

@@ -53,8 +53,8 @@ INLINE void product(const int upper, i64 rows, i64 columns, i64 inner, double sc
       const double *b = B + k0 * ldb + j;
       i64 ld = ldb, tall = upper ? least(rows, j + WIDE * LANES) : rows;
       if (columns - j <= (WIDE - 1) * LANES) { /* what is left is narrower than a tile */
-        for (i64 o = 0; j + o < columns; o += LANES)
-          column_of_tiles(1, tall, deep, scale, a, row, column, b + o, ldb, C + j + o, ldc);
+        if (WIDE > 2 && columns - j > LANES) column_of_tiles(2, tall, deep, scale, a, row, column, b, ldb, C + j, ldc);
+        else column_of_tiles(1, tall, deep, scale, a, row, column, b, ldb, C + j, ldc);
         break;
       }
       if (tall > 16) { /* close together it is read faster */

@@ -53,13 +53,19 @@ typedef struct {
 typedef struct {
   Rows graph;
   float *charts;       /* (7, n) positions, then edge counts to four landmarks */
-  i32 *vertices;       /* (n,) in elimination order; each region is a stretch of it */
+  i32 *vertices;       /* (n,) in elimination order; each region is a stretch of it, in which they ascend */
+  i32 *edges, *spare;  /* (e, 2) ends of the edges; each region has a stretch of those inside it */
   i32 *region;         /* (n,) the first place of a vertex' region, -1 in separators */
   i32 *bin, *band, *at; /* (n,) each */
   i32 *flow;           /* (8 n,) */
   float *key;          /* (n,) */
   unsigned char *side; /* (n,) 0 or 1, 2 in the separator */
 } Dissection;
+
+/* A region: its vertices are at places lo to hi - 1, its edges are those numbered edge to edge_end - 1. */
+typedef struct {
+  i64 lo, hi, edge, edge_end;
+} Region;
 
 /* The elimination tree (symbolic.c). */
 typedef struct {

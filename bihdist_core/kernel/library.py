@@ -37,13 +37,25 @@ class Rows(Structure):
     _fields_ = (("n", c_int64), ("start", c_void_p), ("index", c_void_p), ("value", c_void_p))
 
 
+DISSECTION_ARRAYS = (
+    "charts", "vertices", "edges", "spare", "region", "bin", "band", "at", "flow", "key", "side"
+)  # fmt: skip
+"""The arrays of `Dissection`, in their order."""
+
+
 class Dissection(Structure):
     """A graph under nested dissection, and its workspace."""
 
-    _fields_ = (
-        ("graph", Rows),
-        *((name, c_void_p) for name in ("charts", "vertices", "region", "bin", "band", "at", "flow", "key", "side")),
-    )
+    _fields_ = (("graph", Rows), *((name, c_void_p) for name in DISSECTION_ARRAYS))
+
+
+class Region(Structure):
+    """A stretch of a graph's vertices, and of its edges."""
+
+    _fields_ = tuple((name, c_int64) for name in ("lo", "hi", "edge", "edge_end"))
+
+    lo: int
+    hi: int
 
 
 TREE_ARRAYS = {
@@ -92,9 +104,9 @@ _P, _A, _I = c_void_p, _Array, c_int64
 _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "check_symmetric": (c_int32, (_P, _A)),
     "number_graph": (None, (_P, *(_A,) * 9)),
-    "begin_dissection": (None, (_P,)),
-    "cut": (None, (_P, _I, _I, _A)),
-    "dissect": (c_int64, (_P, _I, _I, _I, _A, _A, _P)),
+    "begin_dissection": (c_int64, (_P,)),
+    "cut": (c_int32, (_P, _P, _P)),
+    "dissect": (c_int64, (_P, _P, _I, _A, _A, _P)),
     "boundaries": (c_int64, (_P, _P, _A, _A, _I, _A)),
     "places_in_parents": (None, (_P, _A, _A)),
     "stack": (None, (_P, _A, _A)),
@@ -105,8 +117,9 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "sweep_room": (c_int64, (_P, _I, _I, _I)),
     "sweep_up": (c_int32, (_P, _I, _I, _I, _I, _A, _A, _A, _P)),
     "sweep_down": (c_int32, (_P, _I, _I, _I, _A, _A, _P)),
-    "send_units": (None, (_P, _A, _A, _I, _A, _A, _A)),
-    "sweep_down_both": (c_int32, (_P, _I, _I, _I, _A, _A, _A, _A, _P)),
+    "send_units": (None, (_P, _A, _A, _I, _I, _A, _A, _A)),
+    "sweep_down_both": (c_int32, (_P, _I, _I, _I, _A, _A, _A, _P)),
+    "corners": (None, (_I, _A, _A, _A, _A, _A)),
     "stiffness": (c_int64, (_I, _I, _A, _A, _A, _A, _A, _A)),
 }
 

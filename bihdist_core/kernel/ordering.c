@@ -113,37 +113,35 @@ static void covariance(const Dissection *D, i64 lo, i64 hi, const float *chart, 
 }
 
 /* side = 0 or 1: across a principal axis of a chart, where the fewest edges are cut. */
-static void halve(Dissection *D, i64 lo, i64 hi) {
-  i64 m = hi - lo, n = D->graph.n;
+static void halve(Dissection *D, Region r) {
+  i64 m = r.hi - r.lo, n = D->graph.n;
+  const i32 *vertices = D->vertices + r.lo;
   double best = 1e300;
-  for (i64 t = lo; t < hi; t++) D->side[D->vertices[t]] = t - lo >= m / 2;
+  for (i64 t = 0; t < m; t++) D->side[vertices[t]] = t >= m / 2;
   for (int by_hops = 0; by_hops < (m > SMALL ? 2 : 1); by_hops++) {
     int d = by_hops ? LANDMARKS : POSITIONS;
     const float *chart = D->charts + (by_hops ? POSITIONS * n : 0);
     double C[4][4] = {{0}}, axis[4];
-    covariance(D, lo, hi, chart, d, C);
+    covariance(D, r.lo, r.hi, chart, d, C);
     for (int tried = 0; tried <= by_hops; tried++) {
       i32 here[BINS] = {0}, cut[BINS] = {0};
       principal_axis(C, d, axis);
       float low = 3e38f, high = -3e38f;
-      for (i64 t = lo; t < hi; t++) {
-        i32 v = D->vertices[t];
+      for (i64 t = 0; t < m; t++) {
+        i32 v = vertices[t];
         float key = 0;
         for (int k = 0; k < d; k++) key += (float)axis[k] * chart[k * n + v];
         D->key[v] = key, low = key < low ? key : low, high = key > high ? key : high;
       }
       float scale = high > low ? (BINS - 1) / (high - low) : 0;
-      for (i64 t = lo; t < hi; t++) {
-        i32 v = D->vertices[t];
+      for (i64 t = 0; t < m; t++) {
+        i32 v = vertices[t];
         here[D->bin[v] = (i32)((D->key[v] - low) * scale)]++;
       }
-      for (i64 t = lo; t < hi; t++)
-        for (i64 v = D->vertices[t], e = D->graph.start[v]; e < D->graph.start[v + 1]; e++) {
-          i32 u = D->graph.index[e];
-          if (u >= v || __atomic_load_n(&D->region[u], __ATOMIC_RELAXED) != lo) continue;
-          i32 p = D->bin[u], q = D->bin[v];
-          cut[p < q ? p : q]++, cut[p < q ? q : p]--;
-        }
+      for (i64 e = r.edge; e < r.edge_end; e++) {
+        i32 p = D->bin[D->edges[2 * e]], q = D->bin[D->edges[2 * e + 1]];
+        cut[p < q ? p : q]++, cut[p < q ? q : p]--;
+      }
       i64 run = 0, across = 0, at = -1;
       for (i64 b = 0; b < BINS - 1; b++) {
         run += here[b], across += cut[b];
@@ -152,7 +150,7 @@ static void halve(Dissection *D, i64 lo, i64 hi) {
         if (far < UNEVEN && cost < best) best = cost, at = b;
       }
       if (at >= 0)
-        for (i64 t = lo; t < hi; t++) D->side[D->vertices[t]] = D->bin[D->vertices[t]] > at;
+        for (i64 t = 0; t < m; t++) D->side[vertices[t]] = D->bin[vertices[t]] > at;
     }
   }
 }
@@ -223,18 +221,18 @@ static void lay_path(Flow *w, i64 length) {
 /* side = 2 for the fewest vertices that part the sides, within `reach` edges of the cut; a vertex cover of the cut
  * (Koenig) if reach is 0.  By Menger's theorem: as many as disjoint paths through that band, where each of its vertices
  * is an entry and an exit.  0, and nothing is changed, if the sides would get too uneven. */
-static int separate(Dissection *D, i64 lo, i64 hi, int reach) {
+static int separate(Dissection *D, Region r, int reach) {
   const Rows *g = &D->graph;
+  i64 lo = r.lo, hi = r.hi;
   i64 k = 0, done = 0, count[3] = {0};
   i32 *band = D->band + lo, *at = D->at;
-  for (i64 t = lo; t < hi; t++)
-    for (i64 v = D->vertices[t], e = g->start[v]; e < g->start[v + 1]; e++) {
-      i32 u = g->index[e];
-      if (__atomic_load_n(&D->region[u], __ATOMIC_RELAXED) != lo || D->side[u] == D->side[v]) continue;
-      at[v] = (i32)k, band[k++] = (i32)v;
-      break;
-    }
-  for (int r = 0; r < reach; r++)
+  for (i64 e = r.edge; e < r.edge_end; e++) {
+    i32 ends[2] = {D->edges[2 * e], D->edges[2 * e + 1]};
+    if (D->side[ends[0]] == D->side[ends[1]]) continue;
+    for (int k_end = 0; k_end < 2; k_end++)
+      if (at[ends[k_end]] < 0) at[ends[k_end]] = (i32)k, band[k++] = ends[k_end];
+  }
+  for (int step = 0; step < reach; step++)
     for (i64 stop = k; done < stop; done++)
       for (i64 v = band[done], e = g->start[v]; e < g->start[v + 1]; e++) {
         i32 u = g->index[e];
@@ -274,51 +272,65 @@ static int separate(Dissection *D, i64 lo, i64 hi, int reach) {
 
 /* ------------------------------------------------------------------ the recursion */
 
-/* All vertices in one region. */
-API void bih_begin_dissection(Dissection *D) {
-  for (i64 v = 0; v < D->graph.n; v++) D->vertices[v] = (i32)v, D->region[v] = 0, D->at[v] = -1;
+/* All vertices in one region; returns how many edges it has. */
+API i64 bih_begin_dissection(Dissection *D) {
+  const Rows *g = &D->graph;
+  i64 count = 0;
+  for (i64 v = 0; v < g->n; v++) {
+    D->vertices[v] = (i32)v, D->region[v] = 0, D->at[v] = -1;
+    for (i64 e = g->start[v]; e < g->start[v + 1]; e++)
+      if (g->index[e] < v) D->edges[2 * count] = g->index[e], D->edges[2 * count++ + 1] = (i32)v;
+  }
+  return count;
 }
 
-/* Cut the region at places lo to hi - 1: afterwards its halves come first, then the separator.  halves[0], halves[1]:
- * how many vertices they have; both 0 where the region is not cut. */
-API void bih_cut(Dissection *D, i64 lo, i64 hi, i64 *halves) {
+/* Cut a region in halves[0], halves[1] and the separator after both; 0 if it is not cut. */
+API i32 bih_cut(Dissection *D, const Region *whole, Region *halves) {
+  Region r = *whole;
   i64 count[3] = {0}, put[3];
-  halves[0] = halves[1] = 0;
-  if (hi - lo <= LEAF) return;
-  halve(D, lo, hi);
-  if (hi - lo <= LARGE || !separate(D, lo, hi, REACH)) separate(D, lo, hi, 0);
-  for (i64 t = lo; t < hi; t++) count[D->side[D->vertices[t]]]++;
-  if (!count[0] || !count[1]) return;
-  put[0] = lo, put[1] = lo + count[0], put[2] = put[1] + count[1];
-  i64 right = put[1];
-  for (i64 t = lo; t < hi; t++) {
+  if (r.hi - r.lo <= LEAF) return 0;
+  halve(D, r);
+  if (r.hi - r.lo <= LARGE || !separate(D, r, REACH)) separate(D, r, 0);
+  for (i64 t = r.lo; t < r.hi; t++) count[D->side[D->vertices[t]]]++;
+  if (!count[0] || !count[1]) return 0;
+  put[0] = r.lo, put[1] = r.lo + count[0], put[2] = put[1] + count[1];
+  halves[0] = (Region){put[0], put[1], r.edge, r.edge}, halves[1] = (Region){put[1], put[2], 0, 0};
+  for (i64 t = r.lo; t < r.hi; t++) {
     i32 v = D->vertices[t];
     int side = D->side[v];
     D->band[put[side]++] = v;
-    __atomic_store_n(&D->region[v], side == 2 ? -1 : side ? (i32)right : (i32)lo, __ATOMIC_RELAXED);
+    __atomic_store_n(&D->region[v], side == 2 ? -1 : (i32)halves[side].lo, __ATOMIC_RELAXED);
   }
-  copy(D->vertices + lo, D->band + lo, 4 * (hi - lo));
-  halves[0] = count[0], halves[1] = count[1];
+  copy(D->vertices + r.lo, D->band + r.lo, 4 * (r.hi - r.lo));
+  i64 left = r.edge, right = r.edge;
+  for (i64 e = r.edge; e < r.edge_end; e++) {
+    i32 u = D->edges[2 * e], v = D->edges[2 * e + 1];
+    int side = D->side[u];
+    if (side != D->side[v] || side == 2) continue;
+    if (side) D->spare[2 * right] = u, D->spare[2 * right++ + 1] = v;
+    else D->edges[2 * left] = u, D->edges[2 * left++ + 1] = v;
+  }
+  copy(D->edges + 2 * left, D->spare + 2 * r.edge, 8 * (right - r.edge));
+  halves[0].edge_end = halves[1].edge = left, halves[1].edge_end = left + right - r.edge;
+  return 1;
 }
 
-/* Dissect the region at places lo to hi - 1 to the end.  Appends its fronts in postorder: last[q], one past the last
- * pivot, and how many fronts its left child's subtree and its right child's have (0 for leaves); returns how many there
- * are by then, STOPPED if told to stop. */
-API i64 bih_dissect(Dissection *D, i64 lo, i64 hi, i64 fronts, i32 *last, i32 *subtrees, Watch *watch) {
-  i64 halves[2], left = 0, right = 0;
+/* Dissect a region to the end.  Appends its fronts in postorder: last[q], one past the last pivot, and how many fronts its
+ * left child's subtree and its right child's have (0 for leaves); returns how many there are by then, STOPPED if told to
+ * stop. */
+API i64 bih_dissect(Dissection *D, const Region *r, i64 fronts, i32 *last, i32 *subtrees, Watch *watch) {
+  Region halves[2];
+  i64 begin = fronts, end[2] = {fronts, fronts}, separator = r->lo;
   if (stopped(watch)) return STOPPED;
-  bih_cut(D, lo, hi, halves);
-  if (halves[0]) {
-    i64 begin = fronts, middle = lo + halves[0], end = middle + halves[1];
-    fronts = bih_dissect(D, lo, middle, fronts, last, subtrees, watch);
-    if (fronts < 0) return fronts;
-    left = fronts - begin;
-    fronts = bih_dissect(D, middle, end, fronts, last, subtrees, watch);
-    if (fronts < 0) return fronts;
-    right = fronts - begin - left;
-    advance(watch, hi - end);
-  } else
-    advance(watch, hi - lo);
-  last[fronts] = (i32)hi, subtrees[2 * fronts] = (i32)left, subtrees[2 * fronts + 1] = (i32)right;
+  if (bih_cut(D, r, halves)) {
+    for (int k = 0; k < 2; k++) {
+      fronts = end[k] = bih_dissect(D, halves + k, fronts, last, subtrees, watch);
+      if (fronts < 0) return fronts;
+    }
+    separator = halves[1].hi;
+  }
+  advance(watch, r->hi - separator);
+  last[fronts] = (i32)r->hi, subtrees[2 * fronts] = (i32)(end[0] - begin);
+  subtrees[2 * fronts + 1] = (i32)(end[1] - end[0]);
   return fronts + 1;
 }

@@ -1,9 +1,10 @@
-/* Solves with a finished factor.  Vectors are (n, k), in elimination order, their k columns beside each other.
+/* Solves with a finished factor.  A vector is (n, w), in elimination order, its w columns beside each other; w is 1 or a
+ * multiple of PAD.
  *
  * Up, from the leaves to the root: x[boundary] += N^T x[pivots].  Down: x[pivots] = K x[pivots] + N x[boundary].  With
- * the derivatives the same sweeps turn a unit vector x into a column of G, and y = 0 into one of G A G beside it:
+ * the derivatives the same sweeps turn unit vectors x into columns of G, and y = 0 into those of G A G:
  * up: y[boundary] += N^T y[pivots] + N1^T x[pivots];  down: y[pivots] = K y[pivots] + K1 x[pivots] + N y[boundary] +
- * N1 x[boundary]. */
+ * N1 x[boundary].  Then a vector is (n, 2 w), x and y beside each other, and one product with N serves both. */
 #include "kernel.h"
 
 #ifndef LANES
@@ -17,172 +18,166 @@ static double sum(vec v) {
   return s;
 }
 
-/* Row r of a vector: of the task's own places, or of those that tasks share. */
-static inline double *row_of(const Tree *t, double *own, double *above, i64 end, i64 k, i64 r) {
-  return r < end ? own + r * k : above + t->rank[r] * k;
+/* to (m, w): the rows of x (n, w); w is a multiple of PAD. */
+static void gather(const i32 *rows, i64 m, i64 w, const double *x, double *to) {
+  for (i64 j = 0; j < m; j++)
+    for (i64 l = 0; l < w; l += LANES) *(vec *)(to + j * w + l) = *(const vec *)(x + rows[j] * w + l);
 }
 
-/* Doubles that a sweep of k columns up or down the fronts first to last needs to work. */
-API i64 bih_sweep_room(const Tree *t, i64 first, i64 last, i64 k) {
+/* Doubles that a sweep of w columns along the fronts first to last needs to work. */
+API i64 bih_sweep_room(const Tree *t, i64 first, i64 last, i64 w) {
   i64 room = 0;
-  for (i64 q = first; q <= last; q++) {
-    Front f = front_of(t, q);
-    room = most(room, f.sp);
-  }
-  return 4 * room * padded(k) + 4 * PAD;
+  for (i64 q = first; q <= last; q++) room = most(room, front_of(t, q).sp);
+  return (room + 2 * PAD) * w + 2 * PAD;
 }
 
-/* Sweep x (n, k) up the fronts first to last; what comes to places from `end` on, all of them pivots of
- * top fronts, is added to above (r, k), by their rank among those. */
-API i32 bih_sweep_up(const Factor *factor, i64 first, i64 last, i64 end, i64 k, double *x, double *above, double *work,
+/* Sweep x (n, w) up the fronts first to last; what comes to places from `end` on, all of them pivots of top fronts, is
+ * added to above (r, w), by their rank among those. */
+API i32 bih_sweep_up(const Factor *factor, i64 first, i64 last, i64 end, i64 w, double *x, double *above, double *work,
                      Watch *watch) {
   const Tree *t = factor->tree;
-  i64 kp = padded(k);
   for (i64 q = first; q <= last; q++) {
     if (stopped(watch)) return STOPPED;
     Front f = front_of(t, q);
     i64 ln = (1 + factor->dual) * f.mp, filled = 0;
-    const double *N = block_N(factor, q), *pivots = x + f.first * k;
-    for (i64 i = 0; i < f.c * k && !filled; i++) filled = pivots[i] != 0;
+    const double *N = block_N(factor, q), *pivots = x + f.first * w;
+    for (i64 i = 0; i < f.c * w && !filled; i++) filled = pivots[i] != 0;
     if (!filled) continue;
-    if (k == 1) {
-      zero(work, 8 * f.mp);
+    zero(work, 8 * f.mp * w);
+    if (w == 1)
       for (i64 i = 0; i < f.c; i++)
         for (i64 j = 0; j < f.mp; j++) work[j] += N[i * ln + j] * pivots[i];
-      for (i64 j = 0; j < f.m; j++) *row_of(t, x, above, end, 1, f.rows[j]) += work[j];
-      continue;
-    }
-    double *sent = work, *p = work + f.m * kp;
-    zero(sent, 8 * f.m * kp);
-    for (i64 i = 0; i < f.c; i++) {
-      copy(p + i * kp, pivots + i * k, 8 * k);
-      for (i64 j = k; j < kp; j++) p[i * kp + j] = 0;
-    }
-    add_product(f.m, k, f.c, 1, N, 1, ln, p, kp, sent, kp);
+    else add_product(f.m, w, f.c, 1, N, 1, ln, pivots, w, work, w);
     for (i64 j = 0; j < f.m; j++) {
-      double *to = row_of(t, x, above, end, k, f.rows[j]);
-      for (i64 l = 0; l < k; l++) to[l] += sent[j * kp + l];
+      i64 r = f.rows[j];
+      double *to = r < end ? x + r * w : above + t->rank[r] * w;
+      if (w == 1) *to += work[j];
+      else
+        for (i64 l = 0; l < w; l += LANES) *(vec *)(to + l) += *(const vec *)(work + j * w + l);
     }
   }
   return DONE;
 }
 
-/* Sweep x (n, k) down the fronts last to first. */
-API i32 bih_sweep_down(const Factor *factor, i64 first, i64 last, i64 k, double *x, double *work, Watch *watch) {
+/* Sweep x (n, w) down the fronts last to first. */
+API i32 bih_sweep_down(const Factor *factor, i64 first, i64 last, i64 w, double *x, double *work, Watch *watch) {
   const Tree *t = factor->tree;
-  i64 kp = padded(k);
   for (i64 q = last; q >= first; q--) {
     if (stopped(watch)) return STOPPED;
     Front f = front_of(t, q);
     i64 ln = (1 + factor->dual) * f.mp;
     const double *K = block_K(factor, q), *N = block_N(factor, q);
-    double *pivots = x + f.first * k, *b = work, *p = b + f.mp * kp, *r = p + f.cp * kp;
-    if (k == 1) {
-      for (i64 j = 0; j < f.m; j++) b[j] = x[f.rows[j]];
-      for (i64 j = f.m; j < f.mp; j++) b[j] = 0;
-      copy(p, pivots, 8 * f.c);
-      for (i64 j = f.c; j < f.cp; j++) p[j] = 0;
+    double *pivots = x + f.first * w, *b = work, *p = b + f.mp * w;
+    if (w == 1) {
+      for (i64 j = 0; j < f.mp; j++) b[j] = j < f.m ? x[f.rows[j]] : 0;
+      for (i64 j = 0; j < f.cp; j++) p[j] = j < f.c ? pivots[j] : 0;
       for (i64 i = 0; i < f.c; i++) {
         vec v = {0};
         for (i64 j = 0; j < f.cp; j += LANES) v += *(const vec *)(K + i * f.cp + j) * *(const vec *)(p + j);
         for (i64 j = 0; j < f.mp; j += LANES) v += *(const vec *)(N + i * ln + j) * *(const vec *)(b + j);
         pivots[i] = sum(v);
       }
-      continue;
+    } else {
+      gather(f.rows, f.m, w, x, b);
+      zero(p, 8 * f.c * w);
+      add_product(f.c, w, f.c, 1, K, f.cp, 1, pivots, w, p, w);
+      add_product(f.c, w, f.m, 1, N, ln, 1, b, w, p, w);
+      copy(pivots, p, 8 * f.c * w);
     }
-    for (i64 j = 0; j < f.m; j++) {
-      copy(b + j * kp, x + f.rows[j] * k, 8 * k);
-      for (i64 l = k; l < kp; l++) b[j * kp + l] = 0;
-    }
-    for (i64 i = 0; i < f.c; i++) {
-      copy(p + i * kp, pivots + i * k, 8 * k);
-      for (i64 l = k; l < kp; l++) p[i * kp + l] = 0;
-    }
-    zero(r, 8 * f.c * kp);
-    add_product(f.c, k, f.c, 1, K, f.cp, 1, p, kp, r, kp);
-    add_product(f.c, k, f.m, 1, N, ln, 1, b, kp, r, kp);
-    for (i64 i = 0; i < f.c; i++) copy(pivots + i * k, r + i * kp, 8 * k);
   }
   return DONE;
 }
 
-/* Send unit vectors up their paths to the root: x, y (n, k), zero but for what is found here.  column (k,): the place of
- * each unit; on (fronts,): set where there is something to begin from. */
-API void bih_send_units(const Factor *factor, const i32 *front, const i32 *column, i64 k, double *x, double *y,
-                        unsigned char *on) {
+/* Send unit vectors, at places (k,), up their paths to the root; xy (n, 2 w), w >= k, is set there alone.
+ * count (fronts,): on how many paths a front is. */
+API void bih_send_units(const Factor *factor, const i32 *fronts, const i32 *places, i64 k, i64 w, double *xy, i32 *count,
+                        double *work) {
   const Tree *t = factor->tree;
+  i64 lowest = t->fronts;
+  for (i64 q = 0; q < t->fronts; q++) count[q] = 0;
   for (i64 l = 0; l < k; l++) {
-    x[column[l] * k + l] = 1;
-    for (i64 q = front[l]; q >= 0; q = t->parent[q]) {
-      Front f = front_of(t, q);
-      const double *N = block_N(factor, q);
-      on[q] = 1;
-      for (i64 i = 0; i < f.c; i++, N += 2 * f.mp) {
-        double a = x[(f.first + i) * k + l], b = y[(f.first + i) * k + l];
-        if (a == 0 && b == 0) continue;
-        for (i64 j = 0; j < f.m; j++) {
-          i64 to = f.rows[j] * k + l;
-          x[to] += N[j] * a, y[to] += N[j] * b + N[f.mp + j] * a;
-        }
-      }
+    lowest = least(lowest, fronts[l]);
+    for (i64 q = fronts[l]; q >= 0; q = t->parent[q])
+      if (!count[q]++) zero(xy + t->first[q] * 2 * w, 16 * w * (t->first[q + 1] - t->first[q]));
+  }
+  for (i64 l = 0; l < k; l++) xy[places[l] * 2 * w + l] = 1;
+  for (i64 q = lowest; q < t->fronts; q++) {
+    if (!count[q]) continue;
+    Front f = front_of(t, q);
+    const double *N = block_N(factor, q), *pivots = xy + f.first * 2 * w;
+    if (count[q] > 1) {
+      zero(work, 16 * f.mp * w);
+      add_product(f.m, 2 * w, f.c, 1, N, 1, 2 * f.mp, pivots, 2 * w, work, 2 * w);
+      add_product(f.m, w, f.c, 1, N + f.mp, 1, 2 * f.mp, pivots, 2 * w, work + w, 2 * w);
+      for (i64 j = 0; j < f.m; j++)
+        for (i64 l = 0; l < 2 * w; l += LANES)
+          *(vec *)(xy + f.rows[j] * 2 * w + l) += *(const vec *)(work + j * 2 * w + l);
+      continue;
+    }
+    i64 column = 0; /* that of the only path here */
+    for (i64 i = 0; i < f.c * 2 * w; i++)
+      if (pivots[i] != 0) column = i % w;
+    double *a = work, *b = a + f.mp;
+    zero(work, 16 * f.mp);
+    for (i64 i = 0; i < f.c; i++, N += 2 * f.mp) {
+      double x = pivots[i * 2 * w + column], y = pivots[i * 2 * w + w + column];
+      if (x == 0 && y == 0) continue;
+      for (i64 j = 0; j < f.mp; j++) a[j] += N[j] * x, b[j] += N[j] * y + N[f.mp + j] * x;
+    }
+    for (i64 j = 0; j < f.m; j++) {
+      double *to = xy + f.rows[j] * 2 * w + column;
+      to[0] += a[j], to[w] += b[j];
     }
   }
 }
 
-/* Sweep x and y (n, k) down the fronts last to first. */
-API i32 bih_sweep_down_both(const Factor *factor, i64 first, i64 last, i64 k, double *x, double *y,
-                            const unsigned char *on, double *work, Watch *watch) {
+/* The pivots of one front, of a single column. */
+static void down_one(const Factor *factor, Front f, i64 q, int sent, double *xy, double *work) {
+  i64 c = f.c, cp = f.cp, mp = f.mp;
+  const double *K = block_K(factor, q), *K1 = K + c * cp, *N = block_N(factor, q);
+  double *pivots = xy + 2 * f.first, *bx = work, *by = bx + mp, *p = by + mp;
+  for (i64 j = 0; j < f.m; j++) bx[j] = xy[2 * f.rows[j]], by[j] = xy[2 * f.rows[j] + 1];
+  for (i64 j = f.m; j < mp; j++) bx[j] = by[j] = 0;
+  zero(p, 16 * c);
+  if (sent)
+    for (i64 i = 0; i < c; i++)
+      for (i64 j = 0; j < c; j++) {
+        double x = pivots[2 * j], y = pivots[2 * j + 1];
+        p[2 * i] += K[i * cp + j] * x, p[2 * i + 1] += K[i * cp + j] * y + K1[i * cp + j] * x;
+      }
+  for (i64 i = 0; i < c; i++, N += 2 * mp) {
+    vec x = {0}, y = {0}, y1 = {0};
+    for (i64 j = 0; j < mp; j += LANES) {
+      vec n = *(const vec *)(N + j), b = *(const vec *)(bx + j);
+      x += n * b, y += n * *(const vec *)(by + j), y1 += *(const vec *)(N + mp + j) * b;
+    }
+    pivots[2 * i] = p[2 * i] + sum(x), pivots[2 * i + 1] = p[2 * i + 1] + sum(y + y1);
+  }
+}
+
+/* Sweep xy (n, 2 w) down the fronts last to first; count as bih_send_units left it. */
+API i32 bih_sweep_down_both(const Factor *factor, i64 first, i64 last, i64 w, double *xy, const i32 *count, double *work,
+                            Watch *watch) {
   const Tree *t = factor->tree;
-  i64 kp = padded(k);
   for (i64 q = last; q >= first; q--) {
     if (stopped(watch)) return STOPPED;
     Front f = front_of(t, q);
-    i64 c = f.c, m = f.m, cp = f.cp, mp = f.mp;
-    const double *K = block_K(factor, q), *K1 = K + c * cp, *N = block_N(factor, q), *N1 = N + mp;
-    if (k == 1) {
-      double *bx = work, *by = bx + mp, *px = by + mp, *py = px + cp;
-      for (i64 j = 0; j < m; j++) bx[j] = x[f.rows[j]], by[j] = y[f.rows[j]];
-      for (i64 j = m; j < mp; j++) bx[j] = by[j] = 0;
-      for (i64 i = 0; i < c; i++) {
-        px[i] = py[i] = 0;
-        for (i64 j = 0; on[q] && j < c; j++) {
-          double a = x[f.first + j], b = y[f.first + j];
-          px[i] += K[i * cp + j] * a, py[i] += K[i * cp + j] * b + K1[i * cp + j] * a;
-        }
-      }
-      for (i64 i = 0; i < c; i++, N += 2 * mp, N1 += 2 * mp) {
-        vec real = {0}, one = {0}, other = {0};
-        for (i64 j = 0; j < mp; j += LANES) {
-          vec n = *(const vec *)(N + j), a = *(const vec *)(bx + j);
-          real += n * a, one += n * *(const vec *)(by + j), other += *(const vec *)(N1 + j) * a;
-        }
-        x[f.first + i] = px[i] + sum(real), y[f.first + i] = py[i] + sum(one + other);
-      }
+    if (w == 1) {
+      down_one(factor, f, q, count[q] > 0, xy, work);
       continue;
     }
-    i64 wide = 2 * kp; /* x and y beside each other: one product with N serves both */
-    double *b = work, *p = b + mp * wide, *r = p + 0;
-    for (i64 j = 0; j < m; j++) {
-      double *to = b + j * wide;
-      copy(to, x + f.rows[j] * k, 8 * k), copy(to + kp, y + f.rows[j] * k, 8 * k);
-      for (i64 l = k; l < kp; l++) to[l] = to[kp + l] = 0;
+    i64 c = f.c, cp = f.cp, ln = 2 * f.mp;
+    const double *K = block_K(factor, q), *K1 = K + c * cp, *N = block_N(factor, q), *N1 = N + f.mp;
+    double *pivots = xy + f.first * 2 * w, *b = work, *p = b + f.mp * 2 * w;
+    gather(f.rows, f.m, 2 * w, xy, b);
+    zero(p, 16 * c * w);
+    if (count[q]) {
+      add_product(c, 2 * w, c, 1, K, cp, 1, pivots, 2 * w, p, 2 * w);
+      add_product(c, w, c, 1, K1, cp, 1, pivots, 2 * w, p + w, 2 * w);
     }
-    zero(r, 8 * c * wide);
-    if (on[q]) {
-      double *units = r + c * wide;
-      for (i64 i = 0; i < c; i++) {
-        double *to = units + i * wide;
-        copy(to, x + (f.first + i) * k, 8 * k), copy(to + kp, y + (f.first + i) * k, 8 * k);
-        for (i64 l = k; l < kp; l++) to[l] = to[kp + l] = 0;
-      }
-      add_product(c, wide, c, 1, K, cp, 1, units, wide, r, wide);
-      add_product(c, k, c, 1, K1, cp, 1, units, wide, r + kp, wide);
-    }
-    add_product(c, wide, m, 1, N, 2 * mp, 1, b, wide, r, wide);
-    add_product(c, k, m, 1, N1, 2 * mp, 1, b, wide, r + kp, wide);
-    for (i64 i = 0; i < c; i++) {
-      copy(x + (f.first + i) * k, r + i * wide, 8 * k), copy(y + (f.first + i) * k, r + i * wide + kp, 8 * k);
-    }
+    add_product(c, 2 * w, f.m, 1, N, ln, 1, b, 2 * w, p, 2 * w);
+    add_product(c, w, f.m, 1, N1, ln, 1, b, 2 * w, p + w, 2 * w);
+    copy(pivots, p, 16 * c * w);
   }
   return DONE;
 }

@@ -1,10 +1,8 @@
 """A factor by the compiled kernel: its blocks, and solves with them; `kernel/kernel.h` has the algebra."""
 
 import ctypes
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from functools import cached_property
-from queue import Empty, SimpleQueue
 from typing import Any
 
 import numpy as np
@@ -14,8 +12,8 @@ from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..kernel.library import at, check_stopped, library, rows_of
-from .compiled_tree import CompiledTree
-from .worker_threads import Job, Run
+from .compiled_tree import PAD, CompiledTree
+from .worker_threads import Job, Run, Workspaces
 
 PADDING = 8
 """Numbers after the end of an array that the kernel may read."""
@@ -55,7 +53,7 @@ class CompiledFactor:
         lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
         rows = rows_of(matrix.indptr, matrix.indices, matrix.data)
 
-        workspaces = _Workspaces()
+        workspaces = Workspaces()
 
         def eliminate(task: tuple[int, int]) -> None:
             room, where = np.zeros(3, np.int64), np.zeros(2, np.int64)
@@ -75,7 +73,7 @@ class CompiledFactor:
     def diagonals(self, job: Job) -> tuple[FloatArray, FloatArray]:
         """(n,) diag(G) and (n,) diag(G A G); to be called once, after the elimination."""
         lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
-        diagonals, workspaces = np.empty((2, tree.n)), _Workspaces()
+        diagonals, workspaces = np.empty((2, tree.n)), Workspaces()
 
         def invert(task: tuple[int, int]) -> None:
             room = np.zeros(2, np.int64)
@@ -87,49 +85,57 @@ class CompiledFactor:
         self._shared = np.empty(0)
         return diagonals[0], diagonals[1]
 
-    def solve(self, b: FloatArray, run: Run) -> FloatArray:
+    def solve(self, b: FloatArray, run: Run, workspaces: Workspaces) -> FloatArray:
         """(n, k) matrix^-1 b, b (n, k): every task up to the top, the top up and down, and every task down."""
+        tree, width = self.tree, _width(b.shape[1])
+        result = np.empty(b.shape)
+        with workspaces.of(tree.n * width) as x:
+            x = x.reshape(tree.n, width)
+            x[:, : b.shape[1]], x[:, b.shape[1] :] = b[tree.vertices], 0
+            self._solve_in_place(x, run)
+            result[tree.vertices] = x[:, : b.shape[1]]
+        return result
+
+    def _solve_in_place(self, x: FloatArray, run: Run) -> None:
         lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
-        k, top = b.shape[1], tree.top_places
-        x = b[tree.vertices]
+        width, top = x.shape[1], tree.top_places
 
         def up(task: tuple[int, int]) -> FloatArray:
-            above = np.zeros((len(top), k))
-            end = int(tree.first[task[1] + 1])
-            work = self._workspace(task, k)
-            lib.bih_sweep_up(factor, *task, end, k, x, above, work, NEVER)
+            above, end = np.zeros((len(top), width)), int(tree.first[task[1] + 1])
+            lib.bih_sweep_up(factor, *task, end, width, x, above, self._workspace(task, width), NEVER)
             return above
 
         def down(task: tuple[int, int]) -> None:
-            lib.bih_sweep_down(factor, *task, k, x, self._workspace(task, k), NEVER)
+            lib.bih_sweep_down(factor, *task, width, x, self._workspace(task, width), NEVER)
 
-        branches, tops = tree.branches, tree.tops
-        for above in run(up, branches):
+        for above in run(up, tree.branches):
             x[top] += above
-        for q in tops:
-            lib.bih_sweep_up(factor, q, q, tree.n, k, x, None, self._workspace((q, q), k), NEVER)
-        for q in reversed(tops):
+        for q in tree.tops:
+            lib.bih_sweep_up(factor, q, q, tree.n, width, x, None, self._workspace((q, q), width), NEVER)
+        for q in reversed(tree.tops):
             down((q, q))
-        run(down, branches)
-        result = np.empty_like(x)
-        result[tree.vertices] = x
-        return result
+        run(down, tree.branches)
 
-    def _workspace(self, task: tuple[int, int], k: int) -> FloatArray:
-        return np.empty(library().bih_sweep_room(ctypes.byref(self.tree.struct), *task, k))
+    def each_sandwich_piece(
+        self, index: IntArray, run: Run, receive: Callable[[IntArray, FloatArray], None], workspaces: Workspaces
+    ) -> None:
+        """The columns `index` (k,) of G A G in pieces: receive(vertices (r,), values (r, k)), which it may overwrite."""
+        width = _width(len(index))
+        with workspaces.of(self.tree.n * 2 * width) as xy:
+            self._sweep_columns(index, run, receive, xy.reshape(self.tree.n, 2 * width))
 
-    def each_sandwich_piece(self, index: IntArray, run: Run, receive: Callable[[IntArray, FloatArray], None]) -> None:
-        """The columns `index` (k,) of G A G in pieces: receive(vertices (r,), values (r, k)), which it may keep."""
+    def _sweep_columns(
+        self, index: IntArray, run: Run, receive: Callable[[IntArray, FloatArray], None], xy: FloatArray
+    ) -> None:
         lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
-        places, k = tree.place[index], len(index)
-        x, y = np.zeros((2, tree.n, k))
-        on = np.zeros(len(tree.parent), np.uint8)
+        places, width, count = tree.place[index], xy.shape[1] // 2, np.empty(len(tree.parent), np.int32)
         front = (np.searchsorted(tree.first, places, side="right") - 1).astype(np.int32)
-        lib.bih_send_units(factor, front, places, k, x, y, on)
+        everything = self._workspace((0, len(tree.parent) - 1), 2 * width)
+        lib.bih_send_units(factor, front, places, len(index), width, xy, count, everything)
 
         def down(task: tuple[int, int]) -> FloatArray:
-            lib.bih_sweep_down_both(factor, *task, k, x, y, on, self._workspace(task, 2 * k), NEVER)
-            piece: FloatArray = y[tree.first[task[0]] : tree.first[task[1] + 1]]
+            lib.bih_sweep_down_both(factor, *task, width, xy, count, self._workspace(task, 2 * width), NEVER)
+            piece: FloatArray = xy[tree.first[task[0]] : tree.first[task[1] + 1], width : width + len(index)]
             return piece
 
         def finish(task: tuple[int, int], piece: FloatArray) -> None:
@@ -139,21 +145,10 @@ class CompiledFactor:
             finish((q, q), down((q, q)).copy())  # those below need it as it is
         run(lambda task: finish(task, down(task)), tree.branches)
 
+    def _workspace(self, task: tuple[int, int], width: int) -> FloatArray:
+        return np.empty(library().bih_sweep_room(ctypes.byref(self.tree.struct), *task, width))
 
-class _Workspaces:
-    """Arrays for the tasks that run at the same time, each used again: memory that is touched first costs more."""
 
-    def __init__(self) -> None:
-        self._free: SimpleQueue[FloatArray] = SimpleQueue()
-
-    @contextmanager
-    def of(self, size: int) -> Iterator[FloatArray]:
-        """One of at least so many numbers."""
-        try:
-            work = self._free.get_nowait()
-        except Empty:
-            work = np.empty(0)
-        if len(work) < size:
-            work = np.empty(size)
-        yield work
-        self._free.put(work)
+def _width(columns: int) -> int:
+    """How many columns the kernel takes beside each other instead of so many."""
+    return 1 if columns == 1 else -(-columns // PAD) * PAD

@@ -18,6 +18,7 @@ from ..kernel.library import (
     NO_ROOM,
     TREE_ARRAYS,
     Dissection,
+    Region,
     Rows,
     Tree,
     at,
@@ -108,72 +109,42 @@ class CompiledTree:
     def _dissect(self, matrix: Rows, x: FloatArray, progress: Progress) -> tuple[AnyArray, AnyArray]:
         """Fills in `vertices` and `place`; (fronts,) one past the last pivot of each front, and (fronts, 2) how many
         fronts its children's subtrees have."""
-        lib, n = library(), self.n
-        work = np.empty((17, n), np.int32)
-        bins, band, reached, region, numbers, flow = *work[:5], work[5:13]
+        lib, n, entries = library(), self.n, _entries(matrix)
+        numbers, region, bins, band, reached = np.empty((5, n), np.int32)
         charts, key = np.empty((7, n), np.float32), np.empty(n, np.float32)
-        start, index = np.zeros(n + 1, np.int32), np.empty(max(1, _entries(matrix)), np.int32)
-        lib.bih_number_graph(
-            ctypes.byref(matrix), x, numbers, bins, start, index, charts, band, reached,
-            key,
-        )  # fmt: skip
-        vertices = np.empty(n, np.int32)
-        dissection = Dissection(
-            rows_of(start, index), at(charts), at(vertices), at(region), at(bins), at(band), at(reached), at(flow),
-            at(key), at(side := np.empty(n, np.uint8)),
-        )  # fmt: skip
-        lib.bih_begin_dissection(ctypes.byref(dissection))
+        start, index = np.zeros(n + 1, np.int32), np.empty(entries, np.int32)
+        lib.bih_number_graph(ctypes.byref(matrix), x, numbers, bins, start, index, charts, band, reached, key)
+        vertices, flow, side = np.empty(n, np.int32), np.empty(8 * n, np.int32), np.empty(n, np.uint8)
+        edges, spare = np.empty((2, entries), np.int32)
+        workspace = (charts, vertices, edges, spare, region, bins, band, reached, flow, key, side)
+        dissection = ctypes.byref(Dissection(rows_of(start, index), *map(at, workspace)))
         job = Job(progress, "Ordering the vertices", n)
 
-        def cut(region: tuple[int, int]) -> tuple[int, int]:
-            halves = np.zeros(2, np.int64)
-            lib.bih_cut(ctypes.byref(dissection), *region, halves)
-            return int(halves[0]), int(halves[1])
+        def cut(region: Region) -> list[Region]:
+            halves = (Region * 2)()
+            return list(halves) if lib.bih_cut(dissection, ctypes.byref(region), halves) else []
 
-        def dissect(region: tuple[int, int]) -> tuple[AnyArray, AnyArray]:
-            lo, hi = region
-            last, subtrees = np.empty(2 * (hi - lo) + 1, np.int32), np.empty((2 * (hi - lo) + 1, 2), np.int32)
+        def dissect(region: Region) -> tuple[AnyArray, AnyArray]:
+            most = 2 * (region.hi - region.lo) + 1
+            last, subtrees = np.empty(most, np.int32), np.empty((most, 2), np.int32)
             count = check_stopped(
-                lib.bih_dissect(ctypes.byref(dissection), lo, hi, 0, last, subtrees, ctypes.byref(job.watch))
+                lib.bih_dissect(dissection, ctypes.byref(region), 0, last, subtrees, ctypes.byref(job.watch))
             )
             return last[:count], subtrees[:count]
 
-        # A tree of regions: each is cut, or dissected to the end.
-        regions, halves = [[(0, n)]], list[dict[tuple[int, int], tuple[int, int]]]()
+        # Cut a few times, level by level; then dissect what there is by then.
+        root = _Cut(Region(0, n, 0, lib.bih_begin_dissection(dissection)))
+        leaves = [root]
         for _ in range(CUTS if n > CUT_ALONE else 0):
-            found = dict(zip(regions[-1], job.run(cut, regions[-1]), strict=True))
-            halves.append(found)
-            regions.append(
-                [
-                    piece
-                    for (lo, _), (left, right) in found.items()
-                    if left
-                    for piece in ((lo, lo + left), (lo + left, lo + left + right))
-                ]
-            )
-        leaves = [region for level, found in enumerate(halves) for region in regions[level] if not found[region][0]]
-        leaves += regions[-1]
-        fronts = dict(zip(leaves, job.run(dissect, leaves), strict=True))
-
-        def gather(region: tuple[int, int], level: int) -> tuple[AnyArray, AnyArray]:
-            left, right = halves[level].get(region, (0, 0)) if level < len(halves) else (0, 0)
-            if not left:
-                return fronts[region]
-            lo, hi = region
-            one = gather((lo, lo + left), level + 1)
-            other = gather((lo + left, lo + left + right), level + 1)
-            root = np.array([[len(one[0]), len(other[0])]], np.int32)
-            return (
-                np.concatenate([one[0], other[0], np.array([hi], np.int32)]),
-                np.concatenate([one[1], other[1], root]),
-            )
-
-        last, subtrees = gather((0, n), 0)
+            for leaf, halves in zip(leaves, job.run(lambda leaf: cut(leaf.region), leaves), strict=True):
+                leaf.halves = [_Cut(half) for half in halves]
+            leaves = [half for leaf in leaves for half in leaf.halves or [leaf]]
+        for leaf, fronts in zip(leaves, job.run(lambda leaf: dissect(leaf.region), leaves), strict=True):
+            leaf.fronts = fronts
         self.vertices = numbers[vertices]
         self.place = np.empty(n, np.int32)
         self.place[self.vertices] = np.arange(n, dtype=np.int32)
-        del side
-        return last, subtrees
+        return root.all_fronts()
 
     # ------------------------------------------------------------------ layout
     def _link(self, last: AnyArray, subtrees: AnyArray) -> None:
@@ -228,6 +199,24 @@ class CompiledTree:
         struct = self.struct
         lib.bih_stack(ctypes.byref(struct), self.stack, self.inverse)
         lib.bih_places_in_parents(ctypes.byref(struct), self.up, scratch)
+
+
+class _Cut:
+    """A region of the graph, in halves or with its fronts."""
+
+    def __init__(self, region: Region) -> None:
+        self.region = region
+        self.halves: list[_Cut] = []
+        self.fronts: tuple[AnyArray, AnyArray] = np.empty(0), np.empty(0)
+
+    def all_fronts(self) -> tuple[AnyArray, AnyArray]:
+        """Those of the halves, and the separator's."""
+        if not self.halves:
+            return self.fronts
+        (one, one_subtrees), (other, other_subtrees) = (half.all_fronts() for half in self.halves)
+        own = np.array([[len(one), len(other)]], np.int32)
+        last = np.concatenate([one, other, np.array([self.region.hi], np.int32)])
+        return last, np.concatenate([one_subtrees, other_subtrees, own])
 
 
 def padded(count: IntArray) -> IntArray:

@@ -18,7 +18,7 @@ from .compiled_factor import CompiledFactor
 from .compiled_tree import CompiledTree
 from .elimination_tree import EliminationTree, canonical
 from .plain import PlainFactor
-from .worker_threads import Job, Run, in_turn, side_by_side
+from .worker_threads import Job, Run, Workspaces, in_turn, side_by_side
 
 ReceivePiece = Callable[[IntArray, slice, FloatArray], None]
 """Takes some rows (r,), a slice of the columns asked for, and the values (r, k) there, which it may overwrite."""
@@ -88,10 +88,10 @@ class Factor:
         if not np.isfinite(b).all():
             raise ParameterError("A right-hand side must have finite numbers only.")
         columns = b[:, None] if b.ndim == 1 else b
-        result = np.empty(columns.shape)
+        result, workspaces = np.empty(columns.shape), Workspaces()
 
         def solve(some: slice, run: Run) -> None:
-            result[:, some] = self._blocks.solve(columns[:, some], run)
+            result[:, some] = self._blocks.solve(columns[:, some], run, workspaces)
 
         self._in_slices(columns.shape[1], WIDE, solve)
         _check_result(result)
@@ -114,12 +114,14 @@ class Factor:
         if index.ndim != 1 or (index.size and (index.dtype.kind not in "iu" or index.min() < 0 or index.max() >= n)):
             raise ParameterError(f"Columns are chosen by a list of whole numbers from 0 to {n - 1}, not {index!r}.")
 
+        workspaces = Workspaces()
+
         def sweep(some: slice, run: Run) -> None:
             def finish(rows: IntArray, values: FloatArray) -> None:
                 _check_result(values)
                 receive(rows, some, values)
 
-            self._blocks.each_sandwich_piece(index[some], run, finish)
+            self._blocks.each_sandwich_piece(index[some], run, finish, workspaces)
 
         # Each column comes with one of G.
         self._in_slices(len(index), WIDE // 2, sweep)

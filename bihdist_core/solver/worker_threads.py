@@ -12,10 +12,12 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
+from queue import Empty, SimpleQueue
 from typing import Any, TypeVar
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..errors import Cancelled
 from ..kernel.library import Watch
 from ..progress import Progress, silent
@@ -178,3 +180,22 @@ class Job:
                     future.cancel()
                 wait(pending)
         return [results[k] for k in range(len(items))]
+
+
+class Workspaces:
+    """Arrays for tasks that run at the same time, each used again: memory that is touched first costs more."""
+
+    def __init__(self) -> None:
+        self._free: SimpleQueue[FloatArray] = SimpleQueue()
+
+    @contextmanager
+    def of(self, size: int) -> Iterator[FloatArray]:
+        """(size,) numbers, of any value."""
+        try:
+            work = self._free.get_nowait()
+        except Empty:
+            work = np.empty(0)
+        if len(work) < size:
+            work = np.empty(size)
+        yield work[:size]
+        self._free.put(work)
