@@ -20,7 +20,7 @@ static double *schur_of(const Elimination *e, i64 q) {
 
 static i64 work_of(Front f, int dual) {
   i64 products = dual ? f.c * (f.cp + 2 * f.mp) : 0;
-  return most(sweep_work(f.c, f.sp), most(products, f.c * f.mp)) + f.cp + PAD;
+  return most(sweep_work(f.c, f.sp), most(products, most(f.c * f.mp, 2 * f.c * f.cp))) + f.cp + PAD;
 }
 
 /* What eliminating the fronts first to last needs, in doubles: room[0] for the stack, room[1] for the largest front,
@@ -83,19 +83,26 @@ static i32 assemble(Elimination *e, i64 q, Front f) {
   return DONE;
 }
 
-/* One step of iterative refinement: N F = -R then holds to rounding, as after a solve with a Cholesky factor.  F as
- * assembled; overwrites its boundary block with S. */
-static void refine(const Front f, const double *K, double *N, i64 ln, double *F, double *work) {
-  i64 ld = f.sp;
-  double *E = work; /* R + F N */
-  for (i64 i = 0; i < f.c; i++) {
+/* One step of iterative refinement of K and of N: F K = 1 and F N = -R then hold to rounding, as after solves with a
+ * Cholesky factor.  F as assembled; overwrites its boundary block with S. */
+static void refine(const Front f, double *K, double *N, i64 ln, double *F, double *work) {
+  i64 c = f.c, m = f.m, cp = f.cp, mp = f.mp, ld = f.sp;
+  double *E = work, *D = work + c * cp; /* 1 - F K, and K E */
+  for (i64 i = 0; i < c; i++)
     for (i64 j = 0; j < i; j++) F[i * ld + j] = F[j * ld + i];
-    copy(E + i * f.mp, F + i * ld + f.c, 8 * f.m);
-    zero(E + i * f.mp + f.m, 8 * (f.mp - f.m));
+  zero(E, 16 * c * cp);
+  for (i64 i = 0; i < c; i++) E[i * cp + i] = 1;
+  add_product(c, c, c, -1, F, ld, 1, K, cp, E, cp);
+  add_product(c, c, c, 1, K, cp, 1, E, cp, D, cp);
+  for (i64 i = 0; i < c; i++) /* not symmetric to the last digit, or F K would not be 1 */
+    for (i64 j = 0; j < c; j++) K[i * cp + j] += D[i * cp + j];
+  for (i64 i = 0; i < c; i++) { /* R + F N */
+    copy(E + i * mp, F + i * ld + c, 8 * m);
+    zero(E + i * mp + m, 8 * (mp - m));
   }
-  add_product(f.c, f.m, f.c, 1, F, ld, 1, N, ln, E, f.mp);
-  add_product(f.c, f.m, f.c, -1, K, f.cp, 1, E, f.mp, N, ln);
-  add_upper_product(f.m, f.m, f.c, 1, F + f.c, 1, ld, N, ln, F + f.c * ld + f.c, ld);
+  add_product(c, m, c, 1, F, ld, 1, N, ln, E, mp);
+  add_product(c, m, c, -1, K, cp, 1, E, mp, N, ln);
+  add_upper_product(m, m, c, 1, F + c, 1, ld, N, ln, F + c * ld + c, ld);
 }
 
 /* K1, N1 and, in the boundary block of F1, S1. */
