@@ -14,7 +14,7 @@ import threading
 import numpy as np
 import scipy.sparse as sp
 
-from .arrays import FloatArray, IntArray
+from .arrays import AnyArray, FloatArray, IntArray
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError, SolverError
 from .locked_cached_property import locked_cached_property
@@ -209,7 +209,7 @@ class Component:
         index, u = np.asarray(index), self._u
         scaled = u[index] / self.areas.sum()
 
-        def centred(rows: IntArray, columns: slice, values: FloatArray) -> None:
+        def centred(rows: AnyArray, columns: slice, values: FloatArray) -> None:
             values -= u[rows, None] * scaled[columns]
             receive(rows, columns, values)
 

@@ -17,7 +17,7 @@ def silent(fraction: float, text: str) -> None:
 
 def part(progress: Progress | None, start: float, stop: float) -> Progress:
     """The progress of one step of a longer work: its 0 to 1 becomes start to stop of the whole."""
-    if progress is None:
+    if progress is None or progress is silent:
         return silent
     return lambda fraction, text: progress(start + (stop - start) * fraction, text)
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import AnyArray, FloatArray, IntArray
 from ..laplacian import Component, Laplacian
 from ..progress import Progress
 from ..solver.tall import point_distances
@@ -47,7 +47,7 @@ class BiharmonicDistance(Distance):
         diagonal = component.biharmonic_diagonal()
         distances, largest = np.empty((len(diagonal), len(index))), diagonal.max()
 
-        def finish(rows: IntArray, columns: slice, values: FloatArray) -> None:
+        def finish(rows: AnyArray, columns: slice, values: FloatArray) -> None:
             values *= -2
             values += diagonal[rows, None]
             values += diagonal[index[columns]]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..kernel.library import at, check_stopped, library, rows_of
@@ -117,15 +117,15 @@ class CompiledFactor:
         run(down, tree.branches)
 
     def each_sandwich_piece(
-        self, index: IntArray, run: Run, receive: Callable[[IntArray, FloatArray], None], workspaces: Workspaces
+        self, index: IntArray, run: Run, receive: Callable[[AnyArray, FloatArray], None], workspaces: Workspaces
     ) -> None:
-        """The columns `index` (k,) of G A G in pieces: receive(vertices (r,), values (r, k)), which it may overwrite."""
+        """The columns `index` (k,) of G A G in pieces: receive(vertices (r,), values (r, k)), which it may change."""
         width = _width(len(index))
         with workspaces.of(self.tree.n * 2 * width) as xy:
             self._sweep_columns(index, run, receive, xy.reshape(self.tree.n, 2 * width))
 
     def _sweep_columns(
-        self, index: IntArray, run: Run, receive: Callable[[IntArray, FloatArray], None], xy: FloatArray
+        self, index: IntArray, run: Run, receive: Callable[[AnyArray, FloatArray], None], xy: FloatArray
     ) -> None:
         lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
         places, width, count = tree.place[index], xy.shape[1] // 2, np.empty(len(tree.parent), np.int32)

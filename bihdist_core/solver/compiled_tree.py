@@ -117,7 +117,7 @@ class CompiledTree:
         vertices, flow, side = np.empty(n, np.int32), np.empty(8 * n, np.int32), np.empty(n, np.uint8)
         edges, spare = np.empty((2, entries), np.int32)
         workspace = (charts, vertices, edges, spare, region, bins, band, reached, flow, key, side)
-        dissection = ctypes.byref(Dissection(rows_of(start, index), *map(at, workspace)))
+        dissection = ctypes.byref(Dissection(rows_of(start, index), *(at(array) for array in workspace)))
         job = Job(progress, "Ordering the vertices", n)
 
         def cut(region: Region) -> list[Region]:

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import AnyArray, FloatArray
 from ..errors import ParameterError, SolverError
 from ..progress import Progress
 from .compiled_factor import CompiledFactor
@@ -20,7 +20,7 @@ from .elimination_tree import EliminationTree, canonical
 from .plain import PlainFactor
 from .worker_threads import Job, Run, Workspaces, in_turn, side_by_side
 
-ReceivePiece = Callable[[IntArray, slice, FloatArray], None]
+ReceivePiece = Callable[[AnyArray, slice, FloatArray], None]
 """Takes some rows (r,), a slice of the columns asked for, and the values (r, k) there, which it may overwrite."""
 
 WIDE = 32
@@ -101,7 +101,7 @@ class Factor:
         """(n, k): the columns `index` (k,) of matrix^-1 A matrix^-1, in one sweep down; SolverError without areas."""
         result = np.empty((self.tree.n, np.size(index)))
 
-        def keep(rows: IntArray, columns: slice, values: FloatArray) -> None:
+        def keep(rows: AnyArray, columns: slice, values: FloatArray) -> None:
             result[rows, columns] = values
 
         self.each_sandwich_piece(index, keep)
@@ -117,7 +117,7 @@ class Factor:
         workspaces = Workspaces()
 
         def sweep(some: slice, run: Run) -> None:
-            def finish(rows: IntArray, values: FloatArray) -> None:
+            def finish(rows: AnyArray, values: FloatArray) -> None:
                 _check_result(values)
                 receive(rows, some, values)
 
