@@ -89,10 +89,10 @@ def operations(tree: EliminationTree) -> tuple[float, float]:
     (2 c^2 m), and their product taken from the rest (2 c m^2).  A solve multiplies with the block and, down and up,
     with the side; a column has two solves.
     """
-    shapes = [np.array(stack.shape, float) for stack in tree.stacks]
-    factorization = sum(2 * b * (c**3 + c**2 * m + c * m**2) for b, c, m in shapes)
-    column = sum(2 * 2 * b * (c**2 + 2 * c * m) for b, c, m in shapes)
-    return float(factorization), float(column)
+    c, m = (size.astype(float) for size in tree.sizes)
+    factorization = 2 * (c**3 + c**2 * m + c * m**2)
+    column = 2 * 2 * (c**2 + 2 * c * m)
+    return float(factorization.sum()), float(column.sum())
 
 
 def _set_up(surface: Surface) -> BiharmonicDistance:

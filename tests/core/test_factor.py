@@ -1,4 +1,7 @@
-"""The factor against dense inverses, on graphs of all kinds, and what it promises beside numbers."""
+"""The factor against dense inverses, on graphs of all kinds, and what it promises beside numbers.
+
+All of it holds for the compiled kernel and for the plain one.
+"""
 
 import threading
 import time
@@ -8,21 +11,24 @@ import pytest
 import scipy.sparse as sp
 
 from bihdist_core.errors import Cancelled, ParameterError, SolverError
-from bihdist_core.solver import elimination_tree
+from bihdist_core.kernel.library import library
+from bihdist_core.solver import compiled_tree, elimination_tree
 from bihdist_core.solver.blas import one_blas_thread
 from bihdist_core.solver.elimination_tree import EliminationTree
 from bihdist_core.solver.factor import Factor
 from bihdist_core.solver.worker_threads import without_workers
-from tests.core.graphs import (
-    SHAPES,
-    grid,
-    laplacian,
-    path,
-    star,
-)
+from tests.core.graphs import SHAPES, grid, laplacian, path, star
 
 # Conditions are at most about 1e4 here, and a backward stable solve loses one digit per power of ten.
 CLOSE = 1e-11
+
+compiled = pytest.mark.skipif(library() is None, reason="there is no compiled kernel")
+
+
+@pytest.fixture(params=[pytest.param("compiled", marks=compiled), "plain"], autouse=True)
+def kernel(request, monkeypatch):
+    if request.param == "plain":
+        monkeypatch.setattr(elimination_tree, "library", lambda: None)
 
 
 @pytest.fixture(params=SHAPES)
@@ -355,12 +361,34 @@ def test_diagonals_cannot_be_written():
         factor.diagonal[0] = 1
 
 
-def test_tiny_stacks_give_the_same_answer(monkeypatch):
-    """Large meshes fill several stacks with like fronts; small limits bring that about on a small one."""
-    matrix, x = grid(40, 60)
-    areas = np.ones(2400)
-    one = Factor(EliminationTree(matrix, x), matrix, areas)
-    monkeypatch.setattr(elimination_tree, "STACK", 1 << 13)
-    two = Factor(EliminationTree(matrix, x), matrix, areas)
-    assert close(two.sandwich_diagonal, one.sandwich_diagonal)
-    assert close(two.sandwich_columns([9]), one.sandwich_columns([9]))
+# ---------------------------------------------------------------------- two kernels
+def tasks_of(tree):
+    """How many branches a compiled tree has, and how many fronts above them."""
+    return len(tree.layout.branches), len(tree.layout.tops)
+
+
+@compiled
+@pytest.mark.parametrize("kernel", ["compiled"], indirect=True)
+@pytest.mark.parametrize("name", ["grid", "islands", "strip", "random dense", "star"])
+def test_branches_side_by_side_give_the_same_answer(name, monkeypatch):
+    """Large meshes are done by several tasks below a top; small limits bring that about on a small one."""
+    matrix, x, areas = _with_areas(name)
+    b = np.random.default_rng(0).normal(size=(len(x), 40))
+    index = np.arange(0, len(x), 30)
+    one = EliminationTree(matrix, x)
+    monkeypatch.setattr(compiled_tree, "CUT_ALONE", 0)
+    several = EliminationTree(matrix, x)
+    assert tasks_of(one) == (1, 0)
+    assert min(tasks_of(several)) > 1
+    assert np.array_equal(one.layout.vertices, several.layout.vertices)
+    first, second = Factor(one, matrix, areas), Factor(several, matrix, areas)
+    for found, expected in (
+        (second.diagonal, first.diagonal),
+        (second.sandwich_diagonal, first.sandwich_diagonal),
+        (second.solve(b), first.solve(b)),
+        (second.solve(b[:, 0]), first.solve(b[:, 0])),
+        (second.sandwich_columns(index), first.sandwich_columns(index)),
+        (second.sandwich_columns(index[:1]), first.sandwich_columns(index[:1])),
+    ):
+        # The order of additions differs where branches meet.
+        assert close(found, expected, 1e-13)

@@ -137,8 +137,7 @@ def test_the_cost_is_counted_and_its_times_are_the_processors(clocks, monkeypatc
 
 
 def test_operations_of_one_front_are_those_of_a_dense_matrix():
-    # So small a surface is one front: all its vertices are pivots, and the boundary is one place that is left empty.
-    surface = bumpy(20)
-    tree = Laplacian(surface).components[0].tree()
-    assert [stack.shape for stack in tree.stacks] == [(1, 20, 1)]
-    assert _claims_growth.operations(tree) == (2 * (20**3 + 20**2 + 20), 2 * 2 * (20**2 + 2 * 20))
+    # So small a surface is one front: all its vertices are pivots, and it has no boundary.
+    tree = Laplacian(bumpy(12)).components[0].tree()
+    assert [size.tolist() for size in tree.sizes] == [[12], [0]]
+    assert _claims_growth.operations(tree) == (2 * 12**3, 2 * 2 * 12**2)
