@@ -1,10 +1,12 @@
 """The compiled kernel: its structures and functions, as `kernel.h` has them.
 
-ctypes lets go of the interpreter lock while a function runs.
+`build.py` compiles it, once for every processor and once for those with AVX2 and FMA.  ctypes lets go of the interpreter
+lock while a function runs.
 """
 
 import ctypes
 import os
+import sys
 from ctypes import POINTER, Structure, c_int32, c_int64, c_void_p
 from functools import cache
 from pathlib import Path
@@ -17,6 +19,10 @@ from ..errors import Cancelled
 
 DONE, STOPPED, NOT_POSITIVE, OUTSIDE, ASYMMETRIC, NO_ROOM = 0, -1, -2, -3, -4, -5
 """What functions return; `kernel.h` says it."""
+
+FOLDER = Path(__file__).parent
+SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
+"""Where libraries are, and what their names end with."""
 
 PLAIN = "BIHDIST_PLAIN"
 """The environment variable that, if set, leaves the compiled kernel aside."""
@@ -102,6 +108,7 @@ class _Array:
 
 _P, _A, _I = c_void_p, _Array, c_int64
 _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
+    "has_avx2": (c_int32, ()),
     "check_symmetric": (c_int32, (_P, _A)),
     "number_graph": (None, (_P, *(_A,) * 9)),
     "begin_dissection": (c_int64, (_P,)),
@@ -126,19 +133,33 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
 
 @cache
 def library() -> Any:
-    """The library with its functions' signatures, or None where there is none, or PLAIN is set."""
+    """The best library that this processor runs, with its functions' signatures; None without one, or if PLAIN is set."""
     if os.environ.get(PLAIN):
         return None
-    for path in sorted(Path(__file__).parent.glob("libbihdist*")):
-        try:
-            found = ctypes.CDLL(str(path))
-        except OSError:
-            continue
-        for name, (result, arguments) in _SIGNATURES.items():
-            function = getattr(found, f"bih_{name}")
-            function.restype, function.argtypes = result, arguments
-        return found
-    return None
+    portable = _loaded("libbihdist")
+    if portable is not None and portable.bih_has_avx2():
+        return _loaded("libbihdist-avx2") or portable
+    return portable
+
+
+def description() -> str:
+    """Which kernel the solver runs on: "compiled, AVX2", "compiled" or "plain NumPy"."""
+    found = library()
+    if found is None:
+        return "plain NumPy"
+    return "compiled, AVX2" if "avx2" in Path(found._name).name else "compiled"
+
+
+def _loaded(name: str) -> Any:
+    """The library of that name, or None where there is none that fits this machine and this code."""
+    try:
+        found = ctypes.CDLL(str(FOLDER / (name + SUFFIX)))
+        for function, (result, arguments) in _SIGNATURES.items():
+            bound = getattr(found, f"bih_{function}")
+            bound.restype, bound.argtypes = result, arguments
+    except (OSError, AttributeError):
+        return None
+    return found
 
 
 def at(array: AnyArray | None) -> int | None:
