@@ -323,8 +323,8 @@ class PlainFactor:
 
     @one_blas_thread()
     @np.errstate(all="ignore")
-    def solve(self, b: FloatArray, run: Run) -> FloatArray:
-        """(n, k) matrix^-1 b, b (n, k): up from the leaves to the root, and down; in one piece, so `run` is not used."""
+    def solve(self, b: FloatArray, _run: object, _workspaces: object) -> FloatArray:
+        """(n, k) matrix^-1 b, b (n, k): up from the leaves to the root, and down."""
         x = b[self.tree.vertices]
         fronts = list(zip(self.tree.fronts, self._blocks, strict=True))
         for front, (_, N, _, _) in fronts:
@@ -335,7 +335,9 @@ class PlainFactor:
 
     @one_blas_thread()
     @np.errstate(all="ignore")
-    def each_sandwich_piece(self, index: IntArray, run: Run, receive: Callable[[IntArray, FloatArray], None]) -> None:
+    def each_sandwich_piece(
+        self, index: IntArray, _run: object, receive: Callable[[IntArray, FloatArray], None], _workspaces: object
+    ) -> None:
         """The columns `index` (k,) of G A G, in one piece: receive(vertices (n,), values (n, k)).
 
         The sweeps of a solve, with their derivatives: they turn unit vectors x into columns of G, and y = 0 into those
