@@ -133,7 +133,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
 
 @cache
 def library() -> Any:
-    """The best library that this processor runs, with its functions' signatures; None without one or if PLAIN is set."""
+    """The best library for this processor, with its functions' signatures; None without one, or if PLAIN is set."""
     if os.environ.get(PLAIN):
         return None
     portable = _loaded("libbihdist")

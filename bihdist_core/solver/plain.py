@@ -25,7 +25,7 @@ from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..progress import Progress
 from .blas import one_blas_thread
-from .worker_threads import Job, Run
+from .worker_threads import Job
 
 LEAF = 40
 """Most vertices of a region that is not cut."""
