@@ -324,7 +324,7 @@ class PlainFactor:
     @one_blas_thread()
     @np.errstate(all="ignore")
     def solve(self, b: FloatArray, run: Run) -> FloatArray:
-        """(n, k) matrix^-1 b, b (n, k): up from the leaves to the root, and down; in one piece, so `run` is not used."""
+        """(n, k) matrix^-1 b, b (n, k): up from the leaves to the root, and down; in one piece, so not by `run`."""
         x = b[self.tree.vertices]
         fronts = list(zip(self.tree.fronts, self._blocks, strict=True))
         for front, (_, N, _, _) in fronts:
