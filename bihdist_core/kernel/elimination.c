@@ -83,25 +83,42 @@ static i32 assemble(Elimination *e, i64 q, Front f) {
   return DONE;
 }
 
-/* One step of iterative refinement of K and of N: F K = 1 and F N = -R then hold to rounding, as after solves with a
- * Cholesky factor.  F as assembled; overwrites its boundary block with S. */
-static void refine(const Front f, double *K, double *N, i64 ln, double *F, double *work) {
-  i64 c = f.c, m = f.m, cp = f.cp, mp = f.mp, ld = f.sp;
-  double *E = work, *D = work + c * cp; /* 1 - F K, and K E */
+/* K = W^T W, W the inverse of Cholesky's factor of F: then F K = 1 holds to rounding, which a sweep does not give. */
+static void invert_by_cholesky(const Front f, double *K, const double *F, double *work) {
+  i64 c = f.c, cp = f.cp;
+  double *D = work, *W = D + c * cp;
+  zero(W, 8 * c * cp);
+  for (i64 i = 0; i < c; i++) copy(D + i * cp + i, F + i * f.sp + i, 8 * (c - i)), W[i * cp + i] = 1;
+  for (i64 k = 0; k < c; k++) {
+    const double *d = D + k * cp, *w = W + k * cp;
+    for (i64 i = k + 1; i < c; i++) {
+      double factor = d[i] / d[k];
+      for (i64 j = i; j < c; j++) D[i * cp + j] -= factor * d[j];
+      for (i64 j = 0; j <= k; j++) W[i * cp + j] -= factor * w[j];
+    }
+  }
+  for (i64 k = 0; k < c; k++) {
+    double root = __builtin_sqrt(D[k * cp + k]);
+    for (i64 j = 0; j <= k; j++) W[k * cp + j] /= root;
+  }
+  zero(K, 8 * c * cp);
+  add_upper_product(c, c, c, 1, W, 1, cp, W, cp, K, cp);
   for (i64 i = 0; i < c; i++)
+    for (i64 j = 0; j < i; j++) K[i * cp + j] = K[j * cp + i];
+}
+
+/* One step of iterative refinement of N: F N = -R then holds to rounding, as after solves with Cholesky's factor.  F as
+ * assembled; overwrites its boundary block with S. */
+static void refine(const Front f, const double *K, double *N, i64 ln, double *F, double *work) {
+  i64 c = f.c, m = f.m, mp = f.mp, ld = f.sp;
+  double *E = work; /* R + F N */
+  for (i64 i = 0; i < c; i++) {
     for (i64 j = 0; j < i; j++) F[i * ld + j] = F[j * ld + i];
-  zero(E, 16 * c * cp);
-  for (i64 i = 0; i < c; i++) E[i * cp + i] = 1;
-  add_product(c, c, c, -1, F, ld, 1, K, cp, E, cp);
-  add_product(c, c, c, 1, K, cp, 1, E, cp, D, cp);
-  for (i64 i = 0; i < c; i++) /* not symmetric to the last digit, or F K would not be 1 */
-    for (i64 j = 0; j < c; j++) K[i * cp + j] += D[i * cp + j];
-  for (i64 i = 0; i < c; i++) { /* R + F N */
     copy(E + i * mp, F + i * ld + c, 8 * m);
     zero(E + i * mp + m, 8 * (mp - m));
   }
   add_product(c, m, c, 1, F, ld, 1, N, ln, E, mp);
-  add_product(c, m, c, -1, K, cp, 1, E, mp, N, ln);
+  add_product(c, m, c, -1, K, f.cp, 1, E, mp, N, ln);
   add_upper_product(m, m, c, 1, F + c, 1, ld, N, ln, F + c * ld + c, ld);
 }
 
@@ -165,6 +182,7 @@ static i32 eliminate(Elimination *e, i64 q) {
   }
   if (left < STIFF) {
     assemble(e, q, f); /* the children's Schur complements are still there */
+    invert_by_cholesky(f, K, F, work);
     refine(f, K, N, ln, F, work);
   }
   if (e->factor->dual) derive(f, t->children[2 * q] < 0, K, K1, N, N1, ln, e->F1, work);

@@ -7,7 +7,7 @@
  * block of a front, R the rows right of it (c x m) and Q the boundary's block, L's derivative along L + t A beside each:
  *
  *     K = F^-1          N = -K R           S = Q + R^T N            (S: Schur complement, added into the parent)
- *     K1 = K F1 K       N1 = -K (R1 + F1 N)    S1 = Q1 + X + X^T,   X = (R1 + F1 N / 2)^T N
+ *     K1 = K F1 K       N1 = K (R1 + F1 N)     S1 = Q1 + X + X^T,   X = (R1 + F1 N / 2)^T N
  *
  * K1 and N1 are minus the derivatives of K and N, so that all that follows adds up to +G A G, G = L^-1. */
 #ifndef BIHDIST_KERNEL_H
