@@ -1,7 +1,7 @@
 """The compiled kernel: its structures and functions, as `kernel.h` has them.
 
-`build.py` compiles it, once for every processor and once for those with AVX2 and FMA.  ctypes lets go of the interpreter
-lock while a function runs.
+`build.py` compiles it, once for every processor and once for those with AVX2 and FMA.  ctypes lets go of the
+interpreter lock while a function runs.
 """
 
 import ctypes
@@ -120,7 +120,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
 
 @cache
 def library() -> Any:
-    """The best library that this processor runs, with its functions' signatures; None without one, or if PLAIN is set."""
+    """The best library that this processor runs, its functions with their signatures, or None; None if PLAIN is set."""
     if os.environ.get(PLAIN):
         return None
     portable = _loaded("libbihdist")

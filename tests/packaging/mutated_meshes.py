@@ -1,6 +1,6 @@
 """Distances of sound and of damaged meshes by one library, for sanitizers to watch; a program of its own.
 
-    LD_PRELOAD=... python -m tests.packaging.mutated_meshes FOLDER NAME
+LD_PRELOAD=... python -m tests.packaging.mutated_meshes FOLDER NAME
 """
 
 import sys

@@ -95,17 +95,26 @@ def test_what_cannot_be_loaded_is_left_alone(kernels):
     assert library.library() is None
 
 
-def test_the_best_library_that_the_processor_runs_is_chosen(kernels):
+@pytest.fixture(scope="module")
+def compiled(tmp_path_factory) -> Path:
+    """A folder with the libraries for this machine."""
+    folder = tmp_path_factory.mktemp("compiled")
     try:
-        build.build(kernels, None, build.FAST)
+        build.build(folder, None, build.FAST)
     except build.NotCompiled as reason:
         pytest.skip(str(reason))
-    best = "compiled, AVX2" if ON_X86 and library._loaded("libbihdist").bih_has_avx2() else "compiled"
-    assert library.description() == best
-    fast = kernels / f"libbihdist-avx2{library.SUFFIX}"
-    fast.unlink(missing_ok=True)
-    fast.write_bytes(b"not a library")
-    library.library.cache_clear()
+    return folder
+
+
+def test_the_best_library_that_the_processor_runs_is_chosen(kernels, compiled):
+    shutil.copytree(compiled, kernels, dirs_exist_ok=True)
+    has_avx2 = library.library() is not None and library._loaded("libbihdist").bih_has_avx2()
+    assert library.description() == ("compiled, AVX2" if ON_X86 and has_avx2 else "compiled")
+
+
+def test_a_library_for_avx2_that_cannot_be_loaded_is_passed_over(kernels, compiled):
+    shutil.copy(compiled / f"libbihdist{library.SUFFIX}", kernels)
+    (kernels / f"libbihdist-avx2{library.SUFFIX}").write_bytes(b"not a library")
     assert library.description() == "compiled"
 
 
@@ -129,14 +138,22 @@ def test_sanitizers_find_nothing_on_sound_and_on_mutated_meshes(name, sanitized)
     assert re.fullmatch(r"\d+ of 300 mutated meshes have distances, \d+ of 100 matrices a factor\n", said)
 
 
+OUT_OF_PLACE = """
+import ctypes, sys
+from pathlib import Path
+import numpy as np
+from bihdist_core.kernel import library
+
+library.FOLDER = Path(sys.argv[1])
+start, index, cursor = np.arange(301, dtype=np.int32), np.zeros(1, np.int32), np.zeros(300, np.int32)
+library._loaded("libbihdist").bih_check_symmetric(ctypes.byref(library.rows_of(start, index)), cursor)
+"""
+"""A matrix that says it has more entries than there are."""
+
+
 def test_sanitizers_see_what_is_out_of_place(sanitized):
     folder, environment = sanitized
-    code = (
-        "import ctypes, sys, numpy as np; from bihdist_core.kernel import library; from pathlib import Path;"
-        "library.FOLDER = Path(sys.argv[1]); rows = library.rows_of(np.arange(301, dtype=np.int32), np.zeros(1, np.int32));"
-        "library._loaded('libbihdist').bih_check_symmetric(ctypes.byref(rows), np.zeros(300, np.int32))"
-    )
-    command = [sys.executable, "-c", code, folder]
+    command = [sys.executable, "-c", OUT_OF_PLACE, folder]
     said = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, env=environment)
     assert said.returncode
     assert "AddressSanitizer: heap-buffer-overflow" in said.stderr

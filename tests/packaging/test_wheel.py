@@ -86,9 +86,8 @@ def test_is_for_every_machine_where_there_is_no_compiler(source, tmp_path, monke
     monkeypatch.setenv("CC", "false")
     command = [sys.executable, "-m", "pip", "--disable-pip-version-check", "wheel", "-v", "--no-deps", "--no-index"]
     said = run(*command, "--no-build-isolation", "--wheel-dir", tmp_path, source)
-    assert [line.strip() for line in said.splitlines() if "not compiled" in line] == [
-        "The solver's kernel is not compiled, and without it the solver runs in NumPy: false: it fails and does not say why"
-    ]
+    (sentence,) = [line for line in said.splitlines() if "kernel is not compiled" in line]
+    assert sentence.endswith("the solver runs in NumPy: false: it fails and does not say why")
     assert "Traceback" not in said
     (path,) = tmp_path.glob("*-py3-none-any.whl")
     with zipfile.ZipFile(path) as archive:
