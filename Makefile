@@ -11,7 +11,7 @@ PYTHON_HERE = $(if $(filter Windows_NT,$(OS)),.venv/Scripts/python,.venv/bin/pyt
 help:
 	@echo 'make run     install what is missing, then open the viewer (without a display: draw a picture)'
 	@echo 'make test    the checks and all tests, the window included'
-	@echo 'make check   ruff, mypy, codespell and the import rules'
+	@echo 'make check   ruff, mypy, codespell, the import rules, and the kernel by each C compiler'
 	@echo 'make quick   the checks, and the tests that say most in the least time'
 	@echo 'make bench   the speed of the solver beside potpourri3d'
 
@@ -37,6 +37,7 @@ endef
 check:
 	@.ci/set-up dev
 	$(checks)
+	$(PYTHON_HERE) bihdist_core/kernel/build.py --check
 	$(PYTHON_HERE) -m pytest tests/packaging/test_import_rules.py
 
 QUICK = $(addprefix tests/packaging/test_,import_rules.py words.py) \

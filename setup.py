@@ -34,8 +34,7 @@ class WheelWithKernel(bdist_wheel):
         super().run()
 
     def get_tag(self):
-        python, abi, machine = super().get_tag()
-        return ("py3", "none", machine)
+        return ("py3", "none", super().get_tag()[2])
 
 
 def needs_zig() -> bool:

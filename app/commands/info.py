@@ -1,6 +1,7 @@
 """`bihdist info`: what a mesh file holds."""
 
 import argparse
+import json
 from typing import TYPE_CHECKING, Any
 
 from ..document.document import AREAS
@@ -19,17 +20,28 @@ WORDS = "what a mesh file holds and what would be repaired"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `info` to its parser."""
-    parser.add_argument("meshes", nargs="+", metavar="mesh", help="mesh files, or the names of samples")
+    parser.add_argument("meshes", nargs="*", metavar="mesh", help="mesh files, or the names of samples")
     parser.add_argument(
         "--accuracy", action="store_true", help="how accurate its exact distances are; factors the mesh"
     )
+    parser.add_argument("--solver", action="store_true", help="whether the solver runs compiled; needs no mesh")
     parser.add_argument("--json", action="store_true", help="as JSON: a list with an object for each mesh")
     add_areas(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Print what is known of each mesh; the exit status is 1 if one could not be read."""
-    return each_mesh(options.meshes, lambda mesh: _facts(mesh, options), options.json, _print)
+    if options.meshes:
+        return each_mesh(options.meshes, lambda mesh: _facts(mesh, options), options.json, _print)
+    if not options.solver:
+        from bihdist_core.errors import ParameterError
+
+        raise ParameterError("There is nothing to describe; name a mesh.")
+    if options.json:
+        print(json.dumps([_solver()], indent=2))
+    else:
+        _print_rows(_solver())
+    return 0
 
 
 def _facts(mesh: str, options: argparse.Namespace) -> dict[str, Any]:
@@ -55,6 +67,8 @@ def _facts(mesh: str, options: argparse.Namespace) -> dict[str, Any]:
         "repairs": list(notes.repairs),
         "warnings": list(notes.warnings),
     }
+    if options.solver:
+        facts |= _solver()
     if options.accuracy:
         facts |= dict(_accuracies(s, options.areas or AREAS[0]))
     return facts
@@ -70,10 +84,20 @@ def _print(facts: dict[str, Any], several: bool) -> None:
     }
     if not several:
         del shown["mesh"]
-    for name, value in shown.items():
-        print(f"{name:<26}{f'{value:,}' if isinstance(value, int) else value}")
+    _print_rows(shown)
     if several:
         print()
+
+
+def _print_rows(facts: dict[str, Any]) -> None:
+    for name, value in facts.items():
+        print(f"{name:<26}{f'{value:,}' if isinstance(value, int) else value}")
+
+
+def _solver() -> dict[str, str]:
+    from bihdist_core.kernel.library import description
+
+    return {"solver": description()}
 
 
 def _loops(surface: "Surface") -> str:

@@ -2,6 +2,8 @@
 
 from typing import TYPE_CHECKING, Any
 
+from bihdist_core.kernel.library import description
+
 from ..samples import mesh_path
 from ..version import version
 from .context import Context
@@ -88,5 +90,6 @@ class Guide:
         return is_on
 
     def show_about(self) -> None:
-        """Tell the program's version and where it comes from."""
-        tell(self._context.widget, f"Biharmonic distance {version()}", ABOUT)
+        """Tell the program's version, where it comes from, and whether its solver runs compiled."""
+        words = f"{ABOUT}\n\nSolver: {description()}."
+        tell(self._context.widget, f"Biharmonic distance {version()}", words)

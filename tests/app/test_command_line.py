@@ -1,5 +1,6 @@
 """The command line without a window: what it writes, and what it says when it cannot."""
 
+import json
 import os
 import re
 import subprocess
@@ -267,6 +268,24 @@ def test_info_counts_what_is_there(mesh_file, capsys):
     assert facts["vertices without a face"] == "1"
     assert (facts["facts"], facts["repairs"]) == ("1 vertex without a face", "none")
     assert facts["warnings"] == "2 components, with no distance from one to another (grey, NaN)"
+
+
+def test_info_says_whether_the_solver_is_compiled(mesh_file, capsys, monkeypatch):
+    from bihdist_core.kernel.library import PLAIN, description, library
+
+    assert main(["info", "--solver"]) == 0
+    assert capsys.readouterr().out == f"solver                    {description()}\n"
+    assert main(["info", mesh_file(two_pieces()), "--solver", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)[0]["solver"] == description()
+    monkeypatch.setenv(PLAIN, "1")
+    library.cache_clear()
+    try:
+        assert main(["info", "--solver", "--json"]) == 0
+        assert json.loads(capsys.readouterr().out) == [{"solver": "plain NumPy"}]
+    finally:
+        library.cache_clear()
+    assert main(["info"]) == 2
+    assert "name a mesh" in capsys.readouterr().err
 
 
 def test_samples_open_by_name(capsys):

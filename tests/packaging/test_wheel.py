@@ -1,6 +1,7 @@
 """The wheel: what is in it, and that it works under its installed name, away from the checkout."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -8,6 +9,8 @@ import zipfile
 from pathlib import Path
 
 import pytest
+
+from bihdist_core.kernel import build, library
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -30,7 +33,7 @@ def pip(*arguments: str | Path) -> None:
 def source(tmp_path_factory) -> Path:
     """A copy of the checkout to build in: setuptools leaves folders behind."""
     copy = tmp_path_factory.mktemp("source") / "tree"
-    skipped = shutil.ignore_patterns(".*", "__pycache__", "build", "dist", "*.egg-info")
+    skipped = shutil.ignore_patterns(".*", "__pycache__", "build", "dist", "*.egg-info", "libbihdist*")
     shutil.copytree(ROOT, copy, ignore=skipped)
     return copy
 
@@ -68,8 +71,27 @@ def test_holds_its_packages_and_nothing_else(names):
     assert {f"{information}/licenses/{name}" for name in ("LICENSE", "assets/LICENSE")} <= names
 
 
-def test_is_for_every_platform(wheel):
-    assert wheel.name.endswith("-py3-none-any.whl")
+def test_holds_the_compiled_kernel_and_is_for_such_machines(wheel, names, environment, tmp_path):
+    try:
+        build.compiler()
+    except build.NotCompiled as reason:
+        pytest.skip(str(reason))
+    assert f"bihdist_core/kernel/libbihdist{library.SUFFIX}" in names
+    assert re.fullmatch(r"bihdist-[^-]+-py3-none-(?!any)\w+\.whl", wheel.name)
+    said = run(sys.executable, "-m", "bihdist", "info", "--solver", cwd=tmp_path, env=environment)
+    assert said.split()[1].startswith("compiled")
+
+
+def test_is_for_every_machine_where_there_is_no_compiler(source, tmp_path, monkeypatch):
+    monkeypatch.setenv("CC", "false")
+    command = [sys.executable, "-m", "pip", "--disable-pip-version-check", "wheel", "-v", "--no-deps", "--no-index"]
+    said = run(*command, "--no-build-isolation", "--wheel-dir", tmp_path, source)
+    (sentence,) = [line for line in said.splitlines() if "kernel is not compiled" in line]
+    assert sentence.endswith("the solver runs in NumPy: false: it fails and does not say why")
+    assert "Traceback" not in said
+    (path,) = tmp_path.glob("*-py3-none-any.whl")
+    with zipfile.ZipFile(path) as archive:
+        assert not [name for name in archive.namelist() if "libbihdist" in name]
 
 
 @pytest.mark.parametrize("package", PACKAGES)
@@ -77,7 +99,8 @@ def test_holds_every_file_of_a_package(names, package):
     folder = ROOT / PACKAGES[package]
     files = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
     wanted = {f"{package}/{name}" for name in files if "__pycache__" not in name}
-    held = {name for name in names if name.startswith(f"{package}/")}
+    wanted = {name for name in wanted if not name.endswith((".c", ".h")) and "libbihdist" not in name}
+    held = {name for name in names if name.startswith(f"{package}/") and "libbihdist" not in name}
     assert held == wanted, "a new folder belongs into `packages` in pyproject.toml"
 
 

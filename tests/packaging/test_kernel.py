@@ -1,0 +1,183 @@
+"""The compiled kernel: by each compiler there is, with what watches over memory, and as a WebAssembly module."""
+
+import ctypes
+import json
+import os
+import platform
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bihdist_core import BiharmonicDistance, Laplacian
+from bihdist_core.kernel import build, library
+from bihdist_core.solver.elimination_tree import canonical
+from tests.shapes import bumpy
+
+ROOT = Path(__file__).parents[2]
+ON_X86 = platform.machine().lower() in ("x86_64", "amd64")
+COMPILERS = {"gcc": ("gcc",), "clang": ("clang",), "zig": build.ZIG}
+
+
+def run(*command: str | Path, **options) -> str:
+    """What the command prints; the test fails with it if the command does."""
+    said = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=ROOT, **options)
+    assert said.returncode == 0, said.stdout
+    return said.stdout
+
+
+def found(name: str) -> tuple[str, ...]:
+    """The compiler of that name; the test is skipped where it is not there."""
+    if name == "zig":
+        pytest.importorskip("ziglang")
+    elif not shutil.which(name):
+        pytest.skip(f"there is no {name}")
+    return COMPILERS[name]
+
+
+# ---------------------------------------------------------------------- the script
+@pytest.mark.parametrize("name", COMPILERS)
+def test_each_compiler_takes_the_kernel_without_a_warning(name, tmp_path):
+    build.build(tmp_path, found(name), build.FAST + build.STRICT)
+    names = [f"libbihdist{library.SUFFIX}", f"libbihdist-avx2{library.SUFFIX}"][: 1 + ON_X86]
+    assert {path.name for path in tmp_path.iterdir()} == set(names)
+    for name in names:
+        made = ctypes.CDLL(str(tmp_path / name))
+        assert all(hasattr(made, f"bih_{function}") for function in library._SIGNATURES)
+        assert not hasattr(made, "add_product")
+
+
+@pytest.mark.parametrize(
+    ("compiler", "reason"), [("false", "false: it fails"), ("nonesuch", "nonesuch: "), ("gcc --nope", "gcc --nope: ")]
+)
+def test_a_compiler_that_fails_is_told_in_one_sentence_and_leaves_no_older_library(
+    compiler, reason, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setenv("CC", compiler)
+    older = tmp_path / f"libbihdist{library.SUFFIX}"
+    older.touch()
+    assert build.main(["--output", str(tmp_path)]) == 1
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert f"not compiled, and without it the solver runs in NumPy: {reason}" in said
+    assert not older.exists()
+
+
+def test_no_compiler_at_all_is_told(tmp_path, monkeypatch, capsys):
+    monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setattr(build, "candidates", list)
+    assert build.main(["--output", str(tmp_path)]) == 1
+    assert "there is no C compiler" in capsys.readouterr().err
+
+
+# ---------------------------------------------------------------------- which library runs
+@pytest.fixture
+def kernels(tmp_path, monkeypatch):
+    """An empty folder in which the library is looked for."""
+    monkeypatch.setattr(library, "FOLDER", tmp_path)
+    monkeypatch.delenv(library.PLAIN, raising=False)
+    library.library.cache_clear()
+    yield tmp_path
+    library.library.cache_clear()
+
+
+def test_without_a_library_there_is_plain_numpy(kernels):
+    assert library.library() is None
+    assert library.description() == "plain NumPy"
+
+
+def test_what_cannot_be_loaded_is_left_alone(kernels):
+    (kernels / f"libbihdist{library.SUFFIX}").write_bytes(b"not a library")
+    assert library.library() is None
+
+
+@pytest.fixture(scope="module")
+def compiled(tmp_path_factory) -> Path:
+    """A folder with the libraries for this machine."""
+    folder = tmp_path_factory.mktemp("compiled")
+    try:
+        build.build(folder, None, build.FAST)
+    except build.NotCompiled as reason:
+        pytest.skip(str(reason))
+    return folder
+
+
+def test_the_best_library_that_the_processor_runs_is_chosen(kernels, compiled):
+    shutil.copytree(compiled, kernels, dirs_exist_ok=True)
+    has_avx2 = library.library() is not None and library._loaded("libbihdist").bih_has_avx2()
+    assert library.description() == ("compiled, AVX2" if ON_X86 and has_avx2 else "compiled")
+
+
+def test_a_library_for_avx2_that_cannot_be_loaded_is_passed_over(kernels, compiled):
+    shutil.copy(compiled / f"libbihdist{library.SUFFIX}", kernels)
+    (kernels / f"libbihdist-avx2{library.SUFFIX}").write_bytes(b"not a library")
+    assert library.description() == "compiled"
+
+
+# ---------------------------------------------------------------------- sanitizers
+@pytest.fixture(scope="module")
+def sanitized(tmp_path_factory) -> tuple[Path, dict[str, str]]:
+    """A folder with libraries that gcc's sanitizers watch over, and the environment that they need."""
+    runtime = run(*found("gcc"), "-print-file-name=libasan.so").strip()
+    if sys.platform != "linux" or not os.path.isabs(runtime):
+        pytest.skip("gcc has no address sanitizer here")
+    folder = tmp_path_factory.mktemp("sanitized")
+    build.build(folder, COMPILERS["gcc"], build.SANITIZED)
+    # Python leaves memory to the system when it ends; what it manages by itself would not be watched.
+    return folder, {**os.environ, "LD_PRELOAD": runtime, "ASAN_OPTIONS": "detect_leaks=0", "PYTHONMALLOC": "malloc"}
+
+
+@pytest.mark.parametrize("name", ["libbihdist", "libbihdist-avx2"][: 1 + ON_X86])
+def test_sanitizers_find_nothing_on_sound_and_on_mutated_meshes(name, sanitized):
+    folder, environment = sanitized
+    said = run(sys.executable, "-m", "tests.packaging.mutated_meshes", folder, name, env=environment)
+    assert re.fullmatch(r"\d+ of 300 mutated meshes have distances, \d+ of 100 matrices a factor\n", said)
+
+
+OUT_OF_PLACE = """
+import ctypes, sys
+from pathlib import Path
+import numpy as np
+from bihdist_core.kernel import library
+
+library.FOLDER = Path(sys.argv[1])
+start, index, cursor = np.arange(301, dtype=np.int32), np.zeros(1, np.int32), np.zeros(300, np.int32)
+library._loaded("libbihdist").bih_check_symmetric(ctypes.byref(library.rows_of(start, index)), cursor)
+"""
+"""A matrix that says it has more entries than there are."""
+
+
+def test_sanitizers_see_what_is_out_of_place(sanitized):
+    folder, environment = sanitized
+    command = [sys.executable, "-c", OUT_OF_PLACE, folder]
+    said = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, env=environment)
+    assert said.returncode
+    assert "AddressSanitizer: heap-buffer-overflow" in said.stderr
+
+
+# ---------------------------------------------------------------------- WebAssembly
+def test_as_a_web_assembly_module_it_computes_the_same_field(tmp_path):
+    found("zig")
+    if not shutil.which("node"):
+        pytest.skip("there is no node")
+    build.build_wasm(tmp_path)
+    surface, source = bumpy(400), 123
+    laplacian = Laplacian(surface)
+    matrix = canonical(laplacian.stiffness[1:, 1:])  # vertex 0 is pinned
+    given = {
+        "start": matrix.indptr.tolist(), "index": matrix.indices.tolist(), "value": matrix.data.tolist(),
+        "x": (surface.vertices[1:] / np.abs(surface.vertices).max()).ravel().tolist(),
+        "areas": laplacian.areas[1:].tolist(), "column": source - 1,
+    }  # fmt: skip
+    script, module = ROOT / "tests" / "packaging" / "kernel.mjs", tmp_path / "libbihdist.wasm"
+    said = json.loads(run("node", script, module, input=json.dumps(given)))
+    sandwich, column, mean = (np.concatenate([[0], said[name]]) for name in ("sandwich", "column", "mean"))
+    area = laplacian.areas.sum()
+    diagonal = sandwich - mean**2 / area
+    squares = diagonal + diagonal[source] - 2 * (column - mean * mean[source] / area)
+    field = BiharmonicDistance(laplacian).from_source(source)
+    assert np.abs(np.sqrt(np.maximum(squares, 0)) - field)[np.arange(len(field)) != source].max() < 1e-12 * field.max()
