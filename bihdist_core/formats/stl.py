@@ -11,6 +11,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..counts import counted
 from ..errors import MeshError
+from .mesh_text import mesh_text
 from .polygons import Polygons
 from .text_lines import TextLines, keyword_code
 
@@ -68,12 +69,14 @@ def _binary_corners(raw: bytes, name: str) -> FloatArray:
 
 
 def _text_corners(raw: bytes, name: str) -> FloatArray:
-    lines = TextLines(raw, name)
     solid, facet, outer, vertex, endloop, endfacet, endsolid = (keyword_code(w.encode()) for w in _WORDS)
+    pattern = np.array([facet, outer, vertex, vertex, vertex, endloop, endfacet], np.uint64)
+    if found := mesh_text("read_stl", (pattern, solid, endsolid), raw, [3]):
+        return found.vertices
+    lines = TextLines(raw, name)
     word = lines.keyword
     # Lines between facets may only open and close solids; inside, each facet repeats these seven.
     inner = (word != solid) & (word != endsolid)
-    pattern = np.array([facet, outer, vertex, vertex, vertex, endloop, endfacet], np.uint64)
     at = np.flatnonzero(inner)
     wrong = np.flatnonzero(word[at] != np.resize(pattern, len(at)))
     if len(wrong):
