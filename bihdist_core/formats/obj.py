@@ -4,11 +4,14 @@ Vertex ids are the order of the `v` lines: texture coordinates and normals never
 the format are read over; an unknown one is an error, since a damaged `v` line would renumber every vertex after it.
 """
 
+import re
+
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..counts import counted
 from ..errors import MeshError
+from .mesh_text import mesh_text
 from .polygons import Polygons, whole_numbers
 from .text_lines import NumberLines, TextLines, keyword_code
 
@@ -39,6 +42,19 @@ _VERTEX_SIZES = (3, 4, 6, 7)
 
 def read_obj(raw: bytes, name: str) -> Polygons:
     """The polygons of an OBJ file; MeshError naming the line where it is not one."""
+    return _read_plain(raw) or _read_any(raw, name)
+
+
+def _read_plain(raw: bytes) -> Polygons | None:
+    """The polygons, read by the compiled kernel; None if it leaves the file to the other reader."""
+    if b"\\" in raw and re.search(rb"\\[\r\n#]", raw):
+        return None
+    keywords = np.array([keyword_code(word.encode()) for word in ("v", "f", "l", "p", *_OTHER_STATEMENTS)], np.uint64)
+    found = mesh_text("read_obj", (keywords, len(keywords)), raw, _VERTEX_SIZES, comment=b"#")
+    return found and Polygons(found.vertices, found.sizes, found.corners, _facts(found.loose))
+
+
+def _read_any(raw: bytes, name: str) -> Polygons:
     lines = TextLines(raw, name, comment=b"#", continuation=True)
     is_vertex = lines.keyword == keyword_code(b"v")
     is_face = lines.keyword == keyword_code(b"f")
@@ -55,9 +71,11 @@ def read_obj(raw: bytes, name: str) -> Polygons:
     face_rows = lines.numbers(is_face, keyword=b"f", slashes=True)
     before = np.cumsum(is_vertex)[is_face]
     corners = _corners(face_rows, before, len(vertices), name)
-    loose = int(is_loose.sum())
-    facts = (f"{counted(loose, 'line or point statement')} ignored",) if loose else ()
-    return Polygons(vertices, face_rows.sizes, corners, facts)
+    return Polygons(vertices, face_rows.sizes, corners, _facts(int(is_loose.sum())))
+
+
+def _facts(loose: int) -> tuple[str, ...]:
+    return (f"{counted(loose, 'line or point statement')} ignored",) if loose else ()
 
 
 def _vertices(rows: NumberLines, name: str) -> FloatArray:

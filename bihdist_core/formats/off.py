@@ -10,16 +10,34 @@ import numpy as np
 
 from ..arrays import IntArray
 from ..errors import MeshError
+from .mesh_text import mesh_text
 from .polygons import Polygons, checked_corners, runs, whole_numbers
 from .text_lines import NumberLines, TextLines, shown
 
 _HEADER = re.compile(rb"(ST)?(C)?(N)?(4)?(n)?OFF(?![A-Za-z])\s*(.*)", re.DOTALL)
+
+_HEAD = 1 << 14
+"""So many bytes are searched for the header first."""
 
 
 def read_off(raw: bytes, name: str) -> Polygons:
     """The polygons of an OFF file; MeshError naming the line where it is not one."""
     if re.match(rb"\s*\w*OFF\s+BINARY", raw[:200]):
         raise MeshError(f"{name} is a binary OFF file; only text OFF files are read.")
+    return _read_plain(raw, name) or _read_any(raw, name)
+
+
+def _read_plain(raw: bytes, name: str) -> Polygons | None:
+    """The polygons, read by the compiled kernel; None if it leaves the file to the other reader."""
+    try:
+        n, p, allowed, header = _header(TextLines(raw[: raw.rfind(b"\n", 0, _HEAD) + 1], name, comment=b"#"))
+    except MeshError:
+        return None
+    found = mesh_text("read_lists", (header, n, p, True), raw, allowed, comment=b"#")
+    return found and Polygons(found.vertices, found.sizes, found.corners)
+
+
+def _read_any(raw: bytes, name: str) -> Polygons:
     lines = TextLines(raw, name, comment=b"#")
     vertex_count, face_count, allowed, header = _header(lines)
     held = len(lines) - header

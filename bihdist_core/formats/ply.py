@@ -14,6 +14,7 @@ import numpy as np
 from ..arrays import AnyArray, BoolArray, FloatArray, IntArray
 from ..counts import counted
 from ..errors import MeshError
+from .mesh_text import mesh_text
 from .polygons import Polygons, checked_corners, runs, strip_triangles, whole_numbers
 from .text_lines import TextLines, shown
 
@@ -47,6 +48,8 @@ _Column = AnyArray | tuple[IntArray, AnyArray]
 def read_ply(raw: bytes, name: str) -> Polygons:
     """The polygons of a PLY file; MeshError where it is none, or does not hold what its header announces."""
     order, elements, body = _header(raw, name)
+    if order is None and (plain := _read_plain(raw, elements, body)):
+        return plain
     columns = (
         _text_body(raw[body:], elements, name) if order is None else _Binary(raw, body, order, name).read(elements)
     )
@@ -119,6 +122,17 @@ def _list_sizes(values: FloatArray, element: _Element, name: str) -> IntArray:
 
 
 # ---------------------------------------------------------------------- text
+def _read_plain(raw: bytes, elements: list[_Element], body: int) -> Polygons | None:
+    """The polygons, read by the compiled kernel; None if it leaves the file to the other reader."""
+    match [element for element in elements if element.properties]:
+        case [_Element("vertex", n, columns), _Element("face", p, [ids])]:
+            names = [column.name for column in columns if not column.count_kind]
+            if names[:3] == ["x", "y", "z"] and len(columns) == len(set(names)) and ids.count_kind and ids.name in _IDS:
+                found = mesh_text("read_lists", (0, n, p, False), raw, [len(columns)], begin=body)
+                return found and Polygons(found.vertices, found.sizes, found.corners)
+    return None
+
+
 def _text_body(body: bytes, elements: list[_Element], name: str) -> dict[str, dict[str, _Column]]:
     lines = TextLines(body, f"{name} (after the header)")
     elements = [e for e in elements if e.properties]

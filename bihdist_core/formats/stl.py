@@ -11,6 +11,8 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..counts import counted
 from ..errors import MeshError
+from ..kernel.library import NO_ROOM, library
+from .mesh_text import mesh_text
 from .polygons import Polygons
 from .text_lines import TextLines, keyword_code
 
@@ -41,6 +43,20 @@ def read_stl(raw: bytes, name: str) -> Polygons:
 
 def merged(points: FloatArray) -> tuple[FloatArray, IntArray]:
     """(n, 3) the different points in order of first appearance, and (k,) where each of the (k, 3) points is there."""
+    kernel = library()
+    if kernel is None:
+        return _merged_by_sorting(points)
+    places, number = np.empty_like(points), np.empty(len(points), np.int64)
+    # Where a surface is closed, some six corners are in one place.
+    n, slots = NO_ROOM, 1 << (len(points) // 2).bit_length()
+    while n == NO_ROOM:
+        n = kernel.bih_merge_points(len(points), points, slots, np.empty(slots, np.int32), places, number)
+        slots *= 4
+    places.resize((n, 3), refcheck=False)
+    return places, number
+
+
+def _merged_by_sorting(points: FloatArray) -> tuple[FloatArray, IntArray]:
     order = np.lexsort(points.T)
     new = np.append(True, (points[order][1:] != points[order][:-1]).any(axis=1))[: len(points)]
     first = order[new]
@@ -68,12 +84,14 @@ def _binary_corners(raw: bytes, name: str) -> FloatArray:
 
 
 def _text_corners(raw: bytes, name: str) -> FloatArray:
-    lines = TextLines(raw, name)
     solid, facet, outer, vertex, endloop, endfacet, endsolid = (keyword_code(w.encode()) for w in _WORDS)
+    pattern = np.array([facet, outer, vertex, vertex, vertex, endloop, endfacet], np.uint64)
+    if found := mesh_text("read_stl", (pattern, solid, endsolid), raw, [3]):
+        return found.vertices
+    lines = TextLines(raw, name)
     word = lines.keyword
     # Lines between facets may only open and close solids; inside, each facet repeats these seven.
     inner = (word != solid) & (word != endsolid)
-    pattern = np.array([facet, outer, vertex, vertex, vertex, endloop, endfacet], np.uint64)
     at = np.flatnonzero(inner)
     wrong = np.flatnonzero(word[at] != np.resize(pattern, len(at)))
     if len(wrong):

@@ -10,6 +10,7 @@ import numpy as np
 from ..arrays import AnyArray, BoolArray, FloatArray, IntArray
 from ..errors import MeshError
 
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 _NUMBER = re.compile(rb"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE)
 _CORNER = re.compile(rb"[+-]?\d+(/-?\d*){0,2}")
 
@@ -94,7 +95,7 @@ class TextLines:
         """
         chosen = np.flatnonzero(which)
         first = np.append(0, np.cumsum(self.word_count[chosen] - bool(keyword)))
-        values = _parsed(self._joined(chosen, len(keyword)), first[-1], slashes)
+        values = parsed(self._joined(chosen, len(keyword)), first[-1], slashes)
         if values is None:
             raise self._not_a_number(chosen, len(keyword), slashes)
         return NumberLines(values, first, self.number[chosen])
@@ -118,7 +119,7 @@ class TextLines:
         pattern, what = (_CORNER, "a corner such as 7, 7/2 or 7/2/9") if slashes else (_NUMBER, "a number")
         for low in range(0, len(chosen), 4096):
             some = chosen[low : low + 4096]
-            if _parsed(self._joined(some, skip), int((self.word_count[some] - bool(skip)).sum()), slashes) is None:
+            if parsed(self._joined(some, skip), int((self.word_count[some] - bool(skip)).sum()), slashes) is None:
                 for k in some:
                     for word in self.text[self.start[k] + skip : self.end[k]].split():
                         if not pattern.fullmatch(word):
@@ -132,7 +133,7 @@ def plain_text(raw: bytes, name: str) -> bytes:
         raise MeshError(f"{name} is UTF-16 text; save it as plain ASCII or UTF-8.")
     if b"\0" in raw:
         raise MeshError(f"{name} is not a text file: byte {raw.index(0)} is zero.")
-    raw = raw.removeprefix(b"\xef\xbb\xbf")
+    raw = raw.removeprefix(BYTE_ORDER_MARK)
     return raw.replace(b"\r\n", b"\n").replace(b"\r", b"\n") if b"\r" in raw else raw
 
 
@@ -149,7 +150,7 @@ def shown(words: bytes) -> str:
 
 def parsed_numbers(text: bytes, name: str, what: str) -> FloatArray:
     """(t,) the numbers of a text without line structure; MeshError that says `what` they should have been."""
-    values = _parsed(text, len(_word_starts(np.frombuffer(text, np.uint8))))
+    values = parsed(text, len(_word_starts(np.frombuffer(text, np.uint8))))
     if values is None:
         bad = next((word for word in text.split() if not _NUMBER.fullmatch(word)), b"?")
         raise MeshError(f"{name}: {shown(bad)} stands among the {what} but is not a number.")
@@ -162,7 +163,7 @@ def _word_starts(byte: AnyArray) -> IntArray:
     return np.flatnonzero(dark)
 
 
-def _parsed(text: bytes, words: int, slashes: bool = False) -> FloatArray | None:
+def parsed(text: bytes, words: int, slashes: bool = False) -> FloatArray | None:
     """(words,) the numbers of a text; None unless each word is exactly one number."""
     if not words:
         return np.empty(0)

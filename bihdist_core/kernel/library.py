@@ -7,7 +7,7 @@ interpreter lock while a function runs.
 import ctypes
 import os
 import sys
-from ctypes import POINTER, Structure, c_int32, c_int64, c_void_p
+from ctypes import POINTER, Structure, c_int32, c_int64, c_uint64, c_void_p
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -128,6 +128,10 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "sweep_down_both": (c_int32, (_P, _I, _I, _I, _A, _A, _A, _P)),
     "corners": (None, (_I, _A, _A, _A, _A, _A)),
     "stiffness": (c_int64, (_I, _I, _A, _A, _A, _A, _A, _A)),
+    "merge_points": (c_int64, (_I, _A, _I, _A, _A, _A)),
+    "read_lists": (c_int32, (_P, _I, _I, _I, c_int32)),
+    "read_obj": (c_int32, (_P, _A, _I)),
+    "read_stl": (c_int32, (_P, _A, c_uint64, c_uint64)),
 }
 
 
