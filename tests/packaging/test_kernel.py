@@ -20,6 +20,7 @@ from tests.shapes import bumpy
 
 ROOT = Path(__file__).parents[2]
 ON_X86 = platform.machine().lower() in ("x86_64", "amd64")
+PROCESSOR = Path("/proc/cpuinfo")
 COMPILERS = {"gcc": ("gcc",), "clang": ("clang",), "zig": build.ZIG}
 
 
@@ -49,6 +50,8 @@ def test_each_compiler_takes_the_kernel_without_a_warning(name, tmp_path):
         made = ctypes.CDLL(str(tmp_path / name))
         assert all(hasattr(made, f"bih_{function}") for function in library._SIGNATURES)
         assert not hasattr(made, "add_product")
+        if PROCESSOR.exists():
+            assert made.bih_has_avx2() == ({"avx2", "fma"} <= set(PROCESSOR.read_text().split()))
 
 
 @pytest.mark.parametrize(

@@ -50,3 +50,14 @@ def test_all_keys_are_in_the_palette(screen):
     }
     native = QtGui.QKeySequence.SequenceFormat.NativeText
     assert {QtGui.QKeySequence(key).toString(native) for act in ALL for key in act.keys} == said
+
+
+def test_about_says_which_kernel_the_solver_runs_on(screen):
+    from app.qt.pages.messages import Message
+    from bihdist_core.kernel.library import description
+
+    s = screen()
+    parts(s.window).guide.show_about()
+    (message,) = s.window.findChildren(Message)
+    assert f"Solver: {description()}." in message.details.toPlainText()
+    message.close()
