@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import app.session.judging as judging
+import app.tools.correspondence.judgement as judging
 from app.document.beside_edits import open_beside
 from app.document.document import MeshFile, comparison
 from app.document.maps import MapFile, Maps, Truth, show_maps, with_truth
@@ -16,7 +16,7 @@ from app.figures.draw import save_figure
 from app.figures.export import compute, figure_of, open_document
 from app.marks.glyphs import CANDIDATE, CROSS
 from app.session.array_store import ArrayStore
-from app.session.judging import Judging, asked_of, maps_of, partners_of, right_places, truth_of
+from app.tools.correspondence.judgement import Judging, asked_of, maps_of, partners_of, right_places, truth_of
 from bihdist_core import (
     BiharmonicDistance,
     Cancelled,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-import app.session.judging as judging
+import app.tools.correspondence.judgement as judging
 from app.document.file import read_recipe
 from app.document.maps import MapColours, MapFile
 from app.document.pairs import add_pairs, place_point

@@ -12,8 +12,8 @@ from bihdist_core.progress import Progress
 from ...document.prediction import predicts_in
 from ...qt.background import Background
 from ...qt.context import Context
-from ...session.candidate_errors import CandidatesAsked, CandidatesJudged, CandidatesJudging, candidates_asked
 from ...session.pair_locations import candidate_in
+from .candidate_judgement import CandidatesAsked, CandidatesJudged, CandidatesJudging, candidates_asked
 
 
 class CandidateErrors(QtCore.QObject):

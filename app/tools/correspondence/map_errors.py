@@ -22,8 +22,8 @@ from ...qt.docks.panel_dots import curve_colour
 from ...qt.files.saving import save
 from ...qt.look.look import LOOK
 from ...qt.panels.flat_button import FlatButton
-from ...session.judging import Asked, Judgement, Judging, Map, asked_of, maps_of
 from .error_chart import ErrorChart, ErrorTable, MapCurve
+from .judgement import Asked, Judgement, Judging, Map, asked_of, maps_of
 from .map_truth import MapTruth
 
 NO_TRUTH = "Without a truth there is no error. Choose the same ids, or a map's file, where it is known."

@@ -9,8 +9,8 @@ from ...marks.glyphs import CANDIDATE, CROSS, PIN
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import LegendRow, PointMark
 from ...scene.style import PINS, WAITING
-from ...session.candidate_errors import CandidatesJudged, CandidatesJudging, candidates_asked
 from ...session.pair_locations import LocatedPairPoint, candidate_in, located_pair_points
+from .candidate_judgement import CandidatesJudged, CandidatesJudging, candidates_asked
 
 
 def marks(marked: MarkedPanel) -> list[PointMark | LegendRow]:

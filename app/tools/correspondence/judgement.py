@@ -27,12 +27,12 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
-from ..document.document import Document
-from ..document.maps import SAME_IDS, MapFile, Maps, Truth
-from ..document.pairs import whole_pairs
-from .loaded_mesh import LoadedMesh
-from .map_answers import map_in
-from .prediction_answers import correspondence
+from ...document.document import Document
+from ...document.maps import SAME_IDS, MapFile, Maps, Truth
+from ...document.pairs import whole_pairs
+from ...session.loaded_mesh import LoadedMesh
+from ...session.map_answers import map_in
+from ...session.prediction_answers import correspondence
 
 MOST_KEPT = 40_000_000
 """Numbers of four bytes that are kept of geodesic distances: from 400 vertices of a surface of 100,000."""
