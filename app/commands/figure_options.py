@@ -9,7 +9,7 @@ from dataclasses import replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
-from ..figures.options import MAPS, PERTURB, rows, with_options
+from ..figures.options import PERTURB, rows, with_options
 from .options import (
     PANELS,
     SOURCE,
@@ -42,7 +42,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
         "--source", type=source, metavar="V", action="append", help=f"{SOURCE}; repeat for a row of panels each"
     )
     add_distance(parser, PANELS)
-    add_rows(parser, PERTURB, MAPS, *rows())
+    add_rows(parser, PERTURB, *rows())
     parser.add_argument("--two-views", action="store_true", help="front and back, side by side")
 
 
@@ -71,7 +71,7 @@ def chosen_recipe(options: argparse.Namespace) -> "Recipe":
 def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     from ..document.perturbation import split, with_changed
 
-    values = given(options, PERTURB, MAPS, *rows())
+    values = given(options, PERTURB, *rows())
     if options.two_views:
         values["views"] = [*values.get("views", ()), "front", "back"]
     document, change = split(recipe.document)

@@ -94,6 +94,22 @@ def show_in(document: Document, panel: int, shows: Quantity) -> Document:
     )
 
 
+def show_distances(document: Document, is_meant: Callable[[Panel], bool]) -> Document:
+    """Every panel that is meant shows the distance that its quantity is made by, from where others start."""
+    for panel in document.panels:
+        if not is_meant(panel):
+            continue
+        (spec,), name = panel.shows.specs, source_name(document, panel.id)
+        if not name:
+            here = [p.name for p in document.points if p.name.startswith("source") and p.surface == panel.surface]
+            name = (here or free_names("source", 1, [point.name for point in document.points]))[0]
+        if all(point.name != name for point in document.points):
+            document = put_point(document, name, None, panel.surface)
+        shown = replace(panel, shows=DistanceFrom(spec, name), maximum=None)
+        document = replace(document, panels=tuple(shown if p.id == panel.id else p for p in document.panels))
+    return document
+
+
 def add_panel(document: Document, shows: Quantity, surface: str = "A") -> Document:
     """One more panel, at the end, with an id that no panel has had."""
     panel = Panel(document.next_id, shows, surface)
@@ -141,7 +157,7 @@ def add_another(document: Document, surface: str | None = None) -> Document:
     word = next((word for word in words if word not in shown), words[0])
     surface = document.surfaces[0].name if surface is None else surface
     here = document.panels_of(surface)
-    if here and all(panel.shows.is_prediction for panel in here):
+    if here and all(panel.shows.relates_surfaces and not panel.shows.is_map for panel in here):
         return add_panel(document, here[0].shows.with_spec(Spec.of(word)), surface)
     starting = [name for panel in document.panels_of(surface) for name in panel.shows.points]
     starting += [point.name for point in document.points if point.name == "source" and point.surface == surface]

@@ -81,7 +81,7 @@ def without_changed(document: Document) -> Document:
         return document
     document = without_surfaces(document, made)
     here = [panel for panel in document.panels if panel.surface not in made]
-    panels = [panel for panel in here if not any(part.is_prediction for part in panel.shows.parts)]
+    panels = [panel for panel in here if not any(part.relates_surfaces for part in panel.shows.parts)]
     panels = panels or _panels_before(document)
     numbers = {panel.id: k for k, panel in enumerate(panels)}
     document = replace(

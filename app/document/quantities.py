@@ -13,7 +13,9 @@ from .json_values import flag, listed, placed, record, text
 from .tools import tools
 
 if TYPE_CHECKING:
-    from .document import Document
+    from bihdist_core.distances.answers import Answer
+
+    from .document import Document, Panel
 
 
 class Choice(NamedTuple):
@@ -23,6 +25,21 @@ class Choice(NamedTuple):
     tip: str
     shows: "Quantity"
     is_shown: bool = False
+
+
+@dataclass(frozen=True)
+class Caption:
+    """What is said of a panel in the place of its colour bar, or of its name.
+
+    sentence: instead of the bar, then the same in fewer words; () for the bar itself.  is_request: whether it says what
+    to click, which a figure does not.  is_plain: whether nothing but the surface is shown, under the surface's name.
+    best: the value of the vertex that fits best, None where none is looked for.
+    """
+
+    sentence: tuple[str, ...] = ()
+    is_request: bool = False
+    is_plain: bool = False
+    best: float | None = None
 
 
 class Quantity(ABC):
@@ -38,8 +55,8 @@ class Quantity(ABC):
     is_difference: ClassVar[bool] = False
     """Whether it is one quantity less another, with a sign."""
 
-    is_prediction: ClassVar[bool] = False
-    """Whether its least value is where a point of the other surface is predicted."""
+    relates_surfaces: ClassVar[bool] = False
+    """Whether it says what of one surface belongs where on another, so that there have to be two."""
 
     is_map: ClassVar[bool] = False
     """Whether it is shown in colours, one at each vertex, and has no values."""
@@ -93,6 +110,10 @@ class Quantity(ABC):
 
     def check(self, document: "Document", surface: str) -> None:  # noqa: B027 (most need nothing)
         """ParameterError if a document has not what it is made of, on a surface of that name."""
+
+    def caption(self, document: "Document", panel: "Panel", answer: "Answer | None") -> Caption:
+        """What a panel that shows it says of its answer, None before there is one."""
+        return Caption()
 
     def with_paths(self, named: Callable[[str], str]) -> "Quantity":
         """The quantity with other paths of the files that it names."""

@@ -14,7 +14,6 @@ from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.document import Document, Panel, Zoom, starting_points
 from ..document.looks import NO_LINES, Isolines
-from ..document.maps import Maps
 from ..document.page import Recipe
 from ..document.perturbation import COLUMNS, changed_mesh
 from ..marks.marked_panel import MarkedPanel, marks_of
@@ -25,8 +24,6 @@ from ..session.array_store import ArrayStore
 from ..session.bar_ends import own_end, typed_end
 from ..session.isoline_points import passed
 from ..session.loaded_mesh import LoadedMesh, open_mesh
-from ..session.map_answers import map_in
-from ..session.pair_locations import plain_heading
 from ..session.perturbed_meshes import carried
 from ..session.questions import questions, source_at, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
@@ -68,10 +65,8 @@ def open_document(recipe: Recipe, given: ArrayStore) -> tuple[Document, Surfaces
         document = loaded.settled(document)
     for loaded in surfaces.values():
         loaded.beside = tuple(surfaces.values())
-    if document[Maps].maps:
-        one, two, *_ = surfaces.values()
-        for map in document[Maps].maps:
-            map_in(map, one.surface, two.surface)
+    for each in document.parts:
+        each.check_files({name: loaded.surface for name, loaded in surfaces.items()})
     return document, surfaces
 
 
@@ -202,7 +197,9 @@ def _figure_panel(
     if starts and len(starting) > 1:
         heading += f", from {', '.join(map(short_words_of, starts))}"
     hint = "; ".join(text for text in (panel.shows.hint * recipe.page.hints, answer.remark) if text)
-    heading, hint = plain_heading(document, panel, loaded, answer) or (heading, hint)
+    caption = panel.shows.caption(document, panel, answer)
+    if caption.is_plain:
+        heading, hint = surface.name, "" if caption.is_request else caption.sentence[0]
     through = passed(document, panel.surface, loaded, answer)
     up = document.up_of(panel.surface)
     up = up if up != "auto" else loaded.up

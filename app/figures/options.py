@@ -8,10 +8,8 @@ from functools import cache
 from typing import Any
 
 from bihdist_core.applications.changes import change_from_words
-from bihdist_core.errors import ParameterError
 from bihdist_core.progress import Progress
 
-from ..document import between
 from ..document.document import AREAS, Document
 from ..document.looks import PROJECTIONS
 from ..document.option import (
@@ -53,52 +51,6 @@ PERTURB = Option(
     "noise=S, along=normals, holes=N, radius=R, weld=I:J, handle=I:J, seed=K, with commas between them",
     "",
     metavar="WORDS",
-)
-
-
-def _with_maps(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
-    import numpy as np
-
-    from bihdist_core.formats.vertex_maps import read_pairs
-
-    document, pairs = recipe.document, values.get("pairs", ())
-    pairs = np.asarray(read_pairs(pairs) if isinstance(pairs, str) else pairs)
-    if pairs.size:
-        if pairs.ndim != 2 or pairs.shape[1] != 2 or pairs.dtype.kind not in "iu":
-            raise ParameterError(f"Pairs are whole numbers of shape (k, 2), not {pairs.dtype} of {pairs.shape}.")
-        document = between.with_pairs(document, [(int(i), int(j)) for i, j in pairs])
-    if "predict" in values and values.get("maps"):
-        raise ParameterError(
-            "--predict and --map (in Python predict= and maps=) are figures of their own; leave one of them out."
-        )
-    if "predict" in values:
-        document = between.with_prediction(document, values["predict"])
-    elif len(values.get("maps", ())):
-        document = between.with_maps(document, values["maps"])
-    return replace(recipe, document=document)
-
-
-MAPS = Row(
-    (
-        Option(
-            "maps",
-            "instead of distances where each vertex of A is on B, in colours: a .npy or .txt file with one of B for "
-            f"each of A; or `{between.PAIRS}`, for the maps by each --distance from --pairs; repeat",
-            (),
-            flag="map",
-            metavar="MAP",
-            repeats=True,
-        ),
-        Option(
-            "predict",
-            "instead of distances how badly each vertex of B fits vertex V of A, by each --distance from --pairs, and "
-            "which fits best",
-            metavar="V",
-            read=int,
-        ),
-        Option("pairs", "known pairs, a line `i,j` for each: vertex i of A is j of B", (), metavar="FILE"),
-    ),
-    put=_with_maps,
 )
 
 # ---------------------------------------------------------------------- all of them
@@ -166,7 +118,7 @@ def rows() -> tuple[Row, ...]:
 
 def arguments() -> dict[str, Option]:
     """By name, what `bihdist.figure` takes besides a mesh, what is shown of it, and from where."""
-    return {option.name: option for row in (*rows(), MAPS) for option in row.options} | {PERTURB.name: PERTURB}
+    return {option.name: option for row in rows() for option in row.options} | {PERTURB.name: PERTURB}
 
 
 def with_rows(recipe: Recipe, values: Mapping[str, Any], those: Iterable[Row]) -> Recipe:
@@ -191,11 +143,12 @@ def with_options(
     """
     document, change = split(recipe.document)
     was = recipe.page.columns if change is not None else None
-    recipe = with_rows(replace(recipe, document=document), values, rows())
+    first = [row for row in rows() if not row.is_of_two]
+    recipe = with_rows(replace(recipe, document=document), values, first)
     ends = values.get("range")
     is_ranged = bool({"range", "shared_range"} & {*values})
     # What replaces the panels has colour bars of its own.
-    is_of_all = bool({"maps", "predict"} & {*values}) or (
+    is_of_all = any(option.replaces_panels for name, option in arguments().items() if name in values) or (
         isinstance(ends, list | tuple) and len(ends) not in (1, len(document.panels))
     )
     if is_ranged and not is_of_all:
@@ -205,5 +158,6 @@ def with_options(
     if change is not None:
         recipe = replace(recipe, document=with_changed(recipe.document, change))
         recipe = with_attribute(recipe, "page.columns", values.get("columns") or was or COLUMNS)
-    recipe = with_rows(replace(recipe, document=beside(recipe.document)), values, [MAPS])
+    last = [row for row in rows() if row.is_of_two]
+    recipe = with_rows(replace(recipe, document=beside(recipe.document)), values, last)
     return with_range(recipe, values, tell, progress) if is_ranged and is_of_all else recipe

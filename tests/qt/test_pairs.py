@@ -7,11 +7,11 @@ import pytest
 
 from app.document.edits import duplicate_panel
 from app.document.file import read_recipe
-from app.document.pairs import half_pair
 from app.figures.export import compute, figure_of, open_document
 from app.marks.glyphs import CANDIDATE
 from app.session.array_store import ArrayStore
-from app.session.prediction_answers import KnownColumns
+from app.tools.correspondence.pairs import half_pair
+from app.tools.correspondence.prediction_answers import KnownColumns
 from app.tools.correspondence.quantity import Prediction
 from bihdist_core import BiharmonicDistance, Correspondence, GeodesicDistance, Surface
 from bihdist_core.distances.kinds import Spec
@@ -20,7 +20,7 @@ from tests.shapes import bumpy
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtGui, QtTest, QtWidgets
 
-from app.document.pairs import Pairs
+from app.tools.correspondence.pairs import Pairs
 from tests.qt.parts import parts
 
 LEFT, KEYS = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.Key

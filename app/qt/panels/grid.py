@@ -10,9 +10,7 @@ from ...document.beside_edits import MOST_SHOWN, letter_of
 from ...document.camera import Camera
 from ...document.document import Document, Panel
 from ...document.edits import MOST_ADDED, possible_edits
-from ...document.maps import shows_maps
 from ...document.perturbation import COLUMNS, changed_mesh
-from ...document.prediction import predicts
 from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.style import PAPER, Style
 from ...session.bar_ends import bar_end, ends_with
@@ -125,7 +123,7 @@ class PanelGrid(QtWidgets.QWidget):
         """Make, leave out and put in order the panels, and let their heads say what they show."""
         wanted = {panel.id: panel for panel in document.panels}
         self._are_in_rows = changed_mesh(document) is not None
-        self._correspond = predicts(document) or shows_maps(document)
+        self._correspond = any(panel.shows.relates_surfaces for panel in document.panels)
         for id in self._panels.keys() - wanted.keys():
             gone = self._panels.pop(id)
             gone.hide()

@@ -8,14 +8,10 @@ from bihdist_core.distances.answers import Answer
 
 from ...document.anchors import Anchors
 from ...document.document import Document, Panel
-from ...document.pairs import Pairs, pair_words
-from ...document.prediction import predicts_in
 from ...document.tools import tools
 from ...marks.marked_panel import MarkedPanel
 from ...session.anchors import anchors_on
 from ...session.isoline_points import IsolinePoint, passed
-from ...session.map_answers import colours_words
-from ...session.pair_locations import candidate_in
 from ...session.questions import pieces_at, vertex_at
 from ...session.session import Session
 from ..look.numbers import tick
@@ -108,7 +104,7 @@ class GridMarks:
             for tool in tools()
             if tool.marks
         ]
-        self._show_prediction(document, panel, answer)
+        self._show_caption(document, panel, answer)
         return any(has_other_areas)
 
     def show_found(self, id: int, kind: type, found: object | None) -> None:
@@ -121,19 +117,17 @@ class GridMarks:
 
     def _lit_points(self, document: Document) -> frozenset[str]:
         """What stands out, with both points of a pair."""
-        pair = next((pair for pair in document[Pairs].pairs if self.chosen_pair in pair.points), None)
-        return frozenset((*self.lit, *(() if pair is None else pair.points)))
+        return frozenset(self.lit).union(*(part.companions(self.chosen_pair) for part in document.parts))
 
-    def _show_prediction(self, document: Document, panel: Panel, answer: Answer | None) -> None:
-        candidate = candidate_in(document, panel, answer)
-        is_plain = predicts_in(panel) and candidate is None and (answer is None or not answer.failure)
-        alone = sum(other.surface == panel.surface and predicts_in(other) for other in document.panels) == 1
+    def _show_caption(self, document: Document, panel: Panel, answer: Answer | None) -> None:
+        caption = panel.shows.caption(document, panel, answer)
+        alike = [p for p in document.panels_of(panel.surface) if isinstance(p.shows, type(panel.shows))]
         is_first = document.panels_of(panel.surface)[0] == panel
         self._panels[panel.id].show_prediction(
-            None if candidate is None else candidate.misfit,
+            caption.best,
             # Once for each surface, and where it waits.
-            (pair_words(document, panel.surface) if is_first else ("",)) if is_plain else colours_words(answer),
-            self._session.surface_in(panel.id).name if is_plain and alone else "",
+            caption.sentence if is_first or not caption.is_plain else ("",),
+            self._session.surface_in(panel.id).name if caption.is_plain and len(alike) == 1 else "",
         )
 
     def choose_pair(self, point: str) -> None:

@@ -9,9 +9,6 @@ from bihdist_core.formats.vertex_maps import PAIR_FORMATS, read_pairs, write_pai
 
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.maps import shows_maps
-from ...document.pairs import Pair, Pairs, add_pairs, half_pair, number_of, remove_pairs
-from ...document.prediction import predict, predicts, show_distances
 from ...document.quantities import kind_name
 from ...qt.context import Context
 from ...qt.docks.dock import PAD
@@ -22,10 +19,13 @@ from ...qt.files.saving import save
 from ...qt.look.look import LOOK
 from ...qt.panels.flat_button import FlatButton
 from ...scene.style import PINS, WAITING
-from ...session.pair_locations import vertex_pairs
 from ...session.questions import vertex_at
 from .gestures import PairGestures
 from .map_errors import MapErrors
+from .maps import shows_maps
+from .pair_locations import vertex_pairs
+from .pairs import Pair, Pairs, add_pairs, half_pair, number_of, remove_pairs
+from .prediction import predict, predicts, show_distances
 from .row import PairRow, column_ends
 
 ALONE = "Pairs are of points on two meshes: open a second one beside this."

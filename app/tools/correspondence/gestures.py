@@ -8,7 +8,13 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import ParameterError
 
 from ...document.document import Document
-from ...document.pairs import (
+from ...qt.context import Context
+from ...qt.dragging import Dragging
+from ...qt.gesture import Gesture
+from ...qt.panels.events import Click
+from .candidate_errors import CandidateErrors
+from .pair_locations import Candidate, candidate_in
+from .pairs import (
     Pair,
     Pairs,
     drop_half,
@@ -19,13 +25,7 @@ from ...document.pairs import (
     waiting_point,
     whole_pairs,
 )
-from ...document.prediction import predicts_in
-from ...qt.context import Context
-from ...qt.dragging import Dragging
-from ...qt.gesture import Gesture
-from ...qt.panels.events import Click
-from ...session.pair_locations import Candidate, candidate_in
-from .candidate_errors import CandidateErrors
+from .prediction import predicts_in
 
 if TYPE_CHECKING:
     from ...scene.picking import Hit

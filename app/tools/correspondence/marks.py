@@ -4,13 +4,13 @@ from weakref import WeakKeyDictionary
 
 from bihdist_core.distances.answers import Answer
 
-from ...document.maps import Maps, Truth
 from ...marks.glyphs import CANDIDATE, CROSS, PIN
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import LegendRow, PointMark
 from ...scene.style import PINS, WAITING
-from ...session.pair_locations import LocatedPairPoint, candidate_in, located_pair_points
 from .candidate_judgement import CandidatesJudged, CandidatesJudging, candidates_asked
+from .maps import Maps, Truth
+from .pair_locations import LocatedPairPoint, candidate_in, located_pair_points
 
 
 def marks(marked: MarkedPanel) -> list[PointMark | LegendRow]:

@@ -8,8 +8,8 @@ from bihdist_core.distances.kinds import Spec
 
 from ...document.anchors import Anchors
 from ...document.document import Document
+from ...document.edits import show_distances as distances_again
 from ...document.json_values import flag, record
-from ...document.prediction import show_distances as distances_again
 from ...document.quantities import ByDistance, Choice, Quantity, read_spec
 
 if TYPE_CHECKING:

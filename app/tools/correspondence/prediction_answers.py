@@ -15,13 +15,13 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
-from ..document.document import Document, MeshFile
-from ..document.pairs import other_side, waiting_point, whole_pairs
-from ..document.prediction import PREDICTION
-from .questions import ByDistance, vertex_at
+from ...document.document import Document, MeshFile
+from ...session.questions import ByDistance, vertex_at
+from .pairs import other_side, waiting_point, whole_pairs
+from .quantity import PREDICTION
 
 if TYPE_CHECKING:
-    from .loaded_mesh import LoadedMesh
+    from ...session.loaded_mesh import LoadedMesh
 
 NO_OTHER = "There is no second mesh: open one beside this to find corresponding points."
 """What a panel of a prediction says where there can be none."""

@@ -17,15 +17,15 @@ from bihdist_core.formats.vertex_maps import read_map
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
-from ..document.document import Document, MeshFile
-from ..document.file import checksum
-from ..document.maps import SAME_IDS, MapColours, MapFile, Maps
-from ..document.pairs import other_side
+from ...document.document import Document, MeshFile
+from ...document.file import checksum
+from ...session.questions import Question
+from .maps import SAME_IDS, MapColours, MapFile, Maps
+from .pairs import other_side
 from .prediction_answers import NO_OTHER, correspondence, pairs_on
-from .questions import Question
 
 if TYPE_CHECKING:
-    from .loaded_mesh import LoadedMesh
+    from ...session.loaded_mesh import LoadedMesh
 
 NO_PAIRS = "There is no pair yet, and pairs make the map."
 """What a panel of a map says where there can be none."""
