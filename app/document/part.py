@@ -34,10 +34,6 @@ class Part:
         """The names of the document's surfaces that it refers to."""
         return ()
 
-    def companions(self, point: str) -> tuple[str, ...]:
-        """The names of the points that stand out in the window where this one does."""
-        return ()
-
     def check(self, document: "Document") -> None:
         """ParameterError if it does not fit the document; that its points and surfaces are there is known."""
 

@@ -13,9 +13,7 @@ from .json_values import flag, listed, placed, record, text
 from .tools import tools
 
 if TYPE_CHECKING:
-    from bihdist_core.distances.answers import Answer
-
-    from .document import Document, Panel
+    from .document import Document
 
 
 class Choice(NamedTuple):
@@ -25,21 +23,6 @@ class Choice(NamedTuple):
     tip: str
     shows: "Quantity"
     is_shown: bool = False
-
-
-@dataclass(frozen=True)
-class Caption:
-    """What is said of a panel in the place of its colour bar, or of its name.
-
-    sentence: instead of the bar, then the same in fewer words; () for the bar itself.  is_request: whether it says what
-    to click, which a figure does not.  is_plain: whether nothing but the surface is shown, under the surface's name.
-    best: the value of the vertex that fits best, None where none is looked for.
-    """
-
-    sentence: tuple[str, ...] = ()
-    is_request: bool = False
-    is_plain: bool = False
-    best: float | None = None
 
 
 class Quantity(ABC):
@@ -110,10 +93,6 @@ class Quantity(ABC):
 
     def check(self, document: "Document", surface: str) -> None:  # noqa: B027 (most need nothing)
         """ParameterError if a document has not what it is made of, on a surface of that name."""
-
-    def caption(self, document: "Document", panel: "Panel", answer: "Answer | None") -> Caption:
-        """What a panel that shows it says of its answer, None before there is one."""
-        return Caption()
 
     def with_paths(self, named: Callable[[str], str]) -> "Quantity":
         """The quantity with other paths of the files that it names."""

@@ -17,7 +17,7 @@ from ..document.looks import NO_LINES, Isolines
 from ..document.page import Recipe
 from ..document.perturbation import COLUMNS, changed_mesh
 from ..marks.marked_panel import MarkedPanel, marks_of
-from ..marks.primitives import AreaMark, LineMark, PointMark, Remark, SurfaceMark
+from ..marks.primitives import AreaMark, Caption, LineMark, PointMark, Remark, SurfaceMark
 from ..scene.levels import in_unit
 from ..scene.style import style_of
 from ..session.array_store import ArrayStore
@@ -197,9 +197,8 @@ def _figure_panel(
     if starts and len(starting) > 1:
         heading += f", from {', '.join(map(short_words_of, starts))}"
     hint = "; ".join(text for text in (panel.shows.hint * recipe.page.hints, answer.remark) if text)
-    caption = panel.shows.caption(document, panel, answer)
-    if caption.is_plain:
-        heading, hint = surface.name, "" if caption.is_request else caption.sentence[0]
+    for caption in (mark for mark in marks if isinstance(mark, Caption) and mark.plain):
+        heading, hint = caption.plain, caption.sentence[0]
     through = passed(document, panel.surface, loaded, answer)
     up = document.up_of(panel.surface)
     up = up if up != "auto" else loaded.up

@@ -109,4 +109,18 @@ class Remark:
     text: str
 
 
-SurfaceMark = PointMark | LineMark | AreaMark | LegendRow | Remark
+@dataclass(frozen=True)
+class Caption:
+    """What stands at a panel besides its field.
+
+    sentence: in place of the colour bar, and the same in fewer words, the first for which there is room.  value: at the
+    bar while nothing is pointed at, with the words for its unit.  plain: the name of a surface that is shown as it is.
+    """
+
+    sentence: tuple[str, ...] = ()
+    value: float | None = None
+    unit: str = ""
+    plain: str = ""
+
+
+SurfaceMark = PointMark | LineMark | AreaMark | LegendRow | Remark | Caption

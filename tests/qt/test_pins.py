@@ -103,9 +103,9 @@ def test_a_drop_that_is_clicked_selects_its_row(loaded):
 
     # As long as the list is closed, it stands out.
     click(first)
-    assert s.window.grid.marks.lit == (points[0],)
+    assert s.window.grid.marks.lit("pins") == (points[0],)
     click(first)
-    assert s.window.grid.marks.lit == ()
+    assert s.window.grid.marks.lit("pins") == ()
     dock = dock_of(s)
     click(second, 2)
     assert dock.table.points == (points[1],)
@@ -113,7 +113,7 @@ def test_a_drop_that_is_clicked_selects_its_row(loaded):
     assert set(dock.table.points) == set(points)
     click(first)
     assert dock.table.points == (points[0],)
-    assert s.window.grid.marks.lit == (points[0],)
+    assert s.window.grid.marks.lit("pins") == (points[0],)
     click(first)
     assert dock.table.points == ()
     assert s.source == 5  # which stays where it is

@@ -10,6 +10,7 @@ from ...document.anchors import Anchors
 from ...document.document import Document, Panel
 from ...document.tools import tools
 from ...marks.marked_panel import MarkedPanel
+from ...marks.primitives import Caption
 from ...session.anchors import anchors_on
 from ...session.isoline_points import IsolinePoint, passed
 from ...session.questions import pieces_at, vertex_at
@@ -28,14 +29,13 @@ SELECTED_MS = 600
 class GridMarks:
     """panels: asks for those that are shown, by their ids.
 
-    lit: the points of pins that stand out; chosen_anchor: the point of the one that does, "" for none; chosen_pair: a
-    point of the pair that does.
+    chosen_anchor: the point of the one that stands out, "" for none.
     """
 
     def __init__(self, session: Session, panels: Callable[[], Mapping[int, DistancePanel]], moving: Moving) -> None:
         self._session, self._shown, self._moving = session, panels, moving
-        self.lit: tuple[str, ...] = ()
-        self.chosen_anchor = self.chosen_pair = ""
+        self._lit: dict[str, tuple[str, ...]] = {}  # points, by the words of tools
+        self.chosen_anchor = ""
         self._is_drawn_on = self._keeps_steps = False
         self._brush: QtGui.QCursor | None = None
 
@@ -85,7 +85,7 @@ class GridMarks:
 
     # ------------------------------------------------------------------ what tools mark
     def show(self, document: Document) -> None:
-        """What tools mark in each panel, and in panels without a prediction what waits."""
+        """What tools mark in each panel."""
         changed = [self.show_in(document, panel.id) for panel in document.panels]
         if any(changed):
             self._moving.moved(SELECTED_MS)
@@ -97,14 +97,13 @@ class GridMarks:
         there = {name: loaded for name, loaded in surfaces.items() if loaded is not None}
         if panel.surface not in there:
             return False
-        answer = None if shown is None else shown.answer
-        marked = MarkedPanel(document, panel, there, answer or NOTHING, widget.marks.found)
-        has_other_areas = [
-            widget.marks.show(tool.word, tool.load(tool.marks)(marked), self._lit_points(document))
-            for tool in tools()
-            if tool.marks
-        ]
-        self._show_caption(document, panel, answer)
+        answer = NOTHING if shown is None else shown.answer
+        marked = MarkedPanel(document, panel, there, answer, widget.marks.found)
+        marks = {tool.word: tool.load(tool.marks)(marked) for tool in tools() if tool.marks}
+        has_other_areas = [widget.marks.show(word, found, self.lit(word)) for word, found in marks.items()]
+        captions = (mark for found in marks.values() for mark in found if isinstance(mark, Caption))
+        caption = next(captions, Caption())
+        widget.show_prediction(caption.value, caption.sentence, caption.plain)
         return any(has_other_areas)
 
     def show_found(self, id: int, kind: type, found: object | None) -> None:
@@ -115,32 +114,14 @@ class GridMarks:
             if id in [panel.id for panel in self._session.document.panels]:
                 self.show_in(self._session.document, id)
 
-    def _lit_points(self, document: Document) -> frozenset[str]:
-        """What stands out, with both points of a pair."""
-        return frozenset(self.lit).union(*(part.companions(self.chosen_pair) for part in document.parts))
+    def lit(self, tool: str) -> tuple[str, ...]:
+        """The points of a tool's marks that stand out, by its word."""
+        return self._lit.get(tool, ())
 
-    def _show_caption(self, document: Document, panel: Panel, answer: Answer | None) -> None:
-        caption = panel.shows.caption(document, panel, answer)
-        alike = [p for p in document.panels_of(panel.surface) if isinstance(p.shows, type(panel.shows))]
-        is_first = document.panels_of(panel.surface)[0] == panel
-        self._panels[panel.id].show_prediction(
-            caption.best,
-            # Once for each surface, and where it waits.
-            caption.sentence if is_first or not caption.is_plain else ("",),
-            self._session.surface_in(panel.id).name if caption.is_plain and len(alike) == 1 else "",
-        )
-
-    def choose_pair(self, point: str) -> None:
-        """Let the pair of this point stand out, "" for none."""
-        if point != self.chosen_pair:
-            self.chosen_pair = point
-            if self._session.surface is not None:
-                self.show(self._session.document)
-
-    def light_pins(self, points: tuple[str, ...]) -> None:
-        """Let the pins at these points stand out."""
-        if points != self.lit:
-            self.lit = points
+    def light(self, tool: str, points: tuple[str, ...]) -> None:
+        """Let a tool's marks at these points stand out, and no others of it."""
+        if points != self.lit(tool):
+            self._lit[tool] = points
             if self._session.surface is not None:
                 self.show(self._session.document)
 

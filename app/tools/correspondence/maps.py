@@ -13,11 +13,10 @@ from ...document.document import Document, Panel, Point, free_names, unlike
 from ...document.json_values import record, text
 from ...document.looks import one_of
 from ...document.part import Part
-from ...document.quantities import Caption, DistanceFrom, Quantity, read_spec
+from ...document.quantities import DistanceFrom, Quantity, read_spec
 from .pairs import Pairs
 
 if TYPE_CHECKING:
-    from bihdist_core.distances.answers import Answer
     from bihdist_core.surface import Surface
 
     from .map_answers import MapQuestion, PositionQuestion
@@ -135,12 +134,6 @@ class MapColours(Quantity):
         check_two(document)
         if surface != document.surfaces[0].name:
             raise ParameterError(f"Maps are from the surface {document.surfaces[0].name!r}, and shown on it.")
-
-    def caption(self, document: Document, panel: Panel, answer: "Answer | None") -> Caption:
-        """What the colours say."""
-        from .map_answers import colours_words
-
-        return Caption(colours_words(answer))
 
     def question(self, document: Document, surface: str) -> "PositionQuestion | MapQuestion":
         """What has to be answered to show where the map leads."""

@@ -53,10 +53,6 @@ class Pairs(Part):
     def points(self) -> tuple[str, ...]:
         return tuple(name for pair in self.pairs for name in pair.points)
 
-    def companions(self, point: str) -> tuple[str, ...]:
-        """Both points of a pair."""
-        return next((pair.points for pair in self.pairs if point in pair.points), ())
-
     def check(self, document: Document) -> None:
         if len(set(self.points)) < len(self.points):
             raise ParameterError("Two pairs have a point in common.")

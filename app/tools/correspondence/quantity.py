@@ -6,14 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 from bihdist_core.distances.kinds import Spec
 
-from ...document.document import Document, Panel
+from ...document.document import Document
 from ...document.json_values import record
-from ...document.quantities import ByDistance, Caption, Choice, Quantity, read_spec
-from .pairs import pair_words, waiting_point
+from ...document.quantities import ByDistance, Choice, Quantity, read_spec
 
 if TYPE_CHECKING:
-    from bihdist_core.distances.answers import Answer
-
     from .prediction_answers import PredictionQuestion
 
 PREDICTION = "prediction by "
@@ -53,19 +50,6 @@ class Prediction(ByDistance):
         from .prediction_answers import prediction_question
 
         return prediction_question(document, surface, self.spec)
-
-    def caption(self, document: Document, panel: Panel, answer: "Answer | None") -> Caption:
-        """The least misfit; where nothing is predicted what waits, or what a click does there."""
-        from .pair_locations import candidate_in
-
-        candidate = candidate_in(document, panel, answer)
-        if candidate is not None:
-            return Caption(best=candidate.misfit)
-        if answer is not None and answer.failure:
-            return Caption()
-        waiting = waiting_point(document)
-        is_here = waiting is not None and waiting.surface == panel.surface
-        return Caption(pair_words(document, panel.surface), is_request=not is_here, is_plain=True)
 
     def to_json(self) -> dict[str, Any]:
         return {"prediction": self.spec.in_full}
