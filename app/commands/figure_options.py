@@ -9,7 +9,7 @@ from dataclasses import replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
-from ..figures.options import PERTURB, rows, with_options
+from ..figures.options import made_from, rows, with_options, with_rows
 from .options import (
     PANELS,
     SOURCE,
@@ -42,7 +42,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
         "--source", type=source, metavar="V", action="append", help=f"{SOURCE}; repeat for a row of panels each"
     )
     add_distance(parser, PANELS)
-    add_rows(parser, PERTURB, *rows())
+    add_rows(parser, *rows())
     parser.add_argument("--two-views", action="store_true", help="front and back, side by side")
 
 
@@ -69,20 +69,16 @@ def chosen_recipe(options: argparse.Namespace) -> "Recipe":
 
 
 def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
-    from ..document.perturbation import split, with_changed
-
-    values = given(options, PERTURB, *rows())
+    values = given(options, *rows())
     if options.two_views:
         values["views"] = [*values.get("views", ()), "front", "back"]
-    document, change = split(recipe.document)
+    document, made = made_from(recipe.document)
     if options.other_mesh is not None:
         document = _with_other_mesh(document, options.other_mesh)
     document, columns = _with_panels(document, options)
-    if change is not None:
-        document = with_changed(document, change)
-    elif columns is not None:
+    if columns is not None and not made:
         recipe = replace(recipe, page=replace(recipe.page, columns=columns))
-    recipe = replace(recipe, document=document)
+    recipe = with_rows(replace(recipe, document=document), made, rows())
     with progress_line() as progress:
         recipe = with_options(recipe, values, lambda document: _with_beside(document, options.beside), tell, progress)
     _tell_if_unseen(recipe.page.style, values)

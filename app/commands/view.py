@@ -34,7 +34,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def _rows() -> list[Row]:
     """Of the options of figures those of tools, as far as they are not about the page, and some more."""
-    of_pages = [row for row in tool_rows() if row.is_of_two or any(part.startswith("Page.") for part in row.parts)]
+    of_pages = [row for row in tool_rows() if row.is_late or any(part.startswith("Page.") for part in row.parts)]
     return [COLOURS, UP, VERTEX_AREAS, *(row for row in tool_rows() if row not in of_pages)]
 
 

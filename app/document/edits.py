@@ -7,8 +7,8 @@ from bihdist_core.distances.kinds import Spec, kinds
 from bihdist_core.sources.source import Source
 
 from .camera import view_alike
+from .derived_surfaces import changed_mesh, without_changed
 from .document import COMPARISON, Document, MeshFile, Panel, Point, free_names
-from .perturbation import without_changed
 from .quantities import DistanceFrom, Quantity, from_point, own_fields
 from .regions import DividedPanels, can_divide, show_regions
 from .removal import without_surfaces
@@ -92,6 +92,30 @@ def show_in(document: Document, panel: int, shows: Quantity) -> Document:
             replace(p, shows=shows, maximum=None) if p.id == panel and p.shows != shows else p for p in document.panels
         ),
     )
+
+
+def show_in_row(document: Document, panel: int, shows: Quantity) -> Document:
+    """Show another quantity in a panel; another distance goes into all three panels of a change.
+
+    Of these, before and after are compared with each other.
+    """
+    before = document.panel(panel)
+    if changed_mesh(document) is None or not _is_in_row(shows):
+        return show_in(document, panel, shows)
+    if not _is_in_row(before.shows):
+        return show_in(document, panel, shows)
+    old, roots = before.shows.specs, {point.name: point.image_of or point.name for point in document.points}
+    root = roots[before.shows.points[0]]
+    for other in document.panels:
+        now = other.shows
+        if _is_in_row(now) and now.specs == old and roots[now.points[0]] == root:
+            document = show_in(document, other.id, now.with_spec(shows.specs[0]))
+    return document
+
+
+def _is_in_row(shows: Quantity) -> bool:
+    """Whether it is a distance before or after a change, or what the change does to it."""
+    return shows.is_distance or shows.compares_meshes
 
 
 def show_distances(document: Document, is_meant: Callable[[Panel], bool]) -> Document:

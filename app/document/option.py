@@ -83,7 +83,8 @@ class Row:
 
     parts: of documents and pages, such as "Isolines.bold".  get: of a recipe, the values of those options that have to
     be given, by name; NotExpressible where none say it.  put: the recipe with such values; ParameterError where they
-    make no sense.  is_of_two: whether it is put once all else is, and the second mesh is there.  reason: why no option
+    make no sense.  is_of_two: whether it is put once all else is, and the second mesh is there.  made_from: of a
+    document, the one that the row has made it from, and the option's value; None for no value.  reason: why no option
     needs to say the parts, if none does.
     """
 
@@ -92,7 +93,13 @@ class Row:
     get: Callable[[Recipe], Mapping[str, Any]] = lambda recipe: {}
     put: Callable[[Recipe, Mapping[str, Any]], Recipe] = lambda recipe, values: recipe
     is_of_two: bool = False
+    made_from: Callable[[Document], tuple[Document, Any]] | None = None
     reason: str = ""
+
+    @property
+    def is_late(self) -> bool:
+        """Whether it makes another document of the one that all other rows are about."""
+        return self.is_of_two or self.made_from is not None
 
 
 def attribute(path: str, meaning: str, metavar: str | None = None, name: str = "", **how: Any) -> Row:

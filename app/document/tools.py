@@ -33,7 +33,8 @@ class Tool:
     modules of commands, by their words.  quantities: subclasses of `Quantity` that panels can show.  parts:
     subclasses of `Part`, of documents.  options: a tuple of `Row`, what figures can be told of them.
     marks: a function from a `MarkedPanel` to what is marked there, primitives of `marks.primitives`.  actions: a tuple
-    of `Act`, what can be done by a menu or a key beside opening the dock.
+    of `Act`, what can be done by a menu or a key beside opening the dock.  add_panel: a function from a document to
+    that with more panels; None where it is one more panel, as usual.
     """
 
     package: str
@@ -53,6 +54,7 @@ class Tool:
     options: str = ""
     marks: str = ""
     actions: str = ""
+    add_panel: str = ""
 
     def load(self, name: str) -> Any:
         """What a name such as "dock:PinsDock" means, or the module if there is no colon in it."""

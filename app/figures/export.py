@@ -12,19 +12,19 @@ from bihdist_core.progress import Progress, part
 from bihdist_core.sources.words import short_words_of
 from bihdist_core.whole_file import check_output, whole_file
 
+from ..document.derived_surfaces import COLUMNS, changed_mesh
 from ..document.document import Document, Panel, Zoom, starting_points
 from ..document.looks import NO_LINES, Isolines
 from ..document.page import Recipe
-from ..document.perturbation import COLUMNS, changed_mesh
 from ..marks.marked_panel import MarkedPanel, marks_of
 from ..marks.primitives import AreaMark, Caption, LineMark, PointMark, Remark, SurfaceMark
 from ..scene.levels import in_unit
 from ..scene.style import style_of
 from ..session.array_store import ArrayStore
 from ..session.bar_ends import own_end, typed_end
+from ..session.derived_surfaces import carried
 from ..session.isoline_points import passed
 from ..session.loaded_mesh import LoadedMesh, open_mesh
-from ..session.perturbed_meshes import carried
 from ..session.questions import questions, source_at, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
 from .description import Figure, FigurePanel

@@ -84,7 +84,6 @@ def figure(
     *,
     fields: Mapping[str, npt.ArrayLike] | None = None,
     areas: str = "voronoi",
-    perturb: str = "",
     beside: Mesh | None = None,
     isolines: int | Isolines = 20,
     equal_isolines: bool = False,

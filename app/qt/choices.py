@@ -8,11 +8,10 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
 
-from ..document.edits import ADD, MOST_ADDED, PANEL_EDITS, add_another, end_at, possible_edits, with_range
+from ..document.edits import ADD, MOST_ADDED, PANEL_EDITS, add_another, end_at, possible_edits, show_in_row, with_range
 from ..document.looks import Colours
-from ..document.perturbation import changed_mesh
-from ..document.perturbation_edits import add_row, show_in_row
 from ..document.quantities import Quantity
+from ..document.tools import tools
 from ..scene.colour_file import read_stops
 from .context import Context
 from .files.taken_ends import TakenEnds
@@ -39,25 +38,26 @@ class Choices:
     def add_panel(self) -> None:
         """One more, with a distance that is not shown yet."""
         session = self._context.session
-        if session.surface is not None and changed_mesh(session.document) is not None:
-            self._add_row()
-        elif session.surface is not None and len(session.document.panels) < MOST_ADDED:
+        if session.surface is not None and not self._add_panels() and len(session.document.panels) < MOST_ADDED:
             active = {panel.id: panel.surface for panel in session.document.panels}
             session.show(add_another(session.document, active.get(self._context.grid.active)))
 
-    def _add_row(self) -> None:
-        """The same of a changed mesh: before, after and difference."""
+    def _add_panels(self) -> bool:
+        """Several that a tool adds at once; whether one does."""
         session = self._context.session
-        if len(session.document.panels) <= MOST_ADDED:
-            session.show(add_row(session.document))
+        documents = (tool.load(tool.add_panel)(session.document) for tool in tools() if tool.add_panel)
+        document = next((each for each in documents if each is not None), None)
+        if document is not None and document != session.document:
+            session.show(document)
+        return document is not None
 
     def edit_panel(self, panel: int, word: str) -> None:
         """One of PANEL_EDITS, where it is possible."""
         session = self._context.session
         is_there = any(shown.id == panel for shown in session.document.panels)
-        if is_there and word == ADD and changed_mesh(session.document) is not None:
-            self._add_row()
-        elif is_there and word in possible_edits(session.document, panel, MOST_ADDED):
+        if is_there and word == ADD and self._add_panels():
+            return
+        if is_there and word in possible_edits(session.document, panel, MOST_ADDED):
             session.show(PANEL_EDITS[word](session.document, panel))
 
     def choose(self, panel: int, shows: Quantity) -> None:

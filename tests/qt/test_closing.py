@@ -14,10 +14,10 @@ from app.document.document import comparison
 from app.document.edits import move_source
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Recipe
-from app.document.perturbation_edits import change_mesh
 from app.document.pins import add_pins
 from app.document.selections import select
 from app.tools.correspondence.pairs import place_point
+from app.tools.robustness.comparison import change_mesh
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.sources.source import Curve, SurfacePoint
 from tests.qt.parts import parts

@@ -8,9 +8,9 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.beside_edits import MOST_SHOWN, letter_of
 from ...document.camera import Camera
+from ...document.derived_surfaces import COLUMNS, changed_mesh
 from ...document.document import Document, Panel
 from ...document.edits import MOST_ADDED, possible_edits
-from ...document.perturbation import COLUMNS, changed_mesh
 from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.style import PAPER, Style
 from ...session.bar_ends import bar_end, ends_with
