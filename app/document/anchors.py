@@ -49,6 +49,10 @@ class Anchors(Part):
     def points(self) -> tuple[str, ...]:
         return tuple(anchor.point for anchor in self.anchors)
 
+    @property
+    def has_values(self) -> bool:
+        return any(anchor.value is not None for anchor in self.anchors)
+
     def without_points(self, points: Set[str]) -> "Anchors":
         return replace(self, anchors=tuple(anchor for anchor in self.anchors if anchor.point not in points))
 

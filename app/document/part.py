@@ -34,6 +34,11 @@ class Part:
         """The names of the document's surfaces that it refers to."""
         return ()
 
+    @property
+    def has_values(self) -> bool:
+        """Whether what it marks has values, which a figure may show beside the marks."""
+        return False
+
     def check(self, document: "Document") -> None:
         """ParameterError if it does not fit the document; that its points and surfaces are there is known."""
 

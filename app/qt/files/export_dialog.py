@@ -9,7 +9,6 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import BihdistError
 from bihdist_core.distances.answers import Answer
 
-from ...document.anchors import Anchors
 from ...document.page import FORMATS, Recipe
 from ...figures.description import Figure
 from ...figures.draw import FIGURE_FORMATS
@@ -82,7 +81,7 @@ class ExportDialog(LooksDialog):
         self.transparent = self.tick("No &background", recipe.page.transparent, "Transparent where nothing is drawn")
         self.crop = self.tick("Without the empty &margins", recipe.page.crop, "Cut to what is drawn")
         self.values: QtWidgets.QCheckBox | None = None
-        if any(anchor.value is not None for anchor in recipe.document[Anchors].anchors):
+        if any(part.has_values for part in recipe.document.parts):
             self.values = self.tick("&Values at anchors", recipe.page.anchor_values, "The number beside each anchor")
         self.section("Look")
         self.add_look()
