@@ -100,9 +100,7 @@ def show_in_row(document: Document, panel: int, shows: Quantity) -> Document:
     Of these, before and after are compared with each other.
     """
     before = document.panel(panel)
-    if changed_mesh(document) is None or not _is_in_row(shows):
-        return show_in(document, panel, shows)
-    if not _is_in_row(before.shows):
+    if changed_mesh(document) is None or not (_is_in_row(shows) and _is_in_row(before.shows)):
         return show_in(document, panel, shows)
     old, roots = before.shows.specs, {point.name: point.image_of or point.name for point in document.points}
     root = roots[before.shows.points[0]]

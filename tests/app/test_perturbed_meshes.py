@@ -24,7 +24,8 @@ from app.figures.export import compute, figure_of, open_document
 from app.main import main
 from app.session.array_store import ArrayStore
 from app.session.surfaces import SPARED_MADE
-from app.tools.robustness.comparison import change_mesh, cut_by, split, with_changed
+from app.tools.robustness.comparison import change_mesh, split, with_changed
+from app.tools.robustness.cuts import cut_by
 from app.tools.robustness.quantity import ChangeOf
 from app.tools.scatter.part import Scatter
 from bihdist_core import BiharmonicDistance, ParameterError, Surface, SurfacePoint, VertexError, write_mesh

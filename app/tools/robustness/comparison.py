@@ -2,17 +2,13 @@
 
 from dataclasses import replace
 
-import numpy as np
-
-from bihdist_core.applications.changes import Perturbation, Runs
-from bihdist_core.arrays import IntArray
+from bihdist_core.applications.changes import Perturbation
 from bihdist_core.errors import ParameterError
 
 from ...document.derived_surfaces import COLUMNS, changed_mesh, numbered, without_changed
 from ...document.document import Document, MeshFile, Panel, Point
 from ...document.edits import MOST_ADDED, add_another
 from ...document.quantities import DistanceFrom
-from ...document.selections import runs_of, vertices_of
 from .quantity import ChangeOf
 
 CHANGED = "B"
@@ -109,12 +105,6 @@ def can_change(document: Document) -> bool:
     """Whether there is one mesh, or a second that is made from it, and a panel with a distance."""
     alone = len(document.surfaces) == 1 or changed_mesh(document) is not None
     return alone and any(panel.shows.is_distance for panel in document.panels)
-
-
-def cut_by(cut: Runs, faces: IntArray, is_restored: bool = False) -> Runs:
-    """What is cut out of a surface, with more faces (k,) or, if they are restored, without these."""
-    known = vertices_of(cut) if cut else np.empty(0, np.int64)
-    return runs_of(np.setdiff1d(known, faces) if is_restored else np.union1d(known, faces))
 
 
 def add_row(document: Document) -> Document | None:

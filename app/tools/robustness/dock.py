@@ -24,8 +24,9 @@ from ...qt.files.saving import MESH_FILES, save
 from ...qt.look.segments import Segments
 from ...qt.panels.flat_button import FlatButton
 from ...session.loaded_mesh import LoadedMesh
-from .comparison import cut_by, refuse_change
+from .comparison import refuse_change
 from .confirmation import ChangeAsking
+from .cuts import cut_by
 from .gestures import ChangeGestures
 from .rows import AmountRow, ChosenRow, Scale, label, quiet
 from .table import ChangeTable
