@@ -125,7 +125,7 @@ class PairsDock(Instrument):
 
     def show_closed(self) -> None:
         self.errors.show_closed()
-        self.context.grid.marks.choose_pair("")
+        self.context.grid.marks.light(self.word, ())
 
     def _show_rows(self, document: Document) -> None:
         half = half_pair(document)
@@ -148,7 +148,7 @@ class PairsDock(Instrument):
             row.show_pair(
                 number, colour, self._place(pair.first) or guess, self._place(pair.second) or guess, pair.is_half
             )
-            row.show_chosen(self.context.grid.marks.chosen_pair in pair.points)
+            row.show_chosen(pair.points[0] in self.context.grid.marks.lit(self.word))
         is_alone, is_on = len(document.surfaces) < 2, predicts(document)
         other = "" if half is None else "B" if half.first else "A"
         self._head.setVisible(bool(document[Pairs].pairs))

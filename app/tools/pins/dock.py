@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -77,7 +78,7 @@ class PinsDock(Instrument):
         self.wrong = QtWidgets.QLabel(visible=False, wordWrap=True)
         self.wrong.setProperty("error", True)
         self.table = PinTable(self)
-        self.table.chosen.connect(context.grid.marks.light_pins)
+        self.table.chosen.connect(partial(context.grid.marks.light, "pins"))
         context.grid.events.on(MarkClick, self._choose)
         self.table.rows.named.connect(self.rename)
         self.table.moved.connect(self.move_to)
