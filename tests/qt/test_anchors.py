@@ -20,7 +20,7 @@ pytest.importorskip("qtpy")
 from qtpy import QtCore, QtTest
 
 from app.document.anchors import Anchors
-from app.qt.panels.anchor_labels import label_boxes
+from app.qt.panels.mark_texts import label_boxes
 from tests.qt.parts import parts
 
 LEFT = QtCore.Qt.MouseButton.LeftButton
@@ -260,12 +260,12 @@ def test_up_and_down_go_through_the_list_and_delete_removes(loaded):
     rows[1].slider.setFocus()
     values = [anchor.value for anchor in s.document[Anchors].anchors]
     QtTest.QTest.keyClick(rows[1].slider, keys.Key_Down)
-    assert s.window.grid.marks.chosen_anchor == rows[2].point
+    assert s.window.grid.marks.lit("anchors") == (rows[2].point,)
     assert [anchor.value for anchor in s.document[Anchors].anchors] == values
     QtTest.QTest.keyClick(rows[2].slider, keys.Key_Delete)
     complete(s)
     assert [a.point for a in s.document[Anchors].anchors] == [rows[0].point, rows[1].point]
-    assert s.window.grid.marks.chosen_anchor == rows[1].point
+    assert s.window.grid.marks.lit("anchors") == (rows[1].point,)
     s.window.actions_by_word["remove anchor"].trigger()
     complete(s)
     assert [a.point for a in s.document[Anchors].anchors] == [rows[0].point]

@@ -158,7 +158,7 @@ def test_anchors_are_light_in_their_middle_whatever_their_values(shown):
         assert colour_at(s.panels[0], seen_at(s.panels[0], vertex)).min() > 0.9
     s.session.show(s.document.with_part(Anchors(anchors=())))
     s.settle(0.1)
-    assert not s.panels[0].view.scene._anchored.actor.GetVisibility()
+    assert not len(s.panels[0].view.over.points.positions("anchors"))
 
 
 # ---------------------------------------------------------------------- reliefs
@@ -227,7 +227,7 @@ def test_another_theme_has_the_twin_of_a_style_and_changes_no_page_and_nothing_o
             assert (scene.style.stops, is_on_the_windows_ground(panel)) == (STYLES[style].stops, True)
             assert len(scene.insets.renderers) == 1
             assert np.array_equal(scene.isolines, lines)
-            assert scene._anchored.actor.GetVisibility()
+            assert len(panel.view.over.points.positions("anchors"))
             assert np.ptp(panel.positions[:, 2]) > 0
     for word in ("light", "dark"):
         assert all(np.array_equal(a, b) for a, b in zip(pictures[word], pictures[f"{word} again"], strict=True))

@@ -43,16 +43,28 @@ def white(picture):
     return int((picture.min(axis=2) > 240).sum())
 
 
+def discs(view):
+    """How many pixels have the colour in which sources are marked."""
+    from qtpy import QtGui
+
+    image = view.grab().toImage().convertToFormat(QtGui.QImage.Format.Format_RGBX8888)
+    pixels = image.constBits()
+    if hasattr(pixels, "setsize"):
+        pixels.setsize(image.sizeInBytes())
+    colours = np.frombuffer(pixels, np.uint8).reshape(image.height(), image.width(), 4)[..., :3] / 255
+    return int((np.abs(colours - view.scene.style.source).max(axis=2) < 0.02).sum())
+
+
 def test_a_small_view_has_thinner_lines_and_smaller_marks(loaded):
     s = loaded
     view = s.panels[0].view
     s.until(lambda: view.proportion == 1.0)
     s.pictures()
-    usual = view.scene._largest.actor.GetProperty().GetPointSize()
+    usual = discs(view)
     s.window.resize(700, 560)
     s.until(lambda: view.proportion < 0.9)
     before = view.shot()
-    assert view.scene._largest.actor.GetProperty().GetPointSize() == pytest.approx(usual * view.proportion)
+    assert discs(view) == pytest.approx(usual * view.proportion**2, rel=0.15)
     view.scene.set_proportion(1.0)  # as it would be without
     wide = s.window.grid.offscreen.picture(view.scene, view.pixels)[..., :3]
     ground = white(before)

@@ -1,4 +1,4 @@
-"""What a document marks on its surfaces, in every panel of the grid: sources, anchors, pins, selections, insets."""
+"""What a document marks on its surfaces, in every panel of the grid: where fields start, what tools mark, insets."""
 
 from collections.abc import Callable, Mapping
 
@@ -6,16 +6,14 @@ from qtpy import QtGui
 
 from bihdist_core.distances.answers import Answer
 
-from ...document.anchors import Anchors
 from ...document.document import Document, Panel
 from ...document.tools import tools
+from ...marks.field_marks import starts
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import Caption
-from ...session.anchors import anchors_on
 from ...session.isoline_points import IsolinePoint, passed
-from ...session.questions import pieces_at, vertex_at
+from ...session.questions import vertex_at
 from ...session.session import Session
-from ..look.numbers import tick
 from .moving import Moving
 from .panel import DistancePanel
 
@@ -27,15 +25,11 @@ SELECTED_MS = 600
 
 
 class GridMarks:
-    """panels: asks for those that are shown, by their ids.
-
-    chosen_anchor: the point of the one that stands out, "" for none.
-    """
+    """panels: asks for those that are shown, by their ids."""
 
     def __init__(self, session: Session, panels: Callable[[], Mapping[int, DistancePanel]], moving: Moving) -> None:
         self._session, self._shown, self._moving = session, panels, moving
         self._lit: dict[str, tuple[str, ...]] = {}  # points, by the words of tools
-        self.chosen_anchor = ""
         self._is_drawn_on = self._keeps_steps = False
         self._brush: QtGui.QCursor | None = None
 
@@ -49,39 +43,19 @@ class GridMarks:
         panel.show_isolines(self._session.document.isolines)
         panel.view.pointer.set_brush(self._brush_of(panel))
 
-    # ------------------------------------------------------------------ sources and anchors
+    # ------------------------------------------------------------------ sources
     def expect_sources(self, document: Document) -> None:
         """Tell each panel where its field starts."""
         for panel in document.panels:
             surface = self._session.surface_in(panel.id)
-            places = [document.point(name).at for name in panel.shows.points]
-            start = vertex_at(places[0], surface) if places else None
-            self._panels[panel.id].marks.expect_source(start, [pieces_at(at, surface) for at in places])
+            first = next((vertex_at(document.point(name).at, surface) for name in panel.shows.points), None)
+            self._panels[panel.id].marks.expect(first, starts(document, panel, surface))
 
     def draw_on(self, is_drawn_on: bool) -> None:
         """Whether the left button draws on the surfaces, and no longer turns them there."""
         self._is_drawn_on = is_drawn_on
         for panel in self._panels.values():
             panel.view.pointer.draw_on(is_drawn_on)
-
-    def mark_anchors(self, document: Document) -> None:
-        """Let the anchors of each panel's surface be taken hold of, with their values beside them."""
-        for panel in document.panels:
-            loaded, marks = self._session.mesh(panel.surface), self._panels[panel.id].marks
-            anchors = anchors_on(document, panel.surface, loaded)
-            marks.expect_anchors([vertex for vertex, _ in anchors])
-            if not any(part.has_anchors for part in panel.shows.parts):
-                marks.hold_anchors(None)
-                continue
-            here = [a for a in document[Anchors].anchors if document.point(a.point).surface == panel.surface]
-            texts = ["" if a.value is None or a.left_out else tick(float(f"{a.value:.4g}")) for a in here]
-            marks.hold_anchors([a.point for a in here], texts, self.chosen_anchor)
-
-    def choose_anchor(self, point: str) -> None:
-        """Let the anchor at this point stand out, "" for none."""
-        if point != self.chosen_anchor:
-            self.chosen_anchor = point
-            self.mark_anchors(self._session.document)
 
     # ------------------------------------------------------------------ what tools mark
     def show(self, document: Document) -> None:
@@ -102,8 +76,7 @@ class GridMarks:
         marks = {tool.word: tool.load(tool.marks)(marked) for tool in tools() if tool.marks}
         has_other_areas = [widget.marks.show(word, found, self.lit(word)) for word, found in marks.items()]
         captions = (mark for found in marks.values() for mark in found if isinstance(mark, Caption))
-        caption = next(captions, Caption())
-        widget.show_prediction(caption.value, caption.sentence, caption.plain)
+        widget.show_caption(next(captions, Caption()))
         return any(has_other_areas)
 
     def show_found(self, id: int, kind: type, found: object | None) -> None:

@@ -166,7 +166,7 @@ def asked_of(panel: DistancePanel) -> Asked | None:
         SeenNow(view.camera, width / max(height, 1)),
         (width, height),
         tuple(parts),
-        panel.marked,
+        panel.marks.places,
         scene.style.marker_size / 2 + 3,
         FONT_SIZE * LOOK.scale,
         {text: metrics.horizontalAdvance(text) for text in texts},

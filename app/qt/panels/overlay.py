@@ -9,9 +9,7 @@ from qtpy import QtCore, QtGui
 
 from bihdist_core.arrays import FloatArray
 
-from ...marks.line_looks import SOURCE
 from ...scene.axes import ARM, Arm
-from ...scene.style import Style
 from ..look.look import LOOK
 from ..look.numbers import number_width, paint_number
 
@@ -71,18 +69,6 @@ def paint_ring(painter: QtGui.QPainter, at: QtCore.QPointF, is_own: bool, is_hid
         painter.setPen(QtGui.QPen(DARK, 1))
         painter.setBrush(BRIGHT)
         painter.drawEllipse(at, 2.0, 2.0)
-
-
-def paint_stroke(painter: QtGui.QPainter, places: Sequence[QtCore.QPointF], style: Style) -> None:
-    """A line through places as it is drawn, in the source's colour with its rim."""
-    painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
-    path = QtGui.QPolygonF(places if len(places) > 1 else [*places, *places])
-    for stroke in SOURCE.strokes:
-        pen = QtGui.QPen(QtGui.QColor.fromRgbF(*style.named(stroke.colour)), stroke.width)
-        pen.setCapStyle(QtCore.Qt.PenCapStyle.RoundCap)
-        pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
-        painter.setPen(pen)
-        painter.drawPolyline(path)
 
 
 def label_place(at: QtCore.QPointF, value: str, share: str, view: QtCore.QRectF) -> QtCore.QRectF:

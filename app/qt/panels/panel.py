@@ -1,6 +1,5 @@
 """One panel: its head, its view, and its colour bar.  Gestures become signals; it decides nothing."""
 
-from collections.abc import Sequence
 from html import escape
 
 import numpy as np
@@ -15,6 +14,7 @@ from bihdist_core.distances.answers import Answer
 from ...document.document import COMPARISON, Zoom
 from ...document.looks import AS_IT_IS, TWENTY_STEPS, Isolines, Shading
 from ...document.quantities import DistanceFrom
+from ...marks.primitives import Caption
 from ...scene.bands import band_edges
 from ...scene.drawable import drawable
 from ...scene.height_field import rise, warp_by_scalar
@@ -167,16 +167,14 @@ class DistancePanel(QtWidgets.QWidget):
         """Put the insets where they hide the least."""
         if self._loaded is not None and self._zooms:
             samples = self._loaded.prepared.samples if self._raised is None else self.positions
-            marked = list(self.marks.anchors) + ([] if self.source is None else [self.source])
-            self.view.scene.insets.settle(samples, self.positions[marked])
+            self.view.scene.insets.settle(samples, self.marks.places)
 
     def show_isolines(self, isolines: Isolines, through: tuple[IsolinePoint, ...] = ()) -> None:
         """These, and one through each of the points, which have dots."""
         self._isolines = isolines
         scene = self.view.scene
         scene.show_isolines(self._lines, tuple(point.value for point in through))
-        lines = scene.levels.values[scene.levels.is_through]
-        self.marks.mark_passed([point for point in through if point.value in lines])
+        self.marks.mark_passed(through, self.answer)
         self._show_bands()
         self._show_bar()
         self._warn()
@@ -216,14 +214,6 @@ class DistancePanel(QtWidgets.QWidget):
         return self._isolines
 
     @property
-    def marked(self) -> FloatArray:
-        """(k, 3) where marks are."""
-        largest = None if self.answer is None else self.answer.largest
-        ids = [vertex for vertex in (self.marks.source, largest) if vertex is not None]
-        ids += self.marks.anchors
-        return np.concatenate([self.positions[ids], self.marks.dots])
-
-    @property
     def source(self) -> int | None:
         """Where its field starts."""
         return self.marks.source
@@ -255,8 +245,8 @@ class DistancePanel(QtWidgets.QWidget):
         else:
             self.view.scene.show_field(answer.field, maximum, answer.is_signed, not answer.is_rough)
             self._show_bands()
-        self.marks.mark_source()
-        self.view.scene.mark_largest(None if answer.largest is None else self.positions[answer.largest])
+        self.marks.mark_field(answer)
+        self.view.redraw()
         self.show_waiting(None)
         self.show_error_estimate(shown)
         self._show_bar()
@@ -268,14 +258,11 @@ class DistancePanel(QtWidgets.QWidget):
             return
         show_answer(self.bar, answer, self.view.scene, self._edges, self._in_shares)
 
-    def show_prediction(self, best: float | None, sentence: Sequence[str], plain: str) -> None:
-        """Of a prediction: the misfit of the best, None for none; a sentence where nothing is predicted, also shorter.
-
-        plain: the name of a surface that is shown as it is, instead of what is predicted there.
-        """
-        self.bar.show_rest(best, "misfit of the best")
-        self.bar.show_sentence(sentence)
-        self.head.show_plain(plain)
+    def show_caption(self, caption: Caption) -> None:
+        """What stands at the bar and in the head besides the field."""
+        self.bar.show_rest(caption.value, caption.unit)
+        self.bar.show_sentence(caption.sentence)
+        self.head.show_plain(caption.plain)
 
     def ask_end(self) -> None:
         """Let it be typed where the colour bar ends."""
@@ -344,7 +331,7 @@ class DistancePanel(QtWidgets.QWidget):
             self.waiting.show_progress(*progress)
         if changes and is_waiting:
             # It takes a while: let the place be seen meanwhile.
-            self.marks.mark_source()
+            self.marks.mark_field(self.answer)
         if changes:
             self._show_bar()
 

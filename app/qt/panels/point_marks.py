@@ -1,6 +1,6 @@
 """The marked points of a view: which of them the surface hides, what is under the pointer, and how they are painted."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,7 @@ from ...marks.primitives import PointMark
 from ...scene.picking import pixel_of
 from . import overlay
 from .glyph_painting import covers, outline_at, paint_glyph
+from .mark_texts import MarkText
 
 if TYPE_CHECKING:
     from .view import View
@@ -172,12 +173,21 @@ class PointMarks(QtCore.QObject):
         if not flat:
             return
         painter.save()
-        for renderer, region in self._regions():
+        for renderer, region, _ in view.parts():
             painter.setClipRegion(region)
             for each in flat:
                 at = self.at(renderer, each.position)
                 paint_glyph(painter, each.mark, at, view.scene.style, view.proportion, not each.is_seen)
         painter.restore()
+
+    def texts(self) -> list[MarkText]:
+        """What stands beside marks that are seen; those with words aside have a label of their own."""
+        view = self._view
+        return [
+            (each.mark.text, each.is_lit, self.at(view.renderer, each.position))
+            for each in self.placed()
+            if each.mark.text and not each.mark.aside and each.is_seen
+        ]
 
     def paint_standing(self, painter: QtGui.QPainter) -> None:
         """Over all others; labels of what has one beside it."""
@@ -190,23 +200,6 @@ class PointMarks(QtCore.QObject):
                 others = [outline_at(o.mark.glyph, tip, style).boundingRect() for o, tip in standing if o is not each]
                 box = _label_box(each.mark, at, style, QtCore.QRectF(view.rect()), others)
                 overlay.paint_label(painter, box, each.mark.text, each.mark.aside, self.is_meant)
-
-    def _regions(self) -> Iterator[tuple[Any, QtGui.QRegion]]:
-        """The view without its insets, and these, each with its renderer."""
-        view = self._view
-        boxes = {renderer: self._box(*box) for renderer, box in view.scene.insets.placed.items()}
-        everywhere = QtGui.QRegion(view.rect())
-        for box in boxes.values():
-            everywhere -= QtGui.QRegion(box)
-        yield view.renderer, everywhere
-        for renderer, box in boxes.items():
-            yield renderer, QtGui.QRegion(box)
-
-    def _box(self, left: int, bottom: int, width: int, height: int) -> QtCore.QRect:
-        """In logical pixels, of a box in device pixels with y up."""
-        ratio = self._view.devicePixelRatioF()
-        top = self._view.height() - (bottom + height) / ratio
-        return QtCore.QRectF(left / ratio, top, width / ratio, height / ratio).toAlignedRect()
 
 
 def _label_box(

@@ -1,5 +1,7 @@
 """The picture of a panel: a surface that is drawn off the screen, once for each change, and where places are in it."""
 
+from collections.abc import Iterator
+
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
@@ -189,6 +191,25 @@ class View(QtWidgets.QWidget):
         return (self._drawing if self._written is None else self._written)[..., :3].copy()
 
     # ------------------------------------------------------------------ places
+    def parts(self) -> Iterator[tuple[vtkRenderer, QtGui.QRegion, tuple[int, int, int, int]]]:
+        """The view without its insets, and these: renderers, regions, and (left, top, width, height) of the picture.
+
+        The latter are device pixels, of the view's own all of them.
+        """
+        (width, height), ratio = self.pixels, self.devicePixelRatioF()
+        placed = self.scene.insets.placed.items()
+        boxes = {each: (left, height - bottom - high, wide, high) for each, (left, bottom, wide, high) in placed}
+        regions = {
+            each: QtGui.QRegion(QtCore.QRectF(*(side / ratio for side in box)).toAlignedRect())
+            for each, box in boxes.items()
+        }
+        everywhere = QtGui.QRegion(self.rect())
+        for region in regions.values():
+            everywhere -= region
+        yield self.renderer, everywhere, (0, 0, width, height)
+        for each, box in boxes.items():
+            yield each, regions[each], box
+
     def place_of(self, point: FloatArray) -> QtCore.QPointF:
         """Where a point (3,) is seen, in logical pixels."""
         x, y = pixel_of(self.renderer, point)

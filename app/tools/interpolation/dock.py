@@ -156,7 +156,7 @@ class AnchorsDock(Instrument):
 
     def show_closed(self) -> None:
         self.extrema.leave()
-        self.context.grid.marks.choose_anchor("")
+        self.context.grid.marks.light(self.word, ())
 
     def _anchors(self, document: Document) -> list[Anchor]:
         surface = document.surfaces[0].name
@@ -170,6 +170,7 @@ class AnchorsDock(Instrument):
             gone = self.rows.pop(point)
             gone.hide()
             gone.deleteLater()
+        lit = self.context.grid.marks.lit(self.word)
         values = [anchor.value for anchor in anchors if anchor.value is not None]
         ends = (min([0.0, *values]), max([1.0, *values]))
         for number, anchor in enumerate(anchors):
@@ -180,7 +181,7 @@ class AnchorsDock(Instrument):
                 self._list.removeWidget(row)
                 self._list.insertWidget(number, row)
             row.show_anchor(anchor.name or anchor.point, anchor.value or 0.0, anchor.left_out, ends)
-            row.show_chosen(anchor.point == self.context.grid.marks.chosen_anchor)
+            row.show_chosen(anchor.point in lit)
 
     def _new_row(self, point: str) -> AnchorRow:
         row = AnchorRow(point)

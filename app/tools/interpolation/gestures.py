@@ -65,7 +65,7 @@ class AnchorGestures(Gesture):
 
     def choose(self, point: str) -> None:
         """Let the anchor at a point stand out, in the list, too."""
-        self.context.grid.marks.choose_anchor(point)
+        self.context.grid.marks.light("anchors", (point,) if point else ())
         self.chosen.emit(point)
 
     def remove(self, points: list[str]) -> None:
@@ -74,11 +74,11 @@ class AnchorGestures(Gesture):
         session.show(remove_anchors(session.document, points))
 
     def remove_chosen(self) -> bool:
-        name = self.context.grid.marks.chosen_anchor
-        is_there = any(anchor.point == name for anchor in self.context.document[Anchors].anchors)
-        if is_there:
-            self.remove([name])
-        return is_there
+        lit = self.context.grid.marks.lit("anchors")
+        found = [anchor.point for anchor in self.context.document[Anchors].anchors if anchor.point in lit]
+        if found:
+            self.remove(found)
+        return bool(found)
 
     def drag(self, panel: int, number: int, hit: "Hit") -> None:
         """One of the anchors is over a place; one that another has is passed."""
