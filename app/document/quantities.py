@@ -44,9 +44,6 @@ class Quantity(ABC):
     is_map: ClassVar[bool] = False
     """Whether it is shown in colours, one at each vertex, and has no values."""
 
-    has_anchors: ClassVar[bool] = False
-    """Whether it is made of the document's anchors."""
-
     @property
     def interpolates(self) -> bool:
         """Whether it has the anchors' values at the anchors, so that extrema elsewhere tell against it."""

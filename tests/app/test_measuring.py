@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.anchors import Anchor, Anchors
 from app.document.docks import DockPlaces
 from app.document.document import FieldArray, Panel, comparison
 from app.document.edits import open_mesh, remove_panel, show_dock
@@ -24,6 +23,7 @@ from app.document.selections import (
     vertices_of,
 )
 from app.session.pin_locations import located_pins
+from app.tools.interpolation.part import Anchor, Anchors
 from app.tools.scatter.part import Scatter
 from bihdist_core import BoundaryLoop, ParameterError, SurfacePoint
 from bihdist_core.distances.kinds import Spec

@@ -10,7 +10,6 @@ from hypothesis import HealthCheck, given, settings, strategies as st
 
 import app
 from app.commands.figure_options import add_figure_options, chosen_recipe
-from app.document.anchors import Anchor, Anchors
 from app.document.camera import VIEWS, Camera
 from app.document.document import Document, FieldArray, MeshFile, Panel, Point, Zoom, comparison
 from app.document.looks import PROJECTIONS, UPS, Colours, Isolines, Shading
@@ -25,6 +24,7 @@ from app.document.tools import part_types
 from app.figures import one_line
 from app.figures.one_line import PANELS
 from app.figures.options import arguments, rows, tool_rows
+from app.tools.interpolation.part import Anchor, Anchors
 from bihdist_core import BoundaryLoop, Curve, ParameterError, SourceSet, SurfacePoint
 from bihdist_core.applications.weights import Weights
 from bihdist_core.distances.kinds import Spec

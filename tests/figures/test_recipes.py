@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import pytest
 
-from app.document.anchors import Anchor, Anchors
 from app.document.camera import Camera
 from app.document.document import MeshFile, Zoom, comparison
 from app.document.edits import put_point
@@ -16,6 +15,7 @@ from app.document.pins import Pin, Pins
 from app.document.profile import Profile
 from app.document.regions import DividedPanels
 from app.document.selections import Selection, Selections
+from app.tools.interpolation.part import Anchor, Anchors
 from app.tools.scatter.part import Scatter
 from bihdist_core import SurfacePoint
 from bihdist_core.distances.kinds import Spec

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.anchors import add_anchor
 from app.document.edits import show_in
 from app.document.quantities import quantity
 from app.tools.interpolation.answers import InterpolantMemory
+from app.tools.interpolation.part import add_anchor
 from app.tools.interpolation.quantity import Interpolant
 from bihdist_core import BiharmonicDistance, GeodesicDistance, ShepardInterpolant, farthest_points, other_extrema
 from bihdist_core.applications.weights import Weights
@@ -19,8 +19,8 @@ from tests.shapes import bumpy
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtTest
 
-from app.document.anchors import Anchors
 from app.qt.panels.mark_texts import label_boxes
+from app.tools.interpolation.part import Anchors
 from tests.qt.parts import parts
 
 LEFT = QtCore.Qt.MouseButton.LeftButton

@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.document.anchors import add_anchor
 from app.document.document import comparison
 from app.document.edits import move_source
 from app.document.file import read_recipe, recipe_text
@@ -17,6 +16,7 @@ from app.document.page import Recipe
 from app.document.pins import add_pins
 from app.document.selections import select
 from app.tools.correspondence.pairs import place_point
+from app.tools.interpolation.part import add_anchor
 from app.tools.robustness.comparison import change_mesh
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.sources.source import Curve, SurfacePoint

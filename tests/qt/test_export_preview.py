@@ -9,10 +9,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.anchors import Anchor, Anchors
 from app.document.document import Panel, Point, Zoom
 from app.document.page import Page
 from app.document.quantities import DistanceFrom
+from app.tools.interpolation.part import Anchor, Anchors
 from bihdist_core import SurfacePoint
 from bihdist_core.distances.kinds import Spec
 from tests.qt.parts import parts

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.anchors import Anchor
 from app.document.document import Point, Zoom, comparison
 from app.document.edits import move_source
 from app.document.file import recipe_text
 from app.document.page import Page, Recipe
 from app.scene.style import STYLES
+from app.tools.interpolation.part import Anchor
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid
 
@@ -18,9 +18,9 @@ pytest.importorskip("qtpy")
 
 from qtpy.QtGui import QColor
 
-from app.document.anchors import Anchors
 from app.qt.look.canvas import canvas_style
 from app.qt.look.look import LOOK
+from app.tools.interpolation.part import Anchors
 from tests.qt.parts import parts
 
 SIZE = 2  # device pixels by which a place may be off

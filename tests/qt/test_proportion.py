@@ -9,7 +9,6 @@ from dataclasses import replace
 
 from qtpy import QtCore
 
-from app.document.anchors import Anchor, Anchors
 from app.document.document import Point
 from app.document.looks import Isolines
 from app.document.pins import add_pins
@@ -17,6 +16,7 @@ from app.qt.panels import glyph_painting
 from app.scene.levels import BOLD, ZERO, width_of
 from app.scene.proportion import LEAST, USUAL, proportion
 from app.scene.style import PAPER
+from app.tools.interpolation.part import Anchor, Anchors
 from tests.shapes import bumpy
 
 

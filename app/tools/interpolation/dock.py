@@ -9,7 +9,6 @@ from bihdist_core import BihdistError, ParameterError
 from bihdist_core.formats.anchors import ANCHOR_FORMATS, read_anchors, write_anchors
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
 
-from ...document.anchors import Anchor, Anchors, add_anchor, change_anchor, remove_anchors
 from ...document.document import Document
 from ...document.file_names import file_name
 from ...document.pins import Pins
@@ -26,6 +25,7 @@ from ...session.questions import vertex_at
 from .clock import AnchorClock
 from .extrema import AnchorExtrema
 from .gestures import AnchorGestures
+from .part import Anchor, Anchors, add_anchor, change_anchor, remove_anchors
 from .quantity import Interpolant, interpolate, interpolated, show_distances
 from .row import BOX, AnchorRow
 from .samples import AnchorSamples

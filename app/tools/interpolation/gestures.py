@@ -6,13 +6,14 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
 
-from ...document.anchors import Anchors, add_anchor, remove_anchors
 from ...document.document import Document
 from ...document.edits import put_point
 from ...qt.context import Context
 from ...qt.dragging import Dragging
 from ...qt.gesture import Gesture
 from ...qt.panels.events import Click
+from .part import Anchors, add_anchor, remove_anchors
+from .quantity import Interpolant
 
 if TYPE_CHECKING:
     from ...scene.picking import Hit
@@ -28,7 +29,7 @@ class AnchorGestures(Gesture):
     def is_on(self, panel: int) -> bool:
         """Whether a panel shows an interpolant, so that what is done there is done to anchors."""
         shows = self.context.document.panel(panel).shows
-        return any(part.has_anchors for part in shows.parts)
+        return any(isinstance(part, Interpolant) for part in shows.parts)
 
     def click(self, panel: int, click: Click) -> None:
         self.put(panel, click.hit)

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 from bihdist_core.distances.kinds import Spec
 
-from ...document.anchors import Anchors
 from ...document.document import Document
 from ...document.edits import show_distances as distances_again
 from ...document.json_values import flag, record
 from ...document.quantities import ByDistance, Choice, Quantity, read_spec
+from .part import Anchors
 
 if TYPE_CHECKING:
     from .answers import InterpolantQuestion
@@ -28,7 +28,6 @@ class Interpolant(ByDistance):
 
     spec: Spec
     total: bool = False
-    has_anchors = True
     done = "interpolated"
 
     @property

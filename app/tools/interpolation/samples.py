@@ -7,12 +7,12 @@ from bihdist_core import BihdistError
 from bihdist_core.arrays import AnyArray
 from bihdist_core.sources.source import SourceSet
 
-from ...document.anchors import Anchors, add_anchor
 from ...document.document import Document, Panel
 from ...qt.context import Context
 from ...qt.docks.findings import Findings
 from ...session.questions import first_source, vertex_at
 from ...session.sampling import Sampled, SamplesQuestion, Sampling
+from .part import Anchors, add_anchor
 from .quantity import Interpolant
 
 USUAL, MOST = 5, 100
