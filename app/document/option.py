@@ -138,7 +138,7 @@ def _at(owner: Any, path: str) -> Any:
 
 
 def vertex_of(point: Point) -> int | None:
-    """That of an anchor, or of a point that isolines pass through; None where nobody has put it."""
+    """The vertex that a point is at, None where nobody has put it; NotExpressible for a point elsewhere."""
     if point.at is not None and not isinstance(point.at, int):
         raise NotExpressible("An anchor is at no vertex.")
     return point.at

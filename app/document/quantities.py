@@ -343,8 +343,7 @@ def own_fields(shows: Quantity) -> tuple[OwnField, ...]:
 def quantity(text: str, point: str = "source", fields: Collection[str] = (), **parameters: object) -> Quantity:
     """From a distance as `Spec.parse` reads it, or two: "biharmonic - diffusion(t=1/4)", "raw biharmonic - geodesic".
 
-    "interpolant by biharmonic" and "prediction by biharmonic" are as good as a distance.
-    "map by biharmonic" and "position colours" are shown in colours.
+    What tools add, such as "interpolant by biharmonic", is as good as a distance, unless it is shown in colours.
 
     fields: names of the user's own, each as good as a distance.  parameters: values of those not named in the text.
     ParameterError for what is neither.

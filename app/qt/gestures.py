@@ -100,7 +100,7 @@ class Gestures(QtCore.QObject):
         return any(gesture.put_down() for gesture in self._all if not gesture.turn)
 
     def remove_chosen(self) -> None:
-        """The pair or the anchor that stands out."""
+        """Remove the mark that stands out."""
         any(gesture.remove_chosen() for gesture in reversed(self._all))
 
     def accept(self) -> None:

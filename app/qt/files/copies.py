@@ -92,7 +92,7 @@ class _Waiting(QtCore.QObject):
 
 
 def _at_vertices(recipe: Recipe, surfaces: Surfaces) -> Recipe:
-    """The same with each anchor in a face, unless something starts there, at the vertex where it is drawn."""
+    """The same with each mark in a face, unless something starts there, at the vertex where it is drawn."""
     document = recipe.document
     shown = {name for panel in document.panels for name in panel.shows.points} | set(document.isolines.through)
     points = tuple(
