@@ -17,6 +17,7 @@ from app.scene.levels import BOLD, ZERO, width_of
 from app.scene.proportion import LEAST, USUAL, proportion
 from app.scene.style import PAPER
 from app.tools.interpolation.part import Anchor, Anchors
+from tests.qt.painting import painted
 from tests.shapes import bumpy
 
 
@@ -45,14 +46,7 @@ def white(picture):
 
 def discs(view):
     """How many pixels have the colour in which sources are marked."""
-    from qtpy import QtGui
-
-    image = view.grab().toImage().convertToFormat(QtGui.QImage.Format.Format_RGBX8888)
-    pixels = image.constBits()
-    if hasattr(pixels, "setsize"):
-        pixels.setsize(image.sizeInBytes())
-    colours = np.frombuffer(pixels, np.uint8).reshape(image.height(), image.width(), 4)[..., :3] / 255
-    return int((np.abs(colours - view.scene.style.source).max(axis=2) < 0.02).sum())
+    return int((np.abs(painted(view) / 255 - view.scene.style.source).max(axis=2) < 0.02).sum())
 
 
 def test_a_small_view_has_thinner_lines_and_smaller_marks(loaded):
@@ -104,7 +98,7 @@ def test_anchors_are_dark_rings_with_a_light_halo_whatever_the_field(loaded):
     s.until(lambda: s.session.is_complete)
     s.settle()
     view = s.panels[0].view
-    picture, place = view.shot(), view.place_of(s.panels[0].positions[vertex])
+    picture, place = painted(view), view.place_of(s.panels[0].positions[vertex])
     x, y = round(place.x() - 0.5), round(place.y() - 0.5)
     size = PAPER.marker_size * view.proportion
     around = picture[y - 12 : y + 13, x - 12 : x + 13].astype(int)
