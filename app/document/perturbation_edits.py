@@ -12,7 +12,7 @@ from .document import Document
 from .edits import add_another, show_in
 from .perturbation import changed_mesh, with_changed, without_changed
 from .quantities import Quantity
-from .selections import runs_of, vertices_of
+from .runs import ids_of, runs_of
 
 
 def change_mesh(document: Document, change: Perturbation) -> Document:
@@ -45,7 +45,7 @@ def can_change(document: Document) -> bool:
 
 def cut_by(cut: Runs, faces: IntArray, is_restored: bool = False) -> Runs:
     """What is cut out of a surface, with more faces (k,) or, if they are restored, without these."""
-    known = vertices_of(cut) if cut else np.empty(0, np.int64)
+    known = ids_of(cut) if cut else np.empty(0, np.int64)
     return runs_of(np.setdiff1d(known, faces) if is_restored else np.union1d(known, faces))
 
 

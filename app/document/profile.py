@@ -12,7 +12,7 @@ from .document import Document, Point, free_names
 from .edits import show_dock
 from .looks import one_of
 from .part import Part
-from .pins import Pins
+from .shared_parts.pins import Pins
 
 SECTIONS = {"section": "shorter", "section-longer": "longer", "section-whole": "whole"}
 """Ways of a profile by a plane through two points and a direction, and the part of the section that each takes."""

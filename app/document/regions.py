@@ -7,7 +7,7 @@ from bihdist_core.errors import ParameterError
 
 from .document import Document
 from .part import Part
-from .pins import Pins
+from .shared_parts.pins import Pins
 
 
 @dataclass(frozen=True)

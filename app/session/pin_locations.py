@@ -13,7 +13,7 @@ from bihdist_core.formats import pins as pin_files
 from bihdist_core.sources.words import words_of
 
 from ..document.document import Document
-from ..document.pins import Pin, Pins, add_pins, change_pin
+from ..document.shared_parts.pins import Pin, Pins, add_pins, change_pin
 from .questions import pieces_at
 
 

@@ -20,8 +20,8 @@ from bihdist_core.sources.words import words_of
 from bihdist_core.surface import Surface
 
 from ..document.document import Document
-from ..document.pins import Pins
 from ..document.profile import SECTIONS, Profile, points_along
+from ..document.shared_parts.pins import Pins
 from .latest_request_worker import LatestRequestWorker
 from .loaded_mesh import LoadedMesh
 

@@ -21,8 +21,8 @@ from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
 from ..document.document import Document, MeshFile
-from ..document.pins import Pins
 from ..document.regions import DividedPanels
+from ..document.shared_parts.pins import Pins
 from .latest_request_worker import LatestRequestWorker
 from .loaded_mesh import LoadedMesh
 

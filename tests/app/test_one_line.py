@@ -15,11 +15,11 @@ from app.document.camera import VIEWS, Camera
 from app.document.document import Document, FieldArray, MeshFile, Panel, Point, Zoom, comparison
 from app.document.looks import PROJECTIONS, UPS, Colours, Isolines, Shading
 from app.document.page import Page, Recipe
-from app.document.pins import Pin, Pins, add_pins
 from app.document.profile import Profile, points_along, shows_path, with_profile
 from app.document.quantities import Difference, DistanceFrom, OwnField, quantity
 from app.document.regions import DividedPanels, can_divide, divide
-from app.document.selections import select_instead
+from app.document.shared_parts.pins import Pin, Pins, add_pins
+from app.document.shared_parts.selections import select_instead
 from app.document.starts import curves_in
 from app.document.tools import part_types
 from app.figures import one_line

@@ -27,9 +27,9 @@ from app.document.pairs import (
     waiting_point,
     whole_pairs,
 )
-from app.document.pins import Pins, add_pins, remove_pins
 from app.document.prediction import predict, predicts, show_distances
 from app.document.quantities import quantity
+from app.document.shared_parts.pins import Pins, add_pins, remove_pins
 from app.figures.export import compute, open_document
 from app.session.array_store import ArrayStore
 from app.session.prediction_answers import NO_OTHER, SPARE, KnownColumns, candidate_of

@@ -8,9 +8,9 @@ import pytest
 
 from app.document.document import Panel, Point, comparison
 from app.document.edits import PANEL_EDITS, mark_extrema, move_source, possible_edits, put_point
-from app.document.pins import Pins, add_pins, remove_pins
 from app.document.quantities import OwnField, quantity
 from app.document.regions import DividedPanels, show_regions
+from app.document.shared_parts.pins import Pins, add_pins, remove_pins
 from app.marks.glyphs import TRIANGLE_DOWN, TRIANGLE_UP
 from app.marks.line_looks import BOUNDARY
 from app.session.quality import Quality

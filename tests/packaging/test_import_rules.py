@@ -95,7 +95,7 @@ WITHOUT_QT |= {"pins", "scatter", "statistics", "quality", "regions", "interpola
 
 
 def test_document_and_session_load_nothing_that_draws():
-    assert not loaded(*modules("document", "session")) & (DRAWING | QT)
+    assert not loaded(*modules("document", "document/shared_parts", "session")) & (DRAWING | QT)
 
 
 def test_only_the_window_and_what_tools_have_in_it_load_qt():

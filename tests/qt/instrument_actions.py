@@ -4,9 +4,9 @@ from dataclasses import replace
 
 from app.document.maps import Maps
 from app.document.pairs import Pairs
-from app.document.pins import Pins
 from app.document.profile import Profile
 from app.document.regions import DividedPanels
+from app.document.shared_parts.pins import Pins
 from app.document.tools import docked_tools
 from tests.qt.parts import parts
 

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from itertools import combinations
 from typing import Any
 
-from app.document.pins import Pins
-from app.document.selections import Selections
+from app.document.shared_parts.pins import Pins
+from app.document.shared_parts.selections import Selections
 from tests.qt.parts import parts
 
 from .driver import Driver

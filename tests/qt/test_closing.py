@@ -16,8 +16,8 @@ from app.document.file import read_recipe, recipe_text
 from app.document.page import Recipe
 from app.document.pairs import place_point
 from app.document.perturbation_edits import change_mesh
-from app.document.pins import add_pins
-from app.document.selections import select
+from app.document.shared_parts.pins import add_pins
+from app.document.shared_parts.selections import select
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.sources.source import Curve, SurfacePoint
 from tests.qt.parts import parts

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from app.document.edits import show_dock
-from app.document.pins import add_pins
 from app.document.regions import show_regions
+from app.document.shared_parts.pins import add_pins
 from bihdist_core import SurfacePoint, field_quality, field_statistics, read_surface
 from bihdist_core.distances.kinds import Spec
 from tests.qt.parts import parts

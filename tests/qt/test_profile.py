@@ -9,8 +9,8 @@ import pytest
 
 from app.document.document import Document, Point, comparison
 from app.document.edits import move_source
-from app.document.pins import Pin, Pins, add_pins
 from app.document.profile import Profile, points_along
+from app.document.shared_parts.pins import Pin, Pins, add_pins
 from app.session.profiling import wanted_path
 from bihdist_core import Laplacian, ParameterError
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths

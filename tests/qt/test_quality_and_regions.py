@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from app.document.edits import move_source, put_point
-from app.document.pins import Pins
 from app.document.regions import DividedPanels
+from app.document.shared_parts.pins import Pins
 from app.marks.glyphs import TRIANGLE_UP
 from bihdist_core import farthest_points, read_surface, region_boundaries, region_mesh, voronoi_regions
 from bihdist_core.distances.kinds import Spec
@@ -185,8 +185,8 @@ def test_farthest_points_are_pinned_and_divide_the_panels(loaded, tmp_path):
 
 
 def test_regions_follow_a_pin_that_is_moved(loaded):
-    from app.document.pins import add_pins
     from app.document.regions import show_regions
+    from app.document.shared_parts.pins import add_pins
 
     s = loaded
     s.session.show(show_regions(add_pins(s.document, [7, 90, 200]), 0))

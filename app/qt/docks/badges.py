@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.document import Document
-from ...document.pins import Pins
+from ...document.shared_parts.pins import Pins
 from ...scene.style import PINS
 from ..look.look import LOOK
 from ..panels.flat_button import FlatButton

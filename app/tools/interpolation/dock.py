@@ -12,7 +12,7 @@ from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
 from ...document.anchors import Anchor, Anchors, add_anchor, change_anchor, remove_anchors
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.pins import Pins
+from ...document.shared_parts.pins import Pins
 from ...qt.context import Context
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument

@@ -12,8 +12,8 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import Source
 
 from ...document.document import Document
-from ...document.pins import Pins
 from ...document.quantities import kind_name
+from ...document.shared_parts.pins import Pins
 from ...qt.context import Context
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number

@@ -13,8 +13,8 @@ from bihdist_core.distances.answers import Answer
 from bihdist_core.sources.words import short_words_of, source_from_words
 
 from ...document.document import Document
-from ...document.pins import Pin, Pins, add_pins, change_pin, move_pin, remove_pins
 from ...document.quantities import quantity_name
+from ...document.shared_parts.pins import Pin, Pins, add_pins, change_pin, move_pin, remove_pins
 from ...qt.context import Context
 from ...qt.docks.instrument import Instrument
 from ...qt.look.numbers import number, percent, share

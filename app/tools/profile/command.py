@@ -51,8 +51,8 @@ def run(options: argparse.Namespace) -> int:
 
     from ...document.document import COMPARISON, comparison
     from ...document.page import Page, Recipe
-    from ...document.pins import add_pins
     from ...document.profile import with_profile, words_in
+    from ...document.shared_parts.pins import add_pins
     from ...figures.draw import FIGURE_FORMATS
     from ...figures.export import compute, open_document
     from ...session.array_store import ArrayStore

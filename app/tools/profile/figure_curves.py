@@ -10,8 +10,8 @@ from bihdist_core.distances.answers import Answer
 
 from ...document.document import Document
 from ...document.page import Page
-from ...document.pins import Pins
 from ...document.profile import Profile, points_along
+from ...document.shared_parts.pins import Pins
 from ...figures.chart_page import ChartLook
 from ...scene.style import PINS, Style, curve_colours, style_of
 from .curves import profile_curve

@@ -11,9 +11,9 @@ from bihdist_core.formats.curve_output import CURVE_FORMATS
 
 from ...document.document import Document, Panel
 from ...document.file_names import file_name
-from ...document.pins import Pins
 from ...document.quantities import quantity_name
 from ...document.regions import DividedPanels, can_divide, show_regions
+from ...document.shared_parts.pins import Pins
 from ...qt.context import Context
 from ...qt.docks.badges import BADGE, Badge, paint_badge
 from ...qt.docks.dock import PAD

@@ -10,8 +10,8 @@ from bihdist_core.arrays import AnyArray, IntArray
 
 from ...document.document import Panel
 from ...document.file_names import file_name
-from ...document.pins import add_pins
 from ...document.quantities import quantity_name
+from ...document.shared_parts.pins import add_pins
 from ...qt.context import Context
 from ...qt.files.saving import save, written
 from ...session.sampling import Sampled, SamplesQuestion, Sampling

@@ -18,7 +18,8 @@ from bihdist_core.progress import Progress
 from ...document.document import Document
 from ...document.file_names import file_name
 from ...document.quantities import quantity_name
-from ...document.selections import Selections, vertices_of
+from ...document.runs import ids_of
+from ...document.shared_parts.selections import Selections
 from ...qt.context import Context
 from ...qt.docks.brushing import Brushing
 from ...qt.docks.chart import Axis
@@ -166,9 +167,7 @@ class ScatterDock(Instrument):
             button.setText("" if id is None else self._name(document, id))
             button.updateGeometry()
         if before is None or document[Selections].selections != before[Selections].selections:
-            self.chart.show_selections(
-                [(vertices_of(each.runs), each.colour) for each in document[Selections].selections]
-            )
+            self.chart.show_selections([(ids_of(each.runs), each.colour) for each in document[Selections].selections])
         self.list.show_selections(document[Selections].selections, self.context[Brushing].current)
         self._below.setCurrentWidget(self.list if document[Selections].selections else self._hint)
         self._compare()
@@ -348,7 +347,7 @@ class ScatterDock(Instrument):
             in_shares=document[Scatter].shares,
             is_common=request.has_common_unit,
             selections=tuple(
-                (each.name, vertices_of(each.runs), PINS[each.colour]) for each in document[Selections].selections
+                (each.name, ids_of(each.runs), PINS[each.colour]) for each in document[Selections].selections
             ),
             correlation=None if found is None else found.spearman,
             largest=found.largest_at if found is not None and request.has_common_unit else None,
@@ -375,7 +374,7 @@ class ScatterDock(Instrument):
             return
         document = context.document
         header = ["vertex", *(self._name(document, id) for id in self._pair(document))]
-        chosen = [np.isin(scatter.ids, vertices_of(each.runs)) for each in document[Selections].selections]
+        chosen = [np.isin(scatter.ids, ids_of(each.runs)) for each in document[Selections].selections]
         table = np.column_stack([scatter.ids, scatter.x, scatter.y, *chosen])
         header += [each.name for each in document[Selections].selections]
 

@@ -8,10 +8,10 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source, SurfacePoint
 from bihdist_core.sources.words import short_words_of
 
-from .document import Document, Point, free_names, unlike
-from .labels import check_colour, check_name, next_colour
-from .part import Part
-from .removal import without_orphans
+from ..document import Document, Point, free_names, unlike
+from ..labels import check_colour, check_name, next_colour
+from ..part import Part
+from ..removal import without_orphans
 
 MOST_PINS = 200
 """Their distances among each other are a matrix that somebody reads."""
