@@ -47,11 +47,6 @@ class Quantity(ABC):
     has_anchors: ClassVar[bool] = False
     """Whether it is made of the document's anchors."""
 
-    @property
-    def interpolates(self) -> bool:
-        """Whether it has the anchors' values at the anchors, so that extrema elsewhere tell against it."""
-        return False
-
     compares_meshes: ClassVar[bool] = False
     """Whether it says what a change of the mesh does to a distance."""
 
@@ -93,6 +88,10 @@ class Quantity(ABC):
 
     def check(self, document: "Document", surface: str) -> None:  # noqa: B027 (most need nothing)
         """ParameterError if a document has not what it is made of, on a surface of that name."""
+
+    def marks_extrema(self, document: "Document") -> bool:
+        """Whether its extrema are marked in the window, although the document does not say so."""
+        return False
 
     def with_paths(self, named: Callable[[str], str]) -> "Quantity":
         """The quantity with other paths of the files that it names."""

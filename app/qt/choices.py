@@ -8,8 +8,9 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
 
-from ..document.edits import ADD, MOST_ADDED, PANEL_EDITS, add_another, end_at, possible_edits, with_range
+from ..document.edits import MOST_ADDED, add_another, end_at, with_range
 from ..document.looks import Colours
+from ..document.panel_edits import ADD, panel_edits, possible_edits
 from ..document.perturbation import changed_mesh
 from ..document.perturbation_edits import add_row, show_in_row
 from ..document.quantities import Quantity
@@ -52,13 +53,13 @@ class Choices:
             session.show(add_row(session.document))
 
     def edit_panel(self, panel: int, word: str) -> None:
-        """One of PANEL_EDITS, where it is possible."""
+        """Do what an entry of the menu over a panel says, where that is possible."""
         session = self._context.session
         is_there = any(shown.id == panel for shown in session.document.panels)
         if is_there and word == ADD and changed_mesh(session.document) is not None:
             self._add_row()
-        elif is_there and word in possible_edits(session.document, panel, MOST_ADDED):
-            session.show(PANEL_EDITS[word](session.document, panel))
+        elif is_there and word in possible_edits(session.document, panel):
+            session.show(panel_edits()[word].edit(session.document, panel))
 
     def choose(self, panel: int, shows: Quantity) -> None:
         """Let a panel show something else, which is a step; the values that a slider passes are one."""

@@ -9,13 +9,13 @@ from app.document.anchors import Anchor, Anchors
 from app.document.docks import DockPlaces
 from app.document.document import FieldArray, Panel, comparison
 from app.document.edits import open_mesh, remove_panel, show_dock
-from app.document.profile import Profile
 from app.document.quantities import OwnField
-from app.document.regions import DividedPanels, divide, divided_panels, show_regions
 from app.document.runs import ids_of, runs_from_words, runs_in_words, runs_of
 from app.document.shared_parts.pins import MOST_PINS, Pin, Pins, add_pins, change_pin, move_pin, remove_pins
 from app.document.shared_parts.selections import Selection, Selections, select, select_instead
-from app.session.pin_locations import located_pins
+from app.tools.pins.locations import located_pins
+from app.tools.profile.part import Profile
+from app.tools.regions.part import DividedPanels, divide, divided_panels, show_regions
 from app.tools.scatter.part import Scatter
 from bihdist_core import BoundaryLoop, ParameterError, SurfacePoint
 from bihdist_core.distances.kinds import Spec

@@ -90,6 +90,7 @@ def modules(*folders: str) -> list[str]:
 
 
 WITHOUT_QT = {"profile", "curves", "figure", "figure_curves", "command", "samples_command", "evaluate_command"}
+WITHOUT_QT |= {"part", "paths", "division", "judgement", "locations", "pairwise_distances", "options", "marks"}
 WITHOUT_QT |= {"pins", "scatter", "statistics", "quality", "regions", "interpolation", "correspondence", "robustness"}
 """Modules of tools, and tools themselves, that are no part of the window."""
 

@@ -84,7 +84,7 @@ def test_the_quality_of_other_panels_comes_while_its_dock_is_closed(screen, mesh
         s.settle(0.1)
     shows = s.document.panels[0].shows
     s.session.show(add_panel(remove_panel(s.document, s.document.panels[1].id), shows))
-    parts(s.window).findings.quality_changed.emit()
+    parts(s.window).quality.changed.emit()
     parts(s.window).docks.toggle("quality")
     s.until(lambda: s.session.is_complete)
     dock = parts(s.window).docks._docks["quality"].content

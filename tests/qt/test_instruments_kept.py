@@ -13,10 +13,10 @@ from PIL import Image
 
 from app.document.edits import move_source
 from app.document.form import document_data
-from app.document.profile import Profile
-from app.document.regions import show_regions
 from app.document.shared_parts.pins import PinList, add_pins, change_pin
 from app.document.shared_parts.selections import select
+from app.tools.profile.part import Profile
+from app.tools.regions.part import show_regions
 from app.tools.scatter.part import Scatter
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import Curve, SourceSet, SurfacePoint

@@ -9,8 +9,8 @@ from qtpy import QtCore, QtGui, QtWidgets
 from ...document.beside_edits import MOST_SHOWN, letter_of
 from ...document.camera import Camera
 from ...document.document import Document, Panel
-from ...document.edits import MOST_ADDED, possible_edits
 from ...document.maps import shows_maps
+from ...document.panel_edits import possible_edits
 from ...document.perturbation import COLUMNS, changed_mesh
 from ...document.prediction import predicts
 from ...scene.offscreen_renderer import OffscreenRenderer
@@ -146,7 +146,7 @@ class PanelGrid(QtWidgets.QWidget):
         self._arrange()
         self.update()
         for id, panel in self._panels.items():
-            panel.head.allow(possible_edits(document, id, MOST_ADDED))
+            panel.head.allow(possible_edits(document, id))
         if self.active not in self._panels:
             self.activate(next(iter(self._panels), -1))
         self._show_active()

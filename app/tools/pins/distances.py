@@ -20,9 +20,9 @@ from ...qt.look.numbers import number
 from ...qt.panels.flat_button import FlatButton
 from ...qt.panels.quantity_menu import offered_kinds
 from ...scene.style import PINS
-from ...session.pairwise_distances import PairwiseDistances
-from ...session.pin_locations import LocatedPin
+from .locations import LocatedPin
 from .matrix import PinMatrix
+from .pairwise_distances import PairwiseDistances
 
 PAD = 12
 MOST_COMPARED = 40

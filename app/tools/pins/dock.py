@@ -23,10 +23,10 @@ from ...qt.look.text_box import TextBox, mark_wrong
 from ...qt.panels.events import MarkClick
 from ...qt.panels.flat_button import FlatButton
 from ...scene.style import PINS
-from ...session.pin_locations import LocatedPin, located_pins
 from ...session.questions import source_at
 from .distances import PinDistances
 from .files import PinFiles
+from .locations import LocatedPin, located_pins
 from .menus import PinMenu
 from .table import PinRow, PinTable
 

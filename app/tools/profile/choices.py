@@ -10,10 +10,10 @@ from bihdist_core import BihdistError, ParameterError
 from bihdist_core.analysis.plane_sections import PARTS
 
 from ...document.document import Document
-from ...document.profile import SECTIONS, Profile, points_along
 from ...document.shared_parts.pins import Pins, pinned_at
 from ...qt.docks.badges import badge_of
 from ...qt.look.text_box import TextBox
+from .part import SECTIONS, Profile, points_along
 
 if TYPE_CHECKING:
     from .dock import ProfileDock

@@ -1,6 +1,5 @@
 """The dock of the profile: the fields of all panels along a path, live, and where the path leads."""
 
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -12,18 +11,18 @@ from bihdist_core.analysis.surface_paths import SurfacePath
 from bihdist_core.arrays import FloatArray
 
 from ...document.document import Document
-from ...document.profile import Profile, points_along
 from ...qt.context import Context
 from ...qt.docks.badges import BadgeButton, BadgeRow, badge_of
 from ...qt.docks.instrument import Instrument
 from ...qt.look.look import LOOK
 from ...qt.look.segments import Segments
 from ...qt.panels.flat_button import FlatButton
-from ...session.profiling import PathWanted, PathWorker, wanted_path
 from .charts import ProfileCharts
 from .choices import WAYS, ProfileChoices
 from .curves import ProfileCurve, profile_curve
 from .files import ProfileFiles
+from .part import Profile, points_along
+from .paths import PathWanted, PathWorker, wanted_path
 
 FINDING = "Finding the path…"
 
@@ -37,8 +36,6 @@ DRAWN = 500
 class ProfileDock(Instrument):
     word, title, area = "profile", "Profile", "below"
 
-    _posted = QtCore.Signal(object)
-
     def __init__(self, context: Context) -> None:
         super().__init__(context)
         self.chart = ProfileCharts(self)
@@ -49,8 +46,7 @@ class ProfileDock(Instrument):
         self._wanted: PathWanted | None = None
         self.surface = "A"
         self._echoed: float | None = None  # where the pointer in the chart is, as a length
-        self._posted.connect(self._run)
-        self._worker = PathWorker(self._posted.emit, self._found, self._going)
+        self._worker = PathWorker(context.post, self._found, self._going)
         self.files = ProfileFiles(self)
         self.choices = ProfileChoices(self)
         self.ends = (BadgeButton(self, "From"), BadgeButton(self, "To"))
@@ -76,11 +72,6 @@ class ProfileDock(Instrument):
         self.setMinimumHeight(124)
         self.chart.pointed.connect(self._point)
         LOOK.follow(self, self._colour)
-
-    @staticmethod
-    def _run(function: Callable[[], None]) -> None:
-        """What the lane has posted, on the window's thread."""
-        function()
 
     def title_widgets(self) -> list[QtWidgets.QWidget]:
         return [self.ends[0], self._between, self._to, self.ends[1], self.way]
@@ -210,7 +201,7 @@ class ProfileDock(Instrument):
     def _put_path(self, places: Places | None) -> None:
         """Over the panels of its surface."""
         for panel in self.context.grid.panels:
-            self.context.grid.marks.show_found(panel.id, Places, places if panel in self._panels else None)
+            self.context.show_found(panel.id, Places, places if panel in self._panels else None)
 
     def _show_way(self) -> None:
         self.way.setText(self.path.label if self.path is not None else WAYS[self.document[Profile].way])
