@@ -13,7 +13,6 @@ from bihdist_core.sources.source import Source
 
 from ...document.document import Document
 from ...document.quantities import kind_name
-from ...document.shared_parts.pins import Pins
 from ...qt.context import Context
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import number
@@ -23,6 +22,7 @@ from ...scene.style import PINS
 from .locations import LocatedPin
 from .matrix import PinMatrix
 from .pairwise_distances import PairwiseDistances
+from .part import PinsListing
 
 PAD = 12
 MOST_COMPARED = 40
@@ -78,7 +78,7 @@ class PinDistances(QtWidgets.QWidget):
         """By a distance of the panels unless another has been chosen."""
         self._places = tuple(places)
         self.setVisible(len(self._places) > 1)
-        self.spec = document[Pins].pin_list.distance or self._specs(document)[0]
+        self.spec = document[PinsListing].distance or self._specs(document)[0]
         self._ask()
 
     def end(self) -> None:
@@ -121,9 +121,7 @@ class PinDistances(QtWidgets.QWidget):
         """Whose distances among pins are shown."""
         session = self.context.session
         document = session.document
-        session.show(
-            document.with_part(replace(document[Pins], pin_list=replace(document[Pins].pin_list, distance=spec)))
-        )
+        session.show(document.with_part(replace(document[PinsListing], distance=spec)))
 
     @property
     def _compared(self) -> list[Spec]:

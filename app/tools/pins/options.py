@@ -57,6 +57,6 @@ ROWS = (
         _pins_of,
         _with_pins,
     ),
-    unsaid("for the window's list", "Pins.pin_list"),
+    unsaid("for the window's list", "PinsListing.distance", "PinsListing.shares", "PinsListing.positions"),
     unsaid("figures show numbers", "Pin.name"),
 )
