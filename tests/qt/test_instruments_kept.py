@@ -70,6 +70,7 @@ def _neighbours(faces, face):
 
 def rested(s):
     s.until(lambda: s.session.is_complete)
+    s.until(lambda: parts(s.window).quality.is_complete and parts(s.window).regions.is_complete)
     s.settle(1.0)
     s.until(lambda: s.session.is_complete)
 

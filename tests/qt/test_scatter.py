@@ -216,6 +216,13 @@ def test_the_panels_and_the_values_are_chosen_in_the_head(loaded):
     s.until(lambda: any("largest" in fact[0] for fact in dock.facts.facts))
 
 
+def test_no_figure_is_saved_of_nothing(loaded, tmp_path):
+    loaded.dock.chart.show_nothing("No field.")
+    loaded.dock.save_figure(path=str(tmp_path / "scatter.pdf"))
+    assert "wait until both panels have a field" in loaded.refusals[-1]
+    assert not list(tmp_path.glob("*.pdf"))
+
+
 def test_the_source_moves_and_the_scatter_follows(loaded):
     from app.document.edits import move_source
 

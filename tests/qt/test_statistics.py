@@ -137,6 +137,15 @@ def test_the_histogram_is_saved_and_copied(loaded, tmp_path):
     assert [float(line[1]) for line in lines[-len(dock.statistics.quantiles) :]] == dock.statistics.quantiles.tolist()
 
 
+def test_nothing_is_saved_before_there_are_statistics(loaded, tmp_path):
+    loaded.dock.statistics = None
+    loaded.dock.save_figure(path=str(tmp_path / "histogram.pdf"))
+    loaded.dock.save_numbers(path=str(tmp_path / "histogram.csv"))
+    assert all("wait until the panel has a field" in words for words in loaded.refusals[-2:])
+    assert len(loaded.refusals) == 2
+    assert not list(tmp_path.glob("histogram.*"))
+
+
 def test_truncation_follows_sources_of_other_kinds(loaded):
     from app.document.edits import put_point
 

@@ -36,7 +36,7 @@ class PinDistances(QtWidgets.QWidget):
         super().__init__()
         self.context = context
         self._places: tuple[LocatedPin, ...] = ()
-        self.spec: Spec | None = None
+        self.spec = self._specs(context.document)[0]
         self._among = PairwiseDistances(context.post, self._show_among)
         heading = QtWidgets.QLabel("Distances among pins")
         heading.setProperty("heading", True)
@@ -131,7 +131,7 @@ class PinDistances(QtWidgets.QWidget):
 
     def _ask(self) -> None:
         session = self.context.session
-        self._among.ask(session.loaded(), session.document.areas, self._compared, self._at)
+        self._among.ask(session.mesh(), session.document.areas, self._compared, self._at)
         self._show_among()
 
     def _show_among(self) -> None:
@@ -157,7 +157,7 @@ class PinDistances(QtWidgets.QWidget):
         session = self.context.session
         loaded, areas = session.loaded(), session.document.areas
         places = self._places
-        if loaded is None or self.spec is None:
+        if loaded is None:
             return
         if i >= 0 and max(i, j) < len(places):
             parts = [f"{escape(places[i].name)} to {escape(places[j].name)}"]
