@@ -11,8 +11,8 @@ from bihdist_core.analysis.plane_sections import PARTS
 
 from ...document.document import Document
 from ...document.shared_parts.pins import Pins, pinned_at
-from ...qt.docks.badges import badge_of
 from ...qt.look.text_box import TextBox
+from .badges import badge_of
 from .part import SECTIONS, Profile, points_along
 
 if TYPE_CHECKING:

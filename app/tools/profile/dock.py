@@ -13,11 +13,11 @@ from bihdist_core.arrays import FloatArray
 
 from ...document.document import Document
 from ...qt.context import Context
-from ...qt.docks.badges import BadgeButton, BadgeRow, badge_of
 from ...qt.docks.instrument import Instrument
 from ...qt.look.look import LOOK
 from ...qt.look.segments import Segments
 from ...qt.panels.flat_button import FlatButton
+from .badges import BadgeButton, BadgeRow, badge_of
 from .charts import ProfileCharts
 from .choices import WAYS, ProfileChoices
 from .curves import ProfileCurve, profile_curve
