@@ -95,6 +95,18 @@ def test_what_was_given_from_outside_is_not_asked_about_until_there_is_more(scre
     assert asked == ["The pins have not been saved."]
 
 
+def test_what_is_found_once_the_window_is_closed_is_dropped(screen, mesh_file):
+    s, ran = screen(), []
+    s.open(mesh_file(bumpy(120)), 5)
+    s.window.context.post(lambda: ran.append("open"))
+    s.until(lambda: ran == ["open"])
+    s.window.context.quiet = True
+    s.window.close()
+    s.window.context.post(lambda: ran.append("closed"))
+    s.settle(0.1)
+    assert ran == ["open"]
+
+
 def test_pairs_are_asked_about(screen, mesh_file):
     s, asked = screen(), Asked()
     s.open(mesh_file(bumpy(120)), 5)
