@@ -10,7 +10,6 @@ from .camera import view_alike
 from .derived_surfaces import changed_mesh, without_changed
 from .document import COMPARISON, Document, MeshFile, Panel, Point, free_names
 from .quantities import DistanceFrom, Quantity, from_point, own_fields
-from .regions import DividedPanels, can_divide, show_regions
 from .removal import without_surfaces
 
 MOST_ADDED = 6
@@ -211,29 +210,3 @@ def show_dock(document: Document, dock: str, is_open: bool = True) -> Document:
 def mark_extrema(document: Document, is_shown: bool = True) -> Document:
     """Whether extrema away from the source have triangles, in figures too."""
     return replace(document, extrema=is_shown)
-
-
-ADD = "Add a panel"
-
-PANEL_EDITS: dict[str, Callable[[Document, int], Document]] = {
-    ADD: lambda document, panel: add_another(document, document.panel(panel).surface),
-    "Duplicate this panel": duplicate_panel,
-    "Move it back": lambda document, panel: move_panel(document, panel, max(place_of(document, panel) - 1, 0)),
-    "Move it on": lambda document, panel: move_panel(document, panel, place_of(document, panel) + 1),
-    "Regions of the pins": lambda document, panel: show_regions(
-        document, panel, panel not in document[DividedPanels].regions
-    ),
-    "Remove it": remove_panel,
-}
-"""What the menu over a panel offers."""
-
-
-def possible_edits(document: Document, panel: int, most: int) -> set[str]:
-    """Those of them that make sense; no more than `most` panels are made, and one stays."""
-    count, place = len(document.panels), place_of(document, panel)
-    possible = {ADD, "Duplicate this panel"} if count < most else set()
-    possible |= {"Move it back"} if place > 0 else set()
-    possible |= {"Move it on"} if place < count - 1 else set()
-    if panel in document[DividedPanels].regions or can_divide(document, panel):
-        possible |= {"Regions of the pins"}
-    return possible | ({"Remove it"} if count > 1 else set())

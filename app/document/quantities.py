@@ -91,6 +91,10 @@ class Quantity(ABC):
     def check(self, document: "Document", surface: str) -> None:  # noqa: B027 (most need nothing)
         """ParameterError if a document has not what it is made of, on a surface of that name."""
 
+    def marks_extrema(self, document: "Document") -> bool:
+        """Whether its extrema are marked in the window, although the document does not say so."""
+        return False
+
     def with_paths(self, named: Callable[[str], str]) -> "Quantity":
         """The quantity with other paths of the files that it names."""
         return self

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
-from ..document.edits import PANEL_EDITS
+from ..document.panel_edits import ADD, panel_edits
 from ..document.tools import Tool, docked_tools
 from .actions import Act, acts_of_tools
 from .choices import Choices
@@ -317,11 +317,7 @@ PANELS = (
         "add-panel",
         needs_mesh=True,
     ),
-    *(
-        Act(f"panel {word}", word, partial(_edit_panel, word), needs_mesh=True)
-        for word in PANEL_EDITS
-        if word != "Add a panel"
-    ),
+    *(Act(f"panel {word}", word, partial(_edit_panel, word), needs_mesh=True) for word in panel_edits() if word != ADD),
     Act(
         "save field",
         "Save &field…",

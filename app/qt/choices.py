@@ -8,8 +8,9 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
 
-from ..document.edits import ADD, MOST_ADDED, PANEL_EDITS, add_another, end_at, possible_edits, show_in_row, with_range
+from ..document.edits import MOST_ADDED, add_another, end_at, show_in_row, with_range
 from ..document.looks import Colours
+from ..document.panel_edits import ADD, panel_edits, possible_edits
 from ..document.quantities import Quantity
 from ..document.tools import tools
 from ..scene.colour_file import read_stops
@@ -52,13 +53,13 @@ class Choices:
         return document is not None
 
     def edit_panel(self, panel: int, word: str) -> None:
-        """One of PANEL_EDITS, where it is possible."""
+        """Do what an entry of the menu over a panel says, where that is possible."""
         session = self._context.session
         is_there = any(shown.id == panel for shown in session.document.panels)
         if is_there and word == ADD and self._add_panels():
             return
-        if is_there and word in possible_edits(session.document, panel, MOST_ADDED):
-            session.show(PANEL_EDITS[word](session.document, panel))
+        if is_there and word in possible_edits(session.document, panel):
+            session.show(panel_edits()[word].edit(session.document, panel))
 
     def choose(self, panel: int, shows: Quantity) -> None:
         """Let a panel show something else, which is a step; the values that a slider passes are one."""

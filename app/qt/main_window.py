@@ -12,6 +12,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from ..document.camera import View as CameraView
 from ..document.document import Document
 from ..document.page import Page, Recipe
+from ..document.tools import tools
 from ..scene.prepared import prepare
 from ..scene.style import STYLES
 from ..session.loaded_mesh import LoadedMesh
@@ -106,7 +107,6 @@ class MainWindow(QtWidgets.QMainWindow):
             return
         from .docks.brushing import Brushing
         from .docks.docks import Docks
-        from .docks.findings import Findings
         from .gestures import Gestures
         from .panels.events import BarEnded, Cancelled, EditChosen, QuantityChosen, Retried, SaveWanted
         from .panels.grid import PanelGrid
@@ -121,7 +121,8 @@ class MainWindow(QtWidgets.QMainWindow):
         self._scroll.setFocusPolicy(QtCore.Qt.FocusPolicy.NoFocus)
         self._scroll.setWidget(grid)
         self._stack.addWidget(self._scroll)
-        context.build(grid, (HeldKeys, Brushing, Findings, Gestures, Docks))
+        findings = (tool.load(tool.findings) for tool in tools() if tool.findings)
+        context.build(grid, (HeldKeys, Brushing, *findings, Gestures, Docks))
         self._docks, self._gestures = context[Docks], context[Gestures]
         choices, display = context[Choices], context[ProgressDisplay]
         grid.looked.connect(context[Views].moved)

@@ -11,8 +11,8 @@ from app.document.edits import open_mesh
 from app.document.file import read_recipe, recipe_text
 from app.document.history import History
 from app.document.page import Page, Recipe
-from app.document.pins import Pins, add_pins, remove_pins
 from app.document.quantities import quantity
+from app.document.shared_parts.pins import Pins, add_pins, remove_pins
 from app.figures.export import compute, open_document
 from app.session.array_store import ArrayStore
 from app.tools.correspondence.pairs import (

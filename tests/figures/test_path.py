@@ -8,9 +8,9 @@ from PIL import Image
 
 import app
 from app.document.page import Recipe
-from app.document.profile import Profile, profile_words, with_profile, words_in
 from app.figures.draw import FIGURE_FORMATS
 from app.main import main
+from app.tools.profile.part import Profile, profile_words, with_profile, words_in
 from bihdist_core import ParameterError, Surface, SurfacePoint
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
 from tests.figures.recipes import SMALL

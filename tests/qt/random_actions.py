@@ -214,9 +214,9 @@ class RandomHands(InstrumentHands):
         parts(self.window).choices.theme(self.chance.choice(["light", "dark", "desktop"]))
 
     def edit_panels(self) -> None:
-        from app.document.edits import PANEL_EDITS
+        from app.document.panel_edits import panel_edits
 
-        parts(self.window).choices.edit_panel(self.panel(), self.chance.choice([*PANEL_EDITS, "Remove it"]))
+        parts(self.window).choices.edit_panel(self.panel(), self.chance.choice([*panel_edits(), "Remove it"]))
 
     def undo(self) -> None:
         for _ in range(self.chance.randint(1, 4)):

@@ -172,7 +172,7 @@ def test_weights_and_extrema_are_those_of_the_library(loaded):
     complete(s)
     assert (s.document[Anchors].weights.exponent, s.document[Anchors].weights.smoothness) == (2.5, 0.1)
     check(s)
-    s.until(lambda: "…" not in str(dock.extrema.facts) and parts(s.window).findings.is_complete)
+    s.until(lambda: "…" not in str(dock.extrema.facts) and parts(s.window).quality.is_complete)
     s.settle(0.05)
     vertices = SourceSet(tuple(s.document.point(a.point).at for a in s.document[Anchors].anchors))
     for panel, (_, at_tips, elsewhere) in enumerate(dock.extrema.facts[1:]):
@@ -191,7 +191,7 @@ def test_extrema_are_marked_on_interpolants_only(loaded):
 
     def rest():
         complete(s)
-        s.until(lambda: parts(s.window).findings.is_complete)
+        s.until(lambda: parts(s.window).quality.is_complete)
         s.settle(0.05)
 
     def counted():

@@ -9,7 +9,7 @@ from qtpy import QtCore, QtTest
 from app.document.beside_edits import open_beside
 from app.document.document import MeshFile
 from app.document.file import read_recipe
-from app.document.pins import Pins
+from app.document.shared_parts.pins import Pins
 from app.document.tools import docked_tools
 from app.scene.camera import frame
 from bihdist_core import Surface

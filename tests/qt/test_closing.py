@@ -13,8 +13,8 @@ from app.document.document import comparison
 from app.document.edits import move_source
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Recipe
-from app.document.pins import add_pins
-from app.document.selections import select
+from app.document.shared_parts.pins import add_pins
+from app.document.shared_parts.selections import select
 from app.tools.correspondence.pairs import place_point
 from app.tools.interpolation.part import add_anchor
 from app.tools.robustness.comparison import change_mesh
@@ -93,6 +93,18 @@ def test_what_was_given_from_outside_is_not_asked_about_until_there_is_more(scre
     s.session.show(add_pins(s.document, [9]))
     assert not parts(s.window).session_file.may_close(asked.answering("cancel"))
     assert asked == ["The pins have not been saved."]
+
+
+def test_what_is_found_once_the_window_is_closed_is_dropped(screen, mesh_file):
+    s, ran = screen(), []
+    s.open(mesh_file(bumpy(120)), 5)
+    s.window.context.post(lambda: ran.append("open"))
+    s.until(lambda: ran == ["open"])
+    s.window.context.quiet = True
+    s.window.close()
+    s.window.context.post(lambda: ran.append("closed"))
+    s.settle(0.1)
+    assert ran == ["open"]
 
 
 def test_pairs_are_asked_about(screen, mesh_file):

@@ -7,7 +7,7 @@ from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
 
-from app.document.pins import Pins
+from app.document.shared_parts.pins import Pins
 from tests.qt.parts import parts
 from tests.qt.pinning import dock_of, ids, seen_vertices, shift_click, type_ids
 

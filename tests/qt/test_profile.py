@@ -9,9 +9,9 @@ import pytest
 
 from app.document.document import Document, Point, comparison
 from app.document.edits import move_source
-from app.document.pins import Pin, Pins, add_pins
-from app.document.profile import Profile, points_along
-from app.session.profiling import wanted_path
+from app.document.shared_parts.pins import Pin, Pins, add_pins
+from app.tools.profile.part import Profile, points_along
+from app.tools.profile.paths import wanted_path
 from bihdist_core import Laplacian, ParameterError
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
 from bihdist_core.distances.answers import Distances

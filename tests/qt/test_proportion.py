@@ -11,7 +11,7 @@ from qtpy import QtCore
 
 from app.document.document import Point
 from app.document.looks import Isolines
-from app.document.pins import add_pins
+from app.document.shared_parts.pins import add_pins
 from app.qt.panels import glyph_painting
 from app.scene.levels import BOLD, ZERO, width_of
 from app.scene.proportion import LEAST, USUAL, proportion

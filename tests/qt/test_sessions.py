@@ -201,7 +201,7 @@ def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictur
     from qtpy.QtCore import Qt
     from qtpy.QtTest import QTest
 
-    from app.document.edits import PANEL_EDITS, possible_edits
+    from app.document.panel_edits import panel_edits, possible_edits
     from app.qt.panels.events import MarkDrag, MarkRelease
 
     s = screen()
@@ -236,7 +236,7 @@ def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictur
         elif action == 3:
             possible = sorted(possible_edits(s.document, panel, 4))
             if possible:
-                s.session.show(PANEL_EDITS[str(random.choice(possible))](s.document, panel))
+                s.session.show(panel_edits()[str(random.choice(possible))].edit(s.document, panel))
         elif number % 20 == 4:
             s.open(meshes[number // 20 % 2], 3)
         else:

@@ -10,7 +10,7 @@ from tests.shapes import bumpy, grid
 
 pytest.importorskip("qtpy")
 
-from app.document.pins import Pins
+from app.document.shared_parts.pins import Pins
 from tests.qt.parts import parts
 from tests.qt.sourcing import check_fields, click, ctrl_click, drag, open_file, typed, where
 
@@ -169,7 +169,7 @@ def test_a_member_of_a_set_is_dragged_alone(loaded):
 
 
 def test_the_walk_goes_through_sources_of_all_kinds_and_leaves_pins_alone(loaded):
-    from app.document.pins import add_pins
+    from app.document.shared_parts.pins import add_pins
 
     s = loaded
     for words in ("12+40", "f31:0.25,0.5"):

@@ -115,7 +115,7 @@ class QuantityChosen:
 
 @dataclass(frozen=True, eq=False)
 class EditChosen:
-    """word: one of PANEL_EDITS."""
+    """word: the text of a `PanelEdit`."""
 
     word: str
 

@@ -10,7 +10,7 @@ from ...document.beside_edits import MOST_SHOWN, letter_of
 from ...document.camera import Camera
 from ...document.derived_surfaces import COLUMNS, changed_mesh
 from ...document.document import Document, Panel
-from ...document.edits import MOST_ADDED, possible_edits
+from ...document.panel_edits import possible_edits
 from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.style import PAPER, Style
 from ...session.bar_ends import bar_end, ends_with
@@ -144,7 +144,7 @@ class PanelGrid(QtWidgets.QWidget):
         self._arrange()
         self.update()
         for id, panel in self._panels.items():
-            panel.head.allow(possible_edits(document, id, MOST_ADDED))
+            panel.head.allow(possible_edits(document, id))
         if self.active not in self._panels:
             self.activate(next(iter(self._panels), -1))
         self._show_active()

@@ -8,7 +8,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core import Surface
 from bihdist_core.distances.kinds import Spec
 
-from ...document.edits import PANEL_EDITS
+from ...document.panel_edits import panel_edits
 from ...document.quantities import Difference, Quantity, kind_name, quantity_name
 from ..look.icons import pixmap
 from ..look.look import LOOK
@@ -37,9 +37,9 @@ EXACT = ("biharmonic", "commute-time")
 class PanelHead(QtWidgets.QWidget):
     """One line that says what a panel shows and changes it.
 
-    `changed(Quantity)` for each choice; `asked(str)`, a word of PANEL_EDITS; `save_wanted()` for a file of the field;
-    `clicked()` when it is pressed or reached by keyboard.  With less room, words go into the menus; the name is cut
-    last.
+    `changed(Quantity)` for each choice; `asked(str)`, the text of a `PanelEdit`; `save_wanted()` for a file of the
+    field; `clicked()` when it is pressed or reached by keyboard.  With less room, words go into the menus; the name is
+    cut last.
     """
 
     changed = QtCore.Signal(object)
@@ -71,7 +71,7 @@ class PanelHead(QtWidgets.QWidget):
         self._about = self.more.menu().addAction("What to look for…")
         self._about.triggered.connect(lambda: QtCore.QTimer.singleShot(0, lambda: self._open_info(self.more)))
         self._line_under_about = self.more.menu().addSeparator()
-        self.edits = {word: self.more.menu().addAction(word) for word in PANEL_EDITS}
+        self.edits = {word: self.more.menu().addAction(word) for word in panel_edits()}
         for word, action in self.edits.items():
             action.triggered.connect(lambda *_, word=word: self.asked.emit(word))
         self.more.menu().addSeparator()

@@ -11,7 +11,8 @@ from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
 
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.pins import Pins
+from ...document.quantities import Quantity
+from ...document.shared_parts.pins import Pins
 from ...qt.context import Context
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument
@@ -278,7 +279,7 @@ class AnchorsDock(Instrument):
             self._show(self._document.with_part(replace(self._document[Anchors], weights=weights)), name)
 
     def _show_total(self, word: str) -> None:
-        def shown(shows):
+        def shown(shows: Quantity) -> Quantity:
             parts = (replace(p, total=word == "total") if isinstance(p, Interpolant) else p for p in shows.parts)
             return shows.with_parts(tuple(parts))
 
@@ -288,11 +289,11 @@ class AnchorsDock(Instrument):
     def take_pins(self) -> None:
         """An anchor at each pin that is at a vertex, from 0 for the first to 1 for the last."""
         document = self._document
-        pins = [(pin, document.point(pin.point)) for pin in document[Pins].pins]
-        there = [(pin, point) for pin, point in pins if isinstance(point.at, int)]
-        for k, (pin, point) in enumerate(there):
+        pins = [(pin.name, document.point(pin.point)) for pin in document[Pins].pins]
+        there = [(name, point.at, point.surface) for name, point in pins if isinstance(point.at, int)]
+        for k, (name, vertex, surface) in enumerate(there):
             value = round(k / max(1, len(there) - 1), 3)
-            document, _ = add_anchor(document, point.at, value, point.surface, pin.name)
+            document, _ = add_anchor(document, vertex, value, surface, name)
         self._show(document)
 
     # ------------------------------------------------------------------ files
@@ -307,7 +308,7 @@ class AnchorsDock(Instrument):
         """Anchors of a file besides those that there are, or why not; how far they were moved to vertices is said."""
         session, document = self.context.session, self._document
         try:
-            found = read_anchors(path, session.surface)
+            found = read_anchors(path, session.first_surface)
             for vertex, value, name in zip(found.vertices.tolist(), found.values.tolist(), found.names, strict=True):
                 document, _ = add_anchor(document, vertex, value, document.surfaces[0].name, name)
         except BihdistError as error:
@@ -320,10 +321,10 @@ class AnchorsDock(Instrument):
 
     def choose_and_save(self) -> None:
         """Ask for a file, and write the anchors."""
-        document, surface = self._document, self.context.session.surface
+        document, surface = self._document, self.context.session.first_surface
         anchors = self._anchors(document)
         vertices = [vertex_at(document.point(anchor.point).at, surface) for anchor in anchors]
-        values = [anchor.value for anchor in anchors]
+        values = [anchor.value for anchor in anchors if anchor.value is not None]
         names = tuple(anchor.name for anchor in anchors)
 
         def write(path: str) -> None:
@@ -333,15 +334,15 @@ class AnchorsDock(Instrument):
 
     def save_fields(self) -> None:
         """What the panels show of interpolants."""
-        session = self.context.session
+        session, surface = self.context.session, self.context.session.first_surface
         fields = {}
         for panel in session.document.panels_of():
             shown = session.shown.get(panel.id)
             is_meant = any(isinstance(part, Interpolant) for part in panel.shows.parts)
             if is_meant and shown is not None and shown.answer.field is not None:
                 fields[str(panel.shows)] = shown.answer.field
-        name = file_name([session.first_surface.name], "interpolants")
-        save(self.context, "Save interpolants", name, FIELD_FORMATS, lambda p: write_fields(p, session.surface, fields))
+        name = file_name([surface.name], "interpolants")
+        save(self.context, "Save interpolants", name, FIELD_FORMATS, lambda path: write_fields(path, surface, fields))
 
 
 def _line() -> QtWidgets.QFrame:

@@ -30,9 +30,9 @@ class Interpolant(ByDistance):
     total: bool = False
     done = "interpolated"
 
-    @property
-    def interpolates(self) -> bool:
-        return not self.total
+    def marks_extrema(self, document: Document) -> bool:
+        """They tell against an interpolant but at its anchors; marked while the dock is open."""
+        return not self.total and "anchors" in document.docks
 
     @property
     def before(self) -> str:
@@ -91,7 +91,7 @@ class Interpolant(ByDistance):
 
 def interpolated(shows: Quantity) -> Interpolant | None:
     """The interpolant that a panel shows by itself; None for another quantity, and for a sum of weights."""
-    return shows if isinstance(shows, Interpolant) and shows.interpolates else None
+    return shows if isinstance(shows, Interpolant) and not shows.total else None
 
 
 def interpolate(document: Document) -> Document:

@@ -8,7 +8,7 @@ from bihdist_core import ParameterError
 from bihdist_core.sources.source import Source
 
 from ...document.edits import move_source, put_point
-from ...document.pins import Pin, Pins, add_pins, remove_pins
+from ...document.shared_parts.pins import Pin, Pins, add_pins, remove_pins
 from ...qt.context import Context
 from ...qt.gesture import Gesture
 from ...qt.panels.events import Click
