@@ -1,6 +1,6 @@
 """Where a colour bar ends: a number to type, or the field's own maximum."""
 
-from qtpy import QtCore, QtWidgets
+from qtpy import QtWidgets
 
 from ...document.looks import LARGEST
 from ..look.numbers import MINUS, number
@@ -27,8 +27,6 @@ class EndPopUp(TypedPopUp):
         self._complain("")
         self.adjustSize()
         self.open_under(control, (control.width() - self.width()) // 2)
-        self.box.setFocus(QtCore.Qt.FocusReason.PopupFocusReason)
-        self.box.selectAll()
 
     def _typed(self) -> None:
         text = self.box.text().strip().replace(MINUS, "-")

@@ -176,7 +176,7 @@ class PanelGrid(QtWidgets.QWidget):
             (panel.retried, Retried),
         ):
             signal.connect(lambda *what, kind=kind: self.events.emit(panel.id, kind(*what)))
-        panel.show_style(self._style)
+        view.show_style(self._style)
         return panel
 
     def _begin(self, panel: DistancePanel, shown: Panel) -> None:
@@ -184,7 +184,7 @@ class PanelGrid(QtWidgets.QWidget):
         panel.id, panel.surface = shown.id, shown.surface
         loaded, eye = self._session.loaded(panel.surface), self.eye_of(panel.surface)
         panel.view.plotter.look_through(eye.camera)
-        panel.show_style(self._style)
+        panel.view.show_style(self._style)
         if loaded is not None:
             panel.show_surface(loaded)
             self._shade(panel)
@@ -199,7 +199,7 @@ class PanelGrid(QtWidgets.QWidget):
         if self._is_closed:
             return False  # the colours of the desktop have changed, or those of another window
         self._style = style
-        changed = [panel.show_style(style) for panel in (*self.panels, *self._spare)]
+        changed = [panel.view.show_style(style) for panel in (*self.panels, *self._spare)]
         return any(changed)
 
     def show_surface(self, surfaces: Collection[str] | None = None) -> None:

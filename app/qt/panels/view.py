@@ -8,7 +8,7 @@ from bihdist_core.arrays import AnyArray, FloatArray
 
 from ...scene import moves
 from ...scene.offscreen_renderer import OffscreenRenderer
-from ...scene.picking import Hit, Picker, pixel_of
+from ...scene.picking import Hit, LatePicker, Picker, pixel_of
 from ...scene.proportion import proportion
 from ...scene.style import Style
 from ..look.look import LOOK
@@ -42,16 +42,14 @@ class View(QtWidgets.QWidget):
         self.offscreen = offscreen
         self.plotter = offscreen.new_plotter(self.redraw)
         self.scene = offscreen.new_scene(scale=self.devicePixelRatioF(), plotter=self.plotter)
-        self.picker: Picker | None = None
+        self.picker: Picker | LatePicker | None = None
         self.handles = np.empty((0, 3))  # where the source's marks are
         self.upright: FloatArray | None = None  # what stays upright while the surface turns
         self._picture: QtGui.QImage | None = None
         self._drawing = np.empty((0, 0, 4), np.uint8)
         self._written: AnyArray | None = None
         self.pictures = 0  # how many have been drawn
-        self._is_stale = True
-        self._is_empty = True
-        self._is_dimmed = False
+        self._is_stale, self._is_empty, self._is_dimmed = True, True, False
         self.setMouseTracking(True)
         self.setFocusPolicy(QtCore.Qt.FocusPolicy.StrongFocus)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_OpaquePaintEvent)
@@ -242,7 +240,7 @@ class View(QtWidgets.QWidget):
     # ------------------------------------------------------------------ the camera
     def zoom(self, factor: float, position: QtCore.QPoint | None = None) -> None:
         """Nearer by a factor, about what is under a point of the view; about the middle if none is given."""
-        about = self._focal_point()
+        about = np.array(self.camera.GetFocalPoint())
         if position is not None:
             hit = self.pick(position)
             about = moves.at_focal_depth(self.renderer, *self._pixel(position)) if hit is None else hit.position
@@ -264,9 +262,6 @@ class View(QtWidgets.QWidget):
         """Let a point (3,) be in the middle, and what is turned about."""
         moves.centre(self.camera, point)
         self.moved.emit()
-
-    def _focal_point(self) -> AnyArray:
-        return np.array(self.camera.GetFocalPoint())
 
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
         super().resizeEvent(event)
