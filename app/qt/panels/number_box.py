@@ -173,8 +173,10 @@ class TypedPopUp(PopUp):
         self.box.selectAll()
 
     def _lay_out(self, left: QtWidgets.QWidget, right: QtWidgets.QWidget) -> None:
-        grid = QtWidgets.QGridLayout(self, horizontalSpacing=12, verticalSpacing=8)
+        grid = QtWidgets.QGridLayout(self)
         grid.setContentsMargins(12, 10, 12, 12)
+        grid.setHorizontalSpacing(12)
+        grid.setVerticalSpacing(8)
         grid.addWidget(self.words, 0, 0, 1, 2)
         grid.addWidget(left, 1, 0)
         grid.addWidget(right, 1, 1)
