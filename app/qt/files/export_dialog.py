@@ -72,10 +72,7 @@ class ExportDialog(LooksDialog):
         self._given, self._answers, self._version = given, answers, version
         self.kinds.choose((recipe.page.format or FORMATS[0]).upper())
         self.section("Show")
-        self.names = Choice()
-        for word, text in NAMES.items():
-            self.names.addItem(text, word)
-        self.names.setCurrentIndex(self.names.findData(recipe.page.title))
+        self.names = Choice(NAMES, recipe.page.title)
         self.row("&Names", self.names, "Where the name of each panel stands")
         self.add_shares()
         self.both = self.tick("&Front and back", recipe.page.views == BOTH, "Each panel from both sides")
@@ -175,22 +172,13 @@ class ExportDialog(LooksDialog):
     def _add_copying(self) -> None:
         self.copy_picture = self.button("&Copy picture", "The figure as an image, to be pasted elsewhere")
         put_icon(self.copy_picture, "copy")
-        self.copy_picture.clicked.connect(self._copy_picture)
+        self.copy_picture.clicked.connect(lambda: self._copy("picture"))
         self.copy_line = self.button("Copy as co&mmand or Python", "One line that makes this figure")
         self.copy_line.setProperty("chevron", True)
         menu = QtWidgets.QMenu(self.copy_line)
-        menu.addAction("As a command line", self._copy_command)
-        menu.addAction("As Python", self._copy_python)
+        menu.addAction("As a command line", partial(self._copy, "command"))
+        menu.addAction("As Python", partial(self._copy, "python"))
         self.copy_line.setMenu(menu)
-
-    def _copy_picture(self) -> None:
-        self._copy("picture")
-
-    def _copy_command(self) -> None:
-        self._copy("command")
-
-    def _copy_python(self) -> None:
-        self._copy("python")
 
     def _copy(self, what: str) -> None:
         with self.refusals_shown():

@@ -45,19 +45,13 @@ class LooksDialog(JobDialog):
     def add_shares(self) -> None:
         """One colour bar, and what to look for."""
         self.hints = self.tick("&What to look for", self._recipe.page.hints, "A line under each heading")
-        self.shared = self.tick(
-            "&One colour bar for all",
-            self._recipe.document.range != "own",
-            "The same colour means the same value everywhere",
-        )
+        is_shared, tip = self._recipe.document.range != "own", "The same colour means the same value everywhere"
+        self.shared = self.tick("&One colour bar for all", is_shared, tip)
 
     def add_look(self) -> None:
         """Style and columns."""
         page = self._recipe.page
-        self.style_box = Choice()
-        for word in offered_styles(page.style):
-            self.style_box.addItem(style_name(word), word)
-        self.style_box.setCurrentIndex(max(self.style_box.findData(page.style), 0))
+        self.style_box = Choice({word: style_name(word) for word in offered_styles(page.style)}, page.style)
         self.columns = Count(0, MOST_PANELS, page.columns or 0, nothing="Automatic")
         self.row("St&yle", self.style_box, "The colours and lines of the drawing")
         self.row("Co&lumns", self.columns, "How many panels stand side by side")
@@ -66,24 +60,18 @@ class LooksDialog(JobDialog):
         """Panels of different units share a bar of shares."""
         self._has_one_unit = has_one_unit
         if not has_one_unit:
-            self.shared.setText("&One colour bar, in fractions of the maximum")
-            self.shared.setAccessibleName("One colour bar, in fractions of the maximum")
-            self.shared.setToolTip(
-                "The panels have different units; the same colour means the same fraction everywhere"
-            )
+            words = "&One colour bar, in fractions of the maximum"
+            self.shared.setText(words)
+            tip = "The panels have different units; the same colour means the same fraction everywhere"
+            self.name_box(self.shared, words, tip)
 
     def chosen(self) -> Recipe:
         """The recipe as the dialog stands; ParameterError for a size that is none."""
         document, page = self._recipe.document, self._recipe.page
         with blamed_on(self.size.width_box):
             size = self.size.text()
-        page = replace(
-            page,
-            size=size,
-            style=self.style_box.currentData(),
-            columns=self.columns.value() or None,
-            hints=self.hints.isChecked(),
-        )
+        style, columns = self.style_box.currentData(), self.columns.value() or None
+        page = replace(page, size=size, style=style, columns=columns, hints=self.hints.isChecked())
         if self.shared.isChecked() != (document.range != "own"):
             word = "shared" if self._has_one_unit else "shares"
             document = replace(document, range=word if self.shared.isChecked() else "own")

@@ -43,16 +43,13 @@ class TakenEnds(QtCore.QObject):
             self._worker = LatestRequestWorker("ends", self._compute, self._progress.emit, self._failed.emit)
         self._end_waiting()
         self._wanted = [path]
-        waiting = QtWidgets.QProgressDialog(
-            f"The fields of {os.path.basename(path)}…", "Cancel", 0, 100, self._context.widget
-        )
-        waiting.setCancelButton(QtWidgets.QPushButton("Cancel", autoDefault=False))
-        waiting.setWindowTitle("Ranges")
-        waiting.setMinimumDuration(PATIENCE_MS)
-        waiting.setAutoClose(False)
-        waiting.setAutoReset(False)
-        waiting.canceled.connect(self.cancel)
-        self._waiting = waiting
+        words = f"The fields of {os.path.basename(path)}…"
+        self._waiting = QtWidgets.QProgressDialog(
+            words, "Cancel", 0, 100, self._context.widget,
+            windowTitle="Ranges", minimumDuration=PATIENCE_MS, autoClose=False, autoReset=False,
+        )  # fmt: skip
+        self._waiting.setCancelButton(QtWidgets.QPushButton("Cancel", autoDefault=False))
+        self._waiting.canceled.connect(self.cancel)
         self._worker.submit(self._wanted)
 
     def cancel(self) -> None:

@@ -8,6 +8,7 @@ from qtpy import QtCore, QtGui
 from bihdist_core.arrays import FloatArray
 
 from ..look.look import LOOK
+from ..look.painting import paint_rounded
 
 AWAY, HEIGHT, PAD, DOT = 9.0, 21.0, 5.0, 6.0
 """Logical pixels: from the place to the label, its height, beside the text, and from a place to its mark's rim."""
@@ -29,19 +30,15 @@ def paint_anchor_labels(
     theme = LOOK.theme
     painter.setFont(LOOK.font(12, bold=True))
     metrics = QtGui.QFontMetricsF(painter.font())
-    sizes = [
-        QtCore.QSizeF(metrics.horizontalAdvance(label.text) + 2 * PAD * LOOK.scale, HEIGHT * LOOK.scale)
-        for label, _ in labels
-    ]
+    widths = [metrics.horizontalAdvance(label.text) + 2 * PAD * LOOK.scale for label, _ in labels]
+    sizes = [QtCore.QSizeF(width, HEIGHT * LOOK.scale) for width in widths]
     ranks = [not label.is_chosen for label, _ in labels]
     boxes = label_boxes([at for _, at in labels], sizes, ranks, view)
     for (label, _), box in zip(labels, boxes, strict=True):
         if box is None:
             continue
         ground, text = (theme.fill, theme.on_fill) if label.is_chosen else (theme.raised, theme.text)
-        painter.setPen(QtGui.QPen(QtGui.QColor(ground if label.is_chosen else theme.text), 1))
-        painter.setBrush(QtGui.QColor(ground))
-        painter.drawRoundedRect(box, 4, 4)
+        paint_rounded(painter, box, 4, ground, ground if label.is_chosen else theme.text)
         painter.setPen(QtGui.QColor(text))
         painter.drawText(box, QtCore.Qt.AlignmentFlag.AlignCenter, label.text)
 

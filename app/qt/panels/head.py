@@ -13,6 +13,7 @@ from bihdist_core.distances.kinds import Spec, Value
 from ...document.edits import PANEL_EDITS
 from ...document.quantities import Difference, Quantity, kind_name, quantity_name
 from ..look.icons import pixmap
+from ..look.layouts import in_column
 from ..look.look import LOOK
 from ..look.painting import paint_rounded, smooth_painter
 from .flat_button import ICON_SIDE, FlatButton
@@ -81,9 +82,7 @@ class PanelHead(QtWidgets.QWidget):
         self._sheet = PopUp(self)
         self._sheet_words = QtWidgets.QLabel(self._sheet, wordWrap=True)
         self._sheet_words.setFixedWidth(280)
-        row = QtWidgets.QVBoxLayout(self._sheet)
-        row.setContentsMargins(12, 10, 12, 12)
-        row.addWidget(self._sheet_words)
+        in_column(self._sheet_words, of=self._sheet, margins=(12, 10, 12, 12))
         for widget in (self.name, self.info, self.more):
             widget.installEventFilter(self)
         self.set_compact(False)

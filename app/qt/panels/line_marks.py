@@ -10,6 +10,7 @@ from ...scene.lines_of_sight import seen_in
 from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.panel_scene import PanelScene
 from ...scene.style import Style
+from ..look.painting import round_pen
 
 Course = tuple[LineLook, np.ndarray]
 """A look, and points (k, 3) of a line."""
@@ -61,9 +62,7 @@ class LineMarks:
             for (look, _), line, which in zip(self._lines, places, seen, strict=True):
                 pieces = _runs(line, which == is_seen)
                 for stroke in look.strokes if is_seen else look.hidden:
-                    pen = QtGui.QPen(QtGui.QColor.fromRgbF(*style.named(stroke.colour)), share * stroke.width)
-                    pen.setCapStyle(QtCore.Qt.PenCapStyle.RoundCap)
-                    pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
+                    pen = round_pen(QtGui.QColor.fromRgbF(*style.named(stroke.colour)), share * stroke.width)
                     if stroke.dots:
                         pen.setDashPattern([0.01, stroke.dots / stroke.width])
                     painter.setPen(pen)

@@ -41,7 +41,7 @@ class MarksOver:
         self._has_axes = False
         self._covered = QtCore.QRect()  # by the ring and its label
         self._labels: tuple[AnchorLabel, ...] = ()
-        self._unlabelled: frozenset[int] | None = None  # which of them the surface hides; None until it is looked
+        self._seen: list[AnchorLabel] | None = None  # of them, before the surface; None until it is looked
         self._dabs: list[tuple[str, QtGui.QPolygonF]] = []  # of a brush that is down
         self.ends = np.empty((0, 3))  # of what is joined
 
@@ -76,7 +76,7 @@ class MarksOver:
     def show_anchors(self, labels: Sequence[AnchorLabel]) -> None:
         """Write values beside anchors."""
         if labels or self._labels:
-            self._labels, self._unlabelled = tuple(labels), None
+            self._labels, self._seen = tuple(labels), None
             self._view.update()
 
     def show_legend(self, rows: Sequence[LegendRow]) -> None:
@@ -108,7 +108,7 @@ class MarksOver:
 
     def see(self) -> None:
         """Another picture has been drawn: what is hidden in it?"""
-        self._unlabelled = None
+        self._seen = None
         self.points.see_again()
         self.lines.see(self._view.scene, self._view.offscreen)
         self._covered = self._cover()
@@ -166,12 +166,6 @@ class MarksOver:
 
     def _seen_labels(self) -> list[tuple[AnchorLabel, QtCore.QPointF]]:
         """Those whose places are seen."""
-        if self._unlabelled is None:
-            self._unlabelled = frozenset(
-                k for k, label in enumerate(self._labels) if not self._view.sees(label.position)
-            )
-        return [
-            (label, self._view.place_of(label.position))
-            for k, label in enumerate(self._labels)
-            if k not in self._unlabelled
-        ]
+        if self._seen is None:
+            self._seen = [label for label in self._labels if self._view.sees(label.position)]
+        return [(label, self._view.place_of(label.position)) for label in self._seen]

@@ -25,6 +25,7 @@ from ...scene.prepared import Drawn
 from ...session.answering import Shown
 from ...session.isoline_points import IsolinePoint
 from ...session.loaded_mesh import LoadedMesh
+from ..look.layouts import in_column
 from ..look.look import LOOK
 from .answer_bar import show_answer
 from .colour_bar import ColourBar
@@ -69,12 +70,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.stopped.retried.connect(self.retried)
         self._accent = QtWidgets.QWidget(self, objectName="activeLine")
         self._accent.setAttribute(QtCore.Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        layout = QtWidgets.QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self.head)
-        layout.addWidget(self.view, 1)
-        layout.addWidget(self.bar)
+        in_column(self.head, (self.view, 1), self.bar, of=self, spacing=0)
         self.view.resized.connect(self._place_waiting)
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Ignored)
         self.loaded: LoadedMesh | None = None

@@ -165,12 +165,10 @@ class PointMarks(QtCore.QObject):
     # ------------------------------------------------------------------ painting
     def paint_flat(self, painter: QtGui.QPainter) -> None:
         """Those that do not stand, also in insets; the hidden ones lie lowest."""
-        view = self._view
-        flat = sorted(
-            (each for each in self.placed() if not each.stands), key=lambda each: (each.is_seen, each.mark.glyph.rank)
-        )
+        view, flat = self._view, [each for each in self.placed() if not each.stands]
         if not flat:
             return
+        flat.sort(key=lambda each: (each.is_seen, each.mark.glyph.rank))
         painter.save()
         for renderer, region in self._regions():
             painter.setClipRegion(region)
@@ -194,19 +192,18 @@ class PointMarks(QtCore.QObject):
     def _regions(self) -> Iterator[tuple[Any, QtGui.QRegion]]:
         """The view without its insets, and these, each with its renderer."""
         view = self._view
-        boxes = {renderer: self._box(*box) for renderer, box in view.scene.insets.placed.items()}
+        insets = {renderer: self._box(*box) for renderer, box in view.scene.insets.placed.items()}
         everywhere = QtGui.QRegion(view.rect())
-        for box in boxes.values():
-            everywhere -= QtGui.QRegion(box)
+        for region in insets.values():
+            everywhere -= region
         yield view.renderer, everywhere
-        for renderer, box in boxes.items():
-            yield renderer, QtGui.QRegion(box)
+        yield from insets.items()
 
-    def _box(self, left: int, bottom: int, width: int, height: int) -> QtCore.QRect:
+    def _box(self, left: int, bottom: int, width: int, height: int) -> QtGui.QRegion:
         """In logical pixels, of a box in device pixels with y up."""
         ratio = self._view.devicePixelRatioF()
         top = self._view.height() - (bottom + height) / ratio
-        return QtCore.QRectF(left / ratio, top, width / ratio, height / ratio).toAlignedRect()
+        return QtGui.QRegion(QtCore.QRectF(left / ratio, top, width / ratio, height / ratio).toAlignedRect())
 
 
 def _label_box(
@@ -218,13 +215,10 @@ def _label_box(
     gap = overlay.LABEL_PADDING
     reach = outline.width() / 2
     middle = outline.top() + reach if outline.top() < tip.y() - 1 else outline.bottom() - reach
-    places = [
-        QtCore.QPointF(outline.right() + gap, middle - size.height() / 2),
-        QtCore.QPointF(outline.left() - gap - size.width(), middle - size.height() / 2),
-        QtCore.QPointF(tip.x() - size.width() / 2, outline.top() - gap - size.height()),
-        QtCore.QPointF(tip.x() - size.width() / 2, outline.bottom() + gap),
-    ]
-    boxes = [QtCore.QRectF(place, size) for place in places]
+    left, top = tip.x() - size.width() / 2, middle - size.height() / 2
+    right_or_left = (outline.right() + gap, top), (outline.left() - gap - size.width(), top)
+    above_or_below = (left, outline.top() - gap - size.height()), (left, outline.bottom() + gap)
+    boxes = [QtCore.QRectF(QtCore.QPointF(*place), size) for place in (*right_or_left, *above_or_below)]
     inside = [box for box in boxes if view.adjusted(4, 4, -4, -4).contains(box)]
     free = [box for box in inside if not any(box.intersects(other) for other in others)]
     return (free or inside or boxes)[0]
