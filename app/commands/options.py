@@ -37,6 +37,11 @@ def add_distance(parser: argparse.ArgumentParser, several: str = "") -> None:
         )
 
 
+def add_output(parser: argparse.ArgumentParser, files: str) -> None:
+    """Add the option of the file that is written."""
+    parser.add_argument("-o", "--output", metavar="OUT", required=True, help=files)
+
+
 def add_rows(parser: argparse.ArgumentParser, *rows: Row | Option, **meanings: str) -> None:
     """Options of the table of figures' options.  None stands for what is not given.
 
@@ -87,23 +92,18 @@ def add_areas(parser: argparse.ArgumentParser) -> None:
     add_rows(parser, VERTEX_AREAS)
 
 
-def spec(options: argparse.Namespace, text: str) -> Spec:
-    """The distance that a text means with the options beside it."""
-    return Spec.parse(text, **given_parameters(options))
-
-
 def specs(options: argparse.Namespace, texts: Sequence[str]) -> list[Spec]:
-    """The same for several; ParameterError for an option that none of them has."""
+    """The distances that texts mean with the options beside them; ParameterError for an option that none has."""
     for text in texts:
         if " - " in text:
             raise ParameterError(f"{text!r} is a field, and has no value between two vertices; name a distance.")
-    found = [spec(options, text) for text in texts]
+    found = [Spec.parse(text, **given_parameters(options)) for text in texts]
     check_parameters(options, found)
     return found
 
 
 def quantities(options: argparse.Namespace, texts: Sequence[str], fields: Sequence[str] = ()) -> list[Quantity]:
-    """The same for distances, differences, and a recipe's own fields."""
+    """What texts mean with the options beside them: distances, differences, and a recipe's own fields."""
     found = [quantity(text, fields=fields, **given_parameters(options)) for text in texts]
     check_parameters(options, [spec for shows in found for spec in shows.specs])
     return found

@@ -1,14 +1,14 @@
 """Rows and columns of widgets, filled where they are made."""
 
 from collections.abc import Sequence
-from typing import TypeVar
+from typing import TypeAlias, TypeVar
 
 from qtpy import QtCore, QtWidgets
 
-Part = QtWidgets.QWidget | QtWidgets.QLayout | int | None
+Part: TypeAlias = QtWidgets.QWidget | QtWidgets.QLayout | int | None
 """A widget, a layout, so many pixels of space, or None for what takes all that is left."""
 
-Parts = Part | tuple[Part, int] | tuple[Part, int, QtCore.Qt.AlignmentFlag]
+Parts: TypeAlias = Part | tuple[Part, int] | tuple[Part, int, QtCore.Qt.AlignmentFlag]
 """A part by itself, or with its stretch and alignment."""
 
 Box = TypeVar("Box", bound=QtWidgets.QBoxLayout)

@@ -29,18 +29,20 @@ class FlatButton(BareButton):
 
     activated = QtCore.Signal()  # by mouse or keyboard, where there is no menu
 
-    def __init__(self, parent: QtWidgets.QWidget, icon_name: str = "", bold: bool = False, quiet: bool = False) -> None:
+    def __init__(
+        self,
+        parent: QtWidgets.QWidget,
+        icon_name: str = "",
+        bold: bool = False,
+        quiet: bool = False,
+        has_arrow: bool = True,
+    ) -> None:
         super().__init__(parent)
         self.symbol, self.icon_name = "", icon_name
         self.bold, self.quiet = bold, quiet
-        self.has_arrow = not icon_name
+        self.has_arrow = has_arrow and not icon_name
         self.clicked.connect(self.activated)
         LOOK.changed.connect(self.update)
-
-    @property
-    def is_cut(self) -> bool:
-        """Whether there is less room than the words need."""
-        return bool(self.width() < self.sizeHint().width())
 
     def sizeHint(self) -> QtCore.QSize:
         if self.icon_name:

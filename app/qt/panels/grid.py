@@ -167,8 +167,8 @@ class PanelGrid(QtWidgets.QWidget):
             (panel.head.asked, EditChosen),
             (panel.head.save_wanted, SaveWanted),
             (panel.ended, BarEnded),
-            (panel.cancelled, Cancelled),
-            (panel.retried, Retried),
+            (panel.waiting.cancelled, Cancelled),
+            (panel.stopped.retried, Retried),
         ):
             signal.connect(lambda *what, kind=kind: self.events.emit(panel.id, kind(*what)))
         view.show_style(self._style)

@@ -1,10 +1,8 @@
 """The values of isolines on the panels' pictures: found on a thread once the camera rests, and gone when it moves."""
 
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from threading import Lock, Thread
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,12 +10,14 @@ from qtpy import QtCore, QtGui
 
 from bihdist_core import Surface
 from bihdist_core.arrays import AnyArray, FloatArray
+from bihdist_core.progress import Progress
 
 from ...scene.camera import SeenNow
 from ...scene.corners import Rectangle
 from ...scene.drawable import outward_faces
 from ...scene.levels import Levels
 from ...scene.line_labels import Contour, Line, labelled, value_text
+from ..background import Background
 from ..look.look import LOOK
 from .label_painting import FONT_SIZE, Written, label_font, painted
 from .moving import REST_MS
@@ -68,17 +68,13 @@ class Asked:
 class LineLabels(QtCore.QObject):
     """See the module.  panels: asks for those that are shown."""
 
-    _found = QtCore.Signal(object, int, object)  # panel, of which of its pictures, what is written there
-
     def __init__(self, panels: Callable[[], Sequence[DistancePanel]], parent: QtCore.QObject | None = None) -> None:
         super().__init__(parent)
         self._panels = panels
+        self._background = Background("labels of isolines", _found, self)
+        self._background.answered.connect(lambda _, found: self._write(*found))
         self._timer = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
-        self._timer.timeout.connect(self._ask)
-        self._found.connect(self._write)
-        self._lock = Lock()
-        self._pending: dict[DistancePanel, tuple[int, Asked]] = {}
-        self._is_working = False
+        self._timer.timeout.connect(lambda: self._background.ask(self._open(self._panels()) or None))
         self._finder = Finder()
         self._done: dict[DistancePanel, int] = {}
 
@@ -91,7 +87,7 @@ class LineLabels(QtCore.QObject):
         """For good."""
         self._timer.stop()
         self._panels = tuple
-        self._pending = {}
+        self._background.close()
 
     def write_now(self, panels: Sequence[DistancePanel] | None = None) -> None:
         """Without waiting, on all panels or on these."""
@@ -107,27 +103,6 @@ class LineLabels(QtCore.QObject):
                 found.append((panel, number, asked))
         return found
 
-    def _ask(self) -> None:
-        with self._lock:
-            self._pending = {panel: (number, asked) for panel, number, asked in self._open(self._panels())}
-            if not self._pending or self._is_working:
-                return
-            self._is_working = True
-        Thread(target=self._work, name="labels of isolines", daemon=True).start()
-
-    def _work(self) -> None:
-        finder = Finder()
-        while True:
-            with self._lock:
-                if not self._pending:
-                    self._is_working = False
-                    return
-                panel = next(iter(self._pending))
-                number, asked = self._pending.pop(panel)
-            written = finder.find(asked)
-            with suppress(RuntimeError):  # the window may have been closed meanwhile
-                self._found.emit(panel, number, written)
-
     def _write(self, panel: DistancePanel, number: int, written: Sequence[Written]) -> None:
         view = panel.view
         if view.picture is None or view.pictures != number:
@@ -136,6 +111,12 @@ class LineLabels(QtCore.QObject):
         if written and panel.answer is not None:
             scene, signed = view.scene, panel.answer.is_signed
             view.write(painted(view.picture, written, scene.style, signed, scene.maximum, view.devicePixelRatioF()))
+
+
+def _found(pictures: Sequence[tuple[DistancePanel, int, Asked]], progress: Progress) -> Iterator[object]:
+    finder = Finder()
+    for panel, number, asked in pictures:
+        yield panel, number, finder.find(asked)
 
 
 def asked_of(panel: DistancePanel) -> Asked | None:

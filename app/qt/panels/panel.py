@@ -50,8 +50,6 @@ NOTHING = Drawn(AS_IT_IS, vtkPolyData(), None)
 class DistancePanel(QtWidgets.QWidget):
     """See the module.  id, surface: those of the document's panel."""
 
-    cancelled = QtCore.Signal()
-    retried = QtCore.Signal()
     ended = QtCore.Signal(object)  # where its colour bar is to end, None for the field's own maximum
 
     def __init__(self, offscreen: OffscreenRenderer, parent: QtWidgets.QWidget | None = None) -> None:
@@ -65,9 +63,7 @@ class DistancePanel(QtWidgets.QWidget):
         self._end = EndPopUp(self)
         self._end.chosen.connect(self._end_at)
         self.waiting = Waiting(self)
-        self.waiting.cancelled.connect(self.cancelled)
         self.stopped = Stopped(self.view)
-        self.stopped.retried.connect(self.retried)
         self._accent = QtWidgets.QWidget(self, objectName="activeLine")
         self._accent.setAttribute(QtCore.Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         in_column(self.head, (self.view, 1), self.bar, of=self, spacing=0)

@@ -133,12 +133,6 @@ class PointMarks(QtCore.QObject):
         return (*camera.GetPosition(), *camera.GetFocalPoint(), camera.GetParallelProjection())
 
     # ------------------------------------------------------------------ where they are
-    def at(self, renderer: Any, position: np.ndarray) -> QtCore.QPointF:
-        """Where a position (3,) is seen in the view or in an inset, in logical pixels."""
-        x, y = pixel_of(renderer, position)
-        ratio = self._view.devicePixelRatioF()
-        return QtCore.QPointF(x / ratio, self._view.height() - y / ratio)
-
     def standing(self, key: str = "") -> list[tuple[Placed, QtCore.QPointF]]:
         """Those that stand, with their places, what lies lowest first; not those that an inset covers."""
         view, found = self._view, []
@@ -146,7 +140,7 @@ class PointMarks(QtCore.QObject):
             if each.stands:
                 pixel = pixel_of(view.renderer, each.position)
                 if view.scene.insets.renderer_at(*pixel) is view.renderer:
-                    found.append((each, self.at(view.renderer, each.position)))
+                    found.append((each, view.place_of(each.position)))
         return sorted(found, key=lambda each: each[0].level)
 
     def standing_at(self, position: QtCore.QPoint) -> tuple[str, int] | None:
@@ -173,7 +167,7 @@ class PointMarks(QtCore.QObject):
         for renderer, region in self._regions():
             painter.setClipRegion(region)
             for each in flat:
-                at = self.at(renderer, each.position)
+                at = view.place_of(each.position, renderer)
                 paint_glyph(painter, each.mark, at, view.scene.style, view.proportion, not each.is_seen)
         painter.restore()
 

@@ -187,9 +187,9 @@ class View(QtWidgets.QWidget):
         return (self._drawing if self._written is None else self._written)[..., :3].copy()
 
     # ------------------------------------------------------------------ places
-    def place_of(self, point: FloatArray) -> QtCore.QPointF:
-        """Where a point (3,) is seen, in logical pixels."""
-        x, y = pixel_of(self.renderer, point)
+    def place_of(self, point: FloatArray, renderer: vtkRenderer | None = None) -> QtCore.QPointF:
+        """Where a point (3,) is seen, in logical pixels; renderer: of an inset, if it is that."""
+        x, y = pixel_of(renderer or self.renderer, point)
         ratio = self.devicePixelRatioF()
         return QtCore.QPointF(x / ratio, self.height() - y / ratio)
 
@@ -217,11 +217,6 @@ class View(QtWidgets.QWidget):
             return float(2 * camera.GetParallelScale() / max(self.height(), 1))
         depth = (point - np.array(camera.GetPosition())) @ np.array(camera.GetDirectionOfProjection())
         return float(2 * depth * np.tan(np.radians(camera.GetViewAngle()) / 2) / max(self.height(), 1))
-
-    @property
-    def source(self) -> AnyArray | None:
-        """(3,) where its first mark is."""
-        return self.handles[0] if len(self.handles) else None
 
     def mark_at(self, position: QtCore.QPoint) -> int:
         """The number of the source's mark that is seen under a point of the view; -1 for none."""
