@@ -3,6 +3,7 @@
 import argparse
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from typing import Any
 
 from bihdist_core.distances.kinds import OURS, Spec, kinds
@@ -130,35 +131,22 @@ def vertices(text: str) -> list[int]:
 
 
 def count(text: str) -> int:
-    """How many of something."""
-    try:
-        value = int(text)
-    except ValueError:
-        value = 0
-    if value < 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1")
-    return value
-
-
-def _number(text: str) -> float:
-    """NaN for what is none."""
-    try:
-        return float(text)
-    except ValueError:
-        return math.nan
+    """How many of something, from a text; argparse.ArgumentTypeError for another text."""
+    return int(_checked(text, int, lambda value: value >= 1, "a whole number from 1"))
 
 
 def positive(text: str) -> float:
     """A positive finite number from a text; argparse.ArgumentTypeError for another text."""
-    value = _number(text)
-    if not 0 < value < math.inf:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a positive number")
-    return value
+    return _checked(text, float, lambda value: 0 < value < math.inf, "a positive number")
 
 
 def share(text: str) -> float:
     """A fraction from 0 to 1 from a text; argparse.ArgumentTypeError for another text."""
-    value = _number(text)
-    if not 0 <= value <= 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a fraction from 0 to 1")
-    return value
+    return _checked(text, float, lambda value: 0 <= value <= 1, "a fraction from 0 to 1")
+
+
+def _checked(text: str, read: Callable[[str], float], holds: Callable[[float], bool], what: str) -> float:
+    with suppress(ValueError):
+        if holds(value := read(text)):
+            return value
+    raise argparse.ArgumentTypeError(f"{text!r} is not {what}")

@@ -181,12 +181,9 @@ class Gestures(QtCore.QObject):
         if hit is not None:
             self._offer_place(menu, panel, hit)
         else:
-            for word in ("reset", "view before", "view after"):
-                menu.addAction(actions[word])
-            menu.addSeparator()
-            for word in ("undo", "redo", "add panel"):
-                menu.addAction(actions[word])
-            menu.addSeparator()
+            for words in (("reset", "view before", "view after"), ("undo", "redo", "add panel")):
+                menu.addActions([actions[word] for word in words])
+                menu.addSeparator()
             menu.addAction("Save field…", lambda: context[FieldFiles].save(panel))
         menu.aboutToHide.connect(menu.deleteLater)
         menu.popup(wanted.where)

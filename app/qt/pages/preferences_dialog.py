@@ -8,7 +8,7 @@ from ...document.looks import MOST_ISOLINES
 from ..look.layouts import in_column, in_row, quiet_label
 from ..look.look import LOOK
 from ..look.segments import Segments
-from ..preferences import Preferences, load, save
+from ..preferences import Preferences
 
 THEMES = {"As the desktop": "desktop", "Light": "light", "Dark": "dark"}
 TURNING = {"Freely": "", "Turntable": "turntable"}
@@ -113,15 +113,3 @@ def _segments(choices: dict[str, str], name: str, tip: str) -> Segments:
     segments = Segments(choices, name)
     segments.setToolTip(tip)
     return segments
-
-
-def ask_preferences(parent: QtWidgets.QWidget | None = None) -> Preferences | None:
-    """Let the user change the preferences, and save them; None if the dialog was cancelled."""
-    dialog = PreferencesDialog(load(), parent)
-    try:
-        if not dialog.exec():
-            return None
-        save(dialog.chosen())
-        return dialog.chosen()
-    finally:
-        dialog.deleteLater()
