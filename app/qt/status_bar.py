@@ -45,8 +45,7 @@ class StatusBar(QtWidgets.QStatusBar):
         self.addPermanentWidget(self._row, 1)
         self._vertices, self._faces = "", ""
         self._holds: Callable[[], bool] | None = None
-        self._forget_soon = QtCore.QTimer(self, singleShot=True, interval=SAID_MS)
-        self._forget_soon.timeout.connect(self._forget)
+        self._forget_soon = QtCore.QTimer(self, singleShot=True, interval=SAID_MS, timeout=self._forget)
         LOOK.changed.connect(self._fit)
         self.show_surface(None)
         self._fit()

@@ -89,14 +89,12 @@ class Tour(QtCore.QObject):
         self.card, self.outline = Card(window, self.steps), Outline(window)
         # What the second click of two meets where the card was: nothing.
         self._shield = QtWidgets.QWidget(window, visible=False)
-        self._shield_gone = QtCore.QTimer(self, singleShot=True)
-        self._shield_gone.timeout.connect(self._shield.hide)
+        self._shield_gone = QtCore.QTimer(self, singleShot=True, timeout=self._shield.hide)
         self.card.back.clicked.connect(lambda: self.go(self.at - 1))
         self.card.next.clicked.connect(lambda: self.go(self.at + 1))
         self.card.close_button.clicked.connect(self.end)
         # Panels come and go and docks move them: watching the window alone would not do.
-        self._again = QtCore.QTimer(self, interval=LOOK_AGAIN_MS)
-        self._again.timeout.connect(self.place)
+        self._again = QtCore.QTimer(self, interval=LOOK_AGAIN_MS, timeout=self.place)
         LOOK.changed.connect(self._fit)
 
     @property

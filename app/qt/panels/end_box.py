@@ -14,8 +14,7 @@ class EndPopUp(TypedPopUp):
         super().__init__("The colours end at", parent)
         self.box.setFixedWidth(110)
         self.box.setAccessibleName("Where the colours end")
-        self.own = QtWidgets.QPushButton("Its own maximum", self)
-        self.own.clicked.connect(lambda: self._choose(None))
+        self.own = QtWidgets.QPushButton("Its own maximum", self, clicked=lambda: self._choose(None))
         self._lay_out(self.box, self.own)
 
     def ask(self, control: QtWidgets.QWidget, end: float, maximum: float, unit: str) -> None:

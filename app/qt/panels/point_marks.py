@@ -69,8 +69,7 @@ class PointMarks(QtCore.QObject):
         self._view = view
         self._groups: dict[str, Group] = {}
         self.is_meant = False
-        self._rest = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
-        self._rest.timeout.connect(self._look_again)
+        self._rest = QtCore.QTimer(self, singleShot=True, interval=REST_MS, timeout=self._look_again)
 
     # ------------------------------------------------------------------ what there is
     def show(self, key: str, marks: Sequence[PointMark], positions: np.ndarray, lit: Collection[str] = ()) -> None:
