@@ -53,6 +53,7 @@ class ExportDialog(LooksDialog):
     `copying` is emitted with "picture", "command" or "python", and the recipe.
     """
 
+    what, file_kinds, sizes = "Figure", FIGURE_KINDS, FIGURE_SIZES
     copying = QtCore.Signal(str, object)
 
     def __init__(
@@ -66,10 +67,8 @@ class ExportDialog(LooksDialog):
         parent: QtWidgets.QWidget | None = None,
     ) -> None:
         self.pane = PreviewPane()
-        super().__init__(
-            recipe, surfaces, "Export figure", "Figure", FIGURE_KINDS, FIGURE_SIZES, exports, parent, self.pane
-        )
-        self._given, self._answers, self._version = given, answers, version
+        super().__init__(recipe, surfaces, given, exports, parent, self.pane)
+        self._answers, self._version = answers, version
         self.kinds.choose((recipe.page.format or FORMATS[0]).upper())
         self.section("Show")
         self.names = Choice(NAMES, recipe.page.title)

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import ClassVar
 
 from qtpy import QtCore, QtGui, QtWidgets
 
@@ -58,34 +59,32 @@ def blamed_on(box: QtWidgets.QWidget) -> Iterator[None]:
 class JobDialog(QtWidgets.QDialog):
     """`started` is emitted with the `Export`; then the dialog is closed.  What is refused is said in the dialog.
 
-    A class of its own for each sort of file adds sections and rows, and makes the work in `work(path)`.
+    A class of its own for each sort of file adds sections and rows, and makes the work in `work(path)`.  what: it
+    draws, "Movie"; file_kinds: the formats that there are.
     """
+
+    what: ClassVar[str]
+    file_kinds: ClassVar[tuple[FileKind, ...]]
 
     started = QtCore.Signal(object)
 
     def __init__(
         self,
-        title: str,
-        what: str,
         name: str,
-        kinds: tuple[FileKind, ...],
         exports: Exports,
         parent: QtWidgets.QWidget | None = None,
         side: QtWidgets.QWidget | None = None,
     ) -> None:
-        """what: is drawn, "Movie"; name: of the file, as a proposal and without an extension.
-
-        side: what stands beside the choices.
-        """
+        """name: of the file, as a proposal and without an extension; side: what stands beside the choices."""
         super().__init__(parent)
-        self.setWindowTitle(title)
-        self._what, self._name, self._kinds, self._exports = what, name, kinds, exports
+        self.setWindowTitle(f"Export {self.what.lower()}")
+        self._name, self._exports = name, exports
         self._sentences: dict[QtWidgets.QWidget, QtWidgets.QLabel] = {}
         self._side = side
         self._fill()
         self.section("Format")
-        self.kinds = Segments({kind.name: kind.name for kind in kinds}, "The format of the file")
-        self.kinds.choose(kinds[0].name)
+        self.kinds = Segments({kind.name: kind.name for kind in self.file_kinds}, "The format of the file")
+        self.kinds.choose(self.file_kinds[0].name)
         self.column.addWidget(self.kinds, 0, QtCore.Qt.AlignmentFlag.AlignLeft)
 
     def check(self) -> None:
@@ -100,7 +99,7 @@ class JobDialog(QtWidgets.QDialog):
         """Have it drawn to a path, and close; what is refused is said here instead."""
         with self.refusals_shown():
             self.check()
-            self.started.emit(self._exports.start(self.work(path), path, self._what))
+            self.started.emit(self._exports.start(self.work(path), path, self.what))
             self.accept()
 
     def choose_path(self) -> None:
@@ -110,7 +109,7 @@ class JobDialog(QtWidgets.QDialog):
             self._ask_path()
 
     def _ask_path(self) -> None:
-        kind = next(kind for kind in self._kinds if kind.name == self.kinds.choice())
+        kind = next(kind for kind in self.file_kinds if kind.name == self.kinds.choice())
         files = QtWidgets.QFileDialog(
             self, self.windowTitle(), self._exports.folder, f"{kind.words} (*{kind.extension})"
         )

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import ClassVar
 
 from qtpy import QtWidgets
 
@@ -12,32 +13,32 @@ from ...document.file_names import file_name
 from ...document.page import Recipe
 from ...figures.export import Surfaces, figure_of
 from ...figures.layout import lay_out
+from ...session.array_store import ArrayStore
 from ..look.canvas import offered_styles, style_name
 from .exports import Exports
-from .job_dialog import Choice, Count, FileKind, JobDialog, blamed_on
+from .job_dialog import Choice, Count, JobDialog, blamed_on
 from .size_boxes import SizeBoxes, SizeNames
 
 
 class LooksDialog(JobDialog):
-    """recipe: what the window shows, on these surfaces."""
+    """recipe: what the window shows, on these surfaces; given: arrays that it names.  sizes: that are offered."""
+
+    sizes: ClassVar[SizeNames]
 
     def __init__(
         self,
         recipe: Recipe,
         surfaces: Surfaces,
-        title: str,
-        what: str,
-        kinds: tuple[FileKind, ...],
-        sizes: SizeNames,
+        given: ArrayStore,
         exports: Exports,
         parent: QtWidgets.QWidget | None = None,
         side: QtWidgets.QWidget | None = None,
     ) -> None:
-        name = file_name([each.path for each in recipe.document.surfaces], what.lower())
-        super().__init__(title, what, name, kinds, exports, parent, side)
-        self._recipe, self._surfaces, self._has_one_unit = recipe, surfaces, True
+        name = file_name([each.path for each in recipe.document.surfaces], self.what.lower())
+        super().__init__(name, exports, parent, side)
+        self._recipe, self._surfaces, self._given, self._has_one_unit = recipe, surfaces, given, True
         self.section("Size")
-        self.size = SizeBoxes(sizes)
+        self.size = SizeBoxes(self.sizes)
         self.size.write(recipe.page.size)
         self.column.addWidget(self.size)
         self.room_for_wrong(self.size.width_box)

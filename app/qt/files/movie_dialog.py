@@ -15,18 +15,18 @@ from ..look.layouts import quiet_label
 from .exports import Exports
 from .job_dialog import Count, FileKind, blamed_on
 from .looks_dialog import LooksDialog
-from .size_boxes import SizeNames
-
-MOVIE_KINDS = (FileKind(".mp4", "MP4", "MP4 movie"), FileKind(".gif", "GIF", "GIF"))
-MOVIE_SIZES: SizeNames = (
-    ("Usual", "", "follows what turns"),
-    ("Small", "640px", "640 px wide"),
-    ("Slide", "slide", "1920 × 1080 px"),
-)
 
 
 class MovieDialog(LooksDialog):
     """A movie of what the window shows."""
+
+    what = "Movie"
+    file_kinds = (FileKind(".mp4", "MP4", "MP4 movie"), FileKind(".gif", "GIF", "GIF"))
+    sizes = (
+        ("Usual", "", "follows what turns"),
+        ("Small", "640px", "640 px wide"),
+        ("Slide", "slide", "1920 × 1080 px"),
+    )
 
     def __init__(
         self,
@@ -36,8 +36,7 @@ class MovieDialog(LooksDialog):
         exports: Exports,
         parent: QtWidgets.QWidget | None = None,
     ) -> None:
-        super().__init__(recipe, surfaces, "Export movie", "Movie", MOVIE_KINDS, MOVIE_SIZES, exports, parent)
-        self._given = given
+        super().__init__(recipe, surfaces, given, exports, parent)
         self.section("Movement")
         self.turn = Count(-3600, 3600, 360, suffix="°")
         self.path_text = QtWidgets.QLineEdit(placeholderText="12, 900; empty: it stays")
