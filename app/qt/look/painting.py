@@ -18,7 +18,7 @@ def paint_rounded(
     line: str = "",
     width: float = 1.0,
 ) -> None:
-    """A box with round corners: its ground and its outline, "" for none; painter keeps the pen and the brush."""
+    """Paint a box with round corners, its ground and its outline, "" for none; the painter's pen and brush stay so."""
     painter.setPen(QtGui.QPen(QtGui.QColor(line), width) if line else QtCore.Qt.PenStyle.NoPen)
     painter.setBrush(QtGui.QColor(ground) if ground else QtCore.Qt.BrushStyle.NoBrush)
     painter.drawRoundedRect(box, radius, radius)
