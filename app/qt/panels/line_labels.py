@@ -87,7 +87,7 @@ class LineLabels(QtCore.QObject):
         """For good."""
         self._timer.stop()
         self._panels = tuple
-        self._background.close()
+        self._background.close(waits=False)
 
     def write_now(self, panels: Sequence[DistancePanel] | None = None) -> None:
         """Without waiting, on all panels or on these."""
