@@ -14,6 +14,7 @@ from .options import (
     PANELS,
     SOURCE,
     add_distance,
+    add_output,
     add_rows,
     check_parameters,
     given,
@@ -33,7 +34,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     """All but what only one of the two has.  None stands for what is not given."""
     parser.add_argument("mesh", nargs="?", help="mesh file, or the name of a sample")
     parser.add_argument("beside", nargs="?", help="a second mesh B, to stand beside the first, A")
-    parser.add_argument("-o", "--output", metavar="OUT", required=True, help=files)
+    add_output(parser, files)
     parser.add_argument("--recipe", metavar="NAME.json", help="draw this again; all other options change it")
     parser.add_argument(
         "--mesh", dest="other_mesh", metavar="OTHER", help="with --recipe: the same of another mesh with these vertices"

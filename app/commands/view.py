@@ -18,11 +18,8 @@ WORDS = "open the viewer"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `view` to its parser."""
-    parser.add_argument(
-        "mesh",
-        nargs="?",
-        help="mesh file, the name of a sample, or a session or recipe (default: choose in the window)",
-    )
+    what = "mesh file, the name of a sample, or a session or recipe (default: choose in the window)"
+    parser.add_argument("mesh", nargs="?", help=what)
     parser.add_argument("beside", nargs="?", help="a second mesh, to stand beside the first")
     parser.add_argument("--source", type=source, metavar="V", help=f"what distances start from: {SOURCE}")
     parser.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")

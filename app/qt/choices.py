@@ -128,12 +128,12 @@ class Choices:
 
     def ask_colours(self) -> None:
         """A map from a file."""
-        context = self._context
-        path, _ = QtWidgets.QFileDialog.getOpenFileName(
-            context.widget, "Colours from a file", context.folder, COLOUR_FILES
-        )
-        if path:
+        if path := self._ask_path("Colours from a file", COLOUR_FILES):
             self.take_colours(path)
+
+    def _ask_path(self, title: str, files: str) -> str:
+        context = self._context
+        return str(QtWidgets.QFileDialog.getOpenFileName(context.widget, title, context.folder, files)[0])
 
     def take_colours(self, path: str) -> None:
         """The map in a file, or a sentence why there is none."""
@@ -164,11 +164,7 @@ class Choices:
 
     def ask_ends(self) -> None:
         """Those of a session or recipe."""
-        context = self._context
-        path, _ = QtWidgets.QFileDialog.getOpenFileName(
-            context.widget, "Ranges from a session or recipe", context.folder, "Sessions and recipes (*.json)"
-        )
-        if path:
+        if path := self._ask_path("Ranges from a session or recipe", "Sessions and recipes (*.json)"):
             self.ends.take(path)
 
     # ------------------------------------------------------------------ the window

@@ -76,7 +76,7 @@ class Screen:
             time.sleep(0.005)
 
     def open(self, path, source=None):
-        self.window.open(str(path), source)
+        self.window.context.open(str(path), source)
         # Until it is there, what was shown before is complete.
         self.until(lambda: self.session.is_complete and not self.session.is_opening)
         self.settle(0.1)

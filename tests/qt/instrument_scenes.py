@@ -370,7 +370,7 @@ def _live(d: Driver) -> None:
     from qtpy import QtCore
 
     view = d.window.grid.panels[0].view
-    at = view.mapToGlobal(view.place_of(view.source).toPoint()) * d.look.scale
+    at = view.mapToGlobal(view.place_of(view.handles[0]).toPoint()) * d.look.scale
     assert isinstance(at, QtCore.QPoint)
     places = [(at.x() + round(3 * step * d.look.scale), at.y() - step * d.look.scale) for step in range(14)]
     places += places[::-1][:12]

@@ -124,7 +124,7 @@ def test_closing_asks_where_a_session_has_changed_since_it_was_saved(screen, mes
     file = parts(s.window).session_file
     file.save(str(tmp_path / "s [*].json"))
     s.until(lambda: title(s.window) == ("s [*][*].json[*] - mesh.off - Biharmonic distance", False))
-    s.window.reset_view("top")
+    parts(s.window).views.reset("top")
     assert file.may_close(asked.answering("cancel"))
     assert not asked
     s.session.show(move_source(s.document, 0, 7))

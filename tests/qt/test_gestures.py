@@ -205,7 +205,7 @@ def test_a_live_source_follows_the_pointer_until_escape(loaded):
     target = front(s)
     QtTest.QTest.mouseMove(view, s.point_of(s.panels[0], target))
     s.until(lambda: s.source == target)
-    s.window.cancel()
+    s.window.context.actions["stop"].trigger()
     assert not s.window.actions_by_word["live"].isChecked()
     s.until(lambda: s.session.is_complete)
     QtTest.QTest.mouseMove(view, view.rect().center() + view.rect().center() / 6)
@@ -273,7 +273,7 @@ def test_the_button_of_views_follows_the_camera(loaded):
     assert button.accessibleDescription() == "Home"
     key(s, "Left")
     assert button.accessibleDescription() == "Free"
-    s.window.reset_view("top")
+    parts(s.window).views.reset("top")
     assert button.accessibleDescription() == "Top"
 
 

@@ -284,7 +284,7 @@ def test_a_panel_that_is_removed_keeps_nothing_of_what_it_showed(shown):
     s.settle()
     gc.collect()
     assert shown_by() is None
-    assert kept._loaded is None
+    assert kept.loaded is None
     s.window.session.undo()
     s.until(lambda: s.session.is_complete)
     s.settle()

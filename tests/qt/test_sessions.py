@@ -41,7 +41,7 @@ def arranged(s, mesh):
     document = add_panel(move_source(s.document, 0, 9), quantity("biharmonic - geodesic"))
     s.session.show(replace(document, isolines=12))
     s.panels[2].head.controls[0].chosen.emit(0.25)
-    s.window.reset_view("left")
+    parts(s.window).views.reset("left")
     s.until(lambda: s.session.is_complete)
     s.settle()
 

@@ -90,7 +90,7 @@ def test_without_snapping_a_click_puts_the_source_into_the_face(loaded, tmp_path
     corners = s.session.surface.faces[at.face]
     position = np.array(at.weights) @ s.session.surface.vertices[corners]
     for panel in s.panels:
-        assert np.allclose(panel.view.source, position), "its mark is there on all panels"
+        assert np.allclose(panel.view.handles[0], position), "its mark is there on all panels"
     s.window.actions_by_word["snap"].trigger()
     place += QtCore.QPoint(90, 0)
     click(s, place)
@@ -114,7 +114,7 @@ def test_without_snapping_the_mark_is_dragged_through_faces_and_is_exact_at_the_
     assert any("fields a second" in text and "geodesic, heat method" in text for text in rates)
     assert rates[-1] == "", "nothing is said once it rests"
     assert isinstance(s.source, SurfacePoint)
-    seen = view.place_of(view.source) - (start + QtCore.QPoint(116, 29))
+    seen = view.place_of(view.handles[0]) - (start + QtCore.QPoint(116, 29))
     assert abs(seen.x()) < 1.5
     assert abs(seen.y()) < 1.5
     check_fields(s, parts(s.window).typed_source.box.text(), tmp_path)

@@ -9,6 +9,7 @@ from qtpy import QtCore, QtGui
 from ...marks.line_looks import LineLook, Stroke
 from ...scene.lines_of_sight import seen_in
 from ...scene.style import Style
+from ..look.painting import round_pen
 
 if TYPE_CHECKING:
     from .view import View
@@ -85,9 +86,7 @@ class LineMarks:
 
 def pen_of(stroke: Stroke, style: Style, share: float) -> QtGui.QPen:
     """What a stroke is painted with, in this share of its usual width."""
-    pen = QtGui.QPen(QtGui.QColor.fromRgbF(*style.named(stroke.colour)), share * stroke.width)
-    pen.setCapStyle(QtCore.Qt.PenCapStyle.RoundCap)
-    pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
+    pen = round_pen(QtGui.QColor.fromRgbF(*style.named(stroke.colour)), share * stroke.width)
     if stroke.dots:
         pen.setDashPattern([0.01, stroke.dots / stroke.width])
     return pen

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from qtpy import QtCore, QtGui
 
 from ..look.look import LOOK
+from ..look.painting import paint_rounded
 
 AWAY, HEIGHT, PAD, DOT = 9.0, 21.0, 5.0, 6.0
 """Logical pixels: from the place to the label, its height, beside the text, and from a place to its mark's rim."""
@@ -28,9 +29,7 @@ def paint_texts(painter: QtGui.QPainter, texts: Sequence[MarkText], view: QtCore
         if box is None:
             continue
         ground, ink = (theme.fill, theme.on_fill) if is_lit else (theme.raised, theme.text)
-        painter.setPen(QtGui.QPen(QtGui.QColor(ground if is_lit else theme.text), 1))
-        painter.setBrush(QtGui.QColor(ground))
-        painter.drawRoundedRect(box, 4, 4)
+        paint_rounded(painter, box, 4, ground, ground if is_lit else theme.text)
         painter.setPen(QtGui.QColor(ink))
         painter.drawText(box, QtCore.Qt.AlignmentFlag.AlignCenter, text)
 

@@ -70,8 +70,7 @@ class PointMarks(QtCore.QObject):
         self._view = view
         self._groups: dict[str, Group] = {}
         self.is_meant = False
-        self._rest = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
-        self._rest.timeout.connect(self._look_again)
+        self._rest = QtCore.QTimer(self, singleShot=True, interval=REST_MS, timeout=self._look_again)
 
     # ------------------------------------------------------------------ what there is
     def show(self, key: str, marks: Sequence[PointMark], positions: np.ndarray, lit: Collection[str] = ()) -> None:
@@ -134,12 +133,6 @@ class PointMarks(QtCore.QObject):
         return (*camera.GetPosition(), *camera.GetFocalPoint(), camera.GetParallelProjection())
 
     # ------------------------------------------------------------------ where they are
-    def at(self, renderer: Any, position: np.ndarray) -> QtCore.QPointF:
-        """Where a position (3,) is seen in the view or in an inset, in logical pixels."""
-        x, y = pixel_of(renderer, position)
-        ratio = self._view.devicePixelRatioF()
-        return QtCore.QPointF(x / ratio, self._view.height() - y / ratio)
-
     def standing(self, key: str = "") -> list[tuple[Placed, QtCore.QPointF]]:
         """Those that stand, with their places, what lies lowest first; not those that an inset covers."""
         view, found = self._view, []
@@ -147,7 +140,7 @@ class PointMarks(QtCore.QObject):
             if each.stands:
                 pixel = pixel_of(view.renderer, each.position)
                 if view.scene.insets.renderer_at(*pixel) is view.renderer:
-                    found.append((each, self.at(view.renderer, each.position)))
+                    found.append((each, view.place_of(each.position)))
         return sorted(found, key=lambda each: each[0].level)
 
     def standing_at(self, position: QtCore.QPoint) -> tuple[str, int] | None:
@@ -166,17 +159,15 @@ class PointMarks(QtCore.QObject):
     # ------------------------------------------------------------------ painting
     def paint_flat(self, painter: QtGui.QPainter) -> None:
         """Those that do not stand, also in insets; the hidden ones lie lowest."""
-        view = self._view
-        flat = sorted(
-            (each for each in self.placed() if not each.stands), key=lambda each: (each.is_seen, each.mark.glyph.rank)
-        )
+        view, flat = self._view, [each for each in self.placed() if not each.stands]
         if not flat:
             return
+        flat.sort(key=lambda each: (each.is_seen, each.mark.glyph.rank))
         painter.save()
         for renderer, region, _ in view.parts():
             painter.setClipRegion(region)
             for each in flat:
-                at = self.at(renderer, each.position)
+                at = view.place_of(each.position, renderer)
                 paint_glyph(painter, each.mark, at, view.scene.style, view.proportion, not each.is_seen)
         painter.restore()
 
@@ -211,13 +202,10 @@ def _label_box(
     gap = overlay.LABEL_PADDING
     reach = outline.width() / 2
     middle = outline.top() + reach if outline.top() < tip.y() - 1 else outline.bottom() - reach
-    places = [
-        QtCore.QPointF(outline.right() + gap, middle - size.height() / 2),
-        QtCore.QPointF(outline.left() - gap - size.width(), middle - size.height() / 2),
-        QtCore.QPointF(tip.x() - size.width() / 2, outline.top() - gap - size.height()),
-        QtCore.QPointF(tip.x() - size.width() / 2, outline.bottom() + gap),
-    ]
-    boxes = [QtCore.QRectF(place, size) for place in places]
+    left, top = tip.x() - size.width() / 2, middle - size.height() / 2
+    right_or_left = (outline.right() + gap, top), (outline.left() - gap - size.width(), top)
+    above_or_below = (left, outline.top() - gap - size.height()), (left, outline.bottom() + gap)
+    boxes = [QtCore.QRectF(QtCore.QPointF(*place), size) for place in (*right_or_left, *above_or_below)]
     inside = [box for box in boxes if view.adjusted(4, 4, -4, -4).contains(box)]
     free = [box for box in inside if not any(box.intersects(other) for other in others)]
     return (free or inside or boxes)[0]
