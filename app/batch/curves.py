@@ -39,13 +39,9 @@ def write_curves(folder: Folder, rows: Sequence[Row]) -> tuple[list[str], list[R
             save_error_figure(ErrorFigure(curves, means=means), path)
     overall = next(iter(means.values()))
     facts = {
-        "file": files[0],
-        "shape": [len(curves)],
-        "unit": "no unit",
-        "mean": overall.mean,
-        "median": overall.median,
-        "area_under_curve": overall.area,
-    }
+        "file": files[0], "shape": [len(curves)], "unit": "no unit",
+        "mean": overall.mean, "median": overall.median, "area_under_curve": overall.area,
+    }  # fmt: skip
     return files, [Row(ALL, "evaluate", "", 0.0, False, facts)]
 
 

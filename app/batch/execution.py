@@ -252,12 +252,11 @@ def _join(task: Task, part: Part) -> Report:
         rows = len(mesh.surface.vertices) if part.work == "fields" else part.total
         axis = 1 if part.work == "fields" else 0
         is_both = part.work == "pairs" and not distance.is_symmetric
-        blocks = Blocks(
-            (rows, part.total),
-            np.dtype(task.wanted.dtype),
-            axis,
-            lambda: _both_ways(folder, task, parts) if is_both else (_read_part(folder, task, p) for p in parts),
-        )
+
+        def each() -> Iterator[FloatArray]:
+            return _both_ways(folder, task, parts) if is_both else (_read_part(folder, task, p) for p in parts)
+
+        blocks = Blocks((rows, part.total), np.dtype(task.wanted.dtype), axis, each)
         if part.work == "fields":
             made = Made({"fields": blocks}, facts_of_fields(distance, sources, task.wanted.sources.rule))
         else:

@@ -2,6 +2,8 @@
 
 import math
 import os
+import sys
+from contextlib import suppress
 
 from .work_order import WorkOrder
 
@@ -43,8 +45,6 @@ def allowed(is_expected: bool = False) -> float:
 
     is_expected: whether room was found for it; then no more than its worker has is the only bound.
     """
-    import sys
-
     if "distributed" in sys.modules:
         from distributed import get_worker
 
@@ -60,13 +60,10 @@ def allowed(is_expected: bool = False) -> float:
 
 def available() -> int:
     """Bytes of memory that are free here."""
-    try:
-        with open("/proc/meminfo", encoding="ascii") as file:
-            for line in file:
-                if line.startswith("MemAvailable"):
-                    return int(line.split()[1]) * 1024
-    except OSError:
-        pass
+    with suppress(OSError), open("/proc/meminfo", encoding="ascii") as file:
+        for line in file:
+            if line.startswith("MemAvailable"):
+                return int(line.split()[1]) * 1024
     try:
         return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2
     except (ValueError, OSError, AttributeError):

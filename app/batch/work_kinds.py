@@ -36,30 +36,14 @@ def _kind(
     return WorkKind(word, meaning, frozenset(fields.split()), by_distance, frozenset(options.split()), function)
 
 
+OF_SOURCES = "areas sources dtype arrays mask normalise"
+
 KINDS = {
     kind.word: kind
     for kind in (
-        _kind(
-            "fields",
-            "distances of all vertices from the sources",
-            "areas sources dtype arrays mask normalise",
-            by_distance=True,
-            function="fields",
-        ),
-        _kind(
-            "pairs",
-            "among the sources",
-            "areas sources dtype arrays mask labels layout normalise",
-            by_distance=True,
-            function="pairs",
-        ),
-        _kind(
-            "nearest",
-            "their nearest vertices",
-            "areas sources dtype arrays mask nearest normalise",
-            by_distance=True,
-            function="neighbours",
-        ),
+        _kind("fields", "distances of all vertices from the sources", OF_SOURCES, by_distance=True, function="fields"),
+        _kind("pairs", "among the sources", f"{OF_SOURCES} labels layout", by_distance=True, function="pairs"),
+        _kind("nearest", "their nearest vertices", f"{OF_SOURCES} nearest", by_distance=True, function="neighbours"),
         _kind("eigen", "eigenpairs", "areas eigenpairs dtype arrays normalise", function="eigen"),
         _kind("fps", "farthest points", "areas sources arrays mask normalise", by_distance=True, function="fps"),
         _kind("figure", "a picture", "recipe range maxima", options="source distance areas"),

@@ -54,11 +54,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=int, metavar="N", help="of --sample (default: 0)")
     parser.add_argument("--nearest", type=count, metavar="K", help="for nearest (default: 10)")
     parser.add_argument("--eigenpairs", type=count, metavar="K", help="for eigen (default: 100)")
-    parser.add_argument(
-        "--labels",
-        metavar="FILE",
-        help="for pairs: means between parcels; a number for each vertex, below 0 for none",
-    )
+    of_parcels = "for pairs: means between parcels; a number for each vertex, below 0 for none"
+    parser.add_argument("--labels", metavar="FILE", help=of_parcels)
     parser.add_argument("--mask", metavar="FILE", help="0 or 1 for each vertex: which count")
     parser.add_argument("--recipe", metavar="NAME.json", help="for figure: drawn of each mesh, from its highest vertex")
     parser.add_argument(
@@ -102,9 +99,7 @@ def run(options: argparse.Namespace) -> int:
     folder = Folder(address)
     folder.make()
     maps, unnamed = _maps(options, meshes)
-    evaluated = (
-        [*(map.name for map in maps), *(failure.name for failure in unnamed)] if "evaluate" in wanted.works else None
-    )
+    evaluated = [*(map.name for map in maps), *(each.name for each in unnamed)] if "evaluate" in wanted.works else None
     engine, outcome = _engine(options), Outcome(failures=unnamed)
     try:
         do_all(meshes, maps, wanted, address, version(), engine, _progress, outcome)

@@ -5,9 +5,10 @@ import argparse
 from bihdist_core.counts import counted
 
 from ..document.field_names import distinct, field_name
-from .mesh import Facts, add_meshes, into_each, read_laplacian
-from .options import SOURCE, add_areas, add_distance, quantities, source
-from .terminal import accuracy, progress_line
+from .field_of import field_of
+from .mesh import Facts, add_meshes, into_each
+from .options import SOURCE, add_areas, add_distance, add_output, source
+from .terminal import progress_line
 
 WORDS = "distances of all vertices from one or more sources"
 TEXT = ".csv"
@@ -19,13 +20,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--source", type=source, metavar="V", nargs="+", required=True, help=f"{SOURCE}; several words, several fields"
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="OUT",
-        required=True,
-        help="a .npy, .csv, .ply or .vtp file; {name} is that of each mesh",
-    )
+    add_output(parser, "a .npy, .csv, .ply or .vtp file; {name} is that of each mesh")
     add_distance(parser)
     add_areas(parser)
 
@@ -36,27 +31,15 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _one(options: argparse.Namespace) -> Facts:
-    from bihdist_core.distances.answers import Distances
-    from bihdist_core.distances.difference import PERCENTAGE_POINTS, difference_in_unit
+    from bihdist_core.distances.difference import PERCENTAGE_POINTS
     from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
-    from bihdist_core.sources.pieces import pieces_of
     from bihdist_core.whole_file import check_output
 
     check_output(options.output, FIELD_FORMATS)
-    (chosen,) = quantities(options, [options.distance])
     with progress_line() as progress:
-        laplacian = read_laplacian(options)
-        pieces = [pieces_of(each, laplacian.surface) for each in options.source]
-        distances = Distances(laplacian)
-        known = [distances.get(spec, progress) for spec in chosen.specs]
-        fields = [distance.from_sources(options.source, progress) for distance in known]
-        estimates = "".join(dict.fromkeys(accuracy(distance) for distance in known))
-    labels = [" or ".join(dict.fromkeys(distance.label_from(each) for each in pieces)) for distance in known]
-    columns, label = fields[0], " − ".join(labels)
-    if chosen.is_difference:
-        columns, unit = difference_in_unit(fields[0], fields[1], (known[0].unit, known[1].unit), not chosen.in_percent)
-        label = f"{label}, {unit}" if unit == PERCENTAGE_POINTS else label
-    names = distinct([field_name(chosen, [each]) for each in options.source])
-    write_fields(options.output, laplacian.surface, dict(zip(names, columns.T, strict=True)))
-    size = f"{columns.shape[0]:,} vertices, {counted(columns.shape[1], 'source')}"
-    return {"said": [f"{label}, {size}{estimates}"], "label": label, "shape": list(columns.shape), "fields": names}
+        it = field_of(options, options.distance, progress)
+    label = f"{it.label}, {it.unit}" if it.unit == PERCENTAGE_POINTS else it.label
+    names = distinct([field_name(it.shows, [each]) for each in options.source])
+    write_fields(options.output, it.surface, dict(zip(names, it.field.T, strict=True)))
+    size = f"{it.field.shape[0]:,} vertices, {counted(it.field.shape[1], 'source')}"
+    return {"said": [f"{label}, {size}{it.estimate}"], "label": label, "shape": list(it.field.shape), "fields": names}

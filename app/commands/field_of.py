@@ -1,9 +1,10 @@
-"""One field for a command: of a distance, or of the difference of two, from a source."""
+"""The field of a command: of a distance, or of the difference of two, from a source or from several."""
 
 import argparse
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from ..document.quantities import Quantity
 from .mesh import read_laplacian
 from .options import quantities
 from .terminal import accuracy
@@ -16,18 +17,24 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class FieldOf:
-    """field: (n,), NaN where there is none; word: of letters, digits and `_`; estimate: how accurate it is, in words.
-
-    is_signed: it has values on both sides of 0.
-    """
+    """field: (n,), or (n, k) of several sources, NaN where there is none; estimate: how accurate it is, in words."""
 
     laplacian: "Laplacian"
+    shows: Quantity
     field: "FloatArray"
     label: str
-    word: str
     unit: str
     estimate: str
-    is_signed: bool
+
+    @property
+    def word(self) -> str:
+        """Its name in letters, digits and `_`."""
+        return "_minus_".join(spec.word for spec in self.shows.specs)
+
+    @property
+    def is_signed(self) -> bool:
+        """Whether it has values on both sides of 0."""
+        return self.shows.is_difference
 
     @property
     def surface(self) -> "Surface":
@@ -52,25 +59,26 @@ class FieldOf:
 def field_of(
     options: argparse.Namespace, words: str, progress: "Progress | None", laplacian: "Laplacian | None" = None
 ) -> FieldOf:
-    """What `words` say, from the source, with the options beside them; laplacian: of the mesh if it is there."""
+    """What `words` say, from the source or the sources, with the options beside them.
+
+    laplacian: of the mesh if it is there.
+    """
     from bihdist_core.distances.answers import Distances
     from bihdist_core.distances.difference import difference_in_unit
     from bihdist_core.sources.pieces import pieces_of
 
     (chosen,) = quantities(options, [words])
     laplacian = read_laplacian(options) if laplacian is None else laplacian
-    pieces, distances = pieces_of(options.source, laplacian.surface), Distances(laplacian)
+    distances, source = Distances(laplacian), options.source
+    pieces = [pieces_of(each, laplacian.surface) for each in (source if isinstance(source, list) else [source])]
     known = [distances.get(spec, progress) for spec in chosen.specs]
-    fields = [distance.from_source(options.source, progress) for distance in known]
+    if isinstance(source, list):
+        fields = [distance.from_sources(source, progress) for distance in known]
+    else:
+        fields = [distance.from_source(source, progress) for distance in known]
     unit, field = known[0].unit, fields[0]
     if chosen.is_difference:
         field, unit = difference_in_unit(fields[0], fields[1], (known[0].unit, known[1].unit), not chosen.in_percent)
-    return FieldOf(
-        laplacian,
-        field,
-        " − ".join(distance.label_from(pieces) for distance in known),
-        "_minus_".join(spec.word for spec in chosen.specs),
-        unit,
-        "".join(dict.fromkeys(accuracy(distance) for distance in known)),
-        chosen.is_difference,
-    )
+    labels = [" or ".join(dict.fromkeys(distance.label_from(each) for each in pieces)) for distance in known]
+    estimate = "".join(dict.fromkeys(accuracy(distance) for distance in known))
+    return FieldOf(laplacian, chosen, field, " − ".join(labels), unit, estimate)

@@ -9,11 +9,12 @@ from dataclasses import replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
-from ..figures.options import MAPS, PERTURB, rows, with_options
+from ..figures.options import made_from, rows, with_options, with_rows
 from .options import (
     PANELS,
     SOURCE,
     add_distance,
+    add_output,
     add_rows,
     check_parameters,
     given,
@@ -33,7 +34,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     """All but what only one of the two has.  None stands for what is not given."""
     parser.add_argument("mesh", nargs="?", help="mesh file, or the name of a sample")
     parser.add_argument("beside", nargs="?", help="a second mesh B, to stand beside the first, A")
-    parser.add_argument("-o", "--output", metavar="OUT", required=True, help=files)
+    add_output(parser, files)
     parser.add_argument("--recipe", metavar="NAME.json", help="draw this again; all other options change it")
     parser.add_argument(
         "--mesh", dest="other_mesh", metavar="OTHER", help="with --recipe: the same of another mesh with these vertices"
@@ -42,7 +43,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
         "--source", type=source, metavar="V", action="append", help=f"{SOURCE}; repeat for a row of panels each"
     )
     add_distance(parser, PANELS)
-    add_rows(parser, PERTURB, MAPS, *rows())
+    add_rows(parser, *rows())
     parser.add_argument("--two-views", action="store_true", help="front and back, side by side")
 
 
@@ -69,20 +70,16 @@ def chosen_recipe(options: argparse.Namespace) -> "Recipe":
 
 
 def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
-    from ..document.perturbation import split, with_changed
-
-    values = given(options, PERTURB, MAPS, *rows())
+    values = given(options, *rows())
     if options.two_views:
         values["views"] = [*values.get("views", ()), "front", "back"]
-    document, change = split(recipe.document)
+    document, made = made_from(recipe.document)
     if options.other_mesh is not None:
         document = _with_other_mesh(document, options.other_mesh)
     document, columns = _with_panels(document, options)
-    if change is not None:
-        document = with_changed(document, change)
-    elif columns is not None:
+    if columns is not None and not made:
         recipe = replace(recipe, page=replace(recipe.page, columns=columns))
-    recipe = replace(recipe, document=document)
+    recipe = with_rows(replace(recipe, document=document), made, rows())
     with progress_line() as progress:
         recipe = with_options(recipe, values, lambda document: _with_beside(document, options.beside), tell, progress)
     _tell_if_unseen(recipe.page.style, values)

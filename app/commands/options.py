@@ -3,6 +3,7 @@
 import argparse
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from typing import Any
 
 from bihdist_core.distances.kinds import OURS, Spec, kinds
@@ -35,6 +36,11 @@ def add_distance(parser: argparse.ArgumentParser, several: str = "") -> None:
             metavar="{" + ",".join(parameter.choices) + "}" if parameter.choices else name.upper()[:1],
             help=f"{parameter.meaning}, for {of} (default: {parameter.written(parameter.default)})",
         )
+
+
+def add_output(parser: argparse.ArgumentParser, files: str) -> None:
+    """Add the option of the file that is written."""
+    parser.add_argument("-o", "--output", metavar="OUT", required=True, help=files)
 
 
 def add_rows(parser: argparse.ArgumentParser, *rows: Row | Option, **meanings: str) -> None:
@@ -87,23 +93,18 @@ def add_areas(parser: argparse.ArgumentParser) -> None:
     add_rows(parser, VERTEX_AREAS)
 
 
-def spec(options: argparse.Namespace, text: str) -> Spec:
-    """The distance that a text means with the options beside it."""
-    return Spec.parse(text, **given_parameters(options))
-
-
 def specs(options: argparse.Namespace, texts: Sequence[str]) -> list[Spec]:
-    """The same for several; ParameterError for an option that none of them has."""
+    """The distances that texts mean with the options beside them; ParameterError for an option that none has."""
     for text in texts:
         if " - " in text:
             raise ParameterError(f"{text!r} is a field, and has no value between two vertices; name a distance.")
-    found = [spec(options, text) for text in texts]
+    found = [Spec.parse(text, **given_parameters(options)) for text in texts]
     check_parameters(options, found)
     return found
 
 
 def quantities(options: argparse.Namespace, texts: Sequence[str], fields: Sequence[str] = ()) -> list[Quantity]:
-    """The same for distances, differences, and a recipe's own fields."""
+    """What texts mean with the options beside them: distances, differences, and a recipe's own fields."""
     found = [quantity(text, fields=fields, **given_parameters(options)) for text in texts]
     check_parameters(options, [spec for shows in found for spec in shows.specs])
     return found
@@ -130,35 +131,22 @@ def vertices(text: str) -> list[int]:
 
 
 def count(text: str) -> int:
-    """How many of something."""
-    try:
-        value = int(text)
-    except ValueError:
-        value = 0
-    if value < 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1")
-    return value
-
-
-def _number(text: str) -> float:
-    """NaN for what is none."""
-    try:
-        return float(text)
-    except ValueError:
-        return math.nan
+    """How many of something, from a text; argparse.ArgumentTypeError for another text."""
+    return int(_checked(text, int, lambda value: value >= 1, "a whole number from 1"))
 
 
 def positive(text: str) -> float:
     """A positive finite number from a text; argparse.ArgumentTypeError for another text."""
-    value = _number(text)
-    if not 0 < value < math.inf:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a positive number")
-    return value
+    return _checked(text, float, lambda value: 0 < value < math.inf, "a positive number")
 
 
 def share(text: str) -> float:
     """A fraction from 0 to 1 from a text; argparse.ArgumentTypeError for another text."""
-    value = _number(text)
-    if not 0 <= value <= 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a fraction from 0 to 1")
-    return value
+    return _checked(text, float, lambda value: 0 <= value <= 1, "a fraction from 0 to 1")
+
+
+def _checked(text: str, read: Callable[[str], float], holds: Callable[[float], bool], what: str) -> float:
+    with suppress(ValueError):
+        if holds(value := read(text)):
+            return value
+    raise argparse.ArgumentTypeError(f"{text!r} is not {what}")

@@ -7,7 +7,7 @@ from bihdist_core.counts import counted
 
 from ..version import version
 from .mesh import NAME, Facts, add_meshes, found_mesh, into_each, read_laplacian
-from .options import add_areas, add_distance, count, positive, specs, vertex, vertices
+from .options import add_areas, add_distance, add_output, count, positive, specs, vertex, vertices
 from .terminal import accuracy, progress_line, tell, tell_moved
 
 if TYPE_CHECKING:
@@ -28,11 +28,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     which.add_argument("--pins", metavar="FILE", help="the same among the pins in a .csv, .json or MeshLab's .pp file")
     which.add_argument("--pairs", type=_pair, nargs="+", metavar="I,J", help="the distances of these pairs")
     which.add_argument("--file", metavar="PAIRS.csv", help="the same from a file, a line `i,j` for each pair")
-    which.add_argument(
-        "--all",
-        action="store_true",
-        help="all pairs of the mesh, to a .npy; goes on where it was interrupted, from a hidden .part file beside it",
-    )
+    goes_on = "all pairs of the mesh, to a .npy; goes on where it was interrupted, from a hidden .part file beside it"
+    which.add_argument("--all", action="store_true", help=goes_on)
     which.add_argument(
         "--nearest", type=count, metavar="K", help="to the K nearest vertices of each: `i,j,distance`, nearest first"
     )
@@ -40,13 +37,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--fresh", action="store_true", help="for --all: discard what an interrupted run has left")
     parser.add_argument("--dtype", choices=("float32", "float64"), help="for --all (default: float32)")
     parser.add_argument("--memory", type=positive, metavar="MB", help="for --all (default: 500)")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="OUT",
-        required=True,
-        help=f"a .npy or .csv file, for --nearest also .npz or .json; {NAME}: each mesh's",
-    )
+    add_output(parser, f"a .npy or .csv file, for --nearest also .npz or .json; {NAME}: each mesh's")
     add_distance(parser, "a column; repeat for more (default: biharmonic)")
     add_areas(parser)
 
@@ -176,11 +167,8 @@ def _write_all(options: argparse.Namespace, spec: "Spec") -> Facts:
             tell(f"What is done is kept: {_described(left)}. The same command goes on from there.")
         raise
     count = len(laplacian.surface.vertices)
-    return {
-        "said": [f"{distance.label}, all pairs of {count:,} vertices{estimate}"],
-        "pairs": count**2,
-        "distances": [str(spec)],
-    }
+    said = [f"{distance.label}, all pairs of {count:,} vertices{estimate}"]
+    return {"said": said, "pairs": count**2, "distances": [str(spec)]}
 
 
 def _described(known: "Begun") -> str:

@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from functools import partial
 
 from ..figures.view_options import UP, up_meaning
 from .mesh import found_mesh
@@ -28,10 +29,9 @@ def run(options: argparse.Namespace) -> int:
 
     only = [word for word in options.only.split(",") if word]
     mesh = found_mesh(options.mesh) if options.mesh else None
+    say, up = partial(print, flush=True), options.up or "auto"
     with progress_line() as progress:
-        made = reproduce(
-            options.out, only, mesh, options.quick, progress, lambda line: print(line, flush=True), options.up or "auto"
-        )
+        made = reproduce(options.out, only, mesh, options.quick, progress, say, up)
     print(f"{made.page}: open it in a browser")
     if made.not_done:
         parts = "One part" if made.not_done == 1 else f"{made.not_done} parts"

@@ -18,11 +18,8 @@ WORDS = "open the viewer"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `view` to its parser."""
-    parser.add_argument(
-        "mesh",
-        nargs="?",
-        help="mesh file, the name of a sample, or a session or recipe (default: choose in the window)",
-    )
+    what = "mesh file, the name of a sample, or a session or recipe (default: choose in the window)"
+    parser.add_argument("mesh", nargs="?", help=what)
     parser.add_argument("beside", nargs="?", help="a second mesh, to stand beside the first")
     parser.add_argument("--source", type=source, metavar="V", help=f"what distances start from: {SOURCE}")
     parser.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")
@@ -34,8 +31,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def _rows() -> list[Row]:
     """Of the options of figures those of tools, as far as they are not about the page, and some more."""
-    of_tools = (row for row in tool_rows() if not any(part.startswith("Page.") for part in row.parts))
-    return [COLOURS, UP, VERTEX_AREAS, *of_tools]
+    of_pages = [row for row in tool_rows() if row.is_late or any(part.startswith("Page.") for part in row.parts)]
+    return [COLOURS, UP, VERTEX_AREAS, *(row for row in tool_rows() if row not in of_pages)]
 
 
 def run(options: argparse.Namespace) -> NoReturn:

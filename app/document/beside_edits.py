@@ -8,8 +8,7 @@ from bihdist_core.errors import ParameterError
 from .beside import Beside
 from .camera import View, view_alike
 from .document import Document, MeshFile, Panel, Point, free_names
-from .edits import MOST_ADDED, add_panel, put_point
-from .prediction import show_distances
+from .edits import MOST_ADDED, add_panel, put_point, show_distances
 from .quantities import DistanceFrom, Quantity, own_fields
 from .removal import without_surfaces
 
@@ -58,7 +57,7 @@ def close_beside(document: Document) -> Document:
         beside=(),
     )
     if document.panels:
-        return show_distances(document)
+        return show_distances(document, lambda panel: panel.shows.relates_surfaces)
     if all(point.name != "source" for point in document.points):
         document = replace(document, points=(*document.points, Point("source", None, first)))
     return add_panel(document, DistanceFrom(Spec.of("biharmonic")), first)

@@ -7,10 +7,9 @@ from bihdist_core.distances.kinds import Spec, kinds
 from bihdist_core.sources.source import Source
 
 from .camera import view_alike
+from .derived_surfaces import changed_mesh, without_changed
 from .document import COMPARISON, Document, MeshFile, Panel, Point, free_names
-from .perturbation import without_changed
 from .quantities import DistanceFrom, Quantity, from_point, own_fields
-from .regions import DividedPanels, can_divide, show_regions
 from .removal import without_surfaces
 
 MOST_ADDED = 6
@@ -94,6 +93,44 @@ def show_in(document: Document, panel: int, shows: Quantity) -> Document:
     )
 
 
+def show_in_row(document: Document, panel: int, shows: Quantity) -> Document:
+    """Show another quantity in a panel; another distance goes into all three panels of a change.
+
+    Of these, before and after are compared with each other.
+    """
+    before = document.panel(panel)
+    if changed_mesh(document) is None or not (_is_in_row(shows) and _is_in_row(before.shows)):
+        return show_in(document, panel, shows)
+    old, roots = before.shows.specs, {point.name: point.image_of or point.name for point in document.points}
+    root = roots[before.shows.points[0]]
+    for other in document.panels:
+        now = other.shows
+        if _is_in_row(now) and now.specs == old and roots[now.points[0]] == root:
+            document = show_in(document, other.id, now.with_spec(shows.specs[0]))
+    return document
+
+
+def _is_in_row(shows: Quantity) -> bool:
+    """Whether it is a distance before or after a change, or what the change does to it."""
+    return shows.is_distance or shows.compares_meshes
+
+
+def show_distances(document: Document, is_meant: Callable[[Panel], bool]) -> Document:
+    """Every panel that is meant shows the distance that its quantity is made by, from where others start."""
+    for panel in document.panels:
+        if not is_meant(panel):
+            continue
+        (spec,), name = panel.shows.specs, source_name(document, panel.id)
+        if not name:
+            here = [p.name for p in document.points if p.name.startswith("source") and p.surface == panel.surface]
+            name = (here or free_names("source", 1, [point.name for point in document.points]))[0]
+        if all(point.name != name for point in document.points):
+            document = put_point(document, name, None, panel.surface)
+        shown = replace(panel, shows=DistanceFrom(spec, name), maximum=None)
+        document = replace(document, panels=tuple(shown if p.id == panel.id else p for p in document.panels))
+    return document
+
+
 def add_panel(document: Document, shows: Quantity, surface: str = "A") -> Document:
     """One more panel, at the end, with an id that no panel has had."""
     panel = Panel(document.next_id, shows, surface)
@@ -141,7 +178,7 @@ def add_another(document: Document, surface: str | None = None) -> Document:
     word = next((word for word in words if word not in shown), words[0])
     surface = document.surfaces[0].name if surface is None else surface
     here = document.panels_of(surface)
-    if here and all(panel.shows.is_prediction for panel in here):
+    if here and all(panel.shows.relates_surfaces and not panel.shows.is_map for panel in here):
         return add_panel(document, here[0].shows.with_spec(Spec.of(word)), surface)
     starting = [name for panel in document.panels_of(surface) for name in panel.shows.points]
     starting += [point.name for point in document.points if point.name == "source" and point.surface == surface]
@@ -173,29 +210,3 @@ def show_dock(document: Document, dock: str, is_open: bool = True) -> Document:
 def mark_extrema(document: Document, is_shown: bool = True) -> Document:
     """Whether extrema away from the source have triangles, in figures too."""
     return replace(document, extrema=is_shown)
-
-
-ADD = "Add a panel"
-
-PANEL_EDITS: dict[str, Callable[[Document, int], Document]] = {
-    ADD: lambda document, panel: add_another(document, document.panel(panel).surface),
-    "Duplicate this panel": duplicate_panel,
-    "Move it back": lambda document, panel: move_panel(document, panel, max(place_of(document, panel) - 1, 0)),
-    "Move it on": lambda document, panel: move_panel(document, panel, place_of(document, panel) + 1),
-    "Regions of the pins": lambda document, panel: show_regions(
-        document, panel, panel not in document[DividedPanels].regions
-    ),
-    "Remove it": remove_panel,
-}
-"""What the menu over a panel offers."""
-
-
-def possible_edits(document: Document, panel: int, most: int) -> set[str]:
-    """Those of them that make sense; no more than `most` panels are made, and one stays."""
-    count, place = len(document.panels), place_of(document, panel)
-    possible = {ADD, "Duplicate this panel"} if count < most else set()
-    possible |= {"Move it back"} if place > 0 else set()
-    possible |= {"Move it on"} if place < count - 1 else set()
-    if panel in document[DividedPanels].regions or can_divide(document, panel):
-        possible |= {"Regions of the pins"}
-    return possible | ({"Remove it"} if count > 1 else set())

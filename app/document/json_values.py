@@ -7,7 +7,7 @@ import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, fields, is_dataclass
-from functools import reduce
+from functools import cache, reduce
 from operator import or_
 from types import NoneType, UnionType
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
@@ -125,8 +125,12 @@ def reader_of(kind: Any, special: Mapping[Any, Reader] = NONE) -> Reader:
 
 def field_readers(kind: Any, special: Mapping[Any, Reader] = NONE) -> dict[str, Reader]:
     """The readers of a dataclass' fields."""
-    types = get_type_hints(kind)
+    types = _types_of_fields(kind)
     return {each.name: reader_of(types[each.name], special) for each in fields(kind)}
+
+
+_types_of_fields = cache(get_type_hints)
+"""Dataclasses do not change, and their annotations take long to read."""
 
 
 def _row(readers: list[Reader]) -> Reader:

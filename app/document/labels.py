@@ -1,4 +1,4 @@
-"""The names and colours of what users mark: pins, pairs, anchors, selections."""
+"""The names and colours of what users mark."""
 
 from collections.abc import Iterable
 from typing import Protocol

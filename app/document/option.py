@@ -44,7 +44,7 @@ class Option:
     help; metavar, choices: as argparse takes them.  read: the text behind the option as a value, ParameterError if it
     is none; write: the inverse, where None is an option without text.  bare: the value of the option without text.
     repeats: the value is a list, and the option is given for each of its elements; may_be_lone: the argument takes one
-    of them without a list, too.
+    of them without a list, too.  replaces_panels: whether other panels than those of the distances are shown.
     """
 
     name: str
@@ -58,6 +58,7 @@ class Option:
     bare: Any = None
     repeats: bool = False
     may_be_lone: bool = False
+    replaces_panels: bool = False
 
     @property
     def word(self) -> str:
@@ -82,14 +83,23 @@ class Row:
 
     parts: of documents and pages, such as "Isolines.bold".  get: of a recipe, the values of those options that have to
     be given, by name; NotExpressible where none say it.  put: the recipe with such values; ParameterError where they
-    make no sense.  reason: why no option needs to say the parts, if none does.
+    make no sense.  is_of_two: whether it is put once all else is, and the second mesh is there.  made_from: of a
+    document, the one that the row has made it from, and the option's value; None for no value.  reason: why no option
+    needs to say the parts, if none does.
     """
 
     options: tuple[Option, ...] = ()
     parts: tuple[str, ...] = ()
     get: Callable[[Recipe], Mapping[str, Any]] = lambda recipe: {}
     put: Callable[[Recipe, Mapping[str, Any]], Recipe] = lambda recipe, values: recipe
+    is_of_two: bool = False
+    made_from: Callable[[Document], tuple[Document, Any]] | None = None
     reason: str = ""
+
+    @property
+    def is_late(self) -> bool:
+        """Whether it makes another document of the one that all other rows are about."""
+        return self.is_of_two or self.made_from is not None
 
 
 def attribute(path: str, meaning: str, metavar: str | None = None, name: str = "", **how: Any) -> Row:
@@ -128,7 +138,7 @@ def _at(owner: Any, path: str) -> Any:
 
 
 def vertex_of(point: Point) -> int | None:
-    """That of an anchor, or of a point that isolines pass through; None where nobody has put it."""
+    """The vertex that a point is at, None where nobody has put it; NotExpressible for a point elsewhere."""
     if point.at is not None and not isinstance(point.at, int):
         raise NotExpressible("An anchor is at no vertex.")
     return point.at

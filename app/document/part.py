@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 if TYPE_CHECKING:
+    from bihdist_core.surface import Surface
+
     from .document import Document
 
 
@@ -32,6 +34,11 @@ class Part:
         """The names of the document's surfaces that it refers to."""
         return ()
 
+    @property
+    def has_values(self) -> bool:
+        """Whether what it marks has values, which a figure may show beside the marks."""
+        return False
+
     def check(self, document: "Document") -> None:
         """ParameterError if it does not fit the document; that its points and surfaces are there is known."""
 
@@ -50,6 +57,9 @@ class Part:
     def with_paths(self, named: Callable[[str], str]) -> "Part":
         """The part with other paths of the files that it names."""
         return self
+
+    def check_files(self, surfaces: Mapping[str, "Surface"]) -> None:
+        """ParameterError if a file that it names is not what it was; surfaces: by their names in the document."""
 
     def work(self, document: "Document") -> Mapping[str, Iterable[object]]:
         """What takes effort to make again, by what it is called; what has moved is other work."""

@@ -38,14 +38,11 @@ class Quantity(ABC):
     is_difference: ClassVar[bool] = False
     """Whether it is one quantity less another, with a sign."""
 
-    is_prediction: ClassVar[bool] = False
-    """Whether its least value is where a point of the other surface is predicted."""
+    relates_surfaces: ClassVar[bool] = False
+    """Whether it says what of one surface belongs where on another, so that there have to be two."""
 
     is_map: ClassVar[bool] = False
     """Whether it is shown in colours, one at each vertex, and has no values."""
-
-    has_anchors: ClassVar[bool] = False
-    """Whether it is made of the document's anchors."""
 
     @property
     def interpolates(self) -> bool:
@@ -93,6 +90,10 @@ class Quantity(ABC):
 
     def check(self, document: "Document", surface: str) -> None:  # noqa: B027 (most need nothing)
         """ParameterError if a document has not what it is made of, on a surface of that name."""
+
+    def marks_extrema(self, document: "Document") -> bool:
+        """Whether its extrema are marked in the window, although the document does not say so."""
+        return False
 
     def with_paths(self, named: Callable[[str], str]) -> "Quantity":
         """The quantity with other paths of the files that it names."""
@@ -346,8 +347,7 @@ def own_fields(shows: Quantity) -> tuple[OwnField, ...]:
 def quantity(text: str, point: str = "source", fields: Collection[str] = (), **parameters: object) -> Quantity:
     """From a distance as `Spec.parse` reads it, or two: "biharmonic - diffusion(t=1/4)", "raw biharmonic - geodesic".
 
-    "interpolant by biharmonic" and "prediction by biharmonic" are as good as a distance.
-    "map by biharmonic" and "position colours" are shown in colours.
+    What tools add, such as "interpolant by biharmonic", is as good as a distance, unless it is shown in colours.
 
     fields: names of the user's own, each as good as a distance.  parameters: values of those not named in the text.
     ParameterError for what is neither.

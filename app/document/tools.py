@@ -32,8 +32,11 @@ class Tool:
     found.  dock: its `Instrument`, if it has one.  gesture: its `Gesture`, what clicks and drags mean.  commands:
     modules of commands, by their words.  quantities: subclasses of `Quantity` that panels can show.  parts:
     subclasses of `Part`, of documents.  options: a tuple of `Row`, what figures can be told of them.
-    marks: a function from a `MarkedPanel` to what is marked there, primitives of `marks.primitives`.  actions: a tuple
-    of `Act`, what can be done by a menu or a key beside opening the dock.
+    marks: a function from a `MarkedPanel` to what is marked there, primitives of `marks.primitives`.
+    findings: a class of which each window has one, made with a `Context` once there are panels, that finds out beside
+    the window's thread what is marked and shown.  panel_edits: a tuple of `PanelEdit`, for the menu over a panel.
+    actions: a tuple of `Act`, what can be done by a menu or a key beside opening the dock.
+    add_panel: a function from a document to that with more panels; None where it is one more panel, as usual.
     """
 
     package: str
@@ -52,7 +55,10 @@ class Tool:
     parts: tuple[str, ...] = ()
     options: str = ""
     marks: str = ""
+    findings: str = ""
+    panel_edits: str = ""
     actions: str = ""
+    add_panel: str = ""
 
     def load(self, name: str) -> Any:
         """What a name such as "dock:PinsDock" means, or the module if there is no colon in it."""

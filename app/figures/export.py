@@ -12,22 +12,19 @@ from bihdist_core.progress import Progress, part
 from bihdist_core.sources.words import short_words_of
 from bihdist_core.whole_file import check_output, whole_file
 
+from ..document.derived_surfaces import COLUMNS, changed_mesh
 from ..document.document import Document, Panel, Zoom, starting_points
 from ..document.looks import NO_LINES, Isolines
-from ..document.maps import Maps
 from ..document.page import Recipe
-from ..document.perturbation import COLUMNS, changed_mesh
 from ..marks.marked_panel import MarkedPanel, marks_of
-from ..marks.primitives import AreaMark, LineMark, PointMark, Remark, SurfaceMark
+from ..marks.primitives import AreaMark, Caption, LineMark, PointMark, Remark, SurfaceMark
 from ..scene.levels import in_unit
 from ..scene.style import style_of
 from ..session.array_store import ArrayStore
 from ..session.bar_ends import own_end, typed_end
+from ..session.derived_surfaces import carried
 from ..session.isoline_points import passed
 from ..session.loaded_mesh import LoadedMesh, open_mesh
-from ..session.map_answers import map_in
-from ..session.pair_locations import plain_heading
-from ..session.perturbed_meshes import carried
 from ..session.questions import questions, source_at, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
 from .description import Figure, FigurePanel
@@ -68,10 +65,8 @@ def open_document(recipe: Recipe, given: ArrayStore) -> tuple[Document, Surfaces
         document = loaded.settled(document)
     for loaded in surfaces.values():
         loaded.beside = tuple(surfaces.values())
-    if document[Maps].maps:
-        one, two, *_ = surfaces.values()
-        for map in document[Maps].maps:
-            map_in(map, one.surface, two.surface)
+    for each in document.parts:
+        each.check_files({name: loaded.surface for name, loaded in surfaces.items()})
     return document, surfaces
 
 
@@ -202,7 +197,8 @@ def _figure_panel(
     if starts and len(starting) > 1:
         heading += f", from {', '.join(map(short_words_of, starts))}"
     hint = "; ".join(text for text in (panel.shows.hint * recipe.page.hints, answer.remark) if text)
-    heading, hint = plain_heading(document, panel, loaded, answer) or (heading, hint)
+    for caption in (mark for mark in marks if isinstance(mark, Caption) and mark.plain):
+        heading, hint = caption.plain, caption.sentence[0]
     through = passed(document, panel.surface, loaded, answer)
     up = document.up_of(panel.surface)
     up = up if up != "auto" else loaded.up

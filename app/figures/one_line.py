@@ -12,18 +12,17 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from bihdist_core.applications.changes import words_of_change
 from bihdist_core.sources.source import Curve
 from bihdist_core.sources.words import NONE
 
+from ..document.derived_surfaces import COLUMNS
 from ..document.document import COMPARISON
 from ..document.option import NotExpressible, Option, Row, with_attribute
 from ..document.page import Recipe
-from ..document.perturbation import COLUMNS, split
 from ..document.quantities import Quantity, from_point, own_fields
 from ..document.starts import Starts, as_argument
 from ..samples import mesh_path
-from .options import PERTURB, rows, rows_of_sources
+from .options import made_from, rows, rows_of_sources
 
 
 # ---------------------------------------------------------------------- the lines
@@ -84,14 +83,17 @@ def _joined(words: list[str]) -> str:
 
 def _options_of(recipe: Recipe) -> Iterator[tuple[Option, Any]]:
     """What has to be said, in the order of the table, with its values; NotExpressible for what cannot be."""
-    document, change = split(recipe.document)
-    if change is not None:
-        pose = mesh_word(change.pose) if change.pose else ""
-        yield PERTURB, words_of_change(replace(change, pose=pose))
+    document, made = made_from(recipe.document)
+    if made:
+        yield from _values_of(recipe, *(row for row in rows() if row.made_from is not None))
         columns = None if recipe.page.columns in (None, COLUMNS) else recipe.page.columns
         recipe = replace(recipe, document=document)
         recipe = with_attribute(recipe, "page.columns", columns or rows_of_sources(recipe))
-    for row in (PANELS, *rows()):
+    yield from _values_of(recipe, PANELS, *rows())
+
+
+def _values_of(recipe: Recipe, *those: Row) -> Iterator[tuple[Option, Any]]:
+    for row in those:
         values = row.get(recipe)
         yield from ((option, values[option.name]) for option in row.options if option.name in values)
 

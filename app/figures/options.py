@@ -7,11 +7,9 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-from bihdist_core.applications.changes import change_from_words
-from bihdist_core.errors import ParameterError
 from bihdist_core.progress import Progress
 
-from ..document import between
+from ..document.derived_surfaces import COLUMNS
 from ..document.document import AREAS, Document
 from ..document.looks import PROJECTIONS
 from ..document.option import (
@@ -23,7 +21,6 @@ from ..document.option import (
     with_attribute,
 )
 from ..document.page import Recipe
-from ..document.perturbation import COLUMNS, split, with_changed
 from ..document.tools import tools
 from .look_options import COLOURS, ISOLINES, RANGE, SHADING, with_range
 from .view_options import UP, VIEWS, ZOOMS
@@ -45,61 +42,6 @@ def _columns_of(recipe: Recipe) -> dict[str, Any]:
         raise NotExpressible("The panels of several sources are in one row.")
     return {} if recipe.page.columns == usual else {"columns": recipe.page.columns}
 
-
-# ---------------------------------------------------------------------- another mesh
-PERTURB = Option(
-    "perturb",
-    "each distance before and after a change to the mesh, and the difference: pose=FILE, cut=FACES, simplify=N, "
-    "noise=S, along=normals, holes=N, radius=R, weld=I:J, handle=I:J, seed=K, with commas between them",
-    "",
-    metavar="WORDS",
-)
-
-
-def _with_maps(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
-    import numpy as np
-
-    from bihdist_core.formats.vertex_maps import read_pairs
-
-    document, pairs = recipe.document, values.get("pairs", ())
-    pairs = np.asarray(read_pairs(pairs) if isinstance(pairs, str) else pairs)
-    if pairs.size:
-        if pairs.ndim != 2 or pairs.shape[1] != 2 or pairs.dtype.kind not in "iu":
-            raise ParameterError(f"Pairs are whole numbers of shape (k, 2), not {pairs.dtype} of {pairs.shape}.")
-        document = between.with_pairs(document, [(int(i), int(j)) for i, j in pairs])
-    if "predict" in values and values.get("maps"):
-        raise ParameterError(
-            "--predict and --map (in Python predict= and maps=) are figures of their own; leave one of them out."
-        )
-    if "predict" in values:
-        document = between.with_prediction(document, values["predict"])
-    elif len(values.get("maps", ())):
-        document = between.with_maps(document, values["maps"])
-    return replace(recipe, document=document)
-
-
-MAPS = Row(
-    (
-        Option(
-            "maps",
-            "instead of distances where each vertex of A is on B, in colours: a .npy or .txt file with one of B for "
-            f"each of A; or `{between.PAIRS}`, for the maps by each --distance from --pairs; repeat",
-            (),
-            flag="map",
-            metavar="MAP",
-            repeats=True,
-        ),
-        Option(
-            "predict",
-            "instead of distances how badly each vertex of B fits vertex V of A, by each --distance from --pairs, and "
-            "which fits best",
-            metavar="V",
-            read=int,
-        ),
-        Option("pairs", "known pairs, a line `i,j` for each: vertex i of A is j of B", (), metavar="FILE"),
-    ),
-    put=_with_maps,
-)
 
 # ---------------------------------------------------------------------- all of them
 ROWS = (
@@ -166,7 +108,16 @@ def rows() -> tuple[Row, ...]:
 
 def arguments() -> dict[str, Option]:
     """By name, what `bihdist.figure` takes besides a mesh, what is shown of it, and from where."""
-    return {option.name: option for row in (*rows(), MAPS) for option in row.options} | {PERTURB.name: PERTURB}
+    return {option.name: option for row in rows() for option in row.options}
+
+
+def made_from(document: Document) -> tuple[Document, dict[str, Any]]:
+    """The document that a row has made this one from, and the value of its option; itself and {} if none has."""
+    for row in rows():
+        made, value = (document, None) if row.made_from is None else row.made_from(document)
+        if value is not None:
+            return made, {row.options[0].name: value}
+    return document, {}
 
 
 def with_rows(recipe: Recipe, values: Mapping[str, Any], those: Iterable[Row]) -> Recipe:
@@ -189,21 +140,24 @@ def with_options(
     beside: the document with a second mesh, if there is to be one.  tell: gets a sentence on colour bars that end as in
     a file.  progress: of fields that this takes.
     """
-    document, change = split(recipe.document)
-    was = recipe.page.columns if change is not None else None
-    recipe = with_rows(replace(recipe, document=document), values, rows())
+    document, made = made_from(recipe.document)
+    was = recipe.page.columns if made else None
+    first = [row for row in rows() if not row.is_late]
+    recipe = with_rows(replace(recipe, document=document), values, first)
     ends = values.get("range")
     is_ranged = bool({"range", "shared_range"} & {*values})
     # What replaces the panels has colour bars of its own.
-    is_of_all = bool({"maps", "predict"} & {*values}) or (
+    is_of_all = any(option.replaces_panels for name, option in arguments().items() if name in values) or (
         isinstance(ends, list | tuple) and len(ends) not in (1, len(document.panels))
     )
     if is_ranged and not is_of_all:
         recipe = with_range(recipe, values, tell, progress)
-    if "perturb" in values:
-        change, was = change_from_words(values["perturb"]), None
-    if change is not None:
-        recipe = replace(recipe, document=with_changed(recipe.document, change))
-        recipe = with_attribute(recipe, "page.columns", values.get("columns") or was or COLUMNS)
-    recipe = with_rows(replace(recipe, document=beside(recipe.document)), values, [MAPS])
+    making = [row for row in rows() if row.made_from is not None]
+    chosen = {option.name: values[option.name] for row in making for option in row.options if option.name in values}
+    if chosen or made:
+        recipe = with_rows(recipe, chosen or made, making)
+        columns = values.get("columns") or (None if chosen else was) or COLUMNS
+        recipe = with_attribute(recipe, "page.columns", columns)
+    last = [row for row in rows() if row.is_of_two]
+    recipe = with_rows(replace(recipe, document=beside(recipe.document)), values, last)
     return with_range(recipe, values, tell, progress) if is_ranged and is_of_all else recipe

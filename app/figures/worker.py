@@ -67,7 +67,7 @@ class FigureJob:
     Both functions are called on threads of the job's.
     """
 
-    def __init__(self, work: Callable[..., None], progress: Progress, ended: Ended) -> None:
+    def __init__(self, work: Callable[..., object], progress: Progress, ended: Ended) -> None:
         self._cancelled = False
         self._worker = Worker()
         self._thread = threading.Thread(target=self._run, args=(work, progress, ended), name="figure", daemon=True)
@@ -87,7 +87,7 @@ class FigureJob:
         """Wait until the figure is drawn, at most so many seconds; None for any time."""
         self._thread.join(timeout)
 
-    def _run(self, work: Callable[..., None], progress: Progress, ended: Ended) -> None:
+    def _run(self, work: Callable[..., object], progress: Progress, ended: Ended) -> None:
         message: str | None = GONE
         try:
             self._worker.ask(work, progress=progress)

@@ -13,7 +13,7 @@ from bihdist_core.sources.words import short_words_of
 
 from ..document.document import Document, Panel
 from ..document.source_edits import members_of
-from ..session.isoline_points import passed
+from ..session.isoline_points import IsolinePoint, passed
 from ..session.loaded_mesh import LoadedMesh
 from ..session.questions import source_at
 from .glyphs import DOT, LARGEST
@@ -22,40 +22,45 @@ from .primitives import LineMark, PointMark, SurfaceMark
 
 def field_marks(document: Document, panel: Panel, loaded: LoadedMesh, answer: Answer) -> list[SurfaceMark]:
     """Dots on isolines through points, discs and lines where the field starts, and the largest of a difference."""
-    starts = [source_at(document.point(name).at, loaded.surface) for name in panel.shows.points]
     return [
-        *_isoline_points(document, panel, loaded, answer),
-        *(mark for start in starts for mark in source_points(start, loaded.surface)),
-        *_source_lines(starts, loaded.surface),
-        *_largest(answer),
+        *isoline_points(passed(document, panel.surface, loaded, answer), answer),
+        *starts(document, panel, loaded.surface),
+        *largest(answer),
     ]
 
 
-def _isoline_points(document: Document, panel: Panel, loaded: LoadedMesh, answer: Answer) -> list[PointMark]:
-    """See `scene.levels` on the values that have a line."""
+def isoline_points(points: Sequence[IsolinePoint], answer: Answer) -> list[PointMark]:
+    """A dot on each isoline through a point; see `scene.levels` on the values that have a line."""
     low = -answer.maximum if answer.is_signed else 0.0
-    found = [p for p in passed(document, panel.surface, loaded, answer) if low < p.value < answer.maximum]
+    found = [p for p in points if low < p.value < answer.maximum]
     return [PointMark(p.vertices[0], DOT, corners=p.vertices, weights=p.weights) for p in found]
 
 
-def source_points(start: Source, surface: Surface) -> list[PointMark]:
+def starts(document: Document, panel: Panel, surface: Surface) -> list[PointMark | LineMark]:
+    """Where the field of a panel starts: discs, which can be dragged, and the lines of boundary loops and curves."""
+    sources = [source_at(document.point(name).at, surface) for name in panel.shows.points]
+    points = [point for source in sources for point in _source_points(source, surface)]
+    return [*points, *_source_lines(sources, surface)]
+
+
+def _source_points(start: Source, surface: Surface) -> list[PointMark]:
     """A disc for each vertex and each place in a face."""
     marks = []
     points = pieces_of(start, surface).points
     for face, corners, weights in zip(points.faces.tolist(), points.corners, points.start, strict=True):
         vertex = int(corners[weights.argmax()])
         if weights.max() == 1:
-            marks.append(PointMark(vertex))
+            marks.append(PointMark(vertex, is_handle=True))
             continue
         place = SurfacePoint(face, tuple(weights.tolist()))
-        name = f"The place {short_words_of(place)}"
-        marks.append(PointMark(vertex, corners=tuple(corners.tolist()), weights=place.weights, name=name))
+        name, ids = f"The place {short_words_of(place)}", tuple(corners.tolist())
+        marks.append(PointMark(vertex, corners=ids, weights=place.weights, name=name, is_handle=True))
     return marks
 
 
-def _source_lines(starts: Sequence[Source], surface: Surface) -> list[LineMark]:
+def _source_lines(sources: Sequence[Source], surface: Surface) -> list[LineMark]:
     """Those of boundary loops and curves."""
-    members = dict.fromkeys(member for start in starts for member in members_of(start))
+    members = dict.fromkeys(member for source in sources for member in members_of(source))
     return [
         line
         for member in members
@@ -91,7 +96,7 @@ def source_lines(pieces: Pieces, name: str = "") -> list[LineMark]:
     return [LineMark(corners[at[ids]], weights[at[ids]], closed, name=name) for ids, closed in found]
 
 
-def _largest(answer: Answer) -> list[PointMark]:
+def largest(answer: Answer) -> list[PointMark]:
     """The place of the largest difference, with its value and name."""
     vertex = answer.largest
     if vertex is None or answer.field is None:

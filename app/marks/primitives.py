@@ -17,6 +17,7 @@ class PointMark:
     colour: such as "#1F7A3D", or a name that `Style.named` knows.  text: stands beside it; value: too, where values are
     asked for.  aside: behind the text, less loud.  number: stands in glyphs that have room for one.  name: in
     sentences, its vertex or its number if empty.  point: the name of the document's point that is there, if one is.
+    is_handle: in the window it can be dragged, though it lies flat.
     """
 
     vertex: int
@@ -30,6 +31,7 @@ class PointMark:
     value: str = ""
     aside: str = ""
     point: str = ""
+    is_handle: bool = False
 
     def on(self, vertices: FloatArray) -> FloatArray:
         """(3,) where it is on a surface with these vertices (n, 3)."""
@@ -109,4 +111,18 @@ class Remark:
     text: str
 
 
-SurfaceMark = PointMark | LineMark | AreaMark | LegendRow | Remark
+@dataclass(frozen=True)
+class Caption:
+    """What stands at a panel besides its field.
+
+    sentence: in place of the colour bar, and the same in fewer words, the first for which there is room.  value: at the
+    bar while nothing is pointed at, with the words for its unit.  plain: the name of a surface that is shown as it is.
+    """
+
+    sentence: tuple[str, ...] = ()
+    value: float | None = None
+    unit: str = ""
+    plain: str = ""
+
+
+SurfaceMark = PointMark | LineMark | AreaMark | LegendRow | Remark | Caption

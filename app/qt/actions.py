@@ -26,7 +26,7 @@ class Act:
     tip: str = ""
     icon: str = ""
     of_view: bool = False
-    needs_mesh: bool = False
+    needs_mesh: bool = True
     is_check: bool = False
     is_on: bool = False
     lack: str = ""

@@ -63,8 +63,7 @@ def _drawn_through_x() -> Iterator[None]:
 def run_until(condition: Callable[[], bool]) -> None:
     """Let Qt work until the condition holds; KeyboardInterrupt if the user presses Ctrl+C meanwhile."""
     loop = QtCore.QEventLoop()
-    timer = QtCore.QTimer(interval=POLL_MS)
-    timer.timeout.connect(loop.quit)
+    timer = QtCore.QTimer(interval=POLL_MS, timeout=loop.quit)
     timer.start()
     with interrupts_noted():
         while not (condition() or _interrupts):

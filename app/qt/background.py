@@ -1,6 +1,8 @@
 """What an instrument computes beside the window's thread: the latest that is asked for, and nothing else."""
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
+from functools import partial
 from typing import Any
 
 from qtpy import QtCore
@@ -35,23 +37,27 @@ class Background(QtCore.QObject):
         self._latest = request
         self._worker.submit(request)
 
-    def close(self) -> None:
-        """End the thread; what it computes is not wanted any more."""
+    def close(self, waits: bool = True) -> None:
+        """End the thread, and wait for it; what it computes is not wanted any more."""
         self._latest = None
-        self._worker.close()
+        (self._worker.close if waits else self._worker.end)()
 
     # ------------------------------------------------------------------ on the lane
     def _work(self, request: Any, worker: LatestRequestWorker[Any]) -> None:
         progress = worker.progress(lambda latest: latest is request)
         for answer in self._compute(request, progress):
             progress(0, "")  # Cancelled if nobody wants the rest
-            self._posted.emit(lambda answer=answer: self._arrive(request, answer))
+            self._post(partial(self._arrive, request, answer))
 
     def _fail(self, request: Any, error: Exception) -> None:
-        self._posted.emit(lambda: self._tell(request, failure_in_words(error)))
+        self._post(partial(self._tell, request, failure_in_words(error)))
 
     def _report(self, fraction: float | None, words: str) -> None:
-        self._posted.emit(lambda: self.progressed.emit(None if fraction is None or not words else (fraction, words)))
+        self._post(lambda: self.progressed.emit(None if fraction is None or not words else (fraction, words)))
+
+    def _post(self, function: Callable[[], None]) -> None:
+        with suppress(RuntimeError):  # nobody waited for the thread, and the window is gone
+            self._posted.emit(function)
 
     # ------------------------------------------------------------------ on the window's thread
     @staticmethod

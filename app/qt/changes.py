@@ -5,8 +5,7 @@ from typing import NamedTuple
 
 from qtpy import QtCore
 
-from ..document.anchors import Anchor, Anchors
-from ..document.document import Document, Point
+from ..document.document import Document
 from ..scene.style import Style
 from ..session.loaded_mesh import LoadedMesh
 from .context import Context
@@ -29,14 +28,8 @@ def _sources(context: Context) -> None:
     context[TypedSource].show()
 
 
-def _anchored(document: Document) -> list[tuple[Anchor, Point]]:
-    """Where the anchors are, whatever other points do: a pin that is dragged redraws none."""
-    return [(anchor, document.point(anchor.point)) for anchor in document[Anchors].anchors]
-
-
 TABLE = (
     Row(lambda d: d.points, _sources),
-    Row(_anchored, lambda c: c.grid.marks.mark_anchors(c.document)),
     Row(lambda d: d, lambda c: c.grid.marks.show(c.document)),
     Row(lambda d: d.zooms, lambda c: c.grid.marks.show_insets(c.document)),
     Row(lambda d: (d.isolines, d.isolines.through and d.points), lambda c: c.grid.marks.show_isolines(c.document)),

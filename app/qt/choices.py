@@ -8,11 +8,11 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
 
-from ..document.edits import ADD, MOST_ADDED, PANEL_EDITS, add_another, end_at, possible_edits, with_range
+from ..document.edits import MOST_ADDED, add_another, end_at, show_in_row, with_range
 from ..document.looks import Colours
-from ..document.perturbation import changed_mesh
-from ..document.perturbation_edits import add_row, show_in_row
+from ..document.panel_edits import ADD, panel_edits, possible_edits
 from ..document.quantities import Quantity
+from ..document.tools import tools
 from ..scene.colour_file import read_stops
 from .context import Context
 from .files.taken_ends import TakenEnds
@@ -39,26 +39,27 @@ class Choices:
     def add_panel(self) -> None:
         """One more, with a distance that is not shown yet."""
         session = self._context.session
-        if session.surface is not None and changed_mesh(session.document) is not None:
-            self._add_row()
-        elif session.surface is not None and len(session.document.panels) < MOST_ADDED:
+        if session.surface is not None and not self._add_panels() and len(session.document.panels) < MOST_ADDED:
             active = {panel.id: panel.surface for panel in session.document.panels}
             session.show(add_another(session.document, active.get(self._context.grid.active)))
 
-    def _add_row(self) -> None:
-        """The same of a changed mesh: before, after and difference."""
+    def _add_panels(self) -> bool:
+        """Several that a tool adds at once; whether one does."""
         session = self._context.session
-        if len(session.document.panels) <= MOST_ADDED:
-            session.show(add_row(session.document))
+        documents = (tool.load(tool.add_panel)(session.document) for tool in tools() if tool.add_panel)
+        document = next((each for each in documents if each is not None), None)
+        if document is not None and document != session.document:
+            session.show(document)
+        return document is not None
 
     def edit_panel(self, panel: int, word: str) -> None:
-        """One of PANEL_EDITS, where it is possible."""
+        """Do what an entry of the menu over a panel says, where that is possible."""
         session = self._context.session
         is_there = any(shown.id == panel for shown in session.document.panels)
-        if is_there and word == ADD and changed_mesh(session.document) is not None:
-            self._add_row()
-        elif is_there and word in possible_edits(session.document, panel, MOST_ADDED):
-            session.show(PANEL_EDITS[word](session.document, panel))
+        if is_there and word == ADD and self._add_panels():
+            return
+        if is_there and word in possible_edits(session.document, panel):
+            session.show(panel_edits()[word].edit(session.document, panel))
 
     def choose(self, panel: int, shows: Quantity) -> None:
         """Let a panel show something else, which is a step; the values that a slider passes are one."""
@@ -127,12 +128,12 @@ class Choices:
 
     def ask_colours(self) -> None:
         """A map from a file."""
-        context = self._context
-        path, _ = QtWidgets.QFileDialog.getOpenFileName(
-            context.widget, "Colours from a file", context.folder, COLOUR_FILES
-        )
-        if path:
+        if path := self._ask_path("Colours from a file", COLOUR_FILES):
             self.take_colours(path)
+
+    def _ask_path(self, title: str, files: str) -> str:
+        context = self._context
+        return str(QtWidgets.QFileDialog.getOpenFileName(context.widget, title, context.folder, files)[0])
 
     def take_colours(self, path: str) -> None:
         """The map in a file, or a sentence why there is none."""
@@ -163,11 +164,7 @@ class Choices:
 
     def ask_ends(self) -> None:
         """Those of a session or recipe."""
-        context = self._context
-        path, _ = QtWidgets.QFileDialog.getOpenFileName(
-            context.widget, "Ranges from a session or recipe", context.folder, "Sessions and recipes (*.json)"
-        )
-        if path:
+        if path := self._ask_path("Ranges from a session or recipe", "Sessions and recipes (*.json)"):
             self.ends.take(path)
 
     # ------------------------------------------------------------------ the window

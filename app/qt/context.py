@@ -1,6 +1,7 @@
 """What docks, gestures, dialogs and file actions are handed of the window: what is shown, and whom to tell."""
 
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
@@ -35,6 +36,7 @@ class Context(QtCore.QObject):
     document_changed = QtCore.Signal(object)  # from the document before
     answer_changed = QtCore.Signal(int)  # of a panel
     pointed = QtCore.Signal(object, str)  # a vertex or None, and the name of its surface
+    found_changed = QtCore.Signal(type)  # of something that is found beside the window's thread for panels
     panels_cleared = QtCore.Signal()  # they have forgotten what was drawn on them
     page_changed = QtCore.Signal()
     style_changed = QtCore.Signal()  # of the page or the theme: what is shown looks otherwise at once
@@ -60,7 +62,9 @@ class Context(QtCore.QObject):
         self._grid: PanelGrid | None = None
         self._waiting: list[Callable[[], None]] = []
         self._made: dict[type, Any] = {}
-        self._posted.connect(lambda function: function())
+        self._is_closed = False
+        self._posted.connect(self._run)
+        self.closed.connect(self._end)
 
     def __getitem__(self, kind: type[Kind]) -> Kind:
         if kind not in self._made:
@@ -117,6 +121,16 @@ class Context(QtCore.QObject):
         else:
             self._waiting.append(function)
 
+    def show_found(self, panel: int, kind: type[Kind], found: Kind | None) -> None:
+        """Mark in a panel what has been found for it, by its type; None for nothing."""
+        if found is not self.found(panel, kind):
+            self.grid.marks.show_found(panel, kind, found)
+            self.found_changed.emit(kind)
+
+    def found(self, panel: int, kind: type[Kind]) -> Kind | None:
+        """What has been found for a panel, by its type; None as long as nothing is, and for a panel that is gone."""
+        return next((shown.marks.found.get(kind) for shown in self.grid.panels if shown.id == panel), None)
+
     @property
     def active(self) -> "DistancePanel | None":
         """The panel that the keys go to."""
@@ -159,5 +173,13 @@ class Context(QtCore.QObject):
         return made
 
     def post(self, function: Callable[[], None]) -> None:
-        """Run a function on the window's thread, from any other."""
-        self._posted.emit(function)
+        """Run a function on the window's thread, from any other, unless the window is closed by then."""
+        with suppress(RuntimeError):  # the window may be gone
+            self._posted.emit(function)
+
+    def _run(self, function: Callable[[], None]) -> None:
+        if not self._is_closed:
+            function()
+
+    def _end(self) -> None:
+        self._is_closed = True

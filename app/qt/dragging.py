@@ -1,4 +1,4 @@
-"""Something that fields follow, on its way: a source, an anchor, a point of a pair."""
+"""Something that fields follow, on its way: a source, or a point that a tool has marked."""
 
 from .context import Context
 from .live_rate import LiveRate

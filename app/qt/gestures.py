@@ -37,8 +37,7 @@ class Gestures(QtCore.QObject):
         self._all: list[Gesture] = sorted(made, key=lambda gesture: gesture.turn)
         self.is_live = False
         self._has_followed = False  # what is led, since the pointer leads it
-        self._rest_soon = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
-        self._rest_soon.timeout.connect(self._release)
+        self._rest_soon = QtCore.QTimer(self, singleShot=True, interval=REST_MS, timeout=self._release)
         events = self._grid.events
         events.on(Click, self._click)
         events.on(MarkClick, self._click_mark)
@@ -100,7 +99,7 @@ class Gestures(QtCore.QObject):
         return any(gesture.put_down() for gesture in self._all if not gesture.turn)
 
     def remove_chosen(self) -> None:
-        """The pair or the anchor that stands out."""
+        """Remove the mark that stands out."""
         any(gesture.remove_chosen() for gesture in reversed(self._all))
 
     def accept(self) -> None:
@@ -181,12 +180,9 @@ class Gestures(QtCore.QObject):
         if hit is not None:
             self._offer_place(menu, panel, hit)
         else:
-            for word in ("reset", "view before", "view after"):
-                menu.addAction(actions[word])
-            menu.addSeparator()
-            for word in ("undo", "redo", "add panel"):
-                menu.addAction(actions[word])
-            menu.addSeparator()
+            for words in (("reset", "view before", "view after"), ("undo", "redo", "add panel")):
+                menu.addActions([actions[word] for word in words])
+                menu.addSeparator()
             menu.addAction("Save field…", lambda: context[FieldFiles].save(panel))
         menu.aboutToHide.connect(menu.deleteLater)
         menu.popup(wanted.where)

@@ -5,20 +5,21 @@ It opens at once and imports what draws (VTK) only then.
 
 import os
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtGui, QtWidgets
 
-from ..document.camera import View as CameraView
 from ..document.document import Document
 from ..document.page import Page, Recipe
+from ..document.tools import tools
 from ..scene.prepared import prepare
 from ..scene.style import STYLES
 from ..session.loaded_mesh import LoadedMesh
 from ..session.session import Session
 from . import remembered
 from .actions import Actions
-from .acts import ALL, stop
+from .acts import ALL
 from .bars.menus import Menus
 from .bars.ticks import Ticks
 from .bars.tool_bar import ToolBar
@@ -32,6 +33,7 @@ from .files.files import Files
 from .files.session_actions import SessionFile
 from .guide import Guide
 from .held_keys import HeldKeys
+from .look.layouts import in_column, quiet_label
 from .look.look import LOOK
 from .pages.messages import Notice, tell
 from .preferences import Preferences, fit_to_screen
@@ -76,19 +78,14 @@ class MainWindow(QtWidgets.QMainWindow):
         display.nothing_open.connect(self.show_start)
         self._start_page: StartPage | None = None
         self.notice = Notice()
-        self._opening = QtWidgets.QLabel("Opening…")
-        self._opening.setProperty("quiet", True)
+        self._opening = quiet_label("Opening…")
         self._opening.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
         # However long a file's name is, the window may be narrow.
         self._opening.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Preferred)
         self._stack = QtWidgets.QStackedWidget()
         self._stack.addWidget(self._opening)
         middle = QtWidgets.QWidget()
-        column = QtWidgets.QVBoxLayout(middle)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addWidget(self.notice)
-        column.addWidget(self._stack, 1)
+        in_column(self.notice, (self._stack, 1), of=middle, spacing=0)
         self.setCentralWidget(middle)
         LOOK.apply_theme(self)
         LOOK.follow(self, context.style_changed.emit)
@@ -106,7 +103,6 @@ class MainWindow(QtWidgets.QMainWindow):
             return
         from .docks.brushing import Brushing
         from .docks.docks import Docks
-        from .docks.findings import Findings
         from .gestures import Gestures
         from .panels.events import BarEnded, Cancelled, EditChosen, QuantityChosen, Retried, SaveWanted
         from .panels.grid import PanelGrid
@@ -115,13 +111,13 @@ class MainWindow(QtWidgets.QMainWindow):
         grid.keys = self.actions_by_word.key_of_view
         grid.wheel_factor = -1.0 if context.preferences.wheel_reversed else 1.0
         grid.eye.is_turntable = context.preferences.turntable
-        self._scroll = QtWidgets.QScrollArea()
-        self._scroll.setWidgetResizable(True)
+        self._scroll = QtWidgets.QScrollArea(widgetResizable=True)
         self._scroll.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._scroll.setFocusPolicy(QtCore.Qt.FocusPolicy.NoFocus)
         self._scroll.setWidget(grid)
         self._stack.addWidget(self._scroll)
-        context.build(grid, (HeldKeys, Brushing, Findings, Gestures, Docks))
+        findings = (tool.load(tool.findings) for tool in tools() if tool.findings)
+        context.build(grid, (HeldKeys, Brushing, *findings, Gestures, Docks))
         self._docks, self._gestures = context[Docks], context[Gestures]
         choices, display = context[Choices], context[ProgressDisplay]
         grid.looked.connect(context[Views].moved)
@@ -139,10 +135,6 @@ class MainWindow(QtWidgets.QMainWindow):
     def grid(self) -> "PanelGrid":
         """The panels; RuntimeError before they are built."""
         return self.context.grid
-
-    def open(self, path: str, source: int | None = None) -> None:
-        """Open a mesh, also before the panels are made."""
-        self.context.open(path, source)
 
     def show_document(
         self, document: Document, page: Page | None = None, arrived: Callable[[], None] = lambda: None
@@ -246,9 +238,6 @@ class MainWindow(QtWidgets.QMainWindow):
     def _tell_of_answer(self, panel: int) -> None:
         self.context.answer_changed.emit(panel)
         self.context[ProgressDisplay].note(panel)
-        self._say_what_is_inexact()
-
-    def _say_what_is_inexact(self) -> None:
         self.status.show_inexact([shown.answer for shown in self.session.shown.values() if not shown.is_preview])
 
     def _offer_steps(self) -> None:
@@ -273,12 +262,9 @@ class MainWindow(QtWidgets.QMainWindow):
         """Above the panels; what is longer, or said while a dialog is open, in a dialog."""
         if len(message) > LONGEST_NOTICE or QtWidgets.QApplication.activeModalWidget() is not None:
             tell(self, message)
-            return
-
-        def copy() -> None:
-            QtWidgets.QApplication.clipboard().setText(message)
-
-        self.notice.show_text(message, "error", ("Copy", copy), NOTICE_SECONDS)
+        else:
+            copy = partial(QtWidgets.QApplication.clipboard().setText, message)
+            self.notice.show_text(message, "error", ("Copy", copy), NOTICE_SECONDS)
 
     def announce_soon(self) -> None:
         """Once the repaints that are queued have been done."""
@@ -289,19 +275,9 @@ class MainWindow(QtWidgets.QMainWindow):
         if self.session.is_complete and not self.session.progress:
             self.complete.emit()
 
-    # ------------------------------------------------------------------ what the user chooses
-    def cancel(self) -> None:
-        """As Esc does."""
-        stop(self.context)
-
-    def reset_view(self, view: CameraView = "auto") -> None:
-        """See the surface from a standard view, or from where a camera is."""
-        self.context[Views].reset(view)
-
     def _allow(self, has_mesh: bool) -> None:
-        self.actions_by_word.allow(has_mesh)
-        self.menus.allow(has_mesh)
-        self.tool_bar.allow(has_mesh)
+        for part in (self.actions_by_word, self.menus, self.tool_bar):
+            part.allow(has_mesh)
         self._offer_steps()
 
     # ------------------------------------------------------------------ the keys

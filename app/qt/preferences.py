@@ -33,10 +33,10 @@ REACHABLE = QtCore.QSize(120, 12)
 
 @dataclass(frozen=True)
 class Preferences:
-    """theme: one of CHOICES.  isolines: about how many a mesh has that is opened anew.  wheel_reversed:
-    turning the wheel does the opposite.  geometry: where the window
-    was, in Qt's own words; empty if nowhere.  last_folder: where a file was opened last; empty if nowhere.  turntable:
-    what is up stays upright while the surface turns.  snap: the pointer puts sources on vertices."""
+    """theme: one of CHOICES.  isolines: about how many a mesh has that is opened anew.  wheel_reversed: turning the
+    wheel does the opposite.  geometry: where the window was, in Qt's own words; empty if nowhere.  last_folder: where a
+    file was opened last; empty if nowhere.  turntable: what is up stays upright while the surface turns.  snap: the
+    pointer puts sources on vertices."""
 
     theme: str = "desktop"
     isolines: int = 20
@@ -69,16 +69,8 @@ def save(preferences: Preferences) -> None:
         if settings is not None:
             settings.setValue("version", VERSION)
             for field in fields(Preferences):
-                settings.setValue(field.name, _written(getattr(preferences, field.name)))
-
-
-def reset() -> Preferences:
-    """Forget what was saved; gives what the user has then."""
-    with _file() as settings:
-        if settings is not None:
-            for field in fields(Preferences):
-                settings.remove(field.name)
-    return Preferences()
+                value = getattr(preferences, field.name)
+                settings.setValue(field.name, value.hex() if isinstance(value, bytes) else value)
 
 
 @contextmanager
@@ -101,10 +93,9 @@ def _version(settings: QtCore.QSettings) -> int | None:
 def _put_aside_if_damaged() -> None:
     """What is there and is no file of ours is kept beside it."""
     here = path()
-    if not os.path.lexists(here) or (here.is_file() and _is_ours(here)):
-        return
-    with suppress(OSError):
-        os.replace(here, here.with_name(here.name + ".damaged"))
+    if os.path.lexists(here) and not (here.is_file() and _is_ours(here)):
+        with suppress(OSError):
+            os.replace(here, here.with_name(here.name + ".damaged"))
 
 
 def _is_ours(here: Path) -> bool:
@@ -125,10 +116,6 @@ def _value(settings: QtCore.QSettings, name: str) -> Any:
         return settings.value(name)
     except Exception:  # whatever reading an object of some other program raises
         return None
-
-
-def _written(value: Any) -> Any:
-    return value.hex() if isinstance(value, bytes) else value
 
 
 def _whole(value: Any, low: int, high: int) -> int | None:

@@ -28,10 +28,8 @@ class ProgressDisplay(QtCore.QObject):
         super().__init__(context)
         self._context = context
         self._is_late = False
-        self._show_soon = QtCore.QTimer(self, singleShot=True, interval=PROGRESS_MS)
-        self._show_soon.timeout.connect(self.show)
-        self._late_soon = QtCore.QTimer(self, singleShot=True, interval=QUIET_MS)
-        self._late_soon.timeout.connect(self._be_late)
+        self._show_soon = QtCore.QTimer(self, singleShot=True, interval=PROGRESS_MS, timeout=self.show)
+        self._late_soon = QtCore.QTimer(self, singleShot=True, interval=QUIET_MS, timeout=self._be_late)
 
     def expect(self, before: Document) -> None:
         """Something new may have been asked; before: what was shown."""

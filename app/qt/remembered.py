@@ -43,10 +43,7 @@ class Recent:
 
 def recent_files() -> list[Recent]:
     """Meshes and sessions opened last, the last first, as far as they are still there."""
-    try:
-        entries = json.loads((folder() / "recent.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError):
-        return []
+    entries = _read("recent.json")
     files = [_file_of(entry) for entry in entries] if isinstance(entries, list) else []
     return [file for file in files if file is not None and os.path.exists(file.path)]
 
@@ -61,7 +58,7 @@ def remember(path: str) -> None:
     path = os.path.abspath(path)
     files = [Recent(path, datetime.now(timezone.utc)), *(file for file in recent_files() if file.path != path)]
     entries = [{"path": file.path, "opened": file.opened_at and file.opened_at.isoformat()} for file in files]
-    _write(folder() / "recent.json", json.dumps(entries[:MOST_RECENT], indent=1))
+    _write("recent.json", entries[:MOST_RECENT])
 
 
 def _file_of(entry: object) -> Recent | None:
@@ -85,14 +82,11 @@ def up_of(sha256: str) -> str:
 def remember_up(sha256: str, up: str) -> None:
     """It was chosen for a mesh; the choices made longest ago are forgotten."""
     ups = {known: other for known, other in _chosen_ups().items() if known != sha256} | {sha256: up}
-    _write(folder() / "up.json", json.dumps(dict(list(ups.items())[-MOST_UPS:]), indent=1))
+    _write("up.json", dict(list(ups.items())[-MOST_UPS:]))
 
 
 def _chosen_ups() -> dict[str, object]:
-    try:
-        found = json.loads((folder() / "up.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError):
-        return {}
+    found = _read("up.json")
     return found if isinstance(found, dict) else {}
 
 
@@ -166,8 +160,15 @@ def _lock(path: Path) -> QtCore.QLockFile:
     return lock
 
 
-def _write(path: Path, text: str) -> None:
+def _read(name: str) -> object:
+    """What a JSON file of the folder holds; None if there is none, or what is no JSON."""
+    with suppress(OSError, ValueError, RecursionError):
+        return json.loads((folder() / name).read_text(encoding="utf-8"))
+    return None
+
+
+def _write(name: str, data: object) -> None:
     with suppress(OSError, BihdistError):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with whole_file(path) as temporary:
-            temporary.write_text(text, encoding="utf-8")
+        folder().mkdir(parents=True, exist_ok=True)
+        with whole_file(folder() / name) as temporary:
+            temporary.write_text(json.dumps(data, indent=1), encoding="utf-8")

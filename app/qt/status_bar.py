@@ -14,8 +14,10 @@ from bihdist_core.distances.answers import Answer
 from ..document.page import Recipe
 from ..scene.style import Style
 from .look.icons import pixmap
+from .look.layouts import in_row
 from .look.look import LOOK
 from .look.numbers import number, number_width, paint_number
+from .look.painting import paint_rounded, smooth_painter
 
 HEIGHT = 28
 SAID_MS = 8000
@@ -36,21 +38,14 @@ class StatusBar(QtWidgets.QStatusBar):
         self.message = Words("quiet")
         self.progress = Words("quiet", is_meant=True)
         self.vertex, self.place = Words("text", is_right=True), Words("text", is_right=True)
-        self._row = row = QtWidgets.QWidget()
-        layout = QtWidgets.QHBoxLayout(row)
-        layout.setContentsMargins(12, 0, 12, 0)
-        layout.setSpacing(12)
-        for widget in (self.counts, self.notes, self.accuracy):
-            layout.addWidget(widget)
-        layout.addWidget(self.message, 1)
-        for widget in (self.progress, self.vertex, self.place):
-            layout.addWidget(widget)
-        row.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
-        self.addPermanentWidget(row, 1)
+        self._row = QtWidgets.QWidget()
+        left, right = (self.counts, self.notes, self.accuracy), (self.progress, self.vertex, self.place)
+        in_row(*left, (self.message, 1), *right, of=self._row, spacing=12, margins=(12, 0, 12, 0))
+        self._row.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
+        self.addPermanentWidget(self._row, 1)
         self._vertices, self._faces = "", ""
         self._holds: Callable[[], bool] | None = None
-        self._forget_soon = QtCore.QTimer(self, singleShot=True, interval=SAID_MS)
-        self._forget_soon.timeout.connect(self._forget)
+        self._forget_soon = QtCore.QTimer(self, singleShot=True, interval=SAID_MS, timeout=self._forget)
         LOOK.changed.connect(self._fit)
         self.show_surface(None)
         self._fit()
@@ -227,7 +222,7 @@ class Chip(QtWidgets.QToolButton):
         return QtCore.QSize(30, 20)
 
     def _list(self) -> None:
-        menu = QtWidgets.QMenu(self)
+        menu = QtWidgets.QMenu(self, toolTipsVisible=True)
         metrics = QtGui.QFontMetrics(LOOK.font())
         has_heads = len(self._kinds) > 1
         for some, (_, many) in zip(self._lists, self._kinds, strict=True):
@@ -239,20 +234,15 @@ class Chip(QtWidgets.QToolButton):
             if len(some) > LISTED:
                 menu.addAction(f"and {len(some) - LISTED:,} more").setEnabled(False)
         menu.addSeparator()
-        copy: Callable[[], None] = lambda: QtWidgets.QApplication.clipboard().setText("\n".join(self.sentences))  # noqa: E731
-        menu.addAction("Copy", copy)
-        menu.setToolTipsVisible(True)
+        menu.addAction("Copy", lambda: QtWidgets.QApplication.clipboard().setText("\n".join(self.sentences)))
         menu.aboutToHide.connect(menu.deleteLater)
         menu.popup(self.mapToGlobal(QtCore.QPoint(0, -menu.sizeHint().height())))
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        theme, painter = LOOK.theme, QtGui.QPainter(self)
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        is_warning = bool(self._lists[0])
+        theme, painter, is_warning = LOOK.theme, smooth_painter(self), bool(self._lists[0])
         box = QtCore.QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
-        painter.setPen(QtGui.QPen(QtGui.QColor(theme.accent), 2) if self.hasFocus() else QtCore.Qt.PenStyle.NoPen)
-        painter.setBrush(QtGui.QColor(theme.warning_ground if is_warning else theme.hover))
-        painter.drawRoundedRect(box, min(10, box.height() / 2), min(10, box.height() / 2))
+        ground, line = theme.warning_ground if is_warning else theme.hover, theme.accent if self.hasFocus() else ""
+        paint_rounded(painter, box, min(10, box.height() / 2), ground, line, 2)
         colour = theme.warning if is_warning else theme.quiet
         sign = pixmap("warning" if is_warning else "info", colour, self.devicePixelRatioF(), 14)
         painter.drawPixmap(QtCore.QPointF(8, (self.height() - 14) / 2), sign)
@@ -265,9 +255,6 @@ class Chip(QtWidgets.QToolButton):
 
 def unseen(recipe: Recipe, style: Style) -> list[str]:
     """What a recipe has that panels do not show."""
-    parts = {
-        f"views but the first of {len(recipe.views)}": len(recipe.views) > 1,
-        "outlines": style.outline,
-    }
-    words = [word for word, part in parts.items() if part]
+    words = [f"views but the first of {len(recipe.views)}"] if len(recipe.views) > 1 else []
+    words += ["outlines"] if style.outline else []
     return [f"in figures only: {', '.join(words)}"] if words else []

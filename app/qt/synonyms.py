@@ -1,5 +1,6 @@
 """Other words by which people look for a command, by the words of acts and the titles of menus."""
 
+from ..document.panel_edits import panel_edits
 from ..document.tools import docked_tools
 
 SYNONYMS = {
@@ -51,11 +52,6 @@ SYNONYMS = {
     "Show here": "distance change replace quantity",
     "Difference with": "compare subtract minus deviation",
     "add panel": "new compare distance more",
-    "panel Duplicate this panel": "copy clone compare",
-    "panel Move it back": "left before order",
-    "panel Move it on": "right after order",
-    "panel Regions of the pins": "voronoi cells nearest",
-    "panel Remove it": "delete close panel",
     "save field": "export write values distance data npy csv ply vtp",
     "next panel": "focus switch",
     "previous panel": "focus switch",
@@ -73,6 +69,7 @@ SYNONYMS = {
     "keys": "help shortcuts palette gestures",
     "tour": "help tutorial introduction",
     "about": "version licence citation",
+    **{f"panel {text}": edit.synonyms for text, edit in panel_edits().items()},
     **{f"dock {tool.word}": tool.synonyms for tool in docked_tools().values()},
 }
 """Nothing here is shown; only what is typed in the palette is compared with it."""

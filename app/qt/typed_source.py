@@ -46,9 +46,10 @@ class TypedSource:
         """Let the box say what it is."""
         session = self._context.session
         document = session.document
-        name = next((name for panel in document.panels for name in panel.shows.points), "")
-        sources = [document.point(name).at] if name else []
-        loaded = session.loaded(document.point(name).surface) if name else session.loaded()
-        surface = None if loaded is None else loaded.surface
-        known = source_at(sources[0], surface) if surface is not None and sources else None
-        self.box.show_source(known, 0 if surface is None else len(surface.vertices))
+        point = next((document.point(name) for panel in document.panels for name in panel.shows.points), None)
+        loaded = session.loaded() if point is None else session.loaded(point.surface)
+        if loaded is None:
+            self.box.show_source(None, 0)
+        else:
+            source = None if point is None else source_at(point.at, loaded.surface)
+            self.box.show_source(source, len(loaded.surface.vertices))

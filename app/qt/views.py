@@ -38,8 +38,7 @@ class Views(QtCore.QObject):
         super().__init__(context)
         self._context = context
         self._trail: Trail[Cameras] = Trail()
-        self._still = QtCore.QTimer(self, singleShot=True, interval=STILL_MS)
-        self._still.timeout.connect(self._remember)
+        self._still = QtCore.QTimer(self, singleShot=True, interval=STILL_MS, timeout=self._remember)
 
     def begin(self) -> None:
         """Another mesh is there."""

@@ -154,11 +154,6 @@ class Insets:
         seen = [r for r, is_seen in zip(self.renderers, self._in_sight, strict=False) if is_seen]
         return {renderer: (*renderer.GetOrigin(), *renderer.GetSize()) for renderer in seen}
 
-    @property
-    def covered(self) -> list[tuple[int, int, int, int]]:
-        """Their boxes alone."""
-        return list(self.placed.values())
-
     # ------------------------------------------------------------------ where they are
     def _boxes(self) -> dict[str, Rectangle]:
         """By name: where an inset in a corner stands."""

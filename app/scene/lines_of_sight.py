@@ -5,6 +5,8 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from bihdist_core.arrays import AnyArray, FloatArray
 
+from .camera import array_of
+
 SLACK = 0.004
 """By how much of the shape's diagonal a point may lie behind what was drawn: between two pixels, or on a stand-in."""
 
@@ -20,11 +22,8 @@ def seen_in(renderer: vtkRenderer, points: FloatArray, depths: FloatArray) -> tu
     slack = SLACK * float(np.linalg.norm(bounds[:, 1] - bounds[:, 0]))
     towards = np.broadcast_to(back, points.shape) if camera.GetParallelProjection() else eye - points
     towards = towards / np.maximum(np.linalg.norm(towards, axis=1), 1e-300)[:, None]
-    found = camera.GetCompositeProjectionTransformMatrix(width / max(height, 1), -1, 1)
-    matrix = np.array([[found.GetElement(i, j) for j in range(4)] for i in range(4)])
-    flat = _divided(matrix, points)
-    nearer = (_divided(matrix, points + slack * towards)[:, 2] + 1) / 2
-    pixels = np.column_stack([(flat[:, 0] + 1) / 2 * width, (1 - flat[:, 1]) / 2 * height])
+    pixels = pixels_in(renderer, points, width, height)
+    nearer = (_divided(renderer, points + slack * towards, width, height)[:, 2] + 1) / 2
     inside = np.isfinite(pixels).all(axis=1)
     column, row = (np.where(inside, pixels[:, k], 0).astype(int) for k in (0, 1))
     # At an edge of the shape the pixel of a point may be beside it.
@@ -38,14 +37,12 @@ def seen_in(renderer: vtkRenderer, points: FloatArray, depths: FloatArray) -> tu
 
 def pixels_in(renderer: vtkRenderer, points: FloatArray, width: int, height: int) -> FloatArray:
     """(k, 2) device pixels, y down, of points (k, 3) in a picture of so many, be they seen or not."""
-    camera = renderer.GetActiveCamera()
-    found = camera.GetCompositeProjectionTransformMatrix(width / max(height, 1), -1, 1)
-    matrix = np.array([[found.GetElement(i, j) for j in range(4)] for i in range(4)])
-    flat = _divided(matrix, points)
+    flat = _divided(renderer, points, width, height)
     return np.column_stack([(flat[:, 0] + 1) / 2 * width, (1 - flat[:, 1]) / 2 * height])
 
 
-def _divided(matrix: FloatArray, points: FloatArray) -> FloatArray:
+def _divided(renderer: vtkRenderer, points: FloatArray, width: int, height: int) -> FloatArray:
     """(k, 3) points (k, 3) as -1 ... 1 in the picture and in depth; NaN behind the camera."""
-    local = np.column_stack([points, np.ones(len(points))]) @ matrix.T
+    seen = renderer.GetActiveCamera().GetCompositeProjectionTransformMatrix(width / max(height, 1), -1, 1)
+    local = np.column_stack([points, np.ones(len(points))]) @ array_of(seen).T
     return local[:, :3] / np.where(local[:, 3] > 0, local[:, 3], np.nan)[:, None]

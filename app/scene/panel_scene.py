@@ -1,4 +1,4 @@
-"""Drawing in the window: a surface with a field on it, and marks, by a panel's plotter."""
+"""Drawing in the window: a surface with a field on it, by a panel's plotter."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -10,20 +10,14 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 from bihdist_core.arrays import ByteArray, FloatArray
 
 from ..document.looks import Isolines, Shading
-from ..marks.line_looks import BOUNDARY, SOURCE, LineLook
 from .field_actor import FieldActor, light
 from .insets import Insets
 from .levels import Levels
-from .line_actors import RimmedLines
-from .marks import DOT, Marks
 from .stand_in import StandIn
 from .style import PAPER, Style
 
 if TYPE_CHECKING:
     from .panel_plotter import PanelPlotter
-
-LOOKS = (BOUNDARY, SOURCE)
-"""Of lines that are drawn with the surface, which hides them."""
 
 
 class PanelScene:
@@ -40,13 +34,7 @@ class PanelScene:
         self.bounds: Sequence[float] = (0.0, 1.0, 0.0, 1.0, 0.0, 1.0)
         self.seconds = 0.0  # that the last picture of all of it took
         self._field = FieldActor(style, scale)
-        self._lines = {look: RimmedLines(look, style, scale) for look in LOOKS}
-        self._largest = Marks(0.8 * style.marker_size * scale, style.mark_edge)
-        self._anchored = Marks(style.marker_size * scale, style.mark_edge, are_rings=True)
-        self._passed = Marks(DOT * style.marker_size * scale, style.mark_edge)
-        marks = (self._largest, self._anchored, self._passed)
-        self._sized: list[RimmedLines | Marks] = [*self._lines.values(), *marks]
-        solid = [self._field.actor, *(each.actor for each in self._sized), self._field.stand_in.actor]
+        solid = [self._field.actor, self._field.stand_in.actor]
         self._proportion = 1.0
         self.insets = Insets(plotter, solid, self._field, style, scale)
         self.renderer.SetBackground(*style.background)
@@ -69,11 +57,9 @@ class PanelScene:
         return [self.renderer, *self.insets.renderers]
 
     def set_proportion(self, share: float) -> None:
-        """Let lines and marks be of this share of their usual size, see `proportion`."""
+        """Let isolines be of this share of their usual width, see `proportion`."""
         if share != self._proportion:
             self._proportion = share
-            for each in self._sized:
-                each.set_proportion(share)
             self._field.set_scale(self.scale, share)
             self.insets.set_proportion(share)
 
@@ -86,12 +72,7 @@ class PanelScene:
     def show_surface(self, mesh: vtkPolyData, bounds: Sequence[float]) -> None:
         """Show a surface made by `drawable`, without a field yet."""
         self.show_shape(mesh, bounds)
-        for look in LOOKS:
-            self.show_lines(look, [])
-        self.mark_largest(None)
-        self.mark_anchors(np.empty((0, 3)))
         self._field.show_selected(None)
-        self.mark_passed(np.empty((0, 3)))
         self.insets.show((), np.empty((0, 3)))
 
     def show_shape(self, mesh: vtkPolyData, bounds: Sequence[float]) -> None:
@@ -180,20 +161,3 @@ class PanelScene:
     def maximum(self) -> float:
         """Where the colours end."""
         return self._field.maximum
-
-    # ------------------------------------------------------------------ marks
-    def show_lines(self, look: LineLook, lines: Sequence[tuple[FloatArray, bool]]) -> None:
-        """Points (k, 3) of each line of one of LOOKS, and whether the last joins the first."""
-        self._lines[look].show(lines)
-
-    def mark_largest(self, position: FloatArray | None) -> None:
-        """Where a signed field is largest."""
-        self._largest.show_one(position, self.style.largest)
-
-    def mark_passed(self, positions: FloatArray) -> None:
-        """Positions (k, 3) of points that isolines pass through."""
-        self._passed.show(positions, [self.style.source] * len(positions))
-
-    def mark_anchors(self, positions: FloatArray) -> None:
-        """Rings at positions (k, 3)."""
-        self._anchored.show(positions, [self.style.mark_edge] * len(positions))

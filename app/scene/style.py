@@ -20,9 +20,6 @@ WHITE, INK = (1.0, 1.0, 1.0), (0.08, 0.085, 0.1)
 LINES_ON_COLOURS = (WHITE, INK, (1.0, 0.45, 0.0), (0.0, 0.75, 0.3))
 """Isolines have the first of these that stands out from every colour of a map."""
 
-CURVES = ("#0A7358", "#B45309", "#6D4AC7", "#1D2125", "#8A3A78", "#5F6B00")
-"""Of curves in charts on a light ground, in turn."""
-
 RIM_OPACITY, RIM = 0.6, 0.8
 """Of the rim beside isolines of signed fields, and its width on each side in pixels at scale 1."""
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from bihdist_core.distances.answers import Answer
 
+from ..document.derived_surfaces import partner
 from ..document.document import Document
-from ..document.perturbation import partner
 from .answering import Shown
 from .loaded_mesh import LoadedMesh
 

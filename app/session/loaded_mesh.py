@@ -27,7 +27,7 @@ from ..document.document import Document, FieldArray, MeshFile, starting_points
 from ..document.edits import put_point
 from ..samples import mesh_path
 from .array_store import ArrayStore
-from .perturbed_meshes import carried
+from .derived_surfaces import carried
 from .questions import Question, source_at
 
 REMEMBERED = 8

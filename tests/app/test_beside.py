@@ -12,8 +12,8 @@ from app.document.edits import MOST_ADDED, add_another, show_in
 from app.document.file import read_recipe, recipe_text
 from app.document.history import History
 from app.document.page import Recipe
-from app.document.pins import Pins, add_pins
 from app.document.quantities import quantity
+from app.document.shared_parts.pins import Pins, add_pins
 from app.scene.camera import carried, frame, turned
 from bihdist_core.errors import ParameterError
 

@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import pytest
 
-from app.document.anchors import Anchor, Anchors
 from app.document.camera import Camera
 from app.document.document import COMPARISON, Document, MeshFile, Panel, Point, Zoom, comparison
 from app.document.edits import add_panel, move_panel, move_source, open_mesh, put_point, remove_panel, show_in
 from app.document.form import document_data, document_from
 from app.document.history import LONGEST, History
 from app.document.quantities import DistanceFrom, quantity
+from app.tools.interpolation.part import Anchor, Anchors
 from bihdist_core import ParameterError, SurfacePoint
 from bihdist_core.distances.kinds import Spec
 

@@ -5,18 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import app.session.judging as judging
+import app.tools.correspondence.judgement as judging
 from app.document.beside_edits import open_beside
 from app.document.document import MeshFile, comparison
-from app.document.maps import MapFile, Maps, Truth, show_maps, with_truth
 from app.document.page import Recipe
-from app.document.pairs import Pairs, add_pairs, place_point
-from app.document.prediction import predict
 from app.figures.draw import save_figure
 from app.figures.export import compute, figure_of, open_document
 from app.marks.glyphs import CANDIDATE, CROSS
 from app.session.array_store import ArrayStore
-from app.session.judging import Judging, asked_of, maps_of, partners_of, right_places, truth_of
+from app.tools.correspondence.judgement import Judging, asked_of, maps_of, partners_of, right_places, truth_of
+from app.tools.correspondence.maps import MapFile, Maps, Truth, show_maps, with_truth
+from app.tools.correspondence.pairs import Pairs, add_pairs, place_point
+from app.tools.correspondence.prediction import predict
 from bihdist_core import (
     BiharmonicDistance,
     Cancelled,

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from app.document.anchors import Anchor, Anchors
 from app.document.document import comparison
 from app.document.edits import open_mesh
 from app.document.isoline_edits import pass_through, pass_through_none
 from app.document.looks import TWENTY_STEPS, Isolines
 from app.scene.levels import half_steps, in_unit, levels, round_step, too_many, with_kept_step
+from app.tools.interpolation.part import Anchor, Anchors
 
 
 def values(isolines, maximum=1.0, own=1.0, **how):

@@ -10,7 +10,13 @@ from app.document.document import MeshFile, comparison
 from app.document.edits import open_mesh
 from app.document.file import read_recipe, recipe_text, with_all_paths, with_meshes_from
 from app.document.form import document_data, document_from
-from app.document.maps import (
+from app.document.page import Recipe
+from app.document.quantities import Difference, DistanceFrom, quantity
+from app.figures.export import compute, open_document
+from app.main import main
+from app.session.array_store import ArrayStore
+from app.tools.correspondence.map_answers import map_file
+from app.tools.correspondence.maps import (
     MapColours,
     MapFile,
     Maps,
@@ -21,14 +27,8 @@ from app.document.maps import (
     with_truth,
     without_maps,
 )
-from app.document.page import Recipe
-from app.document.pairs import Pairs, add_pairs
-from app.document.prediction import predict
-from app.document.quantities import Difference, DistanceFrom, quantity
-from app.figures.export import compute, open_document
-from app.main import main
-from app.session.array_store import ArrayStore
-from app.session.map_answers import map_file
+from app.tools.correspondence.pairs import Pairs, add_pairs
+from app.tools.correspondence.prediction import predict
 from bihdist_core import (
     BiharmonicDistance,
     Correspondence,

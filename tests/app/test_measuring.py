@@ -5,25 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.anchors import Anchor, Anchors
 from app.document.docks import DockPlaces
 from app.document.document import FieldArray, Panel, comparison
 from app.document.edits import open_mesh, remove_panel, show_dock
-from app.document.pins import MOST_PINS, Pin, Pins, add_pins, change_pin, move_pin, remove_pins
-from app.document.profile import Profile
 from app.document.quantities import OwnField
-from app.document.regions import DividedPanels, divide, divided_panels, show_regions
-from app.document.selections import (
-    Selection,
-    Selections,
-    runs_from_words,
-    runs_in_words,
-    runs_of,
-    select,
-    select_instead,
-    vertices_of,
-)
-from app.session.pin_locations import located_pins
+from app.document.runs import ids_of, runs_from_words, runs_in_words, runs_of
+from app.document.shared_parts.pins import MOST_PINS, Pin, Pins, add_pins, change_pin, move_pin, remove_pins
+from app.document.shared_parts.selections import Selection, Selections, select, select_instead
+from app.tools.interpolation.part import Anchor, Anchors
+from app.tools.pins.locations import located_pins
+from app.tools.profile.part import Profile
+from app.tools.regions.part import DividedPanels, divide, divided_panels, show_regions
 from app.tools.scatter.part import Scatter
 from bihdist_core import BoundaryLoop, ParameterError, SurfacePoint
 from bihdist_core.distances.kinds import Spec
@@ -74,9 +66,9 @@ def test_too_many_pins_are_refused():
 def test_selections_are_runs_of_vertices():
     ids = np.array([9, 3, 4, 5, 9, 20])
     assert runs_of(ids) == ((3, 5), (9, 9), (20, 20))
-    assert vertices_of(runs_of(ids)).tolist() == [3, 4, 5, 9, 20]
+    assert ids_of(runs_of(ids)).tolist() == [3, 4, 5, 9, 20]
     assert runs_of(np.empty(0, int)) == ()
-    assert len(vertices_of(())) == 0
+    assert len(ids_of(())) == 0
     document = select(select(DOCUMENT, "ear", ids), "tail", np.arange(4))
     assert [each.colour for each in document[Selections].selections] == [0, 1]
     again = select(document, "ear", np.array([1]))

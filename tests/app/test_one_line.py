@@ -10,21 +10,21 @@ from hypothesis import HealthCheck, given, settings, strategies as st
 
 import app
 from app.commands.figure_options import add_figure_options, chosen_recipe
-from app.document.anchors import Anchor, Anchors
 from app.document.camera import VIEWS, Camera
 from app.document.document import Document, FieldArray, MeshFile, Panel, Point, Zoom, comparison
 from app.document.looks import PROJECTIONS, UPS, Colours, Isolines, Shading
 from app.document.page import Page, Recipe
-from app.document.pins import Pin, Pins, add_pins
-from app.document.profile import Profile, points_along, shows_path, with_profile
 from app.document.quantities import Difference, DistanceFrom, OwnField, quantity
-from app.document.regions import DividedPanels, can_divide, divide
-from app.document.selections import select_instead
+from app.document.shared_parts.pins import Pin, Pins, add_pins
+from app.document.shared_parts.selections import select_instead
 from app.document.starts import curves_in
 from app.document.tools import part_types
 from app.figures import one_line
 from app.figures.one_line import PANELS
 from app.figures.options import arguments, rows, tool_rows
+from app.tools.interpolation.part import Anchor, Anchors
+from app.tools.profile.part import Profile, points_along, shows_path, with_profile
+from app.tools.regions.part import DividedPanels, can_divide, divide
 from bihdist_core import BoundaryLoop, Curve, ParameterError, SourceSet, SurfacePoint
 from bihdist_core.applications.weights import Weights
 from bihdist_core.distances.kinds import Spec

@@ -11,7 +11,11 @@ from app.document.edits import open_mesh
 from app.document.file import read_recipe, recipe_text
 from app.document.history import History
 from app.document.page import Page, Recipe
-from app.document.pairs import (
+from app.document.quantities import quantity
+from app.document.shared_parts.pins import Pins, add_pins, remove_pins
+from app.figures.export import compute, open_document
+from app.session.array_store import ArrayStore
+from app.tools.correspondence.pairs import (
     MOST_PAIRS,
     Pair,
     Pairs,
@@ -27,12 +31,8 @@ from app.document.pairs import (
     waiting_point,
     whole_pairs,
 )
-from app.document.pins import Pins, add_pins, remove_pins
-from app.document.prediction import predict, predicts, show_distances
-from app.document.quantities import quantity
-from app.figures.export import compute, open_document
-from app.session.array_store import ArrayStore
-from app.session.prediction_answers import NO_OTHER, SPARE, KnownColumns, candidate_of
+from app.tools.correspondence.prediction import predict, predicts, show_distances
+from app.tools.correspondence.prediction_answers import NO_OTHER, SPARE, KnownColumns, candidate_of
 from app.tools.correspondence.quantity import Prediction
 from bihdist_core import BiharmonicDistance, Correspondence, ParameterError, write_mesh
 from bihdist_core.distances.kinds import Spec

@@ -3,6 +3,7 @@
 import argparse
 import shlex
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,19 +12,20 @@ import pytest
 import app as bihdist
 from app.commands.figure_options import add_figure_options, chosen_recipe
 from app.document.beside_edits import see
+from app.document.derived_surfaces import without_changed
 from app.document.document import Document, comparison
 from app.document.edits import open_mesh as with_mesh
 from app.document.file import checksum, read_recipe, recipe_text
 from app.document.form import document_data, document_from
 from app.document.page import Page, Recipe
-from app.document.perturbation import split, with_changed, without_changed
-from app.document.perturbation_edits import change_mesh, cut_by
 from app.document.quantities import quantity
 from app.figures import one_line
 from app.figures.export import compute, figure_of, open_document
 from app.main import main
 from app.session.array_store import ArrayStore
 from app.session.surfaces import SPARED_MADE
+from app.tools.robustness.comparison import change_mesh, split, with_changed
+from app.tools.robustness.cuts import cut_by
 from app.tools.robustness.quantity import ChangeOf
 from app.tools.scatter.part import Scatter
 from bihdist_core import BiharmonicDistance, ParameterError, Surface, SurfacePoint, VertexError, write_mesh
@@ -364,21 +366,21 @@ def test_a_session_changes_the_mesh_from_where_it_is_by_then(mesh, desk):
     desk = desk()
     desk.session.show(comparison(mesh, (BIHARMONIC,), (5,)))
     session = desk.complete()
-    session.change_mesh(Perturbation(noise=0.2), "noise")
+    session.apply(partial(change_mesh, change=Perturbation(noise=0.2)), "noise")
     desk.click(70)  # while it is made
     desk.until(lambda: len(session.document.surfaces) == 2)
     desk.complete()
     assert session.document.point("source").at == 70
     assert session.document.point("source after").at == 70
     for amount in (0.3, 0.4):
-        session.change_mesh(Perturbation(noise=amount), "noise")
+        session.apply(partial(change_mesh, change=Perturbation(noise=amount)), "noise")
         desk.until(lambda: not session.is_opening)
         desk.complete()
     assert session.document.surfaces[1].change == Perturbation(noise=0.4)
     expected = BiharmonicDistance(session.loaded("B").surface).from_source(70)
     assert session.shown[1].answer.field == pytest.approx(expected, rel=1e-9)
     for step in range(5):
-        session.change_mesh(Perturbation(noise=0.5 + step), "noise")
+        session.apply(partial(change_mesh, change=Perturbation(noise=0.5 + step)), "noise")
         desk.until(lambda: not session.is_opening)
     assert len(list(session._surfaces)) <= 2 + SPARED_MADE
     session.undo()

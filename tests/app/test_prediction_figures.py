@@ -5,11 +5,11 @@ import pytest
 
 import app as bihdist
 from app.document.file import read_recipe
-from app.document.pairs import Pairs
 from app.figures.export import compute, figure_of, open_document
 from app.main import main
 from app.marks.glyphs import CANDIDATE
 from app.session.array_store import ArrayStore
+from app.tools.correspondence.pairs import Pairs
 from bihdist_core import BiharmonicDistance, Correspondence, ParameterError, write_mesh
 from bihdist_core.formats.vertex_maps import read_pairs, write_pairs
 from tests.shapes import bumpy

@@ -12,6 +12,7 @@ from bihdist_core.analysis.geodesic_paths import GeodesicPaths
 from bihdist_core.analysis.plane_sections import plane_section
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy
 
 TWO = ["--distance", "biharmonic", "--distance", "geodesic(method=dijkstra)"]
 
@@ -56,12 +57,18 @@ def test_pins_from_a_file_and_sections(surface, tmp_path):
     assert said["arcs"] == path.arcs.tolist()
 
 
+@pytest.fixture
+def mesh(mesh_file):
+    """Small: what is drawn and refused is so on any mesh."""
+    return mesh_file(bumpy(400))
+
+
 @pytest.mark.parametrize("extension", [".svg", ".pdf", ".eps", ".png"])
-def test_charts(tmp_path, extension, capsys):
+def test_charts(mesh, tmp_path, extension, capsys):
     files = [tmp_path / f"{name}{extension}" for name in ("shares", "values")]
     for file, words in zip(files, ([], ["--values", "--size", "column"]), strict=True):
         options = ["--source", "17", "--through", "source,300", *TWO, *words]
-        assert main(["profile", "part", *options, "-o", str(file)]) == 0
+        assert main(["profile", mesh, *options, "-o", str(file)]) == 0
     assert files[0].read_bytes() != files[1].read_bytes()
     # Nothing of fonts, say, which the formats treat differently.
     assert all("Dijkstra" in line for line in capsys.readouterr().err.splitlines())
@@ -81,9 +88,9 @@ def test_charts(tmp_path, extension, capsys):
         (["--through", "3,4", "--way", "section"], "--across"),
     ],
 )
-def test_what_makes_no_path_is_refused(tmp_path, capsys, words, said):
+def test_what_makes_no_path_is_refused(mesh, tmp_path, capsys, words, said):
     out = tmp_path / "p.csv"
-    assert main(["profile", "part", "--source", "17", "--distance", "biharmonic", *words, "-o", str(out)]) == 2
+    assert main(["profile", mesh, "--source", "17", "--distance", "biharmonic", *words, "-o", str(out)]) == 2
     assert said in capsys.readouterr().err
     assert not out.exists()
 

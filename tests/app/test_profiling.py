@@ -4,8 +4,8 @@ import queue
 
 import pytest
 
-from app.session import profiling
-from app.session.profiling import PathWanted, PathWorker
+from app.tools.profile import paths
+from app.tools.profile.paths import PathWanted, PathWorker
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
 from tests.shapes import bumpy
 
@@ -36,13 +36,13 @@ def test_paths_follow_their_places_and_are_exact_at_rest(worker, surface, monkey
     first = PathWanted(surface, (3, 200), "auto")
     worker.ask(first)
     assert [found.method for _, found in until(worker, first, "exact")] == ["exact"]
-    monkeypatch.setattr(profiling, "REST", 60.0)  # longer than this test: nothing rests but the last
+    monkeypatch.setattr(paths, "REST", 60.0)  # longer than this test: nothing rests but the last
     for vertex in (201, 202, 203):
         moved = PathWanted(surface, (3, vertex), "auto")
         worker.ask(moved)
         ((_, found),) = until(worker, moved, "straightened")
         assert found.points[-1] == pytest.approx(surface.vertices[vertex])
-    monkeypatch.setattr(profiling, "REST", 0.01)
+    monkeypatch.setattr(paths, "REST", 0.01)
     last = PathWanted(surface, (3, 204), "auto")
     worker.ask(last)
     *_, (_, found) = until(worker, last, "exact")

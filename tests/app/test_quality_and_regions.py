@@ -7,16 +7,17 @@ import numpy as np
 import pytest
 
 from app.document.document import Panel, Point, comparison
-from app.document.edits import PANEL_EDITS, mark_extrema, move_source, possible_edits, put_point
-from app.document.pins import Pins, add_pins, remove_pins
+from app.document.edits import mark_extrema, move_source, put_point
+from app.document.panel_edits import panel_edits, possible_edits
 from app.document.quantities import OwnField, quantity
-from app.document.regions import DividedPanels, show_regions
+from app.document.shared_parts.pins import Pins, add_pins, remove_pins
 from app.marks.glyphs import TRIANGLE_DOWN, TRIANGLE_UP
 from app.marks.line_looks import BOUNDARY
-from app.session.quality import Quality
-from app.session.regions import Dividing, regions_questions
-from app.session.sampling import SamplesQuestion, Sampling
+from app.session.farthest_points import SamplesQuestion, Sampling
 from app.session.session import Session
+from app.tools.quality.judgement import Quality
+from app.tools.regions.division import Dividing, regions_questions
+from app.tools.regions.part import DividedPanels, show_regions
 from bihdist_core import difference_quality, farthest_points, field_quality, triangle_sample, voronoi_regions
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import BoundaryLoop, SourceSet, SurfacePoint
@@ -303,9 +304,9 @@ def test_the_panel_offers_regions_while_there_are_pins(watching):
     assert word not in possible_edits(document, 0, 6)
     with_pins = add_pins(document, [7, 90])
     assert word in possible_edits(with_pins, 0, 6)
-    shown = PANEL_EDITS[word](with_pins, 0)
+    shown = panel_edits()[word].edit(with_pins, 0)
     assert shown[DividedPanels].regions == (0,)
-    assert PANEL_EDITS[word](shown, 0)[DividedPanels].regions == ()
+    assert panel_edits()[word].edit(shown, 0)[DividedPanels].regions == ()
 
 
 def test_samples_are_those_of_python(watching):

@@ -17,6 +17,7 @@ from bihdist_core import (
     region_mesh,
     voronoi_regions,
 )
+from tests.shapes import bumpy
 
 
 @pytest.fixture(scope="module")
@@ -71,20 +72,23 @@ def test_regions_are_labelled_by_the_ids_of_their_pins(surface, tmp_path, capsys
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["samples", "part", "--count", "5", "--source", "f3:0.2,0.5", "-o", "x.txt"], "choose a vertex"),
-        (["samples", "part", "--count", "99999", "-o", "x.npy"], "points asked for"),
-        (["samples", "part", "--count", "2", "-o", "x.stl"], ".txt"),
-        (["samples", "part", "--count", "2", "--distance", "biharmonic - geodesic", "-o", "x.txt"], "is a field"),
-        (["regions", "part", "--vertices", "1,2"], "nothing to write"),
-        (["regions", "part", "--vertices", "1,2", "--mesh-output", "x.csv"], ".ply"),
-        (["regions", "part", "--vertices", "1,99999", "-o", "x.npy"], "99999"),
+        (["samples", "--count", "5", "--source", "f3:0.2,0.5", "-o", "x.txt"], "choose a vertex"),
+        (["samples", "--count", "99999", "-o", "x.npy"], "points asked for"),
+        (["samples", "--count", "2", "-o", "x.stl"], ".txt"),
+        (["samples", "--count", "2", "--distance", "biharmonic - geodesic", "-o", "x.txt"], "is a field"),
+        (["regions", "--vertices", "1,2"], "nothing to write"),
+        (["regions", "--vertices", "1,2", "--mesh-output", "x.csv"], ".ply"),
+        (["regions", "--vertices", "1,99999", "-o", "x.npy"], "99999"),
     ],
 )
-def test_what_cannot_be_is_said(words, said, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    assert main(words) == 2
+def test_what_cannot_be_is_said(words, said, mesh_file, tmp_path, monkeypatch, capsys):
+    command, *options = words
+    mesh, here = mesh_file(bumpy(300)), tmp_path / "here"
+    here.mkdir()
+    monkeypatch.chdir(here)
+    assert main([command, mesh, *options]) == 2
     assert said in capsys.readouterr().err
-    assert not list(tmp_path.iterdir())
+    assert not list(here.iterdir())
 
 
 def test_a_count_that_is_none_is_refused(capsys):

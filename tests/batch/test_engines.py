@@ -29,7 +29,7 @@ ROOT = Path(__file__).parents[2]
 def folder(tmp_path_factory):
     place = tmp_path_factory.mktemp("meshes")
     write_mesh(place / "ring.off", torus(16, 8))
-    for k in range(6):
+    for k in range(4):
         write_mesh(place / f"bumpy{k}.off", bumpy(300 + 10 * k, k))
     return place
 
@@ -76,7 +76,7 @@ from distributed import LocalCluster
 
 if __name__ == "__main__":
     folder, out, *options = sys.argv[1:]
-    with LocalCluster(n_workers=3, threads_per_worker=1, memory_limit="4GiB", dashboard_address=None) as cluster:
+    with LocalCluster(n_workers=2, threads_per_worker=1, memory_limit="4GiB", dashboard_address=None) as cluster:
         where = ["--dask", cluster.scheduler_address]
         run = subprocess.Popen([sys.executable, "-m", "app", "batch", folder, "--out", out, *options, *where])
         while not list(Path(out).glob("*.json")) and run.poll() is None:
@@ -122,8 +122,8 @@ def test_what_is_too_big_for_a_worker_goes_to_a_larger_one_or_is_refused(folder,
     alone, both = run.stdout.split("\n0 ")
     assert alone.startswith("1 ")
     assert "It needs about 0.6 GB of memory, and there are 0.5 GB" in alone
-    assert "7 of 7" in both
-    assert len(list((tmp_path / "out").glob("*.figure.png"))) == 7
+    assert "5 of 5" in both
+    assert len(list((tmp_path / "out").glob("*.figure.png"))) == 5
 
 
 def test_a_cluster_that_has_not_this_version_is_refused(folder, tmp_path):
@@ -188,7 +188,7 @@ def test_a_process_that_is_killed_costs_nothing(folder, done, tmp_path):
     outcome = driven(tasks, engine)
     killer.join()
     assert not outcome.failures
-    assert len(outcome.rows) == 14
+    assert len(outcome.rows) == 10
 
 
 @pytest.mark.parametrize("workers", [1, 2])
@@ -208,7 +208,7 @@ def test_a_process_that_ends_between_two_tasks_costs_nothing(folder, tmp_path, w
     finally:
         engine.close()
     assert not outcome.failures
-    assert len(outcome.rows) == 7
+    assert len(outcome.rows) == 5
 
 
 def test_what_ends_its_process_again_and_again_is_named(folder, tmp_path, monkeypatch):
@@ -217,7 +217,7 @@ def test_what_ends_its_process_again_and_again_is_named(folder, tmp_path, monkey
     (failure,) = outcome.failures
     assert failure.name == "bumpy3"
     assert "ended twice" in failure.reason
-    assert len(outcome.rows) == 6
+    assert len(outcome.rows) == 4
 
 
 def _do_or_die(task):
@@ -246,8 +246,8 @@ def test_tasks_begin_when_there_is_room_for_them(folder, tmp_path, monkeypatch):
     monkeypatch.setattr(Processes, "_start", counted)
     outcome = driven(tasks_of(folder, tmp_path, WorkOrder(("fields",))), engine)
     assert not outcome.failures
-    assert len(outcome.rows) == 7
-    assert len(most) == 14  # each begins twice: only a look at the mesh says what it needs
+    assert len(outcome.rows) == 5
+    assert len(most) == 10  # each begins twice: only a look at the mesh says what it needs
     assert max(most) <= 6 * 10**8
 
 
@@ -351,7 +351,7 @@ def test_results_go_wherever_fsspec_reaches(folder):
     tasks = tasks_of(folder, "memory://results", wanted)
     outcome = driven(tasks, InTurn())
     assert not outcome.failures
-    assert len(outcome.rows) == 14
+    assert len(outcome.rows) == 10
     place = Folder("memory://results")
     content = place.read("ring.fields.biharmonic.npy")
     assert content is not None

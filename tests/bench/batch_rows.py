@@ -76,6 +76,8 @@ def batch(size: Size) -> Iterator[Line]:
             bound=1.0,
             memory=memory,
         )
+        if size.is_quick:  # what follows is the same command on the same meshes
+            return
         one = _batch(few, Path(place, "one"), size.sources, 1)
         for count in [n for n in (2, 4) if n <= workers]:
             several = _batch(few, Path(place, f"of{count}"), size.sources, count)
@@ -123,8 +125,11 @@ def _set(folder: Path, count: int) -> list[str]:
         (samples[k % len(samples)], size, folder / f"{samples[k % len(samples)].stem}_{k:03}.ply", k)
         for k, size in enumerate(sizes)
     ]
-    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
-        list(pool.map(_one_of_set, made))
+    if count < 4:  # sooner made than a process is
+        list(map(_one_of_set, made))
+    else:
+        with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
+            list(pool.map(_one_of_set, made))
     return [path.name for _, _, path, _ in made]
 
 

@@ -1,32 +1,38 @@
 """Work in a process of its own, so that its peak memory is its own."""
 
-import multiprocessing
 import resource
 import sys
 from collections.abc import Callable
-from multiprocessing.connection import Connection
+from concurrent.futures import ProcessPoolExecutor
+from functools import cache
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
+
+from .size import Size
 
 STATUS, FORGET = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 
 
 def in_child(function: Callable[..., Any], *arguments: Any) -> Any:
-    """What the module-level function returns in a new process; RuntimeError if that ends without an answer."""
-    here, there = multiprocessing.Pipe(duplex=False)
-    child = multiprocessing.get_context("spawn").Process(target=_call, args=(there, function, arguments))
-    child.start()
-    there.close()
-    try:
-        return here.recv()
-    except EOFError:
-        raise RuntimeError(f"{function.__name__}{arguments} ended without an answer.") from None
-    finally:
-        child.join()
+    """What the module-level function returns in a new process; BrokenProcessPool if that ends without an answer."""
+    with _process() as process:
+        return process.submit(function, *arguments).result()
 
 
-def _call(answer: Connection, function: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
-    answer.send(function(*arguments))
+def in_window_child(size: Size, function: Callable[..., Any], *arguments: Any) -> Any:
+    """What the module-level function returns in a new process, or in a common one if `size` is that of a quick run.
+
+    For what draws or asks a session, which is slow to import: nothing of it depends on a process of its own but times.
+    """
+    return _common().submit(function, *arguments).result() if size.is_quick else in_child(function, *arguments)
+
+
+def _process() -> ProcessPoolExecutor:
+    return ProcessPoolExecutor(1, mp_context=get_context("spawn"))
+
+
+_common = cache(_process)
 
 
 def forget_peak() -> None:

@@ -9,28 +9,30 @@ from typing import Any
 
 from bihdist_core.distances.kinds import Spec
 
-from .child import in_child
+from .child import in_window_child
 from .meshes import bumpy_sphere
 from .size import Size
 from .table import Line
 from .window_rows import COMPARED, PATIENCE, Viewless, mesh_file
 
-MOVES, EVERY = 188, 0.016
-"""A move every 16 ms for three seconds."""
+EVERY = 0.016
+"""Seconds from one move to the next, of which there are as many as in three seconds."""
 
 
 def drag(size: Size) -> Iterator[Line]:
     """How many answers are computed for nothing, and how many processes exact geodesic panels start."""
     large, small = size.drag
-    computed, shown, older, _ = in_child(_drag, large, COMPARED)
+    computed, shown, older, _ = in_window_child(size, _drag, large, COMPARED, size.moves)
     yield Line(
         15,
         f"answers lost in a drag, {large:,}",
         value=1 - shown / computed,
         bound=0.1,
-        note=f"{shown} of {computed} shown, {older} older than the one before; {MOVES} moves in 3 s",
+        note=f"{shown} of {computed} shown, {older} older than the one before; {size.moves} moves, {EVERY:g} s apart",
     )
-    computed, shown, older, started = in_child(_drag, small, (Spec.of("geodesic", method="exact"),))
+    computed, shown, older, started = in_window_child(
+        size, _drag, small, (Spec.of("geodesic", method="exact"),), size.moves
+    )
     yield Line(
         15,
         f"processes started in a drag, exact geodesic, {small:,}",
@@ -40,7 +42,7 @@ def drag(size: Size) -> Iterator[Line]:
     )
 
 
-def _drag(count: int, specs: tuple[Spec, ...]) -> tuple[int, int, int, int]:
+def _drag(count: int, specs: tuple[Spec, ...], moves: int) -> tuple[int, int, int, int]:
     """Answers computed, shown, and shown though older than the one before; processes started."""
     from app.document.document import comparison
     from app.document.edits import move_source
@@ -70,11 +72,12 @@ def _drag(count: int, specs: tuple[Spec, ...]) -> tuple[int, int, int, int]:
     LoadedMesh.answer, subprocess.Popen = counted, loaded  # type: ignore[method-assign,misc]
     view.answer_changed = lambda panel: shown.append((panel, session.shown[panel].serial))  # type: ignore[assignment]
     begun = time.perf_counter()
-    for move in range(MOVES):
+    for move in range(moves):
         session.show(move_source(session.document, 0, 10 + move), key="drag", live=True)
         _run(view, begun + (move + 1) * EVERY)
     _run(view, time.perf_counter() + 2)
     session.close()
+    LoadedMesh.answer, subprocess.Popen = answer, popen  # type: ignore[method-assign,misc]
     serials = [[serial for panel, serial in shown if panel == id] for id in session.shown]
     older = sum(b < a for each in serials for a, b in pairwise(each))
     return len(computed), len(shown), older, len(started)

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from bihdist_core.distances.kinds import Spec
 
-from .child import in_child
+from .child import in_window_child
 from .drag_row import EVERY
 from .meshes import bumpy_sphere
 from .peers import heat_solver
@@ -19,7 +19,6 @@ from .table import Line
 from .timing import timed
 from .window_rows import PATIENCE, Viewless, mesh_file
 
-SECONDS = 3.0
 LIVE_BOUND = 1.5
 """A field of the three, by how much longer it may take than a heat solve of potpourri3d on its own."""
 
@@ -35,7 +34,7 @@ def live(size: Size) -> Iterator[Line]:
     """Seconds from one field to the next while three panels follow, beside one heat solve."""
     for count in size.live:
         for name in ("vertices", "places"):
-            fields, seconds, peer = in_child(_live, count, name == "places")
+            fields, seconds, peer = in_window_child(size, _live, count, name == "places", size.seconds)
             yield Line(
                 19,
                 f"a field in a live drag over {name}, {count:,}",
@@ -47,8 +46,8 @@ def live(size: Size) -> Iterator[Line]:
             )
 
 
-def _live(count: int, in_faces: bool) -> tuple[int, float, float]:
-    """Fields shown, in how many seconds, and the seconds of a heat solve."""
+def _live(count: int, in_faces: bool, wanted: float) -> tuple[int, float, float]:
+    """Fields shown, in how many seconds (about as many as wanted), and the seconds of a heat solve."""
     from app.document.document import comparison
     from app.document.edits import move_source
     from app.session.session import Session
@@ -67,7 +66,7 @@ def _live(count: int, in_faces: bool) -> tuple[int, float, float]:
     shown: list[int] = []
     view.answer_changed = shown.append  # type: ignore[method-assign]
     begun, move = time.perf_counter(), 0
-    while time.perf_counter() < begun + SECONDS:
+    while time.perf_counter() < begun + wanted:
         move += 1
         at = SurfacePoint.of(10 + move, 0.25, 0.5) if in_faces else 10 + move
         session.show(move_source(session.document, 0, at), key="drag", live=True)

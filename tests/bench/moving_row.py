@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .child import in_child
+from .child import in_window_child
 from .meshes import bumpy_sphere
 from .size import Size
 from .table import Line
@@ -20,7 +20,7 @@ def moving(size: Size) -> Iterator[Line]:
     if not has_display():
         yield Line(16, "camera moved, three panels painted", bound=MOVING_BOUND, note="skipped: there is no display")
         return
-    ours, peer, ratio, difference, vertices, points = in_child(_moving, size)
+    ours, peer, ratio, difference, vertices, points = in_window_child(size, _moving, size)
     yield Line(
         16,
         f"camera moved, three panels painted, {vertices:,}",

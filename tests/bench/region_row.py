@@ -22,7 +22,7 @@ def regions(size: Size) -> Iterator[Line]:
     """One field, and the regions of all."""
     from app.document.document import MeshFile
     from app.session.loaded_mesh import open_mesh
-    from app.session.regions import Divided, Dividing, RegionsQuestion
+    from app.tools.regions.division import Divided, Dividing, RegionsQuestion
 
     case, view = main_case(size), Viewless()
     dividing = Dividing(view.posted.put, lambda panel: None)

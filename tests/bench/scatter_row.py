@@ -1,18 +1,17 @@
 """Row 18: the scatter of two fields of a large surface, drawn anew, with a selection in it."""
 
-import os
 from collections.abc import Iterator
 
 import numpy as np
 
 from bihdist_core import Surface, field_scatter
 
-from .child import in_child
+from .child import in_window_child
 from .meshes import bumpy_sphere
 from .size import Size
 from .table import Line
 from .timing import alternate
-from .window_rows import has_display
+from .window_rows import application, has_display
 
 SCATTER_BOUND = 0.5
 SIDES = 1200, 400
@@ -22,7 +21,7 @@ def scatter(size: Size) -> Iterator[Line]:
     if not has_display():
         yield Line(18, "scatter drawn", bound=SCATTER_BOUND, note="skipped: there is no display")
         return
-    ours, peer, ratio, error, points = in_child(_scatter, size)
+    ours, peer, ratio, error, points = in_window_child(size, _scatter, size)
     yield Line(
         18,
         f"scatter drawn, {points:,} points",
@@ -38,13 +37,10 @@ def scatter(size: Size) -> Iterator[Line]:
 
 def _scatter(size: Size) -> tuple[float, float, float, float, int]:
     """Seconds of a picture, of the peer, their ratio; by how much a count differs at most; points."""
-    os.environ.setdefault("QT_API", "pyqt5")
-    from qtpy import QtWidgets
-
+    qt = application()
     from app.qt.docks.chart import Axis
     from app.tools.scatter.chart import ScatterChart
 
-    application = QtWidgets.QApplication.instance() or QtWidgets.QApplication(["bench"])
     vertices, faces = bumpy_sphere(size.scatter)
     fields = (np.linalg.norm(vertices - vertices[k], axis=1) for k in (0, 5))
     found = field_scatter(Surface(vertices, faces), *fields, shares=True)
@@ -53,7 +49,7 @@ def _scatter(size: Size) -> tuple[float, float, float, float, int]:
     chart.show()
     chart.show_scatter(found, (("one", "#000000"), ("other", "#000000")), (Axis(), Axis()), True)
     chart.show_selections([(found.ids[::2], 0)])
-    application.processEvents()
+    qt.processEvents()
 
     def draw() -> None:
         chart.redraw()

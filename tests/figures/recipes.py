@@ -1,7 +1,7 @@
 """What the tests of recipes share: small figures, what a command refuses with, where anchors are."""
 
-from app.document.anchors import Anchors
 from app.main import main
+from app.tools.interpolation.part import Anchors
 
 SMALL = ["--size", "300x200@96dpi"]
 

@@ -8,11 +8,12 @@ from PIL import Image
 
 import app
 from app.document.page import Recipe
-from app.document.profile import Profile, profile_words, with_profile, words_in
 from app.figures.draw import FIGURE_FORMATS
 from app.main import main
+from app.tools.profile.part import Profile, profile_words, with_profile, words_in
 from bihdist_core import ParameterError, Surface, SurfacePoint
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
+from tests.figures.recipes import SMALL
 from tests.shapes import bumpy, two_pieces
 
 SEEN = [
@@ -94,7 +95,7 @@ def test_all_formats_movies_and_python_have_it(ball, mesh_file, tmp_path):
         sizes = []
         for words in ([], ["--profile", f"{a},{b}"]):
             out = tmp_path / f"f{extension}"
-            assert main(["figure", path, *SEEN, *words, "-o", str(out)]) == 0
+            assert main(["figure", path, *SEEN, *words, *SMALL, "-o", str(out)]) == 0
             sizes.append(out.read_bytes())
         assert sizes[0] != sizes[1]
     common = {"source": 4, "size": "200x200"}

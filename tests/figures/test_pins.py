@@ -7,7 +7,7 @@ import pytest
 from matplotlib.colors import to_rgb
 
 import app
-from app.document.pins import Pins
+from app.document.shared_parts.pins import Pins
 from app.figures.description import FigurePanel
 from app.figures.draw import Figure, draw_figure
 from app.figures.size import Size

@@ -5,17 +5,17 @@ from dataclasses import replace
 
 import pytest
 
-from app.document.anchors import Anchor, Anchors
 from app.document.camera import Camera
 from app.document.document import MeshFile, Zoom, comparison
 from app.document.edits import put_point
 from app.document.file import read_recipe, recipe_text
 from app.document.looks import Colours, Isolines, Shading
 from app.document.page import Page, Recipe
-from app.document.pins import Pin, Pins
-from app.document.profile import Profile
-from app.document.regions import DividedPanels
-from app.document.selections import Selection, Selections
+from app.document.shared_parts.pins import Pin, Pins
+from app.document.shared_parts.selections import Selection, Selections
+from app.tools.interpolation.part import Anchor, Anchors
+from app.tools.profile.part import Profile
+from app.tools.regions.part import DividedPanels
 from app.tools.scatter.part import Scatter
 from bihdist_core import SurfacePoint
 from bihdist_core.distances.kinds import Spec

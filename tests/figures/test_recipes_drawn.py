@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.document.anchors import Anchor, Anchors
 from app.document.document import MeshFile, Panel, Point, Zoom, comparison
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Recipe
 from app.document.quantities import DistanceFrom
 from app.main import main
+from app.tools.interpolation.part import Anchor, Anchors
 from bihdist_core.distances.kinds import Spec
 from tests.figures.recipes import SMALL, anchors, refused
 from tests.shapes import bumpy

@@ -7,7 +7,8 @@ import pytest
 from PIL import Image
 
 from app.document.file import read_recipe
-from app.document.selections import Selections, vertices_of
+from app.document.runs import ids_of
+from app.document.shared_parts.selections import Selections
 from app.figures.picture import figure
 from app.main import main
 from app.marks.primitives import AreaMark
@@ -46,9 +47,7 @@ def test_what_is_selected_has_a_rim_and_hatching_and_the_field_is_seen_between(m
     # Where it is changed there is much of the colour, and only above.
     assert (np.abs(shown[differs] - GREEN).max(axis=1) < 40).mean() > 0.1
     assert rows[-1] < 0.62 * len(plain)
-    assert (
-        vertices_of(read_recipe(tmp_path / "top.json").document[Selections].selections[0].runs).tolist() == top.tolist()
-    )
+    assert ids_of(read_recipe(tmp_path / "top.json").document[Selections].selections[0].runs).tolist() == top.tolist()
 
 
 def test_python_and_the_command_draw_the_same(mesh, tmp_path):

@@ -90,12 +90,13 @@ def modules(*folders: str) -> list[str]:
 
 
 WITHOUT_QT = {"profile", "curves", "figure", "figure_curves", "command", "samples_command", "evaluate_command"}
+WITHOUT_QT |= {"part", "paths", "division", "judgement", "locations", "pairwise_distances", "options", "marks"}
 WITHOUT_QT |= {"pins", "scatter", "statistics", "quality", "regions", "interpolation", "correspondence", "robustness"}
 """Modules of tools, and tools themselves, that are no part of the window."""
 
 
 def test_document_and_session_load_nothing_that_draws():
-    assert not loaded(*modules("document", "session")) & (DRAWING | QT)
+    assert not loaded(*modules("document", "document/shared_parts", "session")) & (DRAWING | QT)
 
 
 def test_only_the_window_and_what_tools_have_in_it_load_qt():

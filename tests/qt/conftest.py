@@ -17,14 +17,21 @@ def application():
     return application()
 
 
+SMALL, WHOLE = (1000, 640), (1400, 860)
+"""Sizes of windows, small and as on a desktop: the processor draws each pixel, in small ones twice as fast."""
+SMALL_IN = {"anchors", "beside", "closing", "colours", "controls", "docks", "drawn_sources", "export"}
+"""Modules of tests, without `test_`, in which small windows show all that there is to see."""
+
+
 class Screen:
     """A window with the event loop in the test's hands."""
 
-    def __init__(self, application, specs=COMPARISON):
+    def __init__(self, application, specs=COMPARISON, size=WHOLE):
         from app.qt.main_window import MainWindow
 
         self.application = application
         self.window = MainWindow(comparison("", tuple(specs)))
+        self.window.resize(*size)
         self.window.context.quiet, self.window.context.remembers = True, False
         self.refusals, self.completions = [], []
         self.window.refused.connect(self.refusals.append)
@@ -69,7 +76,7 @@ class Screen:
             time.sleep(0.005)
 
     def open(self, path, source=None):
-        self.window.open(str(path), source)
+        self.window.context.open(str(path), source)
         # Until it is there, what was shown before is complete.
         self.until(lambda: self.session.is_complete and not self.session.is_opening)
         self.settle(0.1)
@@ -122,11 +129,13 @@ class Screen:
 
 
 @pytest.fixture
-def screen(application):
+def screen(application, request):
+    """Makes windows."""
+    size = SMALL if request.module.__name__.rpartition("test_")[2] in SMALL_IN else WHOLE
     screens = []
 
     def make(specs=COMPARISON):
-        screens.append(Screen(application, specs))
+        screens.append(Screen(application, specs, size))
         return screens[-1]
 
     yield make

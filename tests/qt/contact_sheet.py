@@ -107,7 +107,7 @@ def _beginning(d: Driver) -> None:
     from app.samples import mesh_path
 
     d.shot("empty")
-    d.window.open(str(ROOT / "README.md"))
+    d.window.context.open(str(ROOT / "README.md"))
     d.spin(0.6)
     d.shot("a file that is no mesh")
     d.pointer("key", "Tab")
@@ -227,7 +227,7 @@ def _waiting(d: Driver) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "a large mesh.off")
         with_fins(*bumpy_sphere(100_000), count=2500, path=path)
-        d.window.open(str(path))
+        d.window.context.open(str(path))
         d.until(lambda: bool(d.window.session.progress) and d.window.session.surface is not None)
         d.spin(0.5)
         d.shot("waiting for a large mesh")
@@ -238,7 +238,7 @@ def _waiting(d: Driver) -> None:
         parts(d.window).choices.choose(first, quantity("truncated(k=300)"))
         d.spin(0.6)
         d.shot("computing")
-        d.window.cancel()
+        d.window.context.actions["stop"].trigger()
         d.spin(0.5)
         d.shot("stopped")
         d.window.status.notes.click()

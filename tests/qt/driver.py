@@ -67,7 +67,7 @@ class Driver:
         self.spin()
 
     def open(self, path: object) -> None:
-        self.window.open(str(path))
+        self.window.context.open(str(path))
         self.until(lambda: not self.window.session.is_opening)
         self.complete()
 

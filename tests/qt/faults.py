@@ -125,7 +125,7 @@ def _start(panel, document, session, vertex_at) -> int | None:
 
 def _plain(panel, session) -> str:
     """The name of its surface, where a panel is the only one of it that predicts, and there is nothing to predict."""
-    from app.document.prediction import predicts_in
+    from app.tools.correspondence.prediction import predicts_in
 
     answer = session.shown[panel.id].answer
     alone = [other for other in session.document.panels_of(panel.surface) if predicts_in(other)] == [panel]

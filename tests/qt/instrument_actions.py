@@ -2,12 +2,12 @@
 
 from dataclasses import replace
 
-from app.document.maps import Maps
-from app.document.pairs import Pairs
-from app.document.pins import Pins
-from app.document.profile import Profile
-from app.document.regions import DividedPanels
+from app.document.shared_parts.pins import Pins
 from app.document.tools import docked_tools
+from app.tools.correspondence.maps import Maps
+from app.tools.correspondence.pairs import Pairs
+from app.tools.profile.part import Profile
+from app.tools.regions.part import DividedPanels
 from tests.qt.parts import parts
 
 from .hands import Hands
@@ -138,7 +138,7 @@ class InstrumentHands(Hands):
             dock.show()
 
     def profile(self) -> None:
-        from app.document.profile import WAYS
+        from app.tools.profile.part import WAYS
 
         session = self.window.session
         document = session.document
@@ -149,7 +149,7 @@ class InstrumentHands(Hands):
         session.show(document.with_part(profile))
 
     def regions(self) -> None:
-        from app.document.regions import show_regions
+        from app.tools.regions.part import show_regions
 
         session = self.window.session
         if len(session.document[Pins].pins) > 1:
@@ -265,7 +265,7 @@ class InstrumentHands(Hands):
         elif way == "drop":
             self._drag_drop()
         else:
-            from app.document.pairs import add_pairs
+            from app.tools.correspondence.pairs import add_pairs
 
             ids = [(self.chance.randrange(700), self.chance.randrange(700)) for _ in range(3)]
             self.window.session.show(add_pairs(document, ids))

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from itertools import combinations
 from typing import Any
 
-from app.document.pins import Pins
-from app.document.selections import Selections
+from app.document.shared_parts.pins import Pins
+from app.document.shared_parts.selections import Selections
 from tests.qt.parts import parts
 
 from .driver import Driver
@@ -139,8 +139,8 @@ def _profile(d: Driver) -> None:
 
 def _section(d: Driver) -> None:
     """Through the first two of the pins that a section joins."""
-    from app.document.profile import Profile
     from app.tools.profile.dock import FINDING
+    from app.tools.profile.part import Profile
 
     dock = _dock(d, "profile", "f")
     before = d.window.session.document
@@ -254,7 +254,7 @@ def _interpolation(d: Driver) -> None:
         d.pointer("type", value)
         d.pointer("key", "Return")
         d.complete()
-    d.until(lambda: parts(d.window).findings.is_complete and "…" not in str(dock.extrema.facts))
+    d.until(lambda: parts(d.window).quality.is_complete and "…" not in str(dock.extrema.facts))
     d.shot("anchors")
     row = list(dock.rows.values())[3]
     x, y = _on(d, row.slider, 0.7, 0.5)
@@ -264,7 +264,7 @@ def _interpolation(d: Driver) -> None:
     _press(d, dock.samples.add)
     d.until(lambda: len(dock.rows) > len(ANCHORED))
     d.complete()
-    d.until(lambda: parts(d.window).findings.is_complete)
+    d.until(lambda: parts(d.window).quality.is_complete)
     d.shot("samples as anchors")
     _scroll_of(dock).ensureWidgetVisible(dock.shows)
     d.pointer("mousemove", *_on(d, dock.shows, 0.75, 0.5), "click", 1)
@@ -370,7 +370,7 @@ def _live(d: Driver) -> None:
     from qtpy import QtCore
 
     view = d.window.grid.panels[0].view
-    at = view.mapToGlobal(view.place_of(view.source).toPoint()) * d.look.scale
+    at = view.mapToGlobal(view.place_of(view.handles[0]).toPoint()) * d.look.scale
     assert isinstance(at, QtCore.QPoint)
     places = [(at.x() + round(3 * step * d.look.scale), at.y() - step * d.look.scale) for step in range(14)]
     places += places[::-1][:12]

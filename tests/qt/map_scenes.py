@@ -8,8 +8,8 @@ from .pair_scenes import far_apart
 def full_maps(d: Driver) -> None:
     """The curves, the truth's menu, a map in colours by mouse, and meshes of which nobody knows what is right."""
     from app.document.beside_edits import close_beside
-    from app.document.pairs import add_pairs
     from app.samples import mesh_path
+    from app.tools.correspondence.pairs import add_pairs
 
     d.open(mesh_path("beast"))
     session = d.window.session

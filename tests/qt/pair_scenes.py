@@ -21,8 +21,8 @@ def far_apart(places: np.ndarray) -> list[int]:
 def correspondence(d: Driver) -> None:
     """The tool with one mesh, then pairs on two: by hand, from the prediction, and what goes wrong."""
     from app.document.beside_edits import close_beside
-    from app.document.pairs import add_pairs
     from app.samples import mesh_path
+    from app.tools.correspondence.pairs import add_pairs
 
     d.open(mesh_path("beast"))
     dock, session = _dock(d, "pairs", "m"), d.window.session

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.document.pins import Pins
+from app.document.shared_parts.pins import Pins
 from tests.qt.parts import parts
 
 

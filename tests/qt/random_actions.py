@@ -57,9 +57,9 @@ class RandomHands(InstrumentHands):
         from qtpy import QtCore
 
         panel = self.chance.choice(self.window.grid.panels)
-        if panel.view.source is None:
+        if not len(panel.view.handles):
             return
-        at = panel.view.place_of(panel.view.source)
+        at = panel.view.place_of(panel.view.handles[0])
         at = panel.view.mapToGlobal(QtCore.QPoint(round(at.x() - 0.5), round(at.y() - 0.5)))
         if not self.is_over(panel.view, at):
             return  # the camera looks past it, or a dock is over it
@@ -214,16 +214,16 @@ class RandomHands(InstrumentHands):
         parts(self.window).choices.theme(self.chance.choice(["light", "dark", "desktop"]))
 
     def edit_panels(self) -> None:
-        from app.document.edits import PANEL_EDITS
+        from app.document.panel_edits import panel_edits
 
-        parts(self.window).choices.edit_panel(self.panel(), self.chance.choice([*PANEL_EDITS, "Remove it"]))
+        parts(self.window).choices.edit_panel(self.panel(), self.chance.choice([*panel_edits(), "Remove it"]))
 
     def undo(self) -> None:
         for _ in range(self.chance.randint(1, 4)):
             self.key(self.chance.choice(["Ctrl+Z", "Ctrl+Z", "Ctrl+Shift+Z", "Ctrl+Y"]))
 
     def open(self) -> None:
-        self.window.open(self.chance.choice(self.meshes))
+        self.window.context.open(self.chance.choice(self.meshes))
         if self.chance.random() < 0.5:
             self.until(lambda: not self.window.session.is_opening)
 
@@ -275,7 +275,7 @@ def main() -> None:
     share_arenas()
     hands = RandomHands(seed, folder)
     for path in (*hands.meshes[1:], hands.meshes[0]):  # what is kept of each is there from the beginning
-        hands.window.open(path)
+        hands.window.context.open(path)
         hands.until(lambda: not hands.window.session.is_opening and hands.window.session.is_complete)
     hands.warm_up()
     for _ in range(count):

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.anchors import add_anchor
 from app.document.edits import show_in
 from app.document.quantities import quantity
 from app.tools.interpolation.answers import InterpolantMemory
+from app.tools.interpolation.part import add_anchor
 from app.tools.interpolation.quantity import Interpolant
 from bihdist_core import BiharmonicDistance, GeodesicDistance, ShepardInterpolant, farthest_points, other_extrema
 from bihdist_core.applications.weights import Weights
@@ -19,8 +19,8 @@ from tests.shapes import bumpy
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtTest
 
-from app.document.anchors import Anchors
-from app.qt.panels.anchor_labels import label_boxes
+from app.qt.panels.mark_texts import label_boxes
+from app.tools.interpolation.part import Anchors
 from tests.qt.parts import parts
 
 LEFT = QtCore.Qt.MouseButton.LeftButton
@@ -172,7 +172,7 @@ def test_weights_and_extrema_are_those_of_the_library(loaded):
     complete(s)
     assert (s.document[Anchors].weights.exponent, s.document[Anchors].weights.smoothness) == (2.5, 0.1)
     check(s)
-    s.until(lambda: "…" not in str(dock.extrema.facts) and parts(s.window).findings.is_complete)
+    s.until(lambda: "…" not in str(dock.extrema.facts) and parts(s.window).quality.is_complete)
     s.settle(0.05)
     vertices = SourceSet(tuple(s.document.point(a.point).at for a in s.document[Anchors].anchors))
     for panel, (_, at_tips, elsewhere) in enumerate(dock.extrema.facts[1:]):
@@ -191,7 +191,7 @@ def test_extrema_are_marked_on_interpolants_only(loaded):
 
     def rest():
         complete(s)
-        s.until(lambda: parts(s.window).findings.is_complete)
+        s.until(lambda: parts(s.window).quality.is_complete)
         s.settle(0.05)
 
     def counted():
@@ -260,12 +260,12 @@ def test_up_and_down_go_through_the_list_and_delete_removes(loaded):
     rows[1].slider.setFocus()
     values = [anchor.value for anchor in s.document[Anchors].anchors]
     QtTest.QTest.keyClick(rows[1].slider, keys.Key_Down)
-    assert s.window.grid.marks.chosen_anchor == rows[2].point
+    assert s.window.grid.marks.lit("anchors") == (rows[2].point,)
     assert [anchor.value for anchor in s.document[Anchors].anchors] == values
     QtTest.QTest.keyClick(rows[2].slider, keys.Key_Delete)
     complete(s)
     assert [a.point for a in s.document[Anchors].anchors] == [rows[0].point, rows[1].point]
-    assert s.window.grid.marks.chosen_anchor == rows[1].point
+    assert s.window.grid.marks.lit("anchors") == (rows[1].point,)
     s.window.actions_by_word["remove anchor"].trigger()
     complete(s)
     assert [a.point for a in s.document[Anchors].anchors] == [rows[0].point]

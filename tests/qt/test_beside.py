@@ -9,7 +9,7 @@ from qtpy import QtCore, QtTest
 from app.document.beside_edits import open_beside
 from app.document.document import MeshFile
 from app.document.file import read_recipe
-from app.document.pins import Pins
+from app.document.shared_parts.pins import Pins
 from app.document.tools import docked_tools
 from app.scene.camera import frame
 from bihdist_core import Surface
@@ -118,10 +118,10 @@ def test_unlinked_cameras_are_each_for_themselves_and_a_standard_view_is_of_the_
     assert seen(s)[1] != second
     s.window.grid.activate(s.panels[0].id)
     turned = seen(s)[1]
-    s.window.reset_view("top")
+    parts(s.window).views.reset("top")
     assert (s.document.camera, seen(s)[1]) == ("top", turned)
     s.window.actions_by_word["link"].trigger()
-    s.window.reset_view("left")
+    parts(s.window).views.reset("left")
     assert [s.document.camera_of(name) for name in "AB"] == ["left", "left"]
 
 

@@ -9,15 +9,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.document.anchors import add_anchor
 from app.document.document import comparison
 from app.document.edits import move_source
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Recipe
-from app.document.pairs import place_point
-from app.document.perturbation_edits import change_mesh
-from app.document.pins import add_pins
-from app.document.selections import select
+from app.document.shared_parts.pins import add_pins
+from app.document.shared_parts.selections import select
+from app.tools.correspondence.pairs import place_point
+from app.tools.interpolation.part import add_anchor
+from app.tools.robustness.comparison import change_mesh
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.sources.source import Curve, SurfacePoint
 from tests.qt.parts import parts
@@ -95,6 +95,18 @@ def test_what_was_given_from_outside_is_not_asked_about_until_there_is_more(scre
     assert asked == ["The pins have not been saved."]
 
 
+def test_what_is_found_once_the_window_is_closed_is_dropped(screen, mesh_file):
+    s, ran = screen(), []
+    s.open(mesh_file(bumpy(120)), 5)
+    s.window.context.post(lambda: ran.append("open"))
+    s.until(lambda: ran == ["open"])
+    s.window.context.quiet = True
+    s.window.close()
+    s.window.context.post(lambda: ran.append("closed"))
+    s.settle(0.1)
+    assert ran == ["open"]
+
+
 def test_pairs_are_asked_about(screen, mesh_file):
     s, asked = screen(), Asked()
     s.open(mesh_file(bumpy(120)), 5)
@@ -112,7 +124,7 @@ def test_closing_asks_where_a_session_has_changed_since_it_was_saved(screen, mes
     file = parts(s.window).session_file
     file.save(str(tmp_path / "s [*].json"))
     s.until(lambda: title(s.window) == ("s [*][*].json[*] - mesh.off - Biharmonic distance", False))
-    s.window.reset_view("top")
+    parts(s.window).views.reset("top")
     assert file.may_close(asked.answering("cancel"))
     assert not asked
     s.session.show(move_source(s.document, 0, 7))

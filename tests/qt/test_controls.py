@@ -84,7 +84,7 @@ def test_the_full_screen_of_a_talk_has_panels_only_and_one_comes_back(screen, me
         s.settle()
         assert ([bar.isVisible() for bar in bars], LOOK.scale) == ([False] * 3, TALK * usual)
         if leave == "Esc":
-            s.window.cancel()
+            s.window.context.actions["stop"].trigger()
         elif leave == "F11":
             s.window.actions_by_word["full screen"].trigger()
         else:

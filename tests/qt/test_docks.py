@@ -35,7 +35,7 @@ def test_docks_that_have_been_alone_become_tabs_when_all_are_opened(screen, mesh
 
 
 def test_a_narrow_window_has_room_for_pins_beside_a_profile(screen, mesh_file):
-    from app.document.pins import add_pins
+    from app.document.shared_parts.pins import add_pins
 
     s = screen()
     s.window.resize(900, 600)
@@ -52,7 +52,7 @@ def test_a_narrow_window_has_room_for_pins_beside_a_profile(screen, mesh_file):
 
 
 def test_a_profile_stays_on_the_panels_whatever_they_look_like(screen, mesh_file):
-    from app.document.pins import add_pins
+    from app.document.shared_parts.pins import add_pins
     from app.qt.look.look import LOOK
 
     s = screen()
@@ -84,7 +84,7 @@ def test_the_quality_of_other_panels_comes_while_its_dock_is_closed(screen, mesh
         s.settle(0.1)
     shows = s.document.panels[0].shows
     s.session.show(add_panel(remove_panel(s.document, s.document.panels[1].id), shows))
-    parts(s.window).findings.quality_changed.emit()
+    parts(s.window).quality.changed.emit()
     parts(s.window).docks.toggle("quality")
     s.until(lambda: s.session.is_complete)
     dock = parts(s.window).docks._docks["quality"].content

@@ -219,7 +219,7 @@ def test_a_recipe_without_panels_leaves_an_empty_window_that_works(screen, mesh_
     s.settle()
     assert s.panels == []
     assert s.document.isolines.count == 500
-    s.window.reset_view("top")
+    parts(s.window).views.reset("top")
     assert export_figure(s.window.context) is None
     assert "no panels" in s.refusals[-1]
     parts(s.window).choices.add_panel()

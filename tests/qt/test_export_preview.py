@@ -1,6 +1,5 @@
 """The export dialog shows the figure itself, and what it says is true of the file; copies are the figure again."""
 
-import os
 import shlex
 import subprocess
 import sys
@@ -9,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.anchors import Anchor, Anchors
 from app.document.document import Panel, Point, Zoom
 from app.document.page import Page
 from app.document.quantities import DistanceFrom
+from app.tools.interpolation.part import Anchor, Anchors
 from bihdist_core import SurfacePoint
 from bihdist_core.distances.kinds import Spec
 from tests.qt.parts import parts
@@ -185,31 +184,38 @@ STATES = [(turned, Page(size="300x200"), "png"), (other_panels, Page(size="85mm@
 STATES += [(marked, Page(size="85mm", hints=True, columns=1), "pdf")]
 
 
-@pytest.mark.parametrize(("change", "page", "format"), STATES)
-def test_the_copied_lines_make_the_bytes_of_the_export(screen, mesh_file, tmp_path, change, page, format):
+def test_the_copied_lines_make_the_bytes_of_the_export(screen, mesh_file, tmp_path):
     s = screen()
+    exported, lines = [], []
+    for k, (change, page, format) in enumerate(STATES):
+        out, command, python = copied(s, mesh_file, tmp_path / f"window-{k}.{format}", change, page)
+        assert command[0] == "bihdist"
+        for name, line in (("command", f"assert main({command[1:]!r}) == 0"), ("python", python.partition("; ")[2])):
+            folder = tmp_path / f"{name}-{k}"
+            folder.mkdir()
+            exported.append((out, folder / f"a-mesh-figure.{format}"))
+            lines += [f"os.chdir({str(folder)!r})", line]
+    # All of them in one process, which knows nothing of this one.
+    code = "\n".join(["import os", "import app as bihdist", "from app.main import main", *lines])
+    subprocess.run([sys.executable, "-c", code], check=True, stdout=subprocess.DEVNULL)
+    for out, made in exported:
+        assert made.read_bytes() == out.read_bytes(), made
+
+
+def copied(s, mesh_file, out, change, page):
+    """A file that is exported, and the copied lines for it: (path, words of a command, line of Python)."""
     s.open(mesh_file(bumpy(400), "a mesh.off"), 5)
     change(s)
     s.until(lambda: s.session.is_complete)
-    dialog = shown_dialog(s, **{f: getattr(page, f) for f in ("size", "style", "hints", "columns")}, format=format)
+    own = {f: getattr(page, f) for f in ("size", "style", "hints", "columns")}
+    dialog = shown_dialog(s, **own, format=out.suffix[1:])
     dialog.copy_line.menu().actions()[0].trigger()
     command = shlex.split(pasted().text())
     dialog.copy_line.menu().actions()[1].trigger()
     python = pasted().text()
-    out = tmp_path / f"window.{format}"
     dialog.export(str(out))
     s.until(lambda: out.with_suffix(".json").exists() and not parts(s.window).exports.running)
-    (tmp_path / "elsewhere").mkdir()
-    place = {"cwd": tmp_path / "elsewhere", "env": {**os.environ, "PYTHONPATH": os.getcwd()}, "check": True}
-    made = tmp_path / "elsewhere" / f"a-mesh-figure.{format}"
-    assert command[0] == "bihdist"
-    for words in (
-        [sys.executable, "-m", "app", *command[1:]],
-        [sys.executable, "-c", f"import app as bihdist; {python.partition('; ')[2]}"],
-    ):
-        subprocess.run(words, **place, stdout=subprocess.DEVNULL)
-        assert made.read_bytes() == out.read_bytes()
-        made.unlink()
+    return out, command, python
 
 
 def test_what_no_line_can_say_is_kept_as_a_recipe(screen, mesh_file, tmp_path, monkeypatch):

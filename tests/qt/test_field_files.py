@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from app.document.edits import add_panel, move_source
-from app.document.maps import MapColours
-from app.document.perturbation_edits import change_mesh
 from app.document.quantities import quantity
+from app.tools.correspondence.maps import MapColours
+from app.tools.robustness.comparison import change_mesh
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.formats.field_output import FIELD_FORMATS
 from bihdist_core.sources.source import SourceSet, SurfacePoint

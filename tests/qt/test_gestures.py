@@ -1,8 +1,11 @@
 """What the pointer and the keys mean on a panel."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
+from app.tools.robustness.comparison import change_mesh
 from bihdist_core.applications.changes import Perturbation
 from tests.qt.parts import parts
 from tests.shapes import bumpy
@@ -202,7 +205,7 @@ def test_a_live_source_follows_the_pointer_until_escape(loaded):
     target = front(s)
     QtTest.QTest.mouseMove(view, s.point_of(s.panels[0], target))
     s.until(lambda: s.source == target)
-    s.window.cancel()
+    s.window.context.actions["stop"].trigger()
     assert not s.window.actions_by_word["live"].isChecked()
     s.until(lambda: s.session.is_complete)
     QtTest.QTest.mouseMove(view, view.rect().center() + view.rect().center() / 6)
@@ -270,7 +273,7 @@ def test_the_button_of_views_follows_the_camera(loaded):
     assert button.accessibleDescription() == "Home"
     key(s, "Left")
     assert button.accessibleDescription() == "Free"
-    s.window.reset_view("top")
+    parts(s.window).views.reset("top")
     assert button.accessibleDescription() == "Top"
 
 
@@ -319,12 +322,12 @@ def test_the_ring_goes_from_all_meshes_where_one_of_them_is_made_anew(loaded):
     from qtpy import QtCore
 
     s = loaded
-    s.session.change_mesh(Perturbation(noise=0.1))
+    s.session.apply(partial(change_mesh, change=Perturbation(noise=0.1)))
     s.until(lambda: s.session.is_complete and len(s.document.surfaces) == 2)
     s.settle()
     s.hover(s.point_of(s.panels[0], s.seen(1)[0]))
     assert any(rings(s))
-    s.session.change_mesh(Perturbation(noise=0.2))
+    s.session.apply(partial(change_mesh, change=Perturbation(noise=0.2)))
     s.until(lambda: s.session.is_complete and not s.session.is_opening)
     s.application.sendEvent(s.panels[0].view, QtCore.QEvent(QtCore.QEvent.Type.Leave))
     assert not any(rings(s))

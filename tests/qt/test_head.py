@@ -6,7 +6,7 @@ pytest.importorskip("qtpy")
 
 from qtpy import QtCore, QtTest
 
-from app.document.edits import PANEL_EDITS
+from app.document.panel_edits import panel_edits
 from app.document.quantities import DistanceFrom, OwnField, quantity
 from bihdist_core.distances.kinds import OURS, Spec, kind_of
 from tests.qt.heads import choose, entries, shown
@@ -173,7 +173,7 @@ def test_the_panel_s_menu_asks_for_edits_that_are_possible(head):
     h, asked = head(), []
     h.asked.connect(asked.append)
     h.allow({"Duplicate this panel", "Remove it"})
-    possible = [word for word in PANEL_EDITS if entries(h.more.menu())[word].isEnabled()]
+    possible = [word for word in panel_edits() if entries(h.more.menu())[word].isEnabled()]
     assert possible == ["Duplicate this panel", "Remove it"]
     for word in possible:
         entries(h.more.menu())[word].trigger()

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.anchors import Anchor
 from app.document.document import Point, Zoom, comparison
 from app.document.edits import move_source
 from app.document.file import recipe_text
 from app.document.page import Page, Recipe
 from app.scene.style import STYLES
+from app.tools.interpolation.part import Anchor
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy, grid
 
@@ -18,9 +18,10 @@ pytest.importorskip("qtpy")
 
 from qtpy.QtGui import QColor
 
-from app.document.anchors import Anchors
 from app.qt.look.canvas import canvas_style
 from app.qt.look.look import LOOK
+from app.tools.interpolation.part import Anchors
+from tests.qt.painting import painted
 from tests.qt.parts import parts
 
 SIZE = 2  # device pixels by which a place may be off
@@ -155,10 +156,11 @@ def test_anchors_are_light_in_their_middle_whatever_their_values(shown):
         points = (s.document.point("source"), Point("anchor", vertex))
         s.session.show(replace(s.document, points=points).with_part(Anchors(anchors=(Anchor("anchor", value),))))
         s.settle(0.1)
-        assert colour_at(s.panels[0], seen_at(s.panels[0], vertex)).min() > 0.9
+        x, y = np.round(seen_at(s.panels[0], vertex)).astype(int)
+        assert painted(s.panels[0].view)[::-1][y - 1 : y + 2, x - 1 : x + 2].min() > 230
     s.session.show(s.document.with_part(Anchors(anchors=())))
     s.settle(0.1)
-    assert not s.panels[0].view.scene._anchored.actor.GetVisibility()
+    assert not len(s.panels[0].view.over.points.positions("anchors"))
 
 
 # ---------------------------------------------------------------------- reliefs
@@ -227,7 +229,7 @@ def test_another_theme_has_the_twin_of_a_style_and_changes_no_page_and_nothing_o
             assert (scene.style.stops, is_on_the_windows_ground(panel)) == (STYLES[style].stops, True)
             assert len(scene.insets.renderers) == 1
             assert np.array_equal(scene.isolines, lines)
-            assert scene._anchored.actor.GetVisibility()
+            assert len(panel.view.over.points.positions("anchors"))
             assert np.ptp(panel.positions[:, 2]) > 0
     for word in ("light", "dark"):
         assert all(np.array_equal(a, b) for a, b in zip(pictures[word], pictures[f"{word} again"], strict=True))
@@ -282,7 +284,7 @@ def test_a_panel_that_is_removed_keeps_nothing_of_what_it_showed(shown):
     s.settle()
     gc.collect()
     assert shown_by() is None
-    assert kept._loaded is None
+    assert kept.loaded is None
     s.window.session.undo()
     s.until(lambda: s.session.is_complete)
     s.settle()

@@ -13,10 +13,11 @@ from PIL import Image
 
 from app.document.edits import move_source
 from app.document.form import document_data
-from app.document.pins import PinList, add_pins, change_pin
-from app.document.profile import Profile
-from app.document.regions import show_regions
-from app.document.selections import select
+from app.document.shared_parts.pins import Pins, add_pins, change_pin
+from app.document.shared_parts.selections import select
+from app.tools.pins.part import PinsListing
+from app.tools.profile.part import Profile
+from app.tools.regions.part import show_regions
 from app.tools.scatter.part import Scatter
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import Curve, SourceSet, SurfacePoint
@@ -25,7 +26,6 @@ from tests.shapes import bumpy
 pytest.importorskip("qtpy")
 from qtpy import QtCore
 
-from app.document.pins import Pins
 from tests.qt.parts import parts
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -47,7 +47,7 @@ def everything(s):
         replace(document, extrema=True)
         .with_part(Profile((points[2], points[0], points[3]), "edges", shares=False))
         .with_part(Scatter(across=document.panels[2].id, up=document.panels[0].id))
-        .with_part(replace(document[Pins], pin_list=PinList(Spec.of("geodesic", method="dijkstra"), shares=True)))
+        .with_part(PinsListing(Spec.of("geodesic", method="dijkstra"), shares=True))
     )
     s.session.show(document)
     for dock in DOCKS:
@@ -70,6 +70,7 @@ def _neighbours(faces, face):
 
 def rested(s):
     s.until(lambda: s.session.is_complete)
+    s.until(lambda: parts(s.window).quality.is_complete and parts(s.window).regions.is_complete)
     s.settle(1.0)
     s.until(lambda: s.session.is_complete)
 

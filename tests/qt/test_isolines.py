@@ -122,9 +122,8 @@ def test_a_line_through_a_point_follows_source_and_undo(s):
         return found.values[found.is_through].tolist()
 
     assert through() == [field[40]]
-    dots = s.panels[0].view.scene._passed.actor
-    assert dots.GetVisibility()
-    assert dots.GetMapper().GetInput().GetPoint(0) == pytest.approx(s.session.surface.vertices[40])
+    points = s.panels[0].view.over.points
+    assert np.array_equal(points.positions("isolines"), s.session.surface.vertices[[40]])
     assert field[40] in s.panels[0].bar._reading.lines
     assert s.window.menus.isolines.through.isEnabled()
     s.session.show(move_source(s.document, 0, 100))
@@ -134,7 +133,7 @@ def test_a_line_through_a_point_follows_source_and_undo(s):
     assert through() == [s.answers[0].field[40]]
     choices.pass_through_none()
     assert through() == []
-    assert not dots.GetVisibility()
+    assert not len(points.positions("isolines"))
     s.session.undo()
     assert through() == [s.answers[0].field[40]]
     # A new panel has it, too.

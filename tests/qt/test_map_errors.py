@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-import app.session.judging as judging
+import app.tools.correspondence.judgement as judging
 from app.document.file import read_recipe
-from app.document.maps import MapColours, MapFile
-from app.document.pairs import add_pairs, place_point
-from app.document.prediction import predicts
 from app.figures.export import compute, open_document
 from app.marks.glyphs import CANDIDATE, CROSS
 from app.session.array_store import ArrayStore
+from app.tools.correspondence.maps import MapColours, MapFile
+from app.tools.correspondence.pairs import add_pairs, place_point
+from app.tools.correspondence.prediction import predicts
 from bihdist_core import (
     BiharmonicDistance,
     Correspondence,
@@ -28,7 +28,7 @@ from tests.shapes import bumpy, grid
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtTest, QtWidgets
 
-from app.document.maps import Maps
+from app.tools.correspondence.maps import Maps
 from tests.qt.parts import parts
 
 LEFT = QtCore.Qt.MouseButton.LeftButton

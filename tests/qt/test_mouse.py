@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from app.document.edits import move_source
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 ROOT = Path(__file__).parents[2]
@@ -98,7 +99,7 @@ def test_dragging_the_mark_moves_the_source_and_not_the_view(loaded):
 def test_the_mark_behind_the_surface_is_not_taken_hold_of(loaded):
     s, panel = loaded, loaded.panels[0]
     back = int(s.session.surface.vertices[:, 2].argmin())
-    s.window.reset_view("front")
+    parts(s.window).views.reset("front")
     s.session.show(move_source(s.document, 0, back))
     s.until(lambda: s.session.is_complete)
     s.settle()

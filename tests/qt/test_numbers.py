@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from app.document.edits import show_dock
-from app.document.pins import add_pins
-from app.document.regions import show_regions
+from app.document.shared_parts.pins import add_pins
+from app.tools.regions.part import show_regions
 from bihdist_core import SurfacePoint, field_quality, field_statistics, read_surface
 from bihdist_core.distances.kinds import Spec
 from tests.qt.parts import parts
@@ -102,12 +102,12 @@ def test_regions_and_farthest_points(loaded, written, tmp_path):
     s.session.show(add_pins(s.document, at))
     for panel in s.document.panels:
         s.session.show(show_regions(s.document, panel.id))
-    s.until(lambda: parts(s.window).findings.is_complete)
+    s.until(lambda: parts(s.window).regions.is_complete)
     for panel, spec in zip(s.document.panels, SHOWN, strict=True):
         cut, lines = tmp_path / "cut.ply", tmp_path / "lines.csv"
         words = ("--vertices", ",".join(map(str, at)), "--distance", spec, "--mesh-output", cut, "--boundaries", lines)
         labels = written("regions", *words, name=f"{panel.id}.npy")
-        found = parts(s.window).findings.divided(panel.id).regions
+        found = parts(s.window).regions.divided(panel.id).regions
         assert np.array_equal(np.where(found.labels < 0, np.nan, found.labels + 1), labels, equal_nan=True)
         mesh = read_surface(cut)
         assert found.areas.sum() == pytest.approx(mesh.face_areas.sum(), rel=EXACT)
@@ -163,7 +163,7 @@ def test_statistics_scatter_and_quality(loaded, written):
     s, (a, b, c) = loaded, fields(written)
     surface = s.session.surface
     statistics, scatter, quality = (dock(s, word) for word in ("statistics", "scatter", "quality"))
-    s.until(lambda: statistics.facts.facts and len(scatter.facts.facts) > 3 and parts(s.window).findings.is_complete)
+    s.until(lambda: statistics.facts.facts and len(scatter.facts.facts) > 3 and parts(s.window).quality.is_complete)
     s.settle(0.1)
     found = field_statistics(surface, a)
     facts = dict(fact[:2] for fact in statistics.facts.facts)

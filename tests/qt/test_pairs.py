@@ -7,11 +7,11 @@ import pytest
 
 from app.document.edits import duplicate_panel
 from app.document.file import read_recipe
-from app.document.pairs import half_pair
 from app.figures.export import compute, figure_of, open_document
 from app.marks.glyphs import CANDIDATE
 from app.session.array_store import ArrayStore
-from app.session.prediction_answers import KnownColumns
+from app.tools.correspondence.pairs import half_pair
+from app.tools.correspondence.prediction_answers import KnownColumns
 from app.tools.correspondence.quantity import Prediction
 from bihdist_core import BiharmonicDistance, Correspondence, GeodesicDistance, Surface
 from bihdist_core.distances.kinds import Spec
@@ -20,7 +20,7 @@ from tests.shapes import bumpy
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtGui, QtTest, QtWidgets
 
-from app.document.pairs import Pairs
+from app.tools.correspondence.pairs import Pairs
 from tests.qt.parts import parts
 
 LEFT, KEYS = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.Key
@@ -282,9 +282,9 @@ def test_rows_are_chosen_walked_and_removed_by_bin_and_key(two):
     rows = list(dock_of(s).rows.values())
     assert [(row.first, row.second) for row in rows] == [(str(a), str(b)) for a, b in pairs]
     QtTest.QTest.mouseClick(rows[1], LEFT, pos=QtCore.QPoint(40, 10))
-    assert s.window.grid.marks.chosen_pair == rows[1].point
+    assert rows[1].point in s.window.grid.marks.lit("pairs")
     QtTest.QTest.keyClick(rows[1], KEYS.Key_Down)
-    assert s.window.grid.marks.chosen_pair == rows[2].point
+    assert rows[2].point in s.window.grid.marks.lit("pairs")
     QtTest.QTest.keyClick(rows[2], KEYS.Key_Delete)
     complete(s)
     assert places(s) == [pairs[0], pairs[1], pairs[3]]

@@ -104,7 +104,7 @@ def test_undo_brings_back_source_parameters_and_lines_but_not_the_view(screen, m
     s.until(lambda: s.session.is_complete)
     s.settle()
     assert all(np.array_equal(a, b) for a, b in zip(before, s.pictures(), strict=True))
-    s.window.reset_view("back")
+    parts(s.window).views.reset("back")
     turned = s.window.grid.eye.camera.GetPosition()
     s.session.redo()
     s.settle()
@@ -221,7 +221,7 @@ def test_views_have_a_history_of_their_own(screen, mesh_file):
     s.settle(0.6)
     cameras = [s.window.grid.eye.camera.GetPosition()]
     for view in ("left", "top"):
-        s.window.reset_view(view)
+        parts(s.window).views.reset(view)
         s.settle(0.6)
         cameras.append(s.window.grid.eye.camera.GetPosition())
 
@@ -280,7 +280,7 @@ def test_what_was_stopped_and_is_not_asked_any_more_is_not_spoken_of(screen, mes
     s.open(mesh_file(bumpy(300)), 5)
     before, panel = s.pictures(), s.panels[0]
     s.session.show(move_source(s.document, 0, 9))
-    s.window.cancel()
+    s.window.context.actions["stop"].trigger()
     s.settle()
     assert (panel.stopped.isVisible(), panel.view._is_dimmed, panel.bar._reading) == (True, True, None)
     s.session.undo()
@@ -292,7 +292,7 @@ def test_what_was_stopped_and_is_not_asked_any_more_is_not_spoken_of(screen, mes
 
 def test_a_first_mesh_that_fails_leaves_the_page_to_start_from_which_says_why(screen, mesh_file, tmp_path):
     s = screen()
-    s.window.open(str(tmp_path / "gone.off"))
+    s.window.context.open(str(tmp_path / "gone.off"))
     s.until(lambda: s.refusals)
     page = s.window._start_page
     assert (page.isVisible(), page.message.isVisible(), page.message.whole) == (True, True, s.refusals[-1])

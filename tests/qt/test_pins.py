@@ -6,7 +6,7 @@ from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
 
-from app.document.pins import Pins
+from app.document.shared_parts.pins import Pins
 from app.marks.glyphs import PIN
 from app.scene.style import PAPER
 from tests.qt.parts import parts
@@ -51,7 +51,7 @@ def test_shift_click_pins_a_vertex_on_all_panels_and_leaves_the_source(loaded):
 def test_a_pin_on_the_far_side_is_hollow(loaded):
     from qtpy import QtCore
 
-    from app.document.pins import add_pins
+    from app.document.shared_parts.pins import add_pins
     from app.scene.style import PINS
 
     s = loaded
@@ -103,9 +103,9 @@ def test_a_drop_that_is_clicked_selects_its_row(loaded):
 
     # As long as the list is closed, it stands out.
     click(first)
-    assert s.window.grid.marks.lit == (points[0],)
+    assert s.window.grid.marks.lit("pins") == (points[0],)
     click(first)
-    assert s.window.grid.marks.lit == ()
+    assert s.window.grid.marks.lit("pins") == ()
     dock = dock_of(s)
     click(second, 2)
     assert dock.table.points == (points[1],)
@@ -113,7 +113,7 @@ def test_a_drop_that_is_clicked_selects_its_row(loaded):
     assert set(dock.table.points) == set(points)
     click(first)
     assert dock.table.points == (points[0],)
-    assert s.window.grid.marks.lit == (points[0],)
+    assert s.window.grid.marks.lit("pins") == (points[0],)
     click(first)
     assert dock.table.points == ()
     assert s.source == 5  # which stays where it is

@@ -7,7 +7,7 @@ from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
 
-from app.document.pins import Pins
+from app.document.shared_parts.pins import Pins
 from tests.qt.parts import parts
 from tests.qt.pinning import dock_of, ids, seen_vertices, shift_click, type_ids
 
@@ -170,7 +170,7 @@ def test_rows_are_renamed_moved_coloured_and_removed_by_keys_and_menu(loaded):
     dock = dock_of(s)
     type_ids(s, dock, "12, 40, 700")
     select_row(s, dock, 0)
-    assert s.window.grid.marks.lit == (s.document[Pins].pins[0].point,)
+    assert s.window.grid.marks.lit("pins") == (s.document[Pins].pins[0].point,)
     press(s, dock.table, QtCore.Qt.Key.Key_F2)
     editor = next(box for box in dock.table.findChildren(QtWidgets.QLineEdit) if box.isVisible())
     QtTest.QTest.keyClicks(editor, "nose")
@@ -186,7 +186,7 @@ def test_rows_are_renamed_moved_coloured_and_removed_by_keys_and_menu(loaded):
     assert s.document[Pins].pins[1].colour == 8
     press(s, dock.table, QtCore.Qt.Key.Key_Delete)
     assert ids(s) == [40, 700]
-    assert s.window.grid.marks.lit == ()
+    assert s.window.grid.marks.lit("pins") == ()
     for _ in range(4):
         s.session.undo()
     assert ids(s) == [12, 40, 700]

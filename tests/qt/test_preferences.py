@@ -1,12 +1,14 @@
 """What is preferred comes back, whatever stands in the file; the dialog; where the window is."""
 
 import os
+from dataclasses import replace
 
 import pytest
 from qtpy.QtCore import QRect, QSettings, QSize
 
 from app.qt import preferences, remembered
-from app.qt.preferences import Preferences, brought_back, first_place, load, reset, save
+from app.qt.preferences import Preferences, brought_back, first_place, load, save
+from tests.qt.parts import parts
 
 MINE = Preferences("dark", 0, True, bytes(range(256)), "/tmp/Größe, 50% @x; [a]=b #c\\d")
 
@@ -45,7 +47,8 @@ def test_reset_forgets_all_but_what_is_not_ours():
     written("[General]\nversion=1\nisolines=5\nlater=17\n\n[other]\nx=y\n")
     assert load().isolines == 5
     save(MINE)
-    assert reset() == Preferences() == load()
+    save(Preferences())
+    assert load() == Preferences()
     found = QSettings(str(preferences.path()), QSettings.Format.IniFormat)
     assert (found.value("later"), found.value("other/x"), int(found.value("version"))) == ("17", "y", 1)
 
@@ -64,7 +67,7 @@ def test_a_newer_file_is_left_alone():
     written(text)
     assert load() == Preferences()
     save(MINE)
-    reset()
+    save(Preferences())
     assert preferences.path().read_bytes() == text
     assert not damaged().exists()
 
@@ -113,7 +116,7 @@ def test_a_folder_in_its_place_is_put_aside():
 def test_where_nothing_can_be_written_nothing_is(home, capfd):
     (home / "bihdist").write_text("a file where the folder should be")
     save(MINE)
-    assert load() == reset() == Preferences()
+    assert load() == Preferences()
     assert capfd.readouterr() == ("", "")
 
 
@@ -245,21 +248,16 @@ def test_controls_have_names_and_tips(dialog):
 
 @pytest.mark.parametrize("is_accepted", [True, False])
 def test_asking_saves_unless_cancelled(application, is_accepted):
-    from qtpy.QtCore import QTimer
+    from app.qt.main_window import MainWindow
+    from app.qt.pages.preferences_dialog import PreferencesDialog
 
-    from app.qt.look.look import LOOK
-    from app.qt.pages.preferences_dialog import ask_preferences
-
-    LOOK.choose("light")
-
-    def answer():
-        dialog = application.activeModalWidget()
-        dialog.isolines.setValue(3)
-        (dialog.accept if is_accepted else dialog.reject)()
-
-    save(Preferences(theme="light", geometry=b"\1\2"))
-    QTimer.singleShot(50, answer)
-    found = ask_preferences()
-    wanted = Preferences(theme="light", geometry=b"\1\2", isolines=3 if is_accepted else 20)
-    assert load() == wanted
-    assert found == (wanted if is_accepted else None)
+    kept = Preferences(theme="light", geometry=b"\1\2")
+    save(kept)
+    window = MainWindow(preferences=kept)
+    parts(window).choices.ask_preferences()
+    dialog = window.findChild(PreferencesDialog)
+    dialog.isolines.setValue(3)
+    (dialog.accept if is_accepted else dialog.reject)()
+    assert load() == window.context.preferences == replace(kept, isolines=3 if is_accepted else 20)
+    window.context.remembers, window.context.quiet = False, True
+    window.close()

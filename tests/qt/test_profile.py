@@ -9,9 +9,9 @@ import pytest
 
 from app.document.document import Document, Point, comparison
 from app.document.edits import move_source
-from app.document.pins import Pin, Pins, add_pins
-from app.document.profile import Profile, points_along
-from app.session.profiling import wanted_path
+from app.document.shared_parts.pins import Pin, Pins, add_pins
+from app.tools.profile.part import Profile, points_along
+from app.tools.profile.paths import wanted_path
 from bihdist_core import Laplacian, ParameterError
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
 from bihdist_core.distances.answers import Distances
@@ -108,7 +108,7 @@ def test_the_chart_and_the_panels_mark_the_same_place(loaded):
         assert np.allclose(panel.view.over.pointed.position, place)
         assert panel.bar._reading.value == pytest.approx(float(path.at([arc]).values(answer.field)[0]))
     # The other way round, where the path is seen.
-    s.window.reset_view("back")
+    parts(s.window).views.reset("back")
     s.settle()
     panel = s.panels[1]
     seen = [k for k in range(5, len(path.points) - 5) if panel.view.sees(path.points[k])]
@@ -189,7 +189,7 @@ def test_arrow_keys_go_along_the_path(loaded):
 def test_the_path_is_dark_on_white_where_it_is_seen(loaded):
     s = loaded
     profiled(s)
-    s.window.reset_view("back")
+    parts(s.window).views.reset("back")
     s.settle()
     view = s.panels[0].view
     picture = view.grab().toImage()
@@ -225,7 +225,7 @@ def test_ways_and_ends_are_steps_that_can_be_undone(loaded):
     assert s.document[Profile].across is not None
     across = s.document[Profile].across
     shorter = dock.path.length
-    s.window.reset_view("back")
+    parts(s.window).views.reset("back")
     s.settle()
     dock.choices.choose_way("section-whole")
     s.until(lambda: dock.path is not None and dock.path.label == "the whole section by a plane")

@@ -9,14 +9,15 @@ from dataclasses import replace
 
 from qtpy import QtCore
 
-from app.document.anchors import Anchor, Anchors
 from app.document.document import Point
 from app.document.looks import Isolines
-from app.document.pins import add_pins
+from app.document.shared_parts.pins import add_pins
 from app.qt.panels import glyph_painting
 from app.scene.levels import BOLD, ZERO, width_of
 from app.scene.proportion import LEAST, USUAL, proportion
 from app.scene.style import PAPER
+from app.tools.interpolation.part import Anchor, Anchors
+from tests.qt.painting import painted
 from tests.shapes import bumpy
 
 
@@ -43,16 +44,21 @@ def white(picture):
     return int((picture.min(axis=2) > 240).sum())
 
 
+def discs(view):
+    """How many pixels have the colour in which sources are marked."""
+    return int((np.abs(painted(view) / 255 - view.scene.style.source).max(axis=2) < 0.02).sum())
+
+
 def test_a_small_view_has_thinner_lines_and_smaller_marks(loaded):
     s = loaded
     view = s.panels[0].view
     s.until(lambda: view.proportion == 1.0)
     s.pictures()
-    usual = view.scene._largest.actor.GetProperty().GetPointSize()
+    usual = discs(view)
     s.window.resize(700, 560)
     s.until(lambda: view.proportion < 0.9)
     before = view.shot()
-    assert view.scene._largest.actor.GetProperty().GetPointSize() == pytest.approx(usual * view.proportion)
+    assert discs(view) == pytest.approx(usual * view.proportion**2, rel=0.15)
     view.scene.set_proportion(1.0)  # as it would be without
     wide = s.window.grid.offscreen.picture(view.scene, view.pixels)[..., :3]
     ground = white(before)
@@ -92,7 +98,7 @@ def test_anchors_are_dark_rings_with_a_light_halo_whatever_the_field(loaded):
     s.until(lambda: s.session.is_complete)
     s.settle()
     view = s.panels[0].view
-    picture, place = view.shot(), view.place_of(s.panels[0].positions[vertex])
+    picture, place = painted(view), view.place_of(s.panels[0].positions[vertex])
     x, y = round(place.x() - 0.5), round(place.y() - 0.5)
     size = PAPER.marker_size * view.proportion
     around = picture[y - 12 : y + 13, x - 12 : x + 13].astype(int)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from app.document.edits import move_source, put_point
-from app.document.pins import Pins
-from app.document.regions import DividedPanels
+from app.document.shared_parts.pins import Pins
 from app.marks.glyphs import TRIANGLE_UP
+from app.tools.regions.part import DividedPanels
 from bihdist_core import farthest_points, read_surface, region_boundaries, region_mesh, voronoi_regions
 from bihdist_core.distances.kinds import Spec
 from tests.qt.parts import parts
@@ -50,7 +50,7 @@ def dock(s, word):
 
 
 def known(s):
-    s.until(lambda: parts(s.window).findings.is_complete)
+    s.until(lambda: parts(s.window).quality.is_complete and parts(s.window).regions.is_complete)
     s.settle(0.1)  # what is known is on its way to the dock
 
 
@@ -62,7 +62,7 @@ def test_quality_opens_by_its_key_and_follows_the_source(loaded):
     assert "…" not in table
     assert table.splitlines()[0].split("\t")[1:] == ["Biharmonic", "Geodesic", "Diffusion"]
     assert table.splitlines()[1].split("\t")[1:3] == ["0", "0"]
-    extrema = parts(s.window).findings.found(0).extrema
+    extrema = parts(s.window).quality.found(0).extrema
     marks = s.panels[0].view.over.points
     assert marks.positions("quality").tolist() == s.session.surface.vertices[extrema.maxima].tolist()
     assert {each.mark.glyph for each in marks.placed("quality")} == {TRIANGLE_UP}
@@ -71,13 +71,13 @@ def test_quality_opens_by_its_key_and_follows_the_source(loaded):
     s.until(lambda: s.session.is_complete)
     known(s)
     assert dock(s, "quality").text() != table
-    assert parts(s.window).findings.found(0).whole.source == 200
+    assert parts(s.window).quality.found(0).whole.source == 200
     press(dock(s, "quality").copy_button)
     from qtpy.QtWidgets import QApplication
 
     copied = QApplication.clipboard().text()
     assert copied == dock(s, "quality").text()
-    whole = parts(s.window).findings.found(0).whole
+    whole = parts(s.window).quality.found(0).whole
     said = {line.split("\t")[0]: line.split("\t")[1] for line in copied.splitlines()[1:]}
     assert (float(said["Isotropy"]), float(said["Largest kink"])) == (whole.isotropy, whole.kink)
     key(s, "q")
@@ -97,7 +97,7 @@ def test_a_difference_has_extrema_and_kinks_and_no_more(loaded):
     minima, maxima, isotropy, kink, length, triangles = (
         line.split("\t")[3] for line in dock(s, "quality").text().splitlines()[1:]
     )
-    extrema = parts(s.window).findings.found(2).extrema
+    extrema = parts(s.window).quality.found(2).extrema
     assert (minima, maxima) == (str(len(extrema.minima)), str(len(extrema.maxima))) != ("0", "0")
     assert (isotropy, triangles) == ("–", "–")
     assert float(kink) > 0 <= float(length)
@@ -120,7 +120,7 @@ def test_extrema_are_kept_on_the_surfaces_if_that_is_wanted(loaded, tmp_path):
     s.session.show(move_source(s.document, 0, 200))
     s.until(lambda: s.session.is_complete)
     known(s)
-    found = parts(s.window).findings.found(0)
+    found = parts(s.window).quality.found(0)
     assert marks.positions("quality").tolist() == s.session.surface.vertices[found.extrema.maxima].tolist()
     assert found.whole is None
     s.session.undo()
@@ -147,7 +147,7 @@ def test_farthest_points_are_pinned_and_divide_the_panels(loaded, tmp_path):
     known(s)
     columns = distance.from_sources(wanted)
     found = voronoi_regions(s.session.surface, columns)
-    assert parts(s.window).findings.divided(0).regions.areas == pytest.approx(found.areas, rel=1e-9)
+    assert parts(s.window).regions.divided(0).regions.areas == pytest.approx(found.areas, rel=1e-9)
     after = s.pictures()
     assert (before[0] != after[0]).any()
     assert (before[1] == after[1]).all()
@@ -185,8 +185,8 @@ def test_farthest_points_are_pinned_and_divide_the_panels(loaded, tmp_path):
 
 
 def test_regions_follow_a_pin_that_is_moved(loaded):
-    from app.document.pins import add_pins
-    from app.document.regions import show_regions
+    from app.document.shared_parts.pins import add_pins
+    from app.tools.regions.part import show_regions
 
     s = loaded
     s.session.show(show_regions(add_pins(s.document, [7, 90, 200]), 0))
@@ -195,7 +195,7 @@ def test_regions_follow_a_pin_that_is_moved(loaded):
     known(s)
     distance = s.session.loaded().distances("voronoi").get(SHOWN[0])
     wanted = voronoi_regions(s.session.surface, distance.from_sources([7, 90, 150]))
-    assert parts(s.window).findings.divided(0).regions.areas == pytest.approx(wanted.areas, rel=1e-9)
+    assert parts(s.window).regions.divided(0).regions.areas == pytest.approx(wanted.areas, rel=1e-9)
 
 
 def test_too_many_points_are_refused_in_the_dock(loaded):

@@ -234,7 +234,7 @@ def test_what_is_stopped_is_not_set(loaded):
     s, dock = loaded, dock_of(loaded)
     dock.noise.chosen.emit(0.7, True)  # the slider is on its way
     assert dock.settings.noise == 0.7
-    s.window.cancel()
+    s.window.context.actions["stop"].trigger()
     s.settle(0.2)
     complete(s)
     assert change_of(s) is None

@@ -11,7 +11,7 @@ from tests.shapes import bumpy
 pytest.importorskip("qtpy")
 from qtpy import QtCore, QtGui, QtTest, QtWidgets
 
-from app.document.selections import Selections
+from app.document.shared_parts.selections import Selections
 from tests.qt.changing import change_of, check, complete, dock_of, open_it, press, seen
 from tests.qt.parts import parts
 

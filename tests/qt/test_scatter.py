@@ -8,7 +8,8 @@ import pytest
 
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Page, Recipe
-from app.document.selections import Selections, vertices_of
+from app.document.runs import ids_of
+from app.document.shared_parts.selections import Selections
 from app.tools.scatter.part import Scatter
 from bihdist_core import field_agreement
 from bihdist_core.distances.kinds import Spec
@@ -52,7 +53,7 @@ def lasso(s, corners, keys=None):
 
 
 def selected(s, name):
-    return vertices_of(next(each.runs for each in s.document[Selections].selections if each.name == name))
+    return ids_of(next(each.runs for each in s.document[Selections].selections if each.name == name))
 
 
 def test_the_numbers_are_those_of_python(loaded):
@@ -79,7 +80,7 @@ def test_a_lasso_selects_what_lies_in_it_on_all_panels_and_is_undone(loaded):
     edge = chart.values(QtCore.QPointF(round(chart.plot.left() + 0.5 * chart.plot.width()), 0))[0]
     right = np.flatnonzero(a / a.max() > edge)
     assert 100 < len(right) < 1900
-    assert vertices_of(selection.runs).tolist() == right.tolist()
+    assert ids_of(selection.runs).tolist() == right.tolist()
     assert all((x != y).mean() > 0.01 for x, y in zip(before, s.pictures(), strict=True))
     # With Ctrl some are taken away again, with Shift added.
     lasso(s, [(0.8, -0.02), (1.02, -0.02), (1.02, 1.02), (0.8, 1.02)], QtCore.Qt.KeyboardModifier.ControlModifier)
@@ -213,6 +214,13 @@ def test_the_panels_and_the_values_are_chosen_in_the_head(loaded):
     s.until(lambda: not any("largest" in fact[0] for fact in dock.facts.facts))
     s.session.undo()
     s.until(lambda: any("largest" in fact[0] for fact in dock.facts.facts))
+
+
+def test_no_figure_is_saved_of_nothing(loaded, tmp_path):
+    loaded.dock.chart.show_nothing("No field.")
+    loaded.dock.save_figure(path=str(tmp_path / "scatter.pdf"))
+    assert "wait until both panels have a field" in loaded.refusals[-1]
+    assert not list(tmp_path.glob("*.pdf"))
 
 
 def test_the_source_moves_and_the_scatter_follows(loaded):

@@ -41,7 +41,7 @@ def arranged(s, mesh):
     document = add_panel(move_source(s.document, 0, 9), quantity("biharmonic - geodesic"))
     s.session.show(replace(document, isolines=12))
     s.panels[2].head.controls[0].chosen.emit(0.25)
-    s.window.reset_view("left")
+    parts(s.window).views.reset("left")
     s.until(lambda: s.session.is_complete)
     s.settle()
 
@@ -201,7 +201,7 @@ def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictur
     from qtpy.QtCore import Qt
     from qtpy.QtTest import QTest
 
-    from app.document.edits import PANEL_EDITS, possible_edits
+    from app.document.panel_edits import panel_edits, possible_edits
     from app.qt.panels.events import MarkDrag, MarkRelease
 
     s = screen()
@@ -236,7 +236,7 @@ def test_fifty_random_actions_undone_and_redone_by_keyboard_give_the_same_pictur
         elif action == 3:
             possible = sorted(possible_edits(s.document, panel, 4))
             if possible:
-                s.session.show(PANEL_EDITS[str(random.choice(possible))](s.document, panel))
+                s.session.show(panel_edits()[str(random.choice(possible))].edit(s.document, panel))
         elif number % 20 == 4:
             s.open(meshes[number // 20 % 2], 3)
         else:

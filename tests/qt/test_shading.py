@@ -202,7 +202,7 @@ def test_screenshots_and_picks_are_of_the_surface_itself(large, tmp_path):
 
 def test_quick_drawing_needs_no_stand_in_and_standard_views_neither(large):
     s, view = large, large.panels[0].view
-    s.window.reset_view("front")
+    parts(s.window).views.reset("front")
     assert standing(s) == [False, False]
     s.window.grid.moving.fluent = 1e9
     view.turn_by(1, 0)

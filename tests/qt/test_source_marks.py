@@ -7,6 +7,7 @@ import pytest
 
 from app.document.document import Zoom
 from app.document.edits import move_source
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -18,7 +19,7 @@ def shown(screen, mesh_file):
     s = screen()
     surface = bumpy(2000)
     s.open(mesh_file(surface), 5)
-    s.window.reset_view("front")
+    parts(s.window).views.reset("front")
     return s, surface.vertices[:, 2].argsort()
 
 
@@ -35,7 +36,7 @@ def ring_of(panel, radius, place=None):
     view = panel.view
     image = view.grab().toImage().convertToFormat(QtGui.QImage.Format.Format_RGB888)
     ratio = view.devicePixelRatioF()
-    place = place or view.place_of(view.source)
+    place = place or view.place_of(view.handles[0])
     angles = np.linspace(0, 2 * np.pi, 72, endpoint=False)
     points = np.stack([place.x() + radius * np.cos(angles), place.y() + radius * np.sin(angles)], 1) * ratio
     return np.array([image.pixelColor(int(x), int(y)).getRgbF()[:3] for x, y in np.floor(points)])
@@ -77,7 +78,7 @@ def test_a_source_that_is_hidden_is_a_dashed_ring(shown, theme):
             assert np.ptp(light) > 0.4
             assert 4 <= ups.sum() <= 14
         # Turned to the front it is a disc at once.
-        s.window.reset_view("back")
+        parts(s.window).views.reset("back")
         s.settle(0.1)
         assert all(is_disc(panel) for panel in s.panels)
     finally:
@@ -92,7 +93,7 @@ def test_insets_have_the_disc_too_and_what_they_cover_has_none(shown):
     s.settle(0.3)
     view = s.panels[0].view
     (renderer,) = view.scene.insets.placed
-    assert is_disc(s.panels[0], view.over.points.at(renderer, view.source))
+    assert is_disc(s.panels[0], view.place_of(view.handles[0], renderer))
     assert is_disc(s.panels[0])
 
 

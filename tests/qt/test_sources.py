@@ -10,7 +10,7 @@ from tests.shapes import bumpy, grid
 
 pytest.importorskip("qtpy")
 
-from app.document.pins import Pins
+from app.document.shared_parts.pins import Pins
 from tests.qt.parts import parts
 from tests.qt.sourcing import check_fields, click, ctrl_click, drag, open_file, typed, where
 
@@ -90,7 +90,7 @@ def test_without_snapping_a_click_puts_the_source_into_the_face(loaded, tmp_path
     corners = s.session.surface.faces[at.face]
     position = np.array(at.weights) @ s.session.surface.vertices[corners]
     for panel in s.panels:
-        assert np.allclose(panel.view.source, position), "its mark is there on all panels"
+        assert np.allclose(panel.view.handles[0], position), "its mark is there on all panels"
     s.window.actions_by_word["snap"].trigger()
     place += QtCore.QPoint(90, 0)
     click(s, place)
@@ -114,7 +114,7 @@ def test_without_snapping_the_mark_is_dragged_through_faces_and_is_exact_at_the_
     assert any("fields a second" in text and "geodesic, heat method" in text for text in rates)
     assert rates[-1] == "", "nothing is said once it rests"
     assert isinstance(s.source, SurfacePoint)
-    seen = view.place_of(view.source) - (start + QtCore.QPoint(116, 29))
+    seen = view.place_of(view.handles[0]) - (start + QtCore.QPoint(116, 29))
     assert abs(seen.x()) < 1.5
     assert abs(seen.y()) < 1.5
     check_fields(s, parts(s.window).typed_source.box.text(), tmp_path)
@@ -169,7 +169,7 @@ def test_a_member_of_a_set_is_dragged_alone(loaded):
 
 
 def test_the_walk_goes_through_sources_of_all_kinds_and_leaves_pins_alone(loaded):
-    from app.document.pins import add_pins
+    from app.document.shared_parts.pins import add_pins
 
     s = loaded
     for words in ("12+40", "f31:0.25,0.5"):

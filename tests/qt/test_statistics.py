@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from app.document.quantities import quantity
-from app.document.selections import Selections, vertices_of
+from app.document.runs import ids_of
+from app.document.shared_parts.selections import Selections
 from app.qt.look.numbers import number
 from bihdist_core import band, field_statistics, rank_correlation, read_surface
 from bihdist_core.analysis.truncation import truncation_loss
@@ -109,7 +110,7 @@ def test_isolines_and_the_region_between_two_values_are_saved(loaded, tmp_path):
     s.until((tmp_path / "part.ply").exists)
     assert read_surface(tmp_path / "part.ply").face_areas.sum() == pytest.approx(expected.area, rel=1e-9)
     box.select()
-    assert vertices_of(s.document[Selections].selections[0].runs).tolist() == expected.vertices.tolist()
+    assert ids_of(s.document[Selections].selections[0].runs).tolist() == expected.vertices.tolist()
     for words in ("near", "", "5 %"):
         box.low.setText(words)
         box.high.setText("2 %" if words == "5 %" else "")
@@ -134,6 +135,15 @@ def test_the_histogram_is_saved_and_copied(loaded, tmp_path):
     assert lines[1][0].startswith("greatest, at vertex")
     assert [float(x) for x in lines[3][1:]] == [dock.statistics.mean, dock.statistics.mean / s.answers[0].maximum]
     assert [float(line[1]) for line in lines[-len(dock.statistics.quantiles) :]] == dock.statistics.quantiles.tolist()
+
+
+def test_nothing_is_saved_before_there_are_statistics(loaded, tmp_path):
+    loaded.dock.statistics = None
+    loaded.dock.save_figure(path=str(tmp_path / "histogram.pdf"))
+    loaded.dock.save_numbers(path=str(tmp_path / "histogram.csv"))
+    assert all("wait until the panel has a field" in words for words in loaded.refusals[-2:])
+    assert len(loaded.refusals) == 2
+    assert not list(tmp_path.glob("histogram.*"))
 
 
 def test_truncation_follows_sources_of_other_kinds(loaded):

@@ -11,12 +11,14 @@ from tests.figures.marked_tool import FLAG, TOOL
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
+from app.qt.panels import line_marks
 
 
 def test_points_lines_and_areas_of_a_tool_are_painted_and_follow_the_answers(screen, mesh_file, monkeypatch):
     entry = SimpleNamespace(name="farthest", load=lambda: TOOL)
     monkeypatch.setattr(tools, "entry_points", lambda group: [entry])
     tools.tools.cache_clear()
+    monkeypatch.setattr(line_marks, "FINE", np.inf)
     try:
         s = screen()
         s.open(mesh_file(bumpy(300)), 5)
@@ -29,8 +31,8 @@ def test_points_lines_and_areas_of_a_tool_are_painted_and_follow_the_answers(scr
                 (placed,) = panel.view.over.points.placed("farthest")
                 assert (placed.mark.vertex, placed.mark.glyph) == (farthest, FLAG)
                 assert np.array_equal(placed.position, panel.positions[farthest])
-                assert [label.text for label in panel.view.over._labels] == ["farthest"]
-                # Lines that the surface does not draw lie over it, as closed as they are said to be.
+                assert [text for text, _, _ in panel.view.over.points.texts()] == ["farthest"] * placed.is_seen
+                # Lines lie over the surface, as closed as they are said to be.
                 faces = s.session.surface.faces
                 near = faces[(faces == farthest).any(axis=1)]
                 assert len(panel.view.over.lines.points) == 4 * len(near)

@@ -224,13 +224,13 @@ def test_a_turntable_starts_from_the_poles_without_a_jump(hare):
     s, view = hare, hare.panels[0].view
     s.window.actions_by_word["turntable"].trigger()
     for name, sign in (("top", 1), ("bottom", -1)):
-        s.window.reset_view(name)
+        parts(s.window).views.reset(name)
         before = frame(s.window.grid.eye.seen)
         view.turn_by(1, 0)
         level = frame(s.window.grid.eye.seen)
         assert np.isclose(level[:, 2] @ axis_of("z"), sign)
         assert np.isclose(np.degrees(np.arccos(level[:, 1] @ before[:, 1])), 15, atol=0.1)
-        s.window.reset_view(name)
+        parts(s.window).views.reset(name)
         view.turn_by(0, sign)
         tilted = frame(s.window.grid.eye.seen)
         assert tilted[:, 1] @ before[:, 1] > 0.9
@@ -263,7 +263,7 @@ def test_a_camera_is_copied_and_pasted(hare):
     camera = s.document.camera
     s.window.actions_by_word["copy camera"].trigger()
     assert clipboard.text() == camera_text(camera)
-    s.window.reset_view("left")
+    parts(s.window).views.reset("left")
     s.window.actions_by_word["paste camera"].trigger()
     assert np.allclose(s.document.camera.position, camera.position)
     assert np.allclose(s.window.grid.eye.seen.position, camera.position)

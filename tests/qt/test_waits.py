@@ -88,7 +88,7 @@ def test_while_a_file_is_read_the_old_surface_stays_dimmed_and_the_title_changes
     s.until(lambda: s.window.windowTitle().startswith("mesh.off"))
     before, document = s.pictures(), s.document
     reading.clear()
-    s.window.open(mesh_file(bumpy(200), "other.off"))
+    s.window.context.open(mesh_file(bumpy(200), "other.off"))
     s.until(lambda: all(panel.waiting.isVisible() for panel in s.panels))
     assert [panel.waiting.text for panel in s.panels] == ["Reading other.off, 0 %"] * 2
     assert all(panel.view._is_dimmed for panel in s.panels)
@@ -106,7 +106,7 @@ def test_while_a_file_is_read_the_old_surface_stays_dimmed_and_the_title_changes
         seen.append((title, [panel.view.pictures > count for panel, count in zip(s.panels, drawn, strict=True)]))
 
     s.window.windowTitleChanged.connect(note)
-    s.window.open(mesh_file(bumpy(200), "other.off"))
+    s.window.context.open(mesh_file(bumpy(200), "other.off"))
     s.until(lambda: seen)
     assert seen == [("other.off[*] - Biharmonic distance", [True, True])]
     assert {panel.loaded.surface.name for panel in s.panels} == {"other.off"}
@@ -128,11 +128,11 @@ def test_the_first_mesh_is_told_in_the_middle_until_it_is_there(screen, mesh_fil
     s = screen(ONE)
     pages = s.window.centralWidget().findChild(QtWidgets.QStackedWidget)
     start = pages.currentWidget()
-    s.window.open(mesh_file(bumpy(300)))
+    s.window.context.open(mesh_file(bumpy(300)))
     s.until(lambda: isinstance(pages.currentWidget(), QtWidgets.QLabel))
     s.until(lambda: pages.currentWidget().text() == "Reading mesh.off, 0 %")
     assert s.window.windowTitle() == "Biharmonic distance[*]"
-    s.window.cancel()
+    s.window.context.actions["stop"].trigger()
     reading.set()
     s.until(lambda: pages.currentWidget() is start)
     s.open(mesh_file(bumpy(300)))
@@ -141,7 +141,7 @@ def test_the_first_mesh_is_told_in_the_middle_until_it_is_there(screen, mesh_fil
 
 def test_a_panel_tells_what_it_waits_for_and_can_be_stopped(screen, mesh_file, gate):
     s = screen(ONE)
-    s.window.open(mesh_file(bumpy(800)), 0)
+    s.window.context.open(mesh_file(bumpy(800)), 0)
     (panel,) = s.panels
     s.until(lambda: panel.waiting.isVisible() and panel.waiting.text.startswith("Columns"))
     assert "no values" in panel.bar.accessibleDescription()
@@ -153,10 +153,10 @@ def test_a_panel_tells_what_it_waits_for_and_can_be_stopped(screen, mesh_file, g
 
 def test_what_was_stopped_is_asked_again_by_a_click(screen, mesh_file, gate):
     s = screen(ONE)
-    s.window.open(mesh_file(bumpy(800)), 0)
+    s.window.context.open(mesh_file(bumpy(800)), 0)
     (panel,) = s.panels
     s.until(panel.waiting.isVisible)
-    s.window.cancel()
+    s.window.context.actions["stop"].trigger()
     assert not panel.waiting.isVisible()
     assert panel.stopped.isVisible()
     QTest.mouseClick(panel.view, LEFT, pos=panel.view.rect().center())
@@ -171,7 +171,7 @@ def test_what_was_stopped_is_asked_again_by_a_click(screen, mesh_file, gate):
 
 def test_what_was_stopped_is_asked_again_by_its_button_in_that_panel_alone(screen, mesh_file, gate):
     s = screen((Spec.of("biharmonic"), Spec.of("commute-time")))
-    s.window.open(mesh_file(bumpy(300)), 0)
+    s.window.context.open(mesh_file(bumpy(300)), 0)
     one, other = s.panels
     s.until(lambda: one.waiting.isVisible() and other.waiting.isVisible())
     s.activate()
@@ -241,9 +241,9 @@ def test_what_auto_stood_for_on_another_mesh_is_not_said_after_a_stop(screen, me
     (method,) = panel.head.controls
     assert method.text() == "auto: exact"
     gate.clear()
-    s.window.open(mesh_file(bumpy(400), "other.off"))
+    s.window.context.open(mesh_file(bumpy(400), "other.off"))
     s.until(lambda: panel.waiting.isVisible() and not s.session.is_opening)
-    s.window.cancel()
+    s.window.context.actions["stop"].trigger()
     s.until(panel.stopped.isVisible)
     assert method.text() == "auto"
     gate.set()
@@ -357,7 +357,7 @@ def test_closing_while_computing_ends_the_threads(screen, mesh_file):
     import threading
 
     s = screen()
-    s.window.open(mesh_file(bumpy(12000)))
+    s.window.context.open(mesh_file(bumpy(12000)))
     s.until(lambda: s.session.progress)
     s.window.close()
     assert not [t for t in threading.enumerate() if t.name.startswith(("panel", "load")) and t.is_alive()]

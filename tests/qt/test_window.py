@@ -247,7 +247,7 @@ def test_a_bad_file_is_refused_and_nothing_changes(screen, mesh_file, tmp_path):
     before = s.pictures()
     bad = tmp_path / "bad.off"
     bad.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
-    s.window.open(str(bad))
+    s.window.context.open(str(bad))
     s.until(lambda: s.refusals)
     assert "bad.off" in s.refusals[0]
     assert "7" in s.refusals[0]
@@ -316,7 +316,7 @@ def test_views_turn_all_panels_together(screen, mesh_file):
     s.open(mesh_file(bumpy(800)))
     assert len({id(panel.view.camera) for panel in s.panels}) == 1
     before = s.pictures()
-    s.window.reset_view("back")
+    parts(s.window).views.reset("back")
     assert differ(before, s.pictures(), 0.01)
 
 

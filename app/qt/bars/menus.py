@@ -7,6 +7,7 @@ from qtpy import QtGui, QtWidgets
 
 from bihdist_core.analysis.upright import DIRECTIONS
 
+from ...document.panel_edits import ADD, panel_edits
 from ...document.tools import docked_tools
 from ...samples import mesh_path, sample_names, sample_title, thumbnail
 from .. import remembered
@@ -119,8 +120,8 @@ class Menus:
         # What the tool bar's menu shows one below the other has submenus here, so that all is seen on small screens.
         self._fill(view, ["reset", standard, self.up, keys, None, *cameras, None, *at_pointer, *walked, None])
         self._fill(view, [self.isolines, self.colours, self.range, self.shading, None, self.theme, "full screen"])
-        edits = ("Duplicate this panel", "Move it back", "Move it on", "Regions of the pins", "Remove it")
-        self._fill(panels, ["add panel", None, *(f"panel {word}" for word in edits), None, "save field", None])
+        edits = (f"panel {word}" for word in panel_edits() if word != ADD)
+        self._fill(panels, ["add panel", None, *edits, None, "save field", None])
         self._fill(panels, ["next panel", "previous panel", "panels and bars"])
         self._fill(tools, [*(f"dock {word}" for word in docked_tools()), None, *self.tools.actions()])
         self._fill(about, ["keys", "tour", None, "about"])

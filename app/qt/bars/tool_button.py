@@ -20,6 +20,7 @@ class ToolButton(BareButton):
         super().__init__()
         self._icon, self._words, self._value = icon, words, ""
         self._is_meant, self._detail = is_meant, FULL
+        self._widths: dict[int, int] = {}  # by detail; a tool bar that is laid out asks thousands of times
         self.setCursor(QtCore.Qt.CursorShape.ArrowCursor)
         LOOK.changed.connect(self._refit)
 
@@ -38,10 +39,11 @@ class ToolButton(BareButton):
 
     def width_with(self, detail: int) -> int:
         """How wide it is with so much written."""
-        texts = self._texts(detail)
-        metrics = QtGui.QFontMetrics(self._font)
-        width = 2 * PADDING + SIDE + sum(GAP + metrics.horizontalAdvance(text) for text, _ in texts)
-        return int(width + (GAP - 2 + CHEVRON if self._has_arrow else 0))
+        if detail not in self._widths:
+            metrics = QtGui.QFontMetrics(self._font)
+            words = sum(GAP + metrics.horizontalAdvance(text) for text, _ in self._texts(detail))
+            self._widths[detail] = 2 * PADDING + SIDE + words
+        return self._widths[detail] + (GAP - 2 + CHEVRON if self._has_arrow else 0)
 
     @property
     def _has_arrow(self) -> bool:
@@ -59,6 +61,7 @@ class ToolButton(BareButton):
         return [(text, quiet) for text, quiet in shown if text]
 
     def _refit(self) -> None:
+        self._widths = {}
         self.updateGeometry()
         self.update()
 

@@ -12,7 +12,8 @@ from bihdist_core.arrays import AnyArray, IntArray
 from bihdist_core.progress import Progress
 
 from ...document.document import free_names
-from ...document.selections import Selections, select, vertices_of
+from ...document.runs import ids_of
+from ...document.shared_parts.selections import Selections, select
 from ...scene.style import PINS
 from ..context import Context
 from ..held_keys import HeldKeys
@@ -90,7 +91,7 @@ class Brushing(QtCore.QObject):
             name = free_names("selection", 1, list(known))[0]
             wanted = vertices
         else:
-            name, before = self.current, vertices_of(known[self.current].runs)
+            name, before = self.current, ids_of(known[self.current].runs)
             wanted = np.union1d(before, vertices) if way == "added" else np.setdiff1d(before, vertices)
         after = select(document, name, wanted)
         if name in [each.name for each in after[Selections].selections]:

@@ -54,10 +54,8 @@ def copy_line(context: Context, recipe: Recipe, surfaces: Surfaces, is_python: b
 
 def copy_picture(context: Context, recipe: Recipe, surfaces: Surfaces, answers: list[Answer]) -> None:
     """Put the figure itself on the clipboard once it is drawn, which the window does not wait for."""
-    draughtsman = context[Exports].previews
-    _Waiting(draughtsman, context).number = draughtsman.ask(
-        "copy", whole_picture, figure_of(recipe, surfaces, answers), MOST
-    )
+    draughtsman, figure = context[Exports].previews, figure_of(recipe, surfaces, answers)
+    _Waiting(draughtsman, context).number = draughtsman.ask("copy", whole_picture, figure, MOST)
     context.tell("Drawing the picture…")
 
 
@@ -69,11 +67,16 @@ class _Waiting(QtCore.QObject):
         self._context, self.number = context, 0
         draughtsman.answered.connect(self._take)
         draughtsman.refused.connect(self._refuse)
-        draughtsman.dropped.connect(self._drop)
+        draughtsman.dropped.connect(self._ends)
+
+    def _ends(self, number: int) -> bool:
+        is_own = number == self.number
+        if is_own:
+            self.deleteLater()
+        return is_own
 
     def _take(self, number: int, found: tuple[AnyArray, float]) -> None:
-        if number == self.number:
-            self.deleteLater()
+        if self._ends(number):
             pixels, per_inch = found
             image = image_of(pixels)
             image.setDotsPerMeterX(round(per_inch / INCH))
@@ -81,18 +84,13 @@ class _Waiting(QtCore.QObject):
             QtWidgets.QApplication.clipboard().setImage(image)
             self._context.tell(f"Copied the picture, {image.width()} × {image.height()} pixels")
 
-    def _drop(self, number: int) -> None:
-        if number == self.number:
-            self.deleteLater()
-
     def _refuse(self, number: int, sentence: str) -> None:
-        if number == self.number:
-            self.deleteLater()
+        if self._ends(number):
             self._context.fail(sentence)
 
 
 def _at_vertices(recipe: Recipe, surfaces: Surfaces) -> Recipe:
-    """The same with each anchor in a face, unless something starts there, at the vertex where it is drawn."""
+    """The same with each mark in a face, unless something starts there, at the vertex where it is drawn."""
     document = recipe.document
     shown = {name for panel in document.panels for name in panel.shows.points} | set(document.isolines.through)
     points = tuple(

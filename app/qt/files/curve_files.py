@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+from contextlib import suppress
 from pathlib import Path
 
 from qtpy import QtCore
@@ -35,16 +36,15 @@ class CurveFiles(QtCore.QObject):
     def take(self, path: str) -> None:
         """Let distances start from the curve in a file, or say why they cannot."""
         context = self._context
-        name = os.path.basename(path)
         try:
             curve = read_curve(path)
         except ParameterError as error:
             context.fail(error)
             return
         if context.session.surface is None:
-            context.fail(f"{name} is a curve for distances to start from; open its mesh first.")
-            return
-        self.taken.emit(curve, {curve: os.path.abspath(path)})
+            context.fail(f"{os.path.basename(path)} is a curve for distances to start from; open its mesh first.")
+        else:
+            self.taken.emit(curve, {curve: os.path.abspath(path)})
 
     def save_source(self, panel: int) -> bool:
         """Ask where to save the curve that a panel's field starts from; whether it was saved."""
@@ -82,8 +82,9 @@ class CurveFiles(QtCore.QObject):
     def path_of(self, curve: Curve) -> str:
         """A file that holds a curve: the user's, or one among the program's data; OutputError if there can be none."""
         path = self.paths.get(curve, "")
-        if path and _holds(path, curve):
-            return path
+        with suppress(ParameterError):
+            if path and read_curve(path) == curve:
+                return path
         text = curve_text(curve)
         kept = remembered.folder() / "curves" / f"curve-{hashlib.sha256(text.encode()).hexdigest()[:8]}.json"
         try:
@@ -102,10 +103,3 @@ def is_curve(path: str) -> bool:
     except (OSError, ValueError, RecursionError):
         return False
     return isinstance(data, dict) and "points" in data and "document" not in data
-
-
-def _holds(path: str, curve: Curve) -> bool:
-    try:
-        return read_curve(path) == curve
-    except ParameterError:
-        return False

@@ -9,7 +9,6 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import BihdistError
 from bihdist_core.distances.answers import Answer
 
-from ...document.anchors import Anchors
 from ...document.page import FORMATS, Recipe
 from ...figures.description import Figure
 from ...figures.draw import FIGURE_FORMATS
@@ -53,6 +52,7 @@ class ExportDialog(LooksDialog):
     `copying` is emitted with "picture", "command" or "python", and the recipe.
     """
 
+    what, file_kinds, sizes = "Figure", FIGURE_KINDS, FIGURE_SIZES
     copying = QtCore.Signal(str, object)
 
     def __init__(
@@ -66,23 +66,18 @@ class ExportDialog(LooksDialog):
         parent: QtWidgets.QWidget | None = None,
     ) -> None:
         self.pane = PreviewPane()
-        super().__init__(
-            recipe, surfaces, "Export figure", "Figure", FIGURE_KINDS, FIGURE_SIZES, exports, parent, self.pane
-        )
-        self._given, self._answers, self._version = given, answers, version
+        super().__init__(recipe, surfaces, given, exports, parent, self.pane)
+        self._answers, self._version = answers, version
         self.kinds.choose((recipe.page.format or FORMATS[0]).upper())
         self.section("Show")
-        self.names = Choice()
-        for word, text in NAMES.items():
-            self.names.addItem(text, word)
-        self.names.setCurrentIndex(self.names.findData(recipe.page.title))
+        self.names = Choice(NAMES, recipe.page.title)
         self.row("&Names", self.names, "Where the name of each panel stands")
         self.add_shares()
         self.both = self.tick("&Front and back", recipe.page.views == BOTH, "Each panel from both sides")
         self.transparent = self.tick("No &background", recipe.page.transparent, "Transparent where nothing is drawn")
         self.crop = self.tick("Without the empty &margins", recipe.page.crop, "Cut to what is drawn")
         self.values: QtWidgets.QCheckBox | None = None
-        if any(anchor.value is not None for anchor in recipe.document[Anchors].anchors):
+        if any(part.has_values for part in recipe.document.parts):
             self.values = self.tick("&Values at anchors", recipe.page.anchor_values, "The number beside each anchor")
         self.section("Look")
         self.add_look()
@@ -93,8 +88,7 @@ class ExportDialog(LooksDialog):
         self.row("&Text", self.letters, "The size of labels in points, the others in proportion; 0: as they fit")
         self._add_copying()
         self._number, self._asked = 0, set[int]()
-        self._soon = QtCore.QTimer(self, singleShot=True, interval=WAIT)
-        self._soon.timeout.connect(self._draw)
+        self._soon = QtCore.QTimer(self, singleShot=True, interval=WAIT, timeout=self._draw)
         exports.previews.answered.connect(self._show_preview)
         exports.previews.refused.connect(self._show_refusal)
         self.pane.resized.connect(self._soon.start)
@@ -175,22 +169,13 @@ class ExportDialog(LooksDialog):
     def _add_copying(self) -> None:
         self.copy_picture = self.button("&Copy picture", "The figure as an image, to be pasted elsewhere")
         put_icon(self.copy_picture, "copy")
-        self.copy_picture.clicked.connect(self._copy_picture)
+        self.copy_picture.clicked.connect(lambda: self._copy("picture"))
         self.copy_line = self.button("Copy as co&mmand or Python", "One line that makes this figure")
         self.copy_line.setProperty("chevron", True)
         menu = QtWidgets.QMenu(self.copy_line)
-        menu.addAction("As a command line", self._copy_command)
-        menu.addAction("As Python", self._copy_python)
+        menu.addAction("As a command line", partial(self._copy, "command"))
+        menu.addAction("As Python", partial(self._copy, "python"))
         self.copy_line.setMenu(menu)
-
-    def _copy_picture(self) -> None:
-        self._copy("picture")
-
-    def _copy_command(self) -> None:
-        self._copy("command")
-
-    def _copy_python(self) -> None:
-        self._copy("python")
 
     def _copy(self, what: str) -> None:
         with self.refusals_shown():

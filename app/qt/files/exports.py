@@ -13,8 +13,10 @@ from bihdist_core import OutputError
 from ...figures.worker import FigureJob
 from ..look.bare_button import BareButton
 from ..look.icons import pixmap, put_icon
+from ..look.layouts import in_row
 from ..look.look import LOOK
 from ..look.numbers import number_width, paint_number
+from ..look.painting import baseline, paint_rounded, smooth_painter
 from .preview import Draughtsman
 
 PATIENCE = 5.0
@@ -167,16 +169,11 @@ class ExportChip(QtWidgets.QWidget):
         self.share = _Share(self)
         self.share.clicked.connect(self.open_menu)
         self.menu.aboutToHide.connect(self.share.update)
-        self.stop = QtWidgets.QToolButton(self)
-        self.stop.setIconSize(QtCore.QSize(14, 14))
+        self.stop = QtWidgets.QToolButton(self, iconSize=QtCore.QSize(14, 14))
         self.stop.setFixedSize(22, 22)
         self.stop.clicked.connect(self._cancel_one)
         put_icon(self.stop, "close")
-        row = QtWidgets.QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(2)
-        row.addWidget(self.share, 1)
-        row.addWidget(self.stop)
+        in_row((self.share, 1), self.stop, of=self, spacing=2)
         exports.changed.connect(self._show)
         self._show()
 
@@ -223,9 +220,8 @@ class ExportChip(QtWidgets.QWidget):
                 self.menu.addSeparator()
                 self.menu.addAction("Cancel all", lambda: list(map(self._exports.cancel, running)))
         for export, action in self._listed:
-            name = self.fontMetrics().elidedText(
-                os.path.basename(export.path), QtCore.Qt.TextElideMode.ElideMiddle, 240
-            )
+            middle, name = QtCore.Qt.TextElideMode.ElideMiddle, os.path.basename(export.path)
+            name = self.fontMetrics().elidedText(name, middle, 240)
             how_far = "stopping…" if export.is_stopping else f"{export.percent} %"
             # An ampersand in a name would underline the letter after it.
             action.setText(f"Cancel {export.what.lower()} {name}, {how_far}".replace("&", "&&"))
@@ -234,12 +230,10 @@ class ExportChip(QtWidgets.QWidget):
 
 def _summary(running: list[Export]) -> tuple[str, float]:
     """The words of the chip, and the share of its bar."""
-    mean = sum(export.fraction for export in running) / len(running)
+    mean, first = sum(export.fraction for export in running) / len(running), running[0]
     if len(running) > 1:
         return f"{len(running)} exports, {int(100 * mean)} %", mean
-    return (
-        f"{running[0].what}, stopping…" if running[0].is_stopping else f"{running[0].what} {int(100 * mean)} %"
-    ), mean
+    return f"{first.what}, stopping…" if first.is_stopping else f"{first.what} {first.percent} %", mean
 
 
 class _Share(BareButton):
@@ -278,46 +272,31 @@ class _Share(BareButton):
         return f"{head} 100 %" if last.isdigit() else self.text()
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        theme, painter = LOOK.theme, QtGui.QPainter(self)
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        self._paint_ground(painter)
+        theme, painter = LOOK.theme, smooth_painter(self)
+        box = QtCore.QRectF(self.rect()).adjusted(1, 1, -1, -1)
+        if self.isDown() or self.is_pointed:
+            paint_rounded(painter, box, 6, theme.pressed if self.isDown() else theme.hover)
+        if self.has_keys:
+            paint_rounded(painter, box, 6, line=theme.accent, width=2)
         painter.setFont(LOOK.font(12.5))
         painter.setPen(QtGui.QColor(theme.text))
-        metrics = QtGui.QFontMetricsF(painter.font())
         right = self.width() - self.PAD - (self.CHEVRON if self._has_menu else 0)
-        baseline = (self.height() + metrics.ascent() - metrics.descent()) / 2
+        at = QtCore.QPointF(self.PAD, baseline(painter, self.height() / 2))
         if number_width(painter.font(), self.text()) <= right - self.PAD:
-            paint_number(painter, self.PAD, baseline, self.text())
+            paint_number(painter, at.x(), at.y(), self.text())
         else:
-            words = metrics.elidedText(self.text(), QtCore.Qt.TextElideMode.ElideRight, right - self.PAD)
-            painter.drawText(QtCore.QPointF(self.PAD, baseline), words)
+            metrics, cut = QtGui.QFontMetricsF(painter.font()), QtCore.Qt.TextElideMode.ElideRight
+            painter.drawText(at, metrics.elidedText(self.text(), cut, right - self.PAD))
         left = self.PAD + number_width(painter.font(), self._widest()) + self.GAP
         self._paint_bar(painter, QtCore.QRectF(left, self.height() / 2 - 2, right - left, 4))
         if self._has_menu:
-            scale = self.devicePixelRatioF()
-            painter.drawPixmap(
-                QtCore.QPointF(right + 2, self.height() / 2 - 6), pixmap("chevron", theme.quiet, scale, 12)
-            )
-
-    def _paint_ground(self, painter: QtGui.QPainter) -> None:
-        theme, box = LOOK.theme, QtCore.QRectF(self.rect()).adjusted(1, 1, -1, -1)
-        painter.setPen(QtCore.Qt.PenStyle.NoPen)
-        if self.isDown() or self.is_pointed:
-            painter.setBrush(QtGui.QColor(theme.pressed if self.isDown() else theme.hover))
-            painter.drawRoundedRect(box, 6, 6)
-        if self.has_keys:
-            painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
-            painter.setPen(QtGui.QPen(QtGui.QColor(theme.accent), 2))
-            painter.drawRoundedRect(box, 6, 6)
+            arrow = pixmap("chevron", theme.quiet, self.devicePixelRatioF(), 12)
+            painter.drawPixmap(QtCore.QPointF(right + 2, self.height() / 2 - 6), arrow)
 
     def _paint_bar(self, painter: QtGui.QPainter, box: QtCore.QRectF) -> None:
-        if box.width() < 16:
-            return
-        painter.setPen(QtCore.Qt.PenStyle.NoPen)
-        # Where the ground is that of the pointer, the usual line would be lost in it.
-        painter.setBrush(QtGui.QColor(LOOK.theme.strong if self.is_pointed else LOOK.theme.border))
-        painter.drawRoundedRect(box, 2, 2)
-        painter.setClipRect(QtCore.QRectF(box.left(), box.top(), box.width() * self._fraction, box.height()))
-        painter.setBrush(QtGui.QColor(LOOK.theme.accent))
-        painter.drawRoundedRect(box, 2, 2)
-        painter.setClipping(False)
+        if box.width() >= 16:
+            # Where the ground is that of the pointer, the usual line would be lost in it.
+            paint_rounded(painter, box, 2, LOOK.theme.strong if self.is_pointed else LOOK.theme.border)
+            painter.setClipRect(QtCore.QRectF(box.left(), box.top(), box.width() * self._fraction, box.height()))
+            paint_rounded(painter, box, 2, LOOK.theme.accent)
+            painter.setClipping(False)

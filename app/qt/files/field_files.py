@@ -1,6 +1,7 @@
 """The fields that panels show, saved as values at vertices."""
 
 from collections.abc import Sequence
+from functools import partial
 
 from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
@@ -46,10 +47,7 @@ class FieldFiles:
     def _write(self, title: str, panel: Panel, name: str, fields: dict[str, AnyArray], path: str, remark: str) -> None:
         session = self._context.session
         surface, letter = session.surface_in(panel.id), letter_of(session.document, panel)
-
-        def write(path: str) -> None:
-            write_fields(path, surface, fields)
-
+        write = partial(write_fields, surface=surface, fields=fields)
         title = f"{title} of {letter}: {surface.name}" if letter else title
         name = file_name([surface.name], *letter, name)
         self._context[Writing].save(title, name, FIELD_FORMATS, write, path, remark)

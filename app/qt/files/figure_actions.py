@@ -3,8 +3,10 @@
 import os
 from dataclasses import replace
 from functools import partial
+from typing import TypeVar
 
 from bihdist_core import BihdistError
+from bihdist_core.distances.answers import Answer
 
 from ...document.page import Recipe
 from ...figures.export import Surfaces
@@ -13,8 +15,10 @@ from ..context import Context
 from .copies import copy_line, copy_picture
 from .export_dialog import ExportDialog
 from .exports import Export, Exports
-from .job_dialog import JobDialog
+from .looks_dialog import LooksDialog
 from .movie_dialog import MovieDialog
+
+Dialog = TypeVar("Dialog", bound=LooksDialog)
 
 
 def export_figure(context: Context) -> ExportDialog | None:
@@ -22,11 +26,8 @@ def export_figure(context: Context) -> ExportDialog | None:
     recipe = _complete_recipe(context)
     if recipe is None:
         return None
-    session = context.session
-    answers = [session.shown[panel.id].answer for panel in recipe.document.panels]
-    surfaces = _surfaces(context, recipe)
-    dialog = ExportDialog(recipe, surfaces, session.given, answers, version(), context[Exports], context.widget)
-    dialog.allow_sharing(_has_one_unit(context))
+    given, surfaces, answers = context.session.given, _surfaces(context, recipe), _answers(context, recipe)
+    dialog = ExportDialog(recipe, surfaces, given, answers, version(), context[Exports], context.widget)
     dialog.copying.connect(partial(_copy, context))
     return _opened(dialog, context)
 
@@ -36,10 +37,8 @@ def export_movie(context: Context) -> MovieDialog | None:
     recipe = _complete_recipe(context)
     if recipe is None:
         return None
-    surfaces = _surfaces(context, recipe)
-    dialog = MovieDialog(recipe, surfaces, context.session.given, context[Exports], context.widget)
-    dialog.allow_sharing(_has_one_unit(context))
-    return _opened(dialog, context)
+    given, surfaces = context.session.given, _surfaces(context, recipe)
+    return _opened(MovieDialog(recipe, surfaces, given, context[Exports], context.widget), context)
 
 
 def copy(context: Context, what: str) -> None:
@@ -55,15 +54,13 @@ def copy(context: Context, what: str) -> None:
 def _copy(context: Context, what: str, recipe: Recipe) -> None:
     surfaces = _surfaces(context, recipe)
     if what == "picture":
-        answers = [context.session.shown[panel.id].answer for panel in recipe.document.panels]
-        copy_picture(context, recipe, surfaces, answers)
+        copy_picture(context, recipe, surfaces, _answers(context, recipe))
     else:
         copy_line(context, recipe, surfaces, is_python=what == "python")
 
 
-def _has_one_unit(context: Context) -> bool:
-    answers = [shown.answer for shown in context.session.shown.values()]
-    return len({answer.unit for answer in answers if answer.field is not None}) <= 1
+def _answers(context: Context, recipe: Recipe) -> list[Answer]:
+    return [context.session.shown[panel.id].answer for panel in recipe.document.panels]
 
 
 def _surfaces(context: Context, recipe: Recipe) -> Surfaces:
@@ -83,7 +80,10 @@ def _complete_recipe(context: Context) -> Recipe | None:
     return shown_recipe(context)
 
 
-def _opened(dialog: JobDialog, context: Context) -> JobDialog:
+def _opened(dialog: Dialog, context: Context) -> Dialog:
+    answers = [shown.answer for shown in context.session.shown.values()]
+    dialog.allow_sharing(len({answer.unit for answer in answers if answer.field is not None}) <= 1)
+
     def announce(export: Export) -> None:
         export.saved.connect(lambda path: context.tell(f"Saved {os.path.basename(path)}"))
         export.failed.connect(lambda sentence: context.fail(f"{os.path.basename(export.path)}: {sentence}"))

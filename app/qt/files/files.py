@@ -1,6 +1,7 @@
 """What the window opens and writes, but for its session."""
 
 import os
+from collections.abc import Callable
 
 from qtpy import QtCore, QtGui, QtWidgets
 
@@ -29,19 +30,18 @@ class Files(QtCore.QObject):
     # ------------------------------------------------------------------ opening
     def choose(self) -> None:
         """Ask for a file, and open it."""
-        context = self._context
-        path, _ = QtWidgets.QFileDialog.getOpenFileName(context.widget, "Open", context.folder, FILES)
-        if path:
-            context.folder = os.path.dirname(path)
-            self.open(path)
+        self._ask("Open", FILES, self.open)
 
     def choose_beside(self) -> None:
         """A second mesh, beside the first."""
+        self._ask("Open beside", MESH_FILES, self._context.session.open_beside)
+
+    def _ask(self, title: str, files: str, take: Callable[[str], None]) -> None:
         context = self._context
-        path, _ = QtWidgets.QFileDialog.getOpenFileName(context.widget, "Open beside", context.folder, MESH_FILES)
+        path, _ = QtWidgets.QFileDialog.getOpenFileName(context.widget, title, context.folder, files)
         if path:
             context.folder = os.path.dirname(path)
-            context.session.open_beside(path)
+            take(path)
 
     def open(self, path: str) -> None:
         """A mesh, a session or recipe, or a curve for distances to start from."""

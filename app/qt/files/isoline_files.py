@@ -1,6 +1,7 @@
 """The isolines that a panel shows, saved as coordinates."""
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -35,16 +36,13 @@ class Levels:
 def levels_of(context: Context, panel: int) -> Levels | None:
     """Those of a panel by its id; None where it has no field."""
     shown, loaded = context.session.shown.get(panel), context.session.loaded_in(panel)
-    if shown is None or loaded is None:
+    if shown is None or loaded is None or shown.answer.field is None:
         return None
-    answer, document = shown.answer, context.document
-    if answer.field is None:
-        return None
+    answer, field, document = shown.answer, shown.answer.field, context.document
     (name,) = field_names(document, [document.panel(panel)])
     values = np.array(context.grid.panel(panel).view.scene.isolines)
-    return Levels(
-        loaded.surface, answer.field, name, answer.label, 100.0 if percent(answer.unit) else answer.maximum, values
-    )
+    maximum = 100.0 if percent(answer.unit) else answer.maximum
+    return Levels(loaded.surface, field, name, answer.label, maximum, values)
 
 
 def write_levels(path: str, levels: Levels) -> None:
@@ -60,9 +58,5 @@ def save_isolines(context: Context, panel: int, path: str = "") -> None:
     if levels is None:
         context.fail("This panel has no field yet.")
         return
-
-    def write(path: str) -> None:
-        write_levels(path, levels)
-
     name = file_name([levels.surface.name], "isolines", levels.name)
-    context[Writing].save("Save isolines", name, ISOLINE_FORMATS, write, path)
+    context[Writing].save("Save isolines", name, ISOLINE_FORMATS, partial(write_levels, levels=levels), path)

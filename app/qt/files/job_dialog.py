@@ -1,13 +1,15 @@
 """A dialog that asks how a file shall be, closes, and has the file drawn in the background."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import ClassVar
 
 from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import BihdistError
 
+from ..look.layouts import in_column, in_row
 from ..look.look import LOOK
 from ..look.segments import Segments
 from ..look.text_box import mark_wrong
@@ -57,34 +59,32 @@ def blamed_on(box: QtWidgets.QWidget) -> Iterator[None]:
 class JobDialog(QtWidgets.QDialog):
     """`started` is emitted with the `Export`; then the dialog is closed.  What is refused is said in the dialog.
 
-    A class of its own for each sort of file adds sections and rows, and makes the work in `work(path)`.
+    A class of its own for each sort of file adds sections and rows, and makes the work in `work(path)`.  what: it
+    draws, "Movie"; file_kinds: the formats that there are.
     """
+
+    what: ClassVar[str]
+    file_kinds: ClassVar[tuple[FileKind, ...]]
 
     started = QtCore.Signal(object)
 
     def __init__(
         self,
-        title: str,
-        what: str,
         name: str,
-        kinds: tuple[FileKind, ...],
         exports: Exports,
         parent: QtWidgets.QWidget | None = None,
         side: QtWidgets.QWidget | None = None,
     ) -> None:
-        """what: is drawn, "Movie"; name: of the file, as a proposal and without an extension.
-
-        side: what stands beside the choices.
-        """
+        """name: of the file, as a proposal and without an extension; side: what stands beside the choices."""
         super().__init__(parent)
-        self.setWindowTitle(title)
-        self._what, self._name, self._kinds, self._exports = what, name, kinds, exports
+        self.setWindowTitle(f"Export {self.what.lower()}")
+        self._name, self._exports = name, exports
         self._sentences: dict[QtWidgets.QWidget, QtWidgets.QLabel] = {}
         self._side = side
         self._fill()
         self.section("Format")
-        self.kinds = Segments({kind.name: kind.name for kind in kinds}, "The format of the file")
-        self.kinds.choose(kinds[0].name)
+        self.kinds = Segments({kind.name: kind.name for kind in self.file_kinds}, "The format of the file")
+        self.kinds.choose(self.file_kinds[0].name)
         self.column.addWidget(self.kinds, 0, QtCore.Qt.AlignmentFlag.AlignLeft)
 
     def check(self) -> None:
@@ -99,8 +99,7 @@ class JobDialog(QtWidgets.QDialog):
         """Have it drawn to a path, and close; what is refused is said here instead."""
         with self.refusals_shown():
             self.check()
-            export = self._exports.start(self.work(path), path, self._what)
-            self.started.emit(export)
+            self.started.emit(self._exports.start(self.work(path), path, self.what))
             self.accept()
 
     def choose_path(self) -> None:
@@ -110,7 +109,7 @@ class JobDialog(QtWidgets.QDialog):
             self._ask_path()
 
     def _ask_path(self) -> None:
-        kind = next(kind for kind in self._kinds if kind.name == self.kinds.choice())
+        kind = next(kind for kind in self.file_kinds if kind.name == self.kinds.choice())
         files = QtWidgets.QFileDialog(
             self, self.windowTitle(), self._exports.folder, f"{kind.words} (*{kind.extension})"
         )
@@ -164,28 +163,24 @@ class JobDialog(QtWidgets.QDialog):
 
     def row(self, label: str, box: QtWidgets.QWidget, tip: str) -> None:
         """A box with words before it, and a place for what is wrong under it; label: with its access key."""
-        words = QtWidgets.QLabel(label)
+        words = QtWidgets.QLabel(label, toolTip=tip)
         words.setBuddy(box)
-        words.setToolTip(tip)
         words.setMinimumWidth(round((LABEL if self._side is None else LABEL_BESIDE) * LOOK.scale))
-        self._name_box(box, label.replace("&", ""), tip)
-        line = QtWidgets.QHBoxLayout()
-        line.addWidget(words)
-        line.addWidget(box, 1)
-        self.column.addLayout(line)
+        self.name_box(box, label, tip)
+        self.column.addLayout(in_row(words, (box, 1)))
         self.room_for_wrong(box)
 
     def tick(self, words: str, is_on: bool, tip: str) -> QtWidgets.QCheckBox:
         """Add a box that can be ticked."""
         box = QtWidgets.QCheckBox(words, checked=is_on)
-        self._name_box(box, words.replace("&", ""), tip)
+        self.name_box(box, words, tip)
         self.column.addWidget(box)
         return box
 
     def button(self, words: str, tip: str) -> QtWidgets.QPushButton:
         """One more at the foot, before those that close the dialog."""
         button = QtWidgets.QPushButton(words, autoDefault=False)
-        self._name_box(button, words.replace("&", ""), tip)
+        self.name_box(button, words, tip)
         self._feet.insertWidget(self._feet.count() - 1, button)
         return button
 
@@ -195,15 +190,14 @@ class JobDialog(QtWidgets.QDialog):
         self.column.addWidget(self._sentences[box])
 
     @staticmethod
-    def _name_box(box: QtWidgets.QWidget, name: str, tip: str) -> None:
-        box.setAccessibleName(name)
+    def name_box(box: QtWidgets.QWidget, name: str, tip: str) -> None:
+        """Say what a box is for; name: with or without its access key."""
+        box.setAccessibleName(name.replace("&", ""))
         box.setToolTip(tip)
 
     def _fill(self) -> None:
         choices = QtWidgets.QWidget()
-        self.column = QtWidgets.QVBoxLayout(choices)
-        self.column.setContentsMargins(24, 20, 24, 20)
-        self.column.setSpacing(8)
+        self.column = in_column(of=choices, spacing=8, margins=(24, 20, 24, 20))
         self.scroll = QtWidgets.QScrollArea(widgetResizable=True)
         self.scroll.setWidget(choices)
         self.scroll.viewport().setAutoFillBackground(False)
@@ -221,25 +215,10 @@ class JobDialog(QtWidgets.QDialog):
         self.cancel.setToolTip("Close without a file (Esc)")
         buttons.accepted.connect(self.choose_path)
         buttons.rejected.connect(self.reject)
-        self._foot = foot = QtWidgets.QVBoxLayout()
-        foot.setContentsMargins(24, 12, 24, 12)
-        foot.setSpacing(8)
-        foot.addWidget(self.refusal)
-        self._feet = QtWidgets.QHBoxLayout()
-        self._feet.setSpacing(8)
-        self._feet.addWidget(buttons, 1)
-        foot.addLayout(self._feet)
-        layout = QtWidgets.QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        body = QtWidgets.QHBoxLayout()
-        body.setSpacing(0)
-        body.addWidget(self.scroll, 0 if self._side else 1)
-        if self._side is not None:
-            body.addWidget(self._side, 1)
-        layout.addLayout(body, 1)
-        layout.addWidget(QtWidgets.QFrame(objectName="hairline"))
-        layout.addLayout(foot)
+        self._feet = in_row((buttons, 1), spacing=8)
+        self._foot = in_column(self.refusal, self._feet, spacing=8, margins=(24, 12, 24, 12))
+        body = in_row(self.scroll, (self._side, 1), spacing=0) if self._side is not None else in_row(self.scroll)
+        in_column((body, 1), QtWidgets.QFrame(objectName="hairline"), self._foot, of=self, spacing=0)
 
     def showEvent(self, event: QtGui.QShowEvent) -> None:
         if not event.spontaneous():
@@ -273,10 +252,13 @@ class JobDialog(QtWidgets.QDialog):
 
 
 class Choice(QtWidgets.QComboBox):
-    """A box with a list; it does not insist on the width of its longest entry."""
+    """A list of texts by the words they stand for; it does not insist on the width of its longest entry."""
 
-    def __init__(self) -> None:
+    def __init__(self, texts: Mapping[str, str], now: str) -> None:
         super().__init__()
+        for word, text in texts.items():
+            self.addItem(text, word)
+        self.setCurrentIndex(max(self.findData(now), 0))
         self.setSizeAdjustPolicy(QtWidgets.QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.setMinimumContentsLength(12)
 

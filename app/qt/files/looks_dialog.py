@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import ClassVar
 
 from qtpy import QtWidgets
 
@@ -12,32 +13,32 @@ from ...document.file_names import file_name
 from ...document.page import Recipe
 from ...figures.export import Surfaces, figure_of
 from ...figures.layout import lay_out
+from ...session.array_store import ArrayStore
 from ..look.canvas import offered_styles, style_name
 from .exports import Exports
-from .job_dialog import Choice, Count, FileKind, JobDialog, blamed_on
+from .job_dialog import Choice, Count, JobDialog, blamed_on
 from .size_boxes import SizeBoxes, SizeNames
 
 
 class LooksDialog(JobDialog):
-    """recipe: what the window shows, on these surfaces."""
+    """recipe: what the window shows, on these surfaces; given: arrays that it names.  sizes: that are offered."""
+
+    sizes: ClassVar[SizeNames]
 
     def __init__(
         self,
         recipe: Recipe,
         surfaces: Surfaces,
-        title: str,
-        what: str,
-        kinds: tuple[FileKind, ...],
-        sizes: SizeNames,
+        given: ArrayStore,
         exports: Exports,
         parent: QtWidgets.QWidget | None = None,
         side: QtWidgets.QWidget | None = None,
     ) -> None:
-        name = file_name([each.path for each in recipe.document.surfaces], what.lower())
-        super().__init__(title, what, name, kinds, exports, parent, side)
-        self._recipe, self._surfaces, self._has_one_unit = recipe, surfaces, True
+        name = file_name([each.path for each in recipe.document.surfaces], self.what.lower())
+        super().__init__(name, exports, parent, side)
+        self._recipe, self._surfaces, self._given, self._has_one_unit = recipe, surfaces, given, True
         self.section("Size")
-        self.size = SizeBoxes(sizes)
+        self.size = SizeBoxes(self.sizes)
         self.size.write(recipe.page.size)
         self.column.addWidget(self.size)
         self.room_for_wrong(self.size.width_box)
@@ -45,19 +46,13 @@ class LooksDialog(JobDialog):
     def add_shares(self) -> None:
         """One colour bar, and what to look for."""
         self.hints = self.tick("&What to look for", self._recipe.page.hints, "A line under each heading")
-        self.shared = self.tick(
-            "&One colour bar for all",
-            self._recipe.document.range != "own",
-            "The same colour means the same value everywhere",
-        )
+        is_shared, tip = self._recipe.document.range != "own", "The same colour means the same value everywhere"
+        self.shared = self.tick("&One colour bar for all", is_shared, tip)
 
     def add_look(self) -> None:
         """Style and columns."""
         page = self._recipe.page
-        self.style_box = Choice()
-        for word in offered_styles(page.style):
-            self.style_box.addItem(style_name(word), word)
-        self.style_box.setCurrentIndex(max(self.style_box.findData(page.style), 0))
+        self.style_box = Choice({word: style_name(word) for word in offered_styles(page.style)}, page.style)
         self.columns = Count(0, MOST_PANELS, page.columns or 0, nothing="Automatic")
         self.row("St&yle", self.style_box, "The colours and lines of the drawing")
         self.row("Co&lumns", self.columns, "How many panels stand side by side")
@@ -66,24 +61,18 @@ class LooksDialog(JobDialog):
         """Panels of different units share a bar of shares."""
         self._has_one_unit = has_one_unit
         if not has_one_unit:
-            self.shared.setText("&One colour bar, in fractions of the maximum")
-            self.shared.setAccessibleName("One colour bar, in fractions of the maximum")
-            self.shared.setToolTip(
-                "The panels have different units; the same colour means the same fraction everywhere"
-            )
+            words = "&One colour bar, in fractions of the maximum"
+            self.shared.setText(words)
+            tip = "The panels have different units; the same colour means the same fraction everywhere"
+            self.name_box(self.shared, words, tip)
 
     def chosen(self) -> Recipe:
         """The recipe as the dialog stands; ParameterError for a size that is none."""
         document, page = self._recipe.document, self._recipe.page
         with blamed_on(self.size.width_box):
             size = self.size.text()
-        page = replace(
-            page,
-            size=size,
-            style=self.style_box.currentData(),
-            columns=self.columns.value() or None,
-            hints=self.hints.isChecked(),
-        )
+        style, columns = self.style_box.currentData(), self.columns.value() or None
+        page = replace(page, size=size, style=style, columns=columns, hints=self.hints.isChecked())
         if self.shared.isChecked() != (document.range != "own"):
             word = "shared" if self._has_one_unit else "shares"
             document = replace(document, range=word if self.shared.isChecked() else "own")

@@ -11,21 +11,22 @@ from ...document.page import Recipe
 from ...figures.export import Surfaces
 from ...figures.movie import Movie, check_movie, write_movie
 from ...session.array_store import ArrayStore
+from ..look.layouts import quiet_label
 from .exports import Exports
 from .job_dialog import Count, FileKind, blamed_on
 from .looks_dialog import LooksDialog
-from .size_boxes import SizeNames
-
-MOVIE_KINDS = (FileKind(".mp4", "MP4", "MP4 movie"), FileKind(".gif", "GIF", "GIF"))
-MOVIE_SIZES: SizeNames = (
-    ("Usual", "", "follows what turns"),
-    ("Small", "640px", "640 px wide"),
-    ("Slide", "slide", "1920 × 1080 px"),
-)
 
 
 class MovieDialog(LooksDialog):
     """A movie of what the window shows."""
+
+    what = "Movie"
+    file_kinds = (FileKind(".mp4", "MP4", "MP4 movie"), FileKind(".gif", "GIF", "GIF"))
+    sizes = (
+        ("Usual", "", "follows what turns"),
+        ("Small", "640px", "640 px wide"),
+        ("Slide", "slide", "1920 × 1080 px"),
+    )
 
     def __init__(
         self,
@@ -35,16 +36,13 @@ class MovieDialog(LooksDialog):
         exports: Exports,
         parent: QtWidgets.QWidget | None = None,
     ) -> None:
-        super().__init__(recipe, surfaces, "Export movie", "Movie", MOVIE_KINDS, MOVIE_SIZES, exports, parent)
-        self._given = given
+        super().__init__(recipe, surfaces, given, exports, parent)
         self.section("Movement")
         self.turn = Count(-3600, 3600, 360, suffix="°")
-        self.path_text = QtWidgets.QLineEdit()
-        self.path_text.setPlaceholderText("12, 900; empty: it stays")
+        self.path_text = QtWidgets.QLineEdit(placeholderText="12, 900; empty: it stays")
         self.frames = Count(2, 10_000, 120)
         self.fps = Count(1, 50, 25)
-        self.length = QtWidgets.QLabel("")
-        self.length.setProperty("quiet", True)
+        self.length = quiet_label()
         self.row("&Turn by", self.turn, "How far the shapes turn from the first frame to the last; 0: they stay")
         self.row("Source &path", self.path_text, "Vertices the source goes through along edges, by their ids")
         self.row("&Frames", self.frames, "How many pictures the movie has")

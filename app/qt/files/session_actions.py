@@ -55,8 +55,7 @@ class SessionFile(QtCore.QObject):
         self.path: str | None = None
         self._saved: Recipe | None = None
         self._given = work_in(Document())  # what came from the command line or from Python
-        self._keep_soon = QtCore.QTimer(self, singleShot=True, interval=KEEP_MS)
-        self._keep_soon.timeout.connect(self.keep)
+        self._keep_soon = QtCore.QTimer(self, singleShot=True, interval=KEEP_MS, timeout=self.keep)
         context[CurveFiles].saved.connect(self.show_title)
 
     # ------------------------------------------------------------------ saving

@@ -5,6 +5,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core import ParameterError
 
 from ...figures.size import PRINT_DPI, Size
+from ..look.layouts import in_column, in_row, quiet_label
 from ..look.look import LOOK
 
 UNITS = {"mm": "millimetres", "px": "pixels"}
@@ -22,9 +23,7 @@ class SizeBoxes(QtWidgets.QWidget):
         super().__init__(parent)
         self._sizes, self._written = sizes, ""
         self.rows = QtWidgets.QButtonGroup(self)
-        column = QtWidgets.QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
+        column = in_column(of=self, spacing=0)
         for number, (name, _, detail) in enumerate((*sizes, ("Own size", "", ""))):
             row = _SizeRow(name, detail)
             row.setToolTip(f"{name}: {detail}" if detail else "Written in the boxes below")
@@ -32,19 +31,12 @@ class SizeBoxes(QtWidgets.QWidget):
             self.rows.addButton(row, number)
             column.addWidget(row)
         self.width_box, self.height_box = self._box("Width"), self._box("Height")
-        self.unit = QtWidgets.QComboBox()
-        self.unit.addItems(["mm", "px"])
-        self.unit.setAccessibleName("Unit of the size")
-        self.unit.setToolTip("Millimetres as printed, or pixels")
+        about = "Millimetres as printed, or pixels"
+        self.unit = QtWidgets.QComboBox(accessibleName="Unit of the size", toolTip=about)
+        self.unit.addItems(list(UNITS))
         self.dpi = self._box("Pixels per inch")
-        line = QtWidgets.QHBoxLayout()
-        line.setContentsMargins(0, 8, 0, 0)
-        line.setSpacing(6)
-        for box in (self.width_box, QtWidgets.QLabel("×"), self.height_box, self.unit, self.dpi):
-            line.addWidget(box, 1 if isinstance(box, QtWidgets.QLineEdit) else 0)
-        dots = QtWidgets.QLabel("dpi")
-        dots.setProperty("quiet", True)
-        line.addWidget(dots)
+        sides = (self.width_box, 1), QtWidgets.QLabel("×"), (self.height_box, 1)
+        line = in_row(*sides, self.unit, (self.dpi, 1), quiet_label("dpi"), spacing=6, margins=(0, 8, 0, 0))
         column.addLayout(line)
         self.rows.idClicked.connect(self._take_row)
         for box in (self.width_box, self.height_box, self.dpi):
@@ -65,16 +57,13 @@ class SizeBoxes(QtWidgets.QWidget):
         dpi = self.dpi.text().strip()
         if not width and not height and not dpi:
             return ""
-        for number, unit in (
-            (width, UNITS[self.unit.currentText()]),
-            (height, UNITS[self.unit.currentText()]),
-            (dpi, "dpi"),
-        ):
+        short = self.unit.currentText()
+        for number, unit in ((width, UNITS[short]), (height, UNITS[short]), (dpi, "dpi")):
             if number and not _is_number(number):
                 raise ParameterError(f"{number!r} is not a number of {unit}.")
         if height and not width:
             raise ParameterError("A height needs a width beside it.")
-        return f"{width}{'x' if height else ''}{height}{self.unit.currentText()}{'@' if dpi else ''}{dpi}"
+        return f"{width}{'x' if height else ''}{height}{short}{'@' if dpi else ''}{dpi}"
 
     def name(self) -> str:
         """Of the chosen row."""
@@ -91,14 +80,12 @@ class SizeBoxes(QtWidgets.QWidget):
         self.changed.emit()
 
     def _fill(self, text: str) -> None:
-        size = _read(text)
-        if size is None:
-            size = Size()
+        known = _read(text)
+        size = Size() if known is None else known
+        for box, number in ((self.width_box, size.width), (self.height_box, size.height), (self.dpi, size.dpi)):
+            box.setText("" if number is None else f"{number:g}")
+        if known is None:
             self.width_box.setText(text)
-        else:
-            self.width_box.setText("" if size.width is None else f"{size.width:g}")
-        self.height_box.setText("" if size.height is None else f"{size.height:g}")
-        self.dpi.setText("" if size.dpi is None else f"{size.dpi:g}")
         self.unit.setCurrentText(size.unit)
         self._show_usual()
 
@@ -122,9 +109,8 @@ class SizeBoxes(QtWidgets.QWidget):
         self.changed.emit()
 
     def _box(self, name: str) -> QtWidgets.QLineEdit:
-        box = QtWidgets.QLineEdit()
-        box.setAccessibleName(f"{name} of the figure" if name != "Pixels per inch" else name)
-        box.setToolTip(f"{name}; empty: as the rest asks for")
+        called = f"{name} of the figure" if name != "Pixels per inch" else name
+        box = QtWidgets.QLineEdit(accessibleName=called, toolTip=f"{name}; empty: as the rest asks for")
         box.setMinimumWidth(round(46 * LOOK.scale))
         return box
 

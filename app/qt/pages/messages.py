@@ -6,7 +6,9 @@ from collections.abc import Callable, Sequence
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ..look.icons import pixmap, put_icon
+from ..look.layouts import in_column, in_row
 from ..look.look import LOOK
+from ..look.text_lines import lines_of
 
 
 # ---------------------------------------------------------------------- a message
@@ -25,43 +27,25 @@ class Message(QtWidgets.QDialog):
         self.sentence.setAccessibleName(sentence)
         # Qt would otherwise guess a width, and make long sentences narrow towers.
         self.sentence.setMinimumWidth(min(400, self.sentence.fontMetrics().horizontalAdvance(sentence) + 16))
-        self.fold = QtWidgets.QPushButton("Show details", objectName="link", visible=bool(details))
-        self.fold.setAutoDefault(False)
+        self.fold = QtWidgets.QPushButton("Show details", objectName="link", visible=bool(details), autoDefault=False)
         self.fold.setToolTip("What happened, in full")
-        self.details = QtWidgets.QPlainTextEdit(details, readOnly=True, visible=False)
-        self.details.setMinimumHeight(140)
-        self.details.setAccessibleName("Details")
         self.fold.clicked.connect(self._unfold)
-        self.copy = QtWidgets.QPushButton("Copy", self, autoDefault=False)
-        self.copy.setToolTip("Copy all of it to the clipboard")
-        self.copy.setAutoDefault(False)
+        self.details = QtWidgets.QPlainTextEdit(
+            details, readOnly=True, visible=False, minimumHeight=140, accessibleName="Details"
+        )
+        self.copy = QtWidgets.QPushButton("Copy", self, autoDefault=False, toolTip="Copy all of it to the clipboard")
         self.copy.clicked.connect(self._copy)
-        shut = QtWidgets.QPushButton("Close", self, default=True)
-        shut.setToolTip("Close this message (Esc)")
+        shut = QtWidgets.QPushButton("Close", self, default=True, toolTip="Close this message (Esc)")
         shut.clicked.connect(self.accept)
         shut.setFocus()
-        buttons = QtWidgets.QHBoxLayout()
-        buttons.addWidget(self.copy)
-        buttons.addStretch(1)
-        buttons.addWidget(shut)
         self._sign = QtWidgets.QLabel("")
         self._paint_sign()
         LOOK.changed.connect(self._paint_sign)
-        top = QtWidgets.QHBoxLayout()
-        top.setSpacing(12)
-        top.addWidget(self._sign, 0, QtCore.Qt.AlignmentFlag.AlignTop)
-        words = QtWidgets.QVBoxLayout()
-        words.setSpacing(4)
-        words.addWidget(self.sentence)
-        words.addWidget(self.fold, 0, QtCore.Qt.AlignmentFlag.AlignLeft)
-        top.addLayout(words, 1)
-        self._layout = QtWidgets.QVBoxLayout(self)
-        self._layout.setContentsMargins(24, 20, 24, 16)
-        self._layout.setSpacing(8)
-        self._layout.addLayout(top)
-        self._layout.addWidget(self.details, 1)
-        self._layout.addSpacing(8)
-        self._layout.addLayout(buttons)
+        align = QtCore.Qt.AlignmentFlag
+        words = in_column(self.sentence, (self.fold, 0, align.AlignLeft), spacing=4)
+        top = in_row((self._sign, 0, align.AlignTop), (words, 1), spacing=12)
+        buttons = in_row(self.copy, None, shut)
+        self._layout = in_column(top, (self.details, 1), 8, buttons, of=self, spacing=8, margins=(24, 20, 24, 16))
 
     def _paint_sign(self) -> None:
         self._sign.setPixmap(pixmap("warning", LOOK.theme.warning, self.devicePixelRatioF()))
@@ -94,10 +78,9 @@ class WhichFile(QtWidgets.QDialog):
         super().__init__(parent)
         self.setWindowTitle("Open one of them")
         question = QtWidgets.QLabel(f"{len(paths)} files were dropped. &Which one do you want to open?", wordWrap=True)
-        self.list = QtWidgets.QListWidget()
+        self.list = QtWidgets.QListWidget(accessibleName="Files")
         self.list.setItemDelegate(_PathRows(self.list))
         self.list.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.list.setAccessibleName("Files")
         question.setBuddy(self.list)
         for path in paths:
             item = QtWidgets.QListWidgetItem(os.path.basename(path), self.list)
@@ -116,12 +99,7 @@ class WhichFile(QtWidgets.QDialog):
         leave.setToolTip("Open none of them (Esc)")
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
-        layout = QtWidgets.QVBoxLayout(self)
-        layout.setContentsMargins(24, 20, 24, 16)
-        layout.setSpacing(12)
-        layout.addWidget(question)
-        layout.addWidget(self.list, 1)
-        layout.addWidget(buttons)
+        in_column(question, (self.list, 1), buttons, of=self, spacing=12, margins=(24, 20, 24, 16))
         rows = min(max(len(paths), 2), 6) * _PathRows.HIGH + 2
         self.list.setMinimumHeight(2 * _PathRows.HIGH)
         self.resize(460, self.sizeHint().height() - self.list.sizeHint().height() + rows)
@@ -161,10 +139,15 @@ class _PathRows(QtWidgets.QStyledItemDelegate):
         painter.restore()
 
 
+def from_home(folder: str) -> str:
+    """A folder as the user writes it."""
+    home = os.path.expanduser("~")
+    inside = folder == home or folder.startswith(home.rstrip(os.sep) + os.sep)
+    return "~" + folder[len(home.rstrip(os.sep)) :] if inside and home != os.sep else folder
+
+
 def _folder(path: str) -> str:
-    """With ~ for the user's own."""
-    folder, home = os.path.dirname(os.path.abspath(path)), os.path.expanduser("~")
-    return "~" + folder[len(home) :] if folder == home or folder.startswith(home + os.sep) else folder
+    return from_home(os.path.dirname(os.path.abspath(path)))
 
 
 def ask_which(window: QtWidgets.QWidget | None, paths: Sequence[str]) -> str | None:
@@ -185,23 +168,13 @@ class Notice(QtWidgets.QWidget):
         self._act: Callable[[], None] | None = None
         self._sign = QtWidgets.QLabel("")
         self.words = _TwoLines(self)
-        self.button = QtWidgets.QPushButton(objectName="link")
-        self.button.clicked.connect(self._do)
-        self.shut = QtWidgets.QToolButton()
+        self.button = QtWidgets.QPushButton(objectName="link", clicked=self._do)
+        self.shut = QtWidgets.QToolButton(toolTip="Close this message", accessibleName="Close this message")
         self.shut.setIconSize(QtCore.QSize(14, 14))
-        self.shut.setToolTip("Close this message")
-        self.shut.setAccessibleName("Close this message")
         self.shut.clicked.connect(self.clear)
         put_icon(self.shut, "close")
-        self._soon = QtCore.QTimer(self, singleShot=True)
-        self._soon.timeout.connect(self.clear)
-        row = QtWidgets.QHBoxLayout(self)
-        row.setContentsMargins(12, 6, 8, 6)
-        row.setSpacing(8)
-        row.addWidget(self._sign)
-        row.addWidget(self.words, 1)
-        row.addWidget(self.button)
-        row.addWidget(self.shut)
+        self._soon = QtCore.QTimer(self, singleShot=True, timeout=self.clear)
+        in_row(self._sign, (self.words, 1), self.button, self.shut, of=self, spacing=8, margins=(12, 6, 8, 6))
         policy = QtWidgets.QSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
@@ -285,20 +258,9 @@ class _TwoLines(QtWidgets.QWidget):
 
     def lines(self, width: int) -> list[str]:
         """What is written at this width, in logical pixels."""
-        metrics = QtGui.QFontMetrics(LOOK.font())
-        layout = QtGui.QTextLayout(self._text, LOOK.font())
-        layout.beginLayout()
-        starts: list[int] = []
-        while len(starts) <= self.MOST:
-            line = layout.createLine()
-            if not line.isValid():
-                break
-            line.setLineWidth(max(width, 1))
-            starts.append(line.textStart())
-        layout.endLayout()
-        ends = [*starts[1 : self.MOST], len(self._text)]
-        found = [self._text[start:end] for start, end in zip(starts[: self.MOST], ends, strict=False)]
-        return [metrics.elidedText(line.strip(), QtCore.Qt.TextElideMode.ElideRight, max(width, 1)) for line in found]
+        font, metrics = LOOK.font(), QtGui.QFontMetrics(LOOK.font())
+        found = lines_of(self._text, font, max(width, 1), self.MOST, QtGui.QTextOption.WrapMode.WordWrap)
+        return [metrics.elidedText(line, QtCore.Qt.TextElideMode.ElideRight, max(width, 1)) for line in found]
 
     def sizeHint(self) -> QtCore.QSize:
         return QtCore.QSize(200, self.heightForWidth(max(self.width(), 200)))

@@ -4,7 +4,9 @@ from collections.abc import Sequence
 
 from qtpy import QtCore, QtGui, QtWidgets
 
+from ..look.layouts import in_column, quiet_label
 from ..look.look import LOOK
+from ..look.painting import paint_rounded
 from ..panels.number_box import PopUp
 from .commands import Command, found
 
@@ -25,8 +27,8 @@ class Palette(PopUp):
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_DeleteOnClose)
         self._recent, self._most = recent, MOST_ROWS
         self._commands = sorted(commands, key=lambda command: self._age(command.title))
-        self.box = QtWidgets.QLineEdit(placeholderText="What to do; “mouse” for the gestures")
-        self.box.setAccessibleName("Commands")
+        hint = "What to do; “mouse” for the gestures"
+        self.box = QtWidgets.QLineEdit(placeholderText=hint, accessibleName="Commands")
         self.box.textChanged.connect(self._show)
         self.box.installEventFilter(self)
         self.rows = QtWidgets.QListWidget(frameShape=QtWidgets.QFrame.Shape.NoFrame, uniformItemSizes=True)
@@ -36,12 +38,8 @@ class Palette(PopUp):
         self.rows.setMouseTracking(True)
         self.rows.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.rows.itemClicked.connect(self.run)
-        self.nothing = QtWidgets.QLabel("No command and no gesture has these words.", visible=False)
-        self.nothing.setProperty("quiet", True)
-        column = QtWidgets.QVBoxLayout(self, spacing=6)
-        column.setContentsMargins(8, 8, 8, 8)
-        for widget in (self.box, self.rows, self.nothing):
-            column.addWidget(widget)
+        self.nothing = quiet_label("No command and no gesture has these words.")
+        in_column(self.box, self.rows, self.nothing, of=self, spacing=6, margins=(8, 8, 8, 8))
         self._show("")
 
     def open(self) -> None:
@@ -81,8 +79,7 @@ class Palette(PopUp):
     def _show(self, typed: str) -> None:
         self.rows.clear()
         for command in found(self._commands, typed):
-            row = QtWidgets.QListWidgetItem(command.title, self.rows)
-            row.setData(COMMAND, command)
+            QtWidgets.QListWidgetItem(command.title, self.rows).setData(COMMAND, command)
         self.rows.setCurrentRow(0)
         self._fit()
 
@@ -111,27 +108,21 @@ class _Row(QtWidgets.QStyledItemDelegate):
         states = QtWidgets.QStyle.StateFlag
         is_chosen = bool(option.state & states.State_Selected)
         if is_chosen or option.state & states.State_MouseOver:
-            painter.setPen(QtCore.Qt.PenStyle.NoPen)
-            painter.setBrush(QtGui.QColor(theme.selection if is_chosen else theme.hover))
-            painter.drawRoundedRect(QtCore.QRectF(option.rect), 5, 5)
+            paint_rounded(painter, QtCore.QRectF(option.rect), 5, theme.selection if is_chosen else theme.hover)
         is_quiet = command.action is not None and not command.can_run
         note = command.lack or ("on" if command.is_on else "")
         metrics, room = QtGui.QFontMetrics(LOOK.font()), option.rect.adjusted(PAD, 0, -PAD, 0)
         painter.setFont(LOOK.font())
-        right, left = (
-            QtCore.Qt.AlignmentFlag.AlignVCenter | side
-            for side in (QtCore.Qt.AlignmentFlag.AlignRight, QtCore.Qt.AlignmentFlag.AlignLeft)
-        )
+        align, cut = QtCore.Qt.AlignmentFlag, QtCore.Qt.TextElideMode.ElideRight
+        right, left = (int(align.AlignVCenter | side) for side in (align.AlignRight, align.AlignLeft))
         painter.setPen(QtGui.QColor(theme.quiet))
-        keys = metrics.elidedText(command.keys, QtCore.Qt.TextElideMode.ElideRight, room.width() // 2)
-        painter.drawText(room, int(right), keys)
+        keys = metrics.elidedText(command.keys, cut, room.width() // 2)
+        painter.drawText(room, right, keys)
         room.setRight(room.right() - metrics.horizontalAdvance(keys) - 2 * PAD)
         painter.setPen(QtGui.QColor(theme.disabled if is_quiet else theme.text))
-        title = metrics.elidedText(command.title, QtCore.Qt.TextElideMode.ElideRight, room.width())
-        painter.drawText(room, int(left), title)
+        title = metrics.elidedText(command.title, cut, room.width())
+        painter.drawText(room, left, title)
         room.setLeft(room.left() + metrics.horizontalAdvance(title) + PAD)
         painter.setPen(QtGui.QColor(theme.accent if command.is_on and not is_quiet else theme.quiet))
-        painter.drawText(
-            room, int(left), metrics.elidedText(note, QtCore.Qt.TextElideMode.ElideRight, max(0, room.width()))
-        )
+        painter.drawText(room, left, metrics.elidedText(note, cut, max(0, room.width())))
         painter.restore()

@@ -5,9 +5,10 @@ from dataclasses import replace
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.looks import MOST_ISOLINES
+from ..look.layouts import in_column, in_row, quiet_label
 from ..look.look import LOOK
 from ..look.segments import Segments
-from ..preferences import Preferences, load, save
+from ..preferences import Preferences
 
 THEMES = {"As the desktop": "desktop", "Light": "light", "Dark": "dark"}
 TURNING = {"Freely": "", "Turntable": "turntable"}
@@ -26,31 +27,22 @@ class PreferencesDialog(QtWidgets.QDialog):
         self.setWindowTitle("Preferences")
         self._preferences = preferences  # what the dialog has no control for comes from here
         self._theme_before = LOOK.choice
-        self.theme = Segments(THEMES, "Theme")
-        self.theme.setToolTip("The colours of the window; figures keep their own")
+        self.theme = _segments(THEMES, "Theme", "The colours of the window; figures keep their own")
         self.theme.chosen.connect(LOOK.choose)
         self.isolines = QtWidgets.QSpinBox(maximum=MOST_ISOLINES, accessibleName="Isolines of new meshes")
+        about = f"About how many, at round values, when the program starts: 0 to {MOST_ISOLINES}, 0 for none"
+        self.isolines.setToolTip(about)
         self.isolines.setFixedWidth(84)
-        self.isolines.setToolTip(
-            f"About how many, at round values, when the program starts: 0 to {MOST_ISOLINES}, 0 for none"
-        )
-        self.wheel = Segments(WHEEL, "Wheel")
-        self.wheel.setToolTip("What turning the wheel away from you does to the view")
-        self.turning = Segments(TURNING, "Turning")
-        self.turning.setToolTip("On a turntable, what is up stays upright while the surface is dragged")
-        self.snapping = Segments(SNAPPING, "Source")
-        self.snapping.setToolTip("Where a click and a drag put the source; V switches it")
+        self.wheel = _segments(WHEEL, "Wheel", "What turning the wheel away from you does to the view")
+        on_turntable = "On a turntable, what is up stays upright while the surface is dragged"
+        self.turning = _segments(TURNING, "Turning", on_turntable)
+        self.snapping = _segments(SNAPPING, "Source", "Where a click and a drag put the source; V switches it")
         self.again = QtWidgets.QPushButton("Reset all preferences", objectName="link", autoDefault=False)
         self.again.setToolTip("Everything as at the first start, also the window's place; Cancel undoes it")
         self.again.clicked.connect(self.reset)
-        self.note = QtWidgets.QLabel("")
-        self.note.setProperty("quiet", True)
+        self.note = quiet_label()
         self.note.setMinimumWidth(QtGui.QFontMetrics(LOOK.font()).horizontalAdvance(RESET) + 4)
-        column = QtWidgets.QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addLayout(self._rows())
-        column.addWidget(self._footer())
+        column = in_column(self._rows(), self._footer(), of=self, spacing=0)
         column.setSizeConstraint(QtWidgets.QLayout.SizeConstraint.SetFixedSize)
         self._show(preferences)
         self.rejected.connect(lambda: LOOK.choose(self._theme_before))
@@ -88,34 +80,19 @@ class PreferencesDialog(QtWidgets.QDialog):
         rows.setVerticalSpacing(16)
         rows.setColumnMinimumWidth(0, LABELS)
         left = QtCore.Qt.AlignmentFlag.AlignLeft | QtCore.Qt.AlignmentFlag.AlignVCenter
-        beside = QtWidgets.QLabel("at the start")
-        beside.setProperty("quiet", True)
-        isolines = QtWidgets.QHBoxLayout()
-        isolines.setSpacing(8)
-        isolines.addWidget(self.isolines)
-        isolines.addWidget(beside)
-        for row, (text, content, control) in enumerate(
-            [
-                ("&Theme", self.theme, self.theme),
-                ("&Isolines", isolines, self.isolines),
-                ("&Wheel", self.wheel, self.wheel),
-                ("T&urning", self.turning, self.turning),
-                ("&Source", self.snapping, self.snapping),
-            ]
-        ):
+        words = ("&Theme", "&Isolines", "&Wheel", "T&urning", "&Source")
+        controls = (self.theme, self.isolines, self.wheel, self.turning, self.snapping)
+        for row, (text, control) in enumerate(zip(words, controls, strict=True)):
             label = QtWidgets.QLabel(text)
             label.setBuddy(control)
             rows.addWidget(label, row, 0, left)
-            add = rows.addLayout if isinstance(content, QtWidgets.QLayout) else rows.addWidget
-            add(content, row, 1, left)
+            beside = [quiet_label("at the start")] if control is self.isolines else []
+            rows.addLayout(in_row(control, *beside, spacing=8), row, 1, left)
         rows.setColumnStretch(1, 1)
         return rows
 
     def _footer(self) -> QtWidgets.QWidget:
         footer = QtWidgets.QFrame(objectName="footer")
-        row = QtWidgets.QHBoxLayout(footer)
-        row.setContentsMargins(22, 12, 24, 12)
-        row.setSpacing(12)
         buttons = QtWidgets.QDialogButtonBox()
         accept = buttons.addButton(QtWidgets.QDialogButtonBox.StandardButton.Ok)
         refuse = buttons.addButton(QtWidgets.QDialogButtonBox.StandardButton.Cancel)
@@ -128,20 +105,11 @@ class PreferencesDialog(QtWidgets.QDialog):
             button.setIcon(type(button.icon())())  # some desktops put pictures on them
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
-        row.addWidget(self.again)
-        row.addWidget(self.note)
-        row.addStretch(1)
-        row.addWidget(buttons)
+        in_row(self.again, self.note, None, buttons, of=footer, spacing=12, margins=(22, 12, 24, 12))
         return footer
 
 
-def ask_preferences(parent: QtWidgets.QWidget | None = None) -> Preferences | None:
-    """Let the user change the preferences, and save them; None if the dialog was cancelled."""
-    dialog = PreferencesDialog(load(), parent)
-    try:
-        if not dialog.exec():
-            return None
-        save(dialog.chosen())
-        return dialog.chosen()
-    finally:
-        dialog.deleteLater()
+def _segments(choices: dict[str, str], name: str, tip: str) -> Segments:
+    segments = Segments(choices, name)
+    segments.setToolTip(tip)
+    return segments

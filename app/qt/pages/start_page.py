@@ -7,7 +7,10 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core.formats.mesh_io import MESH_FORMATS
 
 from ..look.icons import put_icon
+from ..look.layouts import in_column, in_row, quiet_label
 from ..look.look import LOOK
+from ..look.painting import paint_rounded, smooth_painter
+from ..look.text_lines import lines_of
 from ..remembered import recent_files
 from .start_places import OpenButton, RecentRow, Tiles
 
@@ -37,7 +40,7 @@ class StartPage(QtWidgets.QWidget):
         self.zone = DropZone()
         self.zone.open.clicked.connect(lambda: self.open_wanted.emit())
         self.rows = [RecentRow() for _ in range(ROWS)]
-        self.nothing = _quiet("Files that you open are listed here.")
+        self.nothing = quiet_label("Files that you open are listed here.")
         self.tiles = Tiles()
         for place in (*self.rows, *self.tiles.tiles):
             place.clicked.connect(lambda *_, place=place: self.chosen.emit(place.path))
@@ -94,42 +97,16 @@ class StartPage(QtWidgets.QWidget):
     def _fill(self) -> None:
         self._recent, self._samples = QtWidgets.QLabel("Recent"), QtWidgets.QLabel("Samples")
         self._recent.setContentsMargins(OpenButton.INSET, 0, 0, 0)
-        files = QtWidgets.QVBoxLayout(spacing=0)
-        files.addWidget(self._recent)
-        files.addSpacing(8)
         self.nothing.setContentsMargins(OpenButton.INSET, 4, 0, 0)
-        for widget in (self.nothing, *self.rows):
-            files.addWidget(widget)
-        files.addStretch(1)
-        ways = QtWidgets.QHBoxLayout(spacing=40)
-        ways.addWidget(self.zone, 1)
-        ways.addLayout(files, 1)
-        links = QtWidgets.QHBoxLayout(spacing=8)
-        links.addWidget(self.tour)
-        links.addSpacing(16)
-        links.addWidget(self.commands)
-        links.addWidget(_quiet("F1"))
-        links.addStretch(1)
-
+        files = in_column(self._recent, 8, self.nothing, *self.rows, None, spacing=0)
+        ways = in_row((self.zone, 1), (files, 1), spacing=40)
+        links = in_row(self.tour, 16, self.commands, quiet_label("F1"), None, spacing=8)
+        how = quiet_label("Then click the surface: distances from that point appear side by side.")
         self._under_message = QtWidgets.QWidget(visible=False)
         self._under_message.setFixedHeight(20)
         column = QtWidgets.QWidget(maximumWidth=WIDEST)
-        lines = QtWidgets.QVBoxLayout(column, spacing=0)
-        lines.setContentsMargins(0, 0, 0, 0)
-        lines.addWidget(self.message)
-        lines.addWidget(self._under_message)
-        lines.addWidget(self.title)
-        lines.addSpacing(4)
-        lines.addWidget(_quiet("Then click the surface: distances from that point appear side by side."))
-        lines.addSpacing(24)
-        lines.addLayout(ways)
-        lines.addSpacing(24)
-        lines.addWidget(self._samples)
-        lines.addSpacing(12)
-        lines.addWidget(self.tiles)
-        lines.addSpacing(24)
-        lines.addLayout(links)
-
+        title = (self.message, self._under_message, self.title, 4, how)
+        in_column(*title, 24, ways, 24, self._samples, 12, self.tiles, 24, links, of=column, spacing=0)
         sheet = QtWidgets.QWidget()
         middle = QtWidgets.QGridLayout(sheet)
         middle.setContentsMargins(24, 12, 24, 12)
@@ -144,15 +121,7 @@ class StartPage(QtWidgets.QWidget):
         # The page paints the ground.
         for widget in (self.scroll.viewport(), sheet):
             widget.setAutoFillBackground(False)
-        whole = QtWidgets.QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.addWidget(self.scroll)
-
-
-def _quiet(text: str) -> QtWidgets.QLabel:
-    label = QtWidgets.QLabel(text)
-    label.setProperty("quiet", True)
-    return label
+        in_column(self.scroll, of=self)
 
 
 def _link(text: str) -> QtWidgets.QPushButton:
@@ -185,49 +154,23 @@ class Refusal(QtWidgets.QLabel):
         self.setText("\n".join(lines_of(self.whole, self.font(), self.contentsRect().width(), MESSAGE_LINES)))
 
 
-def lines_of(text: str, font: QtGui.QFont, width: float, most: int) -> list[str]:
-    """A text broken into at most so many lines of a width; what does not fit ends in dots."""
-    text = " ".join(text.split())
-    layout = QtGui.QTextLayout(text, font)
-    option = QtGui.QTextOption()
-    option.setWrapMode(QtGui.QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere)
-    layout.setTextOption(option)
-    found: list[str] = []
-    layout.beginLayout()
-    while (line := layout.createLine()).isValid():
-        line.setLineWidth(max(width, 1))
-        rest = text[line.textStart() :]
-        if len(found) == most - 1:
-            found.append(QtGui.QFontMetrics(font).elidedText(rest, QtCore.Qt.TextElideMode.ElideRight, int(width)))
-            break
-        found.append(rest[: line.textLength()].rstrip())
-    layout.endLayout()
-    return found
-
-
 class DropZone(QtWidgets.QWidget):
     """Where files are dropped, with the button that opens one."""
 
     def __init__(self) -> None:
         super().__init__()
         self.is_dropping = False
-        self.word = _quiet("")
+        self.word = quiet_label("")
         self.open = QtWidgets.QPushButton("Open…", objectName="fill")
         put_icon(self.open, "open", colour_of="on_fill")
         self.open.setIconSize(QtCore.QSize(20, 20))
         formats = ", ".join(extension.strip(".").upper() for extension in MESH_FORMATS)
-        known = _quiet(f"{formats}, or a saved session")
+        known = quiet_label(f"{formats}, or a saved session")
         known.setWordWrap(True)
-        lines = QtWidgets.QVBoxLayout(self, spacing=12)
-        lines.setContentsMargins(16, 8, 16, 8)
-        lines.addStretch(1)
-        for widget in (self.word, self.open, known):
-            if isinstance(widget, QtWidgets.QLabel):
-                widget.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
-                lines.addWidget(widget)
-            else:
-                lines.addWidget(widget, 0, QtCore.Qt.AlignmentFlag.AlignHCenter)
-        lines.addStretch(1)
+        for label in (self.word, known):
+            label.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
+        opener = self.open, 0, QtCore.Qt.AlignmentFlag.AlignHCenter
+        in_column(None, self.word, opener, known, None, of=self, spacing=12, margins=(16, 8, 16, 8))
         self.set_dropping(False)
         LOOK.changed.connect(self.update)
 
@@ -238,13 +181,11 @@ class DropZone(QtWidgets.QWidget):
         self.update()
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        theme, painter = LOOK.theme, QtGui.QPainter(self)
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        pen = QtGui.QPen(QtGui.QColor(theme.accent if self.is_dropping else theme.strong), 2 if self.is_dropping else 1)
-        if not self.is_dropping:
-            pen.setDashPattern([3, 3])
-        painter.setPen(pen)
+        theme, painter, box = LOOK.theme, smooth_painter(self), QtCore.QRectF(self.rect())
         if self.is_dropping:
-            painter.setBrush(QtGui.QColor(theme.selection))
-        inset = pen.widthF() / 2
-        painter.drawRoundedRect(QtCore.QRectF(self.rect()).adjusted(inset, inset, -inset, -inset), 8, 8)
+            paint_rounded(painter, box.adjusted(1, 1, -1, -1), 8, theme.selection, theme.accent, 2)
+        else:
+            pen = QtGui.QPen(QtGui.QColor(theme.strong), 1)
+            pen.setDashPattern([3, 3])
+            painter.setPen(pen)
+            painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 8, 8)

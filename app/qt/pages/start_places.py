@@ -1,6 +1,7 @@
 """What can be chosen on the start page: a recent file, as a row, or a sample, as a tile with its picture."""
 
 import os
+from contextlib import suppress
 from datetime import datetime, timedelta
 from functools import lru_cache
 
@@ -12,7 +13,9 @@ from bihdist_core.arrays import AnyArray
 
 from ...samples import mesh_path, sample_names, sample_title, thumbnail
 from ..look.look import LOOK
+from ..look.painting import paint_rounded, smooth_painter
 from ..remembered import Recent
+from .messages import from_home
 
 ROW = 32
 """Height of a row in logical pixels, as all lengths here."""
@@ -47,14 +50,10 @@ class OpenButton(QtWidgets.QAbstractButton):
             super().keyPressEvent(event)
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        theme, painter = LOOK.theme, QtGui.QPainter(self)
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        theme, painter, box = LOOK.theme, smooth_painter(self), QtCore.QRectF(self.rect()).adjusted(1, 1, -1, -1)
         painter.setRenderHint(QtGui.QPainter.RenderHint.SmoothPixmapTransform)
         ground = theme.pressed if self.isDown() else theme.hover if self.underMouse() else ""
-        painter.setPen(QtGui.QPen(QtGui.QColor(theme.accent), 2) if self.hasFocus() else QtCore.Qt.PenStyle.NoPen)
-        if ground:
-            painter.setBrush(QtGui.QColor(ground))
-        painter.drawRoundedRect(QtCore.QRectF(self.rect()).adjusted(1, 1, -1, -1), self.RADIUS, self.RADIUS)
+        paint_rounded(painter, box, self.RADIUS, ground, theme.accent if self.hasFocus() else "", 2)
         self.paint(painter)
 
     def _apply_theme(self) -> None:
@@ -122,13 +121,6 @@ def when(opened_at: datetime | None, now: datetime) -> str:
     return f"{opened_at.day} {MONTHS[opened_at.month - 1]}{year}"
 
 
-def from_home(folder: str) -> str:
-    """A folder as the user writes it."""
-    home = os.path.expanduser("~")
-    inside = folder == home or folder.startswith(home.rstrip(os.sep) + os.sep)
-    return "~" + folder[len(home.rstrip(os.sep)) :] if inside and home != os.sep else folder
-
-
 # ---------------------------------------------------------------------- samples
 class Tiles(QtWidgets.QWidget):
     """A tile for each sample, as many in a row as there is room for."""
@@ -191,15 +183,12 @@ def _picture_side(width: int) -> int:
 @lru_cache(maxsize=64)
 def vertex_count(path: str) -> int:
     """As the head of a PLY file says; 0 if it does not."""
-    try:
-        with open(path, "rb") as file:
-            for line in file:
-                if line.startswith(b"element vertex "):
-                    return int(line.split()[2])
-                if line.startswith(b"end_header"):
-                    break
-    except (OSError, ValueError, IndexError):
-        pass
+    with suppress(OSError, ValueError, IndexError), open(path, "rb") as file:
+        for line in file:
+            if line.startswith(b"element vertex "):
+                return int(line.split()[2])
+            if line.startswith(b"end_header"):
+                break
     return 0
 
 

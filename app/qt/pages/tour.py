@@ -10,7 +10,9 @@ from typing import Any
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ..look.icons import put_icon
+from ..look.layouts import in_column, in_row, quiet_label
 from ..look.look import LOOK
+from ..look.painting import paint_rounded, smooth_painter
 
 WIDE, GAP, MARGIN = 300, 12, 8
 """Logical pixels: the card's width, between it and what it is about, and to the window's edge."""
@@ -87,14 +89,12 @@ class Tour(QtCore.QObject):
         self.card, self.outline = Card(window, self.steps), Outline(window)
         # What the second click of two meets where the card was: nothing.
         self._shield = QtWidgets.QWidget(window, visible=False)
-        self._shield_gone = QtCore.QTimer(self, singleShot=True)
-        self._shield_gone.timeout.connect(self._shield.hide)
+        self._shield_gone = QtCore.QTimer(self, singleShot=True, timeout=self._shield.hide)
         self.card.back.clicked.connect(lambda: self.go(self.at - 1))
         self.card.next.clicked.connect(lambda: self.go(self.at + 1))
         self.card.close_button.clicked.connect(self.end)
         # Panels come and go and docks move them: watching the window alone would not do.
-        self._again = QtCore.QTimer(self, interval=LOOK_AGAIN_MS)
-        self._again.timeout.connect(self.place)
+        self._again = QtCore.QTimer(self, interval=LOOK_AGAIN_MS, timeout=self.place)
         LOOK.changed.connect(self._fit)
 
     @property
@@ -221,9 +221,8 @@ class Card(QtWidgets.QWidget):
     def __init__(self, parent: QtWidgets.QWidget, steps: Sequence[Step]) -> None:
         super().__init__(parent, visible=False)
         self._steps = steps
-        self.title, self.text, self.count = QtWidgets.QLabel(), QtWidgets.QLabel(wordWrap=True), QtWidgets.QLabel()
-        self.text.setProperty("quiet", True)
-        self.count.setProperty("quiet", True)
+        self.title, self.text, self.count = QtWidgets.QLabel(), quiet_label(), quiet_label()
+        self.text.setWordWrap(True)
         self.close_button = QtWidgets.QToolButton(toolTip="End the tour (Esc)", accessibleName="End the tour")
         put_icon(self.close_button, "close", colour_of="quiet")
         self.back, self.next = QtWidgets.QPushButton("Back"), QtWidgets.QPushButton("Next", objectName="fill")
@@ -231,24 +230,10 @@ class Card(QtWidgets.QWidget):
             button.setAutoDefault(True)  # Enter presses it
         for other in (self.back, self.close_button):
             other.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)  # a click leaves the keys to the way on
-        top, bottom = QtWidgets.QHBoxLayout(), QtWidgets.QHBoxLayout(spacing=8)
-        top.addWidget(self.title, 1)
-        top.addWidget(self.close_button)
-        words = QtWidgets.QHBoxLayout()
-        words.addWidget(self.text)
-        bottom.addWidget(self.count, 1)
-        bottom.addWidget(self.back)
-        bottom.addWidget(self.next)
-        lines = QtWidgets.QVBoxLayout(self, spacing=4)
         # The cross, not its button, ends where the text does.
-        lines.setContentsMargins(16, 8, 8, 16)
-        for row in (words, bottom):
-            row.setContentsMargins(0, 0, 8, 0)
-        lines.addLayout(top)
-        lines.addLayout(words)
-        lines.addSpacing(12)
-        lines.addStretch(1)
-        lines.addLayout(bottom)
+        top, words = in_row((self.title, 1), self.close_button), in_row(self.text, margins=(0, 0, 8, 0))
+        bottom = in_row((self.count, 1), self.back, self.next, spacing=8, margins=(0, 0, 8, 0))
+        in_column(top, words, 12, None, bottom, of=self, spacing=4, margins=(16, 8, 8, 16))
 
     def show_step(self, at: int) -> None:
         """By its place, from 0."""
@@ -273,11 +258,8 @@ class Card(QtWidgets.QWidget):
         self.resize(self.width(), max(heights))
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        painter = QtGui.QPainter(self)
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        painter.setPen(QtGui.QColor(LOOK.theme.strong))
-        painter.setBrush(QtGui.QColor(LOOK.theme.raised))
-        painter.drawRoundedRect(QtCore.QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5), 8, 8)
+        box = QtCore.QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
+        paint_rounded(smooth_painter(self), box, 8, LOOK.theme.raised, LOOK.theme.strong)
 
     # A click on the card is not one on what lies under it.
     def mousePressEvent(self, event: QtGui.QMouseEvent) -> None:
@@ -294,8 +276,6 @@ class Outline(QtWidgets.QWidget):
         LOOK.changed.connect(self.update)
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        painter = QtGui.QPainter(self)
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        painter.setPen(QtGui.QPen(QtGui.QColor(LOOK.theme.accent), OUTLINE))
         inset = OUTLINE / 2
-        painter.drawRoundedRect(QtCore.QRectF(self.rect()).adjusted(inset, inset, -inset, -inset), ROUND, ROUND)
+        box = QtCore.QRectF(self.rect()).adjusted(inset, inset, -inset, -inset)
+        paint_rounded(smooth_painter(self), box, ROUND, line=LOOK.theme.accent, width=OUTLINE)

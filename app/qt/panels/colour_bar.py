@@ -11,10 +11,9 @@ import numpy as np
 import numpy.typing as npt
 from qtpy import QtCore, QtGui, QtWidgets
 
-from bihdist_core.arrays import FloatArray
-
 from ..look.look import LOOK
 from ..look.numbers import number, paint_number
+from ..look.painting import baseline, smooth_painter
 from ..look.theme import contrast
 from .bar_layout import UNDEFINED, Reading, lay_out
 
@@ -40,7 +39,7 @@ class ColourBar(QtWidgets.QWidget):
         self._has_shares, self._is_compact = True, False
         self._colours, self._line_colour = QtGui.QBrush(), QtGui.QColor()
         self._through: tuple[QtGui.QColor, ...] = ()
-        self._ends: tuple[str, ...] = ()
+        self._ends: tuple[QtGui.QColor, ...] = ()
         self._bands: list[tuple[float, QtGui.QColor]] = []
         self._beyond, self._rest_colour = (False, False), QtGui.QColor()
         self._rim: QtGui.QColor | None = None
@@ -81,22 +80,25 @@ class ColourBar(QtWidgets.QWidget):
         in_shares: the ticks are shares of high.  bold, through: (k,) those of the lines that are bolder, or pass
         through points; these have a colour and that of a rim.
         """
-        colours = np.clip(np.asarray(colours, float), 0, 1).reshape(-1, 3)
+        rgb = np.clip(np.asarray(colours, float), 0, 1).reshape(-1, 3)
         own = high if maximum is None else maximum
-        if not (all(map(math.isfinite, (low, high, own))) and low <= high and len(colours)):
-            raise ValueError(f"{len(colours)} colours from {low} to {high}, maximum {own}, make no colour bar.")
-        values = tuple(sorted(float(value) for value in np.ravel(lines)))
-        bold, through = (frozenset(map(float, np.ravel(some))) for some in (bold, through))
+        if not (all(map(math.isfinite, (low, high, own))) and low <= high and len(rgb)):
+            raise ValueError(f"{len(rgb)} colours from {low} to {high}, maximum {own}, make no colour bar.")
+        all_of_them, bolder, passing = (np.sort(np.ravel(some)).tolist() for some in (lines, bold, through))
         self._reading = Reading(
-            low, high, values, unit, signed, own, self._has_shares, in_shares=in_shares, bold=bold, through=through
-        )
+            low, high, tuple(all_of_them), unit, signed, own, self._has_shares,
+            in_shares=in_shares, bold=frozenset(bolder), through=frozenset(passing),
+        )  # fmt: skip
         self._unit = unit
         if high == low:
-            colours, bands = colours[[len(colours) // 2 if signed else 0]], ()
-        self._colours = _gradient(colours)
-        self._bands = _bands(colours, np.asarray(bands, float))
+            rgb = rgb[[len(rgb) // 2 if signed else 0]]
+        self._colours = _gradient(rgb.tobytes())
+        starts = [0.0, *np.ravel(bands).tolist()]
+        is_banded = high > low and 1 < len(starts) == len(rgb)
+        shades = map(QtGui.QColor.fromRgbF, *rgb.T.tolist())
+        self._bands = list(zip(starts, shades, strict=True)) if is_banded else []
         self._beyond = beyond
-        self._ends = tuple(QtGui.QColor.fromRgbF(*colours[k]).name() for k in (0, -1))
+        self._ends = tuple(QtGui.QColor.fromRgbF(*rgb[k]) for k in (0, -1))
         self._line_colour = QtGui.QColor.fromRgbF(*line_colour)
         self._through = tuple(QtGui.QColor.fromRgbF(*colour) for colour in through_colours)
         colour, rim = (line_colour, None) if rest is None else rest
@@ -128,12 +130,10 @@ class ColourBar(QtWidgets.QWidget):
 
     def show_value(self, value: float | None) -> None:
         """The value at the pointer, NaN where there is none, or None for no pointer."""
-        undefined = value is not None and not math.isfinite(value)
-        is_resting = value is None and self._at_rest is not None
-        if is_resting:
-            value = self._at_rest[0]
-        unit = self._at_rest[1] if is_resting else self._unit
-        self._say(value=None if undefined else value, words=UNDEFINED if undefined else "", unit=unit)
+        is_undefined, unit = value is not None and not math.isfinite(value), self._unit
+        if value is None and self._at_rest is not None:
+            value, unit = self._at_rest
+        self._say(value=None if is_undefined else value, words=UNDEFINED if is_undefined else "", unit=unit)
 
     def show_words(self, text: str) -> None:
         """Words in the place of a value."""
@@ -188,19 +188,16 @@ class ColourBar(QtWidgets.QWidget):
             menu.popup(event.globalPos())
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        painter, theme, layout = QtGui.QPainter(self), LOOK.theme, self._layout
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        painter, theme, layout = smooth_painter(self), LOOK.theme, self._layout
         painter.fillRect(self.rect(), QtGui.QColor(theme.canvas))
         if self._sentence and self._reading is None:
             self._paint_sentence(painter)
             return
         self._paint_bar(painter)
         for word in (*layout.line, *layout.ticks):
-            metrics, box = QtGui.QFontMetricsF(word.font), word.box
-            baseline = round(box.top() + (box.height() + metrics.ascent() - metrics.descent()) / 2)
             painter.setFont(word.font)
             painter.setPen(QtGui.QColor(theme.quiet if word.is_quiet else theme.text))
-            paint_number(painter, box.left(), baseline, word.text)
+            paint_number(painter, word.box.left(), round(baseline(painter, word.box.center().y())), word.text)
 
     def _paint_sentence(self, painter: QtGui.QPainter) -> None:
         """In the middle of the line over the bar."""
@@ -211,11 +208,12 @@ class ColourBar(QtWidgets.QWidget):
         fonts = [bold if k % 2 else usual for k in range(len(parts))]
         widths = [QtGui.QFontMetricsF(font).horizontalAdvance(part) for font, part in zip(fonts, parts, strict=True)]
         x = (self.width() - sum(widths)) / 2
-        baseline = round((0.4 * self.height() + metrics.ascent() - metrics.descent()) / 2)
+        painter.setFont(bold)
+        y = round(baseline(painter, 0.2 * self.height()))
         for k, (part, font, width) in enumerate(zip(parts, fonts, widths, strict=True)):
             painter.setFont(font)
             painter.setPen(QtGui.QColor(LOOK.theme.text if k % 2 else LOOK.theme.quiet))
-            painter.drawText(QtCore.QPointF(x, baseline), part)
+            painter.drawText(QtCore.QPointF(x, y), part)
             x += width
 
     def _paint_bar(self, painter: QtGui.QPainter) -> None:
@@ -237,7 +235,7 @@ class ColourBar(QtWidgets.QWidget):
             colour, rim = self._through
             self._paint_line(painter, x, 4, rim)
             self._paint_line(painter, x, 2, colour)
-        if self._reading is not None and any(contrast(end, theme.canvas) < FAINT for end in self._ends):
+        if self._reading is not None and any(contrast(end.name(), theme.canvas) < FAINT for end in self._ends):
             painter.setPen(QtGui.QPen(QtGui.QColor(theme.strong), 1))
             painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
             painter.drawPath(self._shape(bar.adjusted(0.5, 0.5, -0.5, -0.5)))
@@ -249,19 +247,13 @@ class ColourBar(QtWidgets.QWidget):
         """Of the bar: with a point at an end beyond which there are values."""
         path, (below, above) = QtGui.QPainterPath(), self._beyond if self._reading is not None else (False, False)
         path.addRoundedRect(bar, 2, 2)
+        top, middle, bottom = bar.top(), bar.center().y(), bar.bottom()
         for is_there, x, way in ((below, bar.left(), -1), (above, bar.right(), 1)):
             if is_there:
-                point = QtGui.QPolygonF(
-                    [
-                        QtCore.QPointF(x - 2 * way, bar.top()),
-                        QtCore.QPointF(x, bar.top()),
-                        QtCore.QPointF(x + way * POINT, bar.center().y()),
-                        QtCore.QPointF(x, bar.bottom()),
-                        QtCore.QPointF(x - 2 * way, bar.bottom()),
-                    ]
-                )
+                inside, tip = x - 2 * way, x + way * POINT
+                corners = (inside, top), (x, top), (tip, middle), (x, bottom), (inside, bottom)
                 end = QtGui.QPainterPath()
-                end.addPolygon(point)
+                end.addPolygon(QtGui.QPolygonF([QtCore.QPointF(*corner) for corner in corners]))
                 end.closeSubpath()
                 path = path.united(end)
         return path
@@ -275,7 +267,7 @@ class ColourBar(QtWidgets.QWidget):
             painter.fillRect(QtCore.QRectF(left, bar.top(), bar.right() + POINT - left, bar.height()), colour)
         for is_there, x, colour in zip(self._beyond, (bar.left() - POINT, bar.right()), self._ends, strict=False):
             if is_there:
-                painter.fillRect(QtCore.QRectF(x, bar.top(), POINT, bar.height()), QtGui.QColor(colour))
+                painter.fillRect(QtCore.QRectF(x, bar.top(), POINT, bar.height()), colour)
         painter.restore()
 
     def _paint_line(self, painter: QtGui.QPainter, x: float, width: int, colour: QtGui.QColor, beyond: int = 0) -> None:
@@ -287,22 +279,10 @@ class ColourBar(QtWidgets.QWidget):
         painter.fillRect(box, colour)
 
 
-def _bands(colours: FloatArray, edges: FloatArray) -> list[tuple[float, QtGui.QColor]]:
-    """Where each of the bands begins, 0 to 1, and its colour; none where colours (k, 3) run into each other."""
-    if len(edges) != len(colours) - 1 or not len(edges):
-        return []
-    return [(float(at), QtGui.QColor.fromRgbF(*rgb)) for at, rgb in zip([0.0, *edges], colours, strict=True)]
-
-
-def _gradient(colours: FloatArray) -> QtGui.QBrush:
-    """Colours (k, 3) from the left to the right end of whatever is filled with them."""
-    return _gradient_of(colours.tobytes(), len(colours))
-
-
 @lru_cache(maxsize=16)
-def _gradient_of(content: bytes, count: int) -> QtGui.QBrush:
-    """The same of the bytes of an array."""
-    colours = np.frombuffer(content).reshape(count, 3)
+def _gradient(content: bytes) -> QtGui.QBrush:
+    """Colours, the bytes of an array (k, 3), from the left to the right end of whatever is filled with them."""
+    colours = np.frombuffer(content).reshape(-1, 3)
     gradient = QtGui.QLinearGradient(0, 0, 1, 0)
     gradient.setCoordinateMode(QtGui.QGradient.CoordinateMode.ObjectMode)
     shown = colours[np.linspace(0, len(colours) - 1, min(len(colours), 129)).round().astype(int)]

@@ -1,6 +1,6 @@
 """Where a colour bar ends: a number to type, or the field's own maximum."""
 
-from qtpy import QtCore, QtWidgets
+from qtpy import QtWidgets
 
 from ...document.looks import LARGEST
 from ..look.numbers import MINUS, number
@@ -14,8 +14,7 @@ class EndPopUp(TypedPopUp):
         super().__init__("The colours end at", parent)
         self.box.setFixedWidth(110)
         self.box.setAccessibleName("Where the colours end")
-        self.own = QtWidgets.QPushButton("Its own maximum", self)
-        self.own.clicked.connect(lambda: self._choose(None))
+        self.own = QtWidgets.QPushButton("Its own maximum", self, clicked=lambda: self._choose(None))
         self._lay_out(self.box, self.own)
 
     def ask(self, control: QtWidgets.QWidget, end: float, maximum: float, unit: str) -> None:
@@ -27,8 +26,6 @@ class EndPopUp(TypedPopUp):
         self._complain("")
         self.adjustSize()
         self.open_under(control, (control.width() - self.width()) // 2)
-        self.box.setFocus(QtCore.Qt.FocusReason.PopupFocusReason)
-        self.box.selectAll()
 
     def _typed(self) -> None:
         text = self.box.text().strip().replace(MINUS, "-")

@@ -2,8 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from qtpy import QtCore
 
@@ -29,8 +28,7 @@ class Events:
             handler(panel, event)
 
 
-@dataclass(frozen=True, eq=False)
-class Click:
+class Click(NamedTuple):
     """Of the left button on the surface, without a move."""
 
     hit: Hit
@@ -43,8 +41,7 @@ class Click:
         return not (self.has_shift or self.has_ctrl)
 
 
-@dataclass(frozen=True, eq=False)
-class MarkClick:
+class MarkClick(NamedTuple):
     """On a pin marker.  tool: whose it is, by its word; number: from 1."""
 
     tool: str
@@ -52,8 +49,7 @@ class MarkClick:
     has_ctrl: bool = False
 
 
-@dataclass(frozen=True, eq=False)
-class MarkDrag:
+class MarkDrag(NamedTuple):
     """The tip of a pin marker, or with the tool "" a mark of the source by its number from 0, is over a place."""
 
     tool: str
@@ -61,34 +57,29 @@ class MarkDrag:
     hit: Hit
 
 
-@dataclass(frozen=True, eq=False)
-class MarkRelease:
+class MarkRelease(NamedTuple):
     """The button is up that has dragged a mark."""
 
     tool: str
 
 
-@dataclass(frozen=True, eq=False)
-class Stroke:
+class Stroke(NamedTuple):
     """The surface is drawn on.  hit: None beside it."""
 
     hit: Hit | None
 
 
-@dataclass(frozen=True, eq=False)
-class StrokeEnd:
+class StrokeEnd(NamedTuple):
     has_ctrl: bool
 
 
-@dataclass(frozen=True, eq=False)
-class Hover:
+class Hover(NamedTuple):
     """hit: what is under the pointer, None beside the surface."""
 
     hit: Hit | None
 
 
-@dataclass(frozen=True, eq=False)
-class BrushTouch:
+class BrushTouch(NamedTuple):
     """pixel: how long a pixel is there."""
 
     hit: Hit
@@ -99,8 +90,7 @@ class BrushLift:
     """The button is up that has painted."""
 
 
-@dataclass(frozen=True, eq=False)
-class MenuWanted:
+class MenuWanted(NamedTuple):
     """hit: None beside the surface; where: on the screen."""
 
     hit: Hit | None
@@ -108,20 +98,17 @@ class MenuWanted:
 
 
 # ---------------------------------------------------------------------- of the head and the bar
-@dataclass(frozen=True, eq=False)
-class QuantityChosen:
+class QuantityChosen(NamedTuple):
     shows: Quantity
 
 
-@dataclass(frozen=True, eq=False)
-class EditChosen:
-    """word: one of PANEL_EDITS."""
+class EditChosen(NamedTuple):
+    """word: the text of a `PanelEdit`."""
 
     word: str
 
 
-@dataclass(frozen=True, eq=False)
-class BarEnded:
+class BarEnded(NamedTuple):
     """end: where the colour bar is to end, None for the field's own maximum."""
 
     end: float | None

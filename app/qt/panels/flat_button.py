@@ -6,6 +6,7 @@ from ..look.bare_button import BareButton
 from ..look.icons import pixmap
 from ..look.look import LOOK
 from ..look.numbers import number_width, paint_number
+from ..look.painting import baseline, paint_rounded, smooth_painter
 
 HEIGHT = 26
 PAD = 6
@@ -43,11 +44,6 @@ class FlatButton(BareButton):
         self.clicked.connect(self.activated)
         LOOK.changed.connect(self.update)
 
-    @property
-    def is_cut(self) -> bool:
-        """Whether there is less room than the words need."""
-        return bool(self.width() < self.sizeHint().width())
-
     def sizeHint(self) -> QtCore.QSize:
         if self.icon_name:
             return QtCore.QSize(ICON_SIDE, ICON_SIDE)
@@ -74,14 +70,10 @@ class FlatButton(BareButton):
 
     # ------------------------------------------------------------------ painting
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        theme = LOOK.theme
-        painter = QtGui.QPainter(self)
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        theme, painter = LOOK.theme, smooth_painter(self)
         is_open = self.isDown() or (self.menu() is not None and self.menu().isVisible())
         if self.isEnabled() and (is_open or self.is_pointed):
-            painter.setPen(QtCore.Qt.PenStyle.NoPen)
-            painter.setBrush(QtGui.QColor(theme.pressed if is_open else theme.hover))
-            painter.drawRoundedRect(QtCore.QRectF(self.rect()), 6, 6)
+            paint_rounded(painter, QtCore.QRectF(self.rect()), 6, theme.pressed if is_open else theme.hover)
         if self.has_keys:
             paint_ring(painter, QtCore.QRectF(self.rect()))
         text, quiet = (theme.text, theme.quiet) if self.isEnabled() else (theme.disabled, theme.disabled)
@@ -94,19 +86,19 @@ class FlatButton(BareButton):
 
     def _paint_words(self, painter: QtGui.QPainter, text: str, quiet: str) -> None:
         painter.setFont(LOOK.font(bold=self.bold))
-        metrics = QtGui.QFontMetricsF(painter.font())
-        baseline = round((self.height() + metrics.ascent() - metrics.descent()) / 2)
+        y = round(baseline(painter, self.height() / 2))
         x: float = PAD
         words, beside = self.text(), PAD + (ARROW if self.has_arrow else 0)
         symbol = self._width(self.symbol) + GAP if self.symbol else 0
         if symbol and self._width(words) <= self.width() - x - symbol - beside + 0.5:
             painter.setPen(QtGui.QColor(quiet))
-            x = paint_number(painter, x, baseline, self.symbol) + GAP
+            x = paint_number(painter, x, y, self.symbol) + GAP
         room = self.width() - x - beside
         if self._width(words) > room + 0.5:
+            metrics = QtGui.QFontMetricsF(painter.font())
             words = metrics.elidedText(words, QtCore.Qt.TextElideMode.ElideRight, max(room, 0))
         painter.setPen(QtGui.QColor(quiet if self.quiet else text))
-        x = paint_number(painter, x, baseline, words)
+        x = paint_number(painter, x, y, words)
         if self.has_arrow:
             side = 16
             picture = pixmap("chevron", quiet, self.devicePixelRatioF(), side)
@@ -115,6 +107,4 @@ class FlatButton(BareButton):
 
 def paint_ring(painter: QtGui.QPainter, around: QtCore.QRectF) -> None:
     """The outline of what has the focus by keyboard."""
-    painter.setPen(QtGui.QPen(QtGui.QColor(LOOK.theme.accent), 2))
-    painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
-    painter.drawRoundedRect(around.adjusted(1, 1, -1, -1), 6, 6)
+    paint_rounded(painter, around.adjusted(1, 1, -1, -1), 6, line=LOOK.theme.accent, width=2)

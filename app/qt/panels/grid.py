@@ -8,11 +8,9 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.beside_edits import MOST_SHOWN, letter_of
 from ...document.camera import Camera
+from ...document.derived_surfaces import COLUMNS, changed_mesh
 from ...document.document import Document, Panel
-from ...document.edits import MOST_ADDED, possible_edits
-from ...document.maps import shows_maps
-from ...document.perturbation import COLUMNS, changed_mesh
-from ...document.prediction import predicts
+from ...document.panel_edits import possible_edits
 from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.style import PAPER, Style
 from ...session.bar_ends import bar_end, ends_with
@@ -92,8 +90,7 @@ class PanelGrid(QtWidgets.QWidget):
         painter.fillRect(event.rect(), QtGui.QColor(theme.canvas))
         for panel in self.panels:
             # A hairline to the right and below, where there is another.
-            edges = panel.geometry().adjusted(0, 0, LINE, LINE)
-            painter.fillRect(edges, QtGui.QColor(theme.border))
+            painter.fillRect(panel.geometry().adjusted(0, 0, LINE, LINE), QtGui.QColor(theme.border))
 
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
         super().resizeEvent(event)
@@ -125,7 +122,7 @@ class PanelGrid(QtWidgets.QWidget):
         """Make, leave out and put in order the panels, and let their heads say what they show."""
         wanted = {panel.id: panel for panel in document.panels}
         self._are_in_rows = changed_mesh(document) is not None
-        self._correspond = predicts(document) or shows_maps(document)
+        self._correspond = any(panel.shows.relates_surfaces for panel in document.panels)
         for id in self._panels.keys() - wanted.keys():
             gone = self._panels.pop(id)
             gone.hide()
@@ -133,27 +130,23 @@ class PanelGrid(QtWidgets.QWidget):
             # Kept for the next: VTK does not give back all the memory of a scene that is gone.
             self._spare.append(gone)
         for id, panel in wanted.items():
-            if id not in self._panels:
+            is_new = id not in self._panels
+            if is_new:
                 self._panels[id] = self._spare.pop() if self._spare else self._new_panel()
+            if is_new or self._panels[id].surface != panel.surface:
                 self._begin(self._panels[id], panel)
-            elif self._panels[id].surface != panel.surface:
-                self._begin(self._panels[id], panel)
-            fields = [field.name for field in document.fields if field.surface == panel.surface]
-            self._panels[id].head.show_quantity(panel.shows, fields)
-            self._panels[id].head.show_letter(letter_of(document, panel), self._mesh_name(panel.surface))
+            head, loaded = self._panels[id].head, self._session.loaded(panel.surface)
+            head.show_quantity(panel.shows, [each.name for each in document.fields if each.surface == panel.surface])
+            head.show_letter(letter_of(document, panel), "" if loaded is None else loaded.surface.name)
         self._panels = {id: self._panels[id] for id in wanted}
         self.pointing.begin(self._panels)
         self._arrange()
         self.update()
         for id, panel in self._panels.items():
-            panel.head.allow(possible_edits(document, id, MOST_ADDED))
+            panel.head.allow(possible_edits(document, id))
         if self.active not in self._panels:
             self.activate(next(iter(self._panels), -1))
         self._show_active()
-
-    def _mesh_name(self, surface: str) -> str:
-        loaded = self._session.loaded(surface)
-        return "" if loaded is None else loaded.surface.name
 
     def _new_panel(self) -> DistancePanel:
         panel = DistancePanel(self.offscreen, self)
@@ -172,11 +165,11 @@ class PanelGrid(QtWidgets.QWidget):
             (panel.head.asked, EditChosen),
             (panel.head.save_wanted, SaveWanted),
             (panel.ended, BarEnded),
-            (panel.cancelled, Cancelled),
-            (panel.retried, Retried),
+            (panel.waiting.cancelled, Cancelled),
+            (panel.stopped.retried, Retried),
         ):
             signal.connect(lambda *what, kind=kind: self.events.emit(panel.id, kind(*what)))
-        panel.show_style(self._style)
+        view.show_style(self._style)
         return panel
 
     def _begin(self, panel: DistancePanel, shown: Panel) -> None:
@@ -184,7 +177,7 @@ class PanelGrid(QtWidgets.QWidget):
         panel.id, panel.surface = shown.id, shown.surface
         loaded, eye = self._session.loaded(panel.surface), self.eye_of(panel.surface)
         panel.view.plotter.look_through(eye.camera)
-        panel.show_style(self._style)
+        panel.view.show_style(self._style)
         if loaded is not None:
             panel.show_surface(loaded)
             self._shade(panel)
@@ -199,7 +192,7 @@ class PanelGrid(QtWidgets.QWidget):
         if self._is_closed:
             return False  # the colours of the desktop have changed, or those of another window
         self._style = style
-        changed = [panel.show_style(style) for panel in (*self.panels, *self._spare)]
+        changed = [panel.view.show_style(style) for panel in (*self.panels, *self._spare)]
         return any(changed)
 
     def show_surface(self, surfaces: Collection[str] | None = None) -> None:
@@ -229,11 +222,8 @@ class PanelGrid(QtWidgets.QWidget):
         document, shown = self._session.document, self._session.shown
         for other in ends_with(document, shown, id):
             if other in self._panels:
-                in_shares = document.range == "shares"
-                widget = self._panels[other]
-                widget.show_answer(
-                    shown[other], bar_end(document, shown, other, self._session.loaded), document.height, in_shares
-                )
+                end, in_shares = bar_end(document, shown, other, self._session.loaded), document.range == "shares"
+                self._panels[other].show_answer(shown[other], end, document.height, in_shares)
                 self.marks.show_isolines_again(document, other)
                 self.marks.show_in(document, other)
         self.pointing.show_again_soon()

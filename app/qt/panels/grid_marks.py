@@ -1,4 +1,4 @@
-"""What a document marks on its surfaces, in every panel of the grid: sources, anchors, pins, selections, insets."""
+"""What a document marks on its surfaces, in every panel of the grid: where fields start, what tools mark, insets."""
 
 from collections.abc import Callable, Mapping
 
@@ -6,19 +6,14 @@ from qtpy import QtGui
 
 from bihdist_core.distances.answers import Answer
 
-from ...document.anchors import Anchors
 from ...document.document import Document, Panel
-from ...document.pairs import Pairs, pair_words
-from ...document.prediction import predicts_in
 from ...document.tools import tools
+from ...marks.field_marks import starts
 from ...marks.marked_panel import MarkedPanel
-from ...session.anchors import anchors_on
+from ...marks.primitives import Caption
 from ...session.isoline_points import IsolinePoint, passed
-from ...session.map_answers import colours_words
-from ...session.pair_locations import candidate_in
-from ...session.questions import pieces_at, vertex_at
+from ...session.questions import vertex_at
 from ...session.session import Session
-from ..look.numbers import tick
 from .moving import Moving
 from .panel import DistancePanel
 
@@ -30,16 +25,11 @@ SELECTED_MS = 600
 
 
 class GridMarks:
-    """panels: asks for those that are shown, by their ids.
-
-    lit: the points of pins that stand out; chosen_anchor: the point of the one that does, "" for none; chosen_pair: a
-    point of the pair that does.
-    """
+    """panels: asks for those that are shown, by their ids."""
 
     def __init__(self, session: Session, panels: Callable[[], Mapping[int, DistancePanel]], moving: Moving) -> None:
         self._session, self._shown, self._moving = session, panels, moving
-        self.lit: tuple[str, ...] = ()
-        self.chosen_anchor = self.chosen_pair = ""
+        self._lit: dict[str, tuple[str, ...]] = {}  # points, by the words of tools
         self._is_drawn_on = self._keeps_steps = False
         self._brush: QtGui.QCursor | None = None
 
@@ -53,14 +43,13 @@ class GridMarks:
         panel.show_isolines(self._session.document.isolines)
         panel.view.pointer.set_brush(self._brush_of(panel))
 
-    # ------------------------------------------------------------------ sources and anchors
+    # ------------------------------------------------------------------ sources
     def expect_sources(self, document: Document) -> None:
         """Tell each panel where its field starts."""
         for panel in document.panels:
             surface = self._session.surface_in(panel.id)
-            places = [document.point(name).at for name in panel.shows.points]
-            start = vertex_at(places[0], surface) if places else None
-            self._panels[panel.id].marks.expect_source(start, [pieces_at(at, surface) for at in places])
+            first = next((vertex_at(document.point(name).at, surface) for name in panel.shows.points), None)
+            self._panels[panel.id].marks.expect(first, starts(document, panel, surface))
 
     def draw_on(self, is_drawn_on: bool) -> None:
         """Whether the left button draws on the surfaces, and no longer turns them there."""
@@ -68,28 +57,9 @@ class GridMarks:
         for panel in self._panels.values():
             panel.view.pointer.draw_on(is_drawn_on)
 
-    def mark_anchors(self, document: Document) -> None:
-        """Let the anchors of each panel's surface be taken hold of, with their values beside them."""
-        for panel in document.panels:
-            loaded, marks = self._session.mesh(panel.surface), self._panels[panel.id].marks
-            anchors = anchors_on(document, panel.surface, loaded)
-            marks.expect_anchors([vertex for vertex, _ in anchors])
-            if not any(part.has_anchors for part in panel.shows.parts):
-                marks.hold_anchors(None)
-                continue
-            here = [a for a in document[Anchors].anchors if document.point(a.point).surface == panel.surface]
-            texts = ["" if a.value is None or a.left_out else tick(float(f"{a.value:.4g}")) for a in here]
-            marks.hold_anchors([a.point for a in here], texts, self.chosen_anchor)
-
-    def choose_anchor(self, point: str) -> None:
-        """Let the anchor at this point stand out, "" for none."""
-        if point != self.chosen_anchor:
-            self.chosen_anchor = point
-            self.mark_anchors(self._session.document)
-
     # ------------------------------------------------------------------ what tools mark
     def show(self, document: Document) -> None:
-        """What tools mark in each panel, and in panels without a prediction what waits."""
+        """What tools mark in each panel."""
         changed = [self.show_in(document, panel.id) for panel in document.panels]
         if any(changed):
             self._moving.moved(SELECTED_MS)
@@ -101,14 +71,12 @@ class GridMarks:
         there = {name: loaded for name, loaded in surfaces.items() if loaded is not None}
         if panel.surface not in there:
             return False
-        answer = None if shown is None else shown.answer
-        marked = MarkedPanel(document, panel, there, answer or NOTHING, widget.marks.found)
-        has_other_areas = [
-            widget.marks.show(tool.word, tool.load(tool.marks)(marked), self._lit_points(document))
-            for tool in tools()
-            if tool.marks
-        ]
-        self._show_prediction(document, panel, answer)
+        answer = NOTHING if shown is None else shown.answer
+        marked = MarkedPanel(document, panel, there, answer, widget.marks.found)
+        marks = {tool.word: tool.load(tool.marks)(marked) for tool in tools() if tool.marks}
+        has_other_areas = [widget.marks.show(word, found, self.lit(word)) for word, found in marks.items()]
+        captions = (mark for found in marks.values() for mark in found if isinstance(mark, Caption))
+        widget.show_caption(next(captions, Caption()))
         return any(has_other_areas)
 
     def show_found(self, id: int, kind: type, found: object | None) -> None:
@@ -119,34 +87,14 @@ class GridMarks:
             if id in [panel.id for panel in self._session.document.panels]:
                 self.show_in(self._session.document, id)
 
-    def _lit_points(self, document: Document) -> frozenset[str]:
-        """What stands out, with both points of a pair."""
-        pair = next((pair for pair in document[Pairs].pairs if self.chosen_pair in pair.points), None)
-        return frozenset((*self.lit, *(() if pair is None else pair.points)))
+    def lit(self, tool: str) -> tuple[str, ...]:
+        """The points of a tool's marks that stand out, by its word."""
+        return self._lit.get(tool, ())
 
-    def _show_prediction(self, document: Document, panel: Panel, answer: Answer | None) -> None:
-        candidate = candidate_in(document, panel, answer)
-        is_plain = predicts_in(panel) and candidate is None and (answer is None or not answer.failure)
-        alone = sum(other.surface == panel.surface and predicts_in(other) for other in document.panels) == 1
-        is_first = document.panels_of(panel.surface)[0] == panel
-        self._panels[panel.id].show_prediction(
-            None if candidate is None else candidate.misfit,
-            # Once for each surface, and where it waits.
-            (pair_words(document, panel.surface) if is_first else ("",)) if is_plain else colours_words(answer),
-            self._session.surface_in(panel.id).name if is_plain and alone else "",
-        )
-
-    def choose_pair(self, point: str) -> None:
-        """Let the pair of this point stand out, "" for none."""
-        if point != self.chosen_pair:
-            self.chosen_pair = point
-            if self._session.surface is not None:
-                self.show(self._session.document)
-
-    def light_pins(self, points: tuple[str, ...]) -> None:
-        """Let the pins at these points stand out."""
-        if points != self.lit:
-            self.lit = points
+    def light(self, tool: str, points: tuple[str, ...]) -> None:
+        """Let a tool's marks at these points stand out, and no others of it."""
+        if points != self.lit(tool):
+            self._lit[tool] = points
             if self._session.surface is not None:
                 self.show(self._session.document)
 

@@ -1,17 +1,21 @@
 """The line over a panel: what it shows, the parameters, and the panel's own menu."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
 from html import escape
 
 from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import Surface
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.kinds import Spec, Value
 
-from ...document.edits import PANEL_EDITS
+from ...document.panel_edits import panel_edits
 from ...document.quantities import Difference, Quantity, kind_name, quantity_name
 from ..look.icons import pixmap
+from ..look.layouts import in_column
 from ..look.look import LOOK
+from ..look.painting import paint_rounded, smooth_painter
 from .flat_button import ICON_SIDE, FlatButton
 from .number_box import PopUp
 from .parameters import ChoiceControl, Control, FixedWord, NumberControl, parameter_control, signs
@@ -37,9 +41,9 @@ EXACT = ("biharmonic", "commute-time")
 class PanelHead(QtWidgets.QWidget):
     """One line that says what a panel shows and changes it.
 
-    `changed(Quantity)` for each choice; `asked(str)`, a word of PANEL_EDITS; `save_wanted()` for a file of the field;
-    `clicked()` when it is pressed or reached by keyboard.  With less room, words go into the menus; the name is cut
-    last.
+    `changed(Quantity)` for each choice; `asked(str)`, the text of a `PanelEdit`; `save_wanted()` for a file of the
+    field; `clicked()` when it is pressed or reached by keyboard.  With less room, words go into the menus; the name is
+    cut last.
     """
 
     changed = QtCore.Signal(object)
@@ -59,8 +63,7 @@ class PanelHead(QtWidgets.QWidget):
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
         self.name = FlatButton(self, bold=True)
         self.name.setMenu(self._menu(self._fill_name_menu))
-        self.warning = QtWidgets.QLabel(self)
-        self.warning.hide()
+        self.warning = QtWidgets.QLabel(self, visible=False)
         self.info = FlatButton(self, "info")
         self.info.setAccessibleName("What to look for, and how exact it is")
         self.info.activated.connect(lambda: self._open_info(self.info))
@@ -71,18 +74,15 @@ class PanelHead(QtWidgets.QWidget):
         self._about = self.more.menu().addAction("What to look for…")
         self._about.triggered.connect(lambda: QtCore.QTimer.singleShot(0, lambda: self._open_info(self.more)))
         self._line_under_about = self.more.menu().addSeparator()
-        self.edits = {word: self.more.menu().addAction(word) for word in PANEL_EDITS}
+        self.edits = {word: self.more.menu().addAction(word) for word in panel_edits()}
         for word, action in self.edits.items():
             action.triggered.connect(lambda *_, word=word: self.asked.emit(word))
         self.more.menu().addSeparator()
         self.more.menu().addAction("Save field…").triggered.connect(self.save_wanted)
         self._sheet = PopUp(self)
-        self._sheet_words = QtWidgets.QLabel(self._sheet)
-        self._sheet_words.setWordWrap(True)
+        self._sheet_words = QtWidgets.QLabel(self._sheet, wordWrap=True)
         self._sheet_words.setFixedWidth(280)
-        row = QtWidgets.QVBoxLayout(self._sheet)
-        row.setContentsMargins(12, 10, 12, 12)
-        row.addWidget(self._sheet_words)
+        in_column(self._sheet_words, of=self._sheet, margins=(12, 10, 12, 12))
         for widget in (self.name, self.info, self.more):
             widget.installEventFilter(self)
         self.set_compact(False)
@@ -104,12 +104,11 @@ class PanelHead(QtWidgets.QWidget):
         if made_of != self._made_of:
             self._made_of = made_of
             self._make_controls()
-        name = self._plain or quantity_name(shows)
-        self._name = name
+        self._name = self._plain or quantity_name(shows)
         self._show_values()
         self._show_method()
-        self.name.setToolTip(f"{name}\nClick to show something else here")
-        self.name.setAccessibleName(f"Shown here: {name}")
+        self.name.setToolTip(f"{self._name}\nClick to show something else here")
+        self.name.setAccessibleName(f"Shown here: {self._name}")
         self.show_info(self._info)
 
     def show_surface(self, surface: Surface | None) -> None:
@@ -190,12 +189,15 @@ class PanelHead(QtWidgets.QWidget):
             self.changed.emit(shows)
 
     def _set(self, place: int, name: str, value: object) -> None:
-        spec = self.shows.parts[place].spec.changed(**{name: value})
-        self._choose(self._choices.with_part(self.shows, place, spec))
+        (spec,) = self.shows.parts[place].specs
+        self._choose(self._choices.with_part(self.shows, place, spec.changed(**{name: value})))
+
+    def _subtract(self, raw: bool) -> None:
+        if isinstance(self.shows, Difference):
+            self._choose(replace(self.shows, raw=raw))
 
     def _menu(self, fill: Callable[[QtWidgets.QMenu], None] | None) -> QtWidgets.QMenu:
-        menu = QtWidgets.QMenu(self)
-        menu.setToolTipsVisible(True)
+        menu = QtWidgets.QMenu(self, toolTipsVisible=True)
         if fill is not None:
             menu.aboutToShow.connect(lambda: fill(menu))
         return menu
@@ -229,25 +231,25 @@ class PanelHead(QtWidgets.QWidget):
                 of_what = f" ({('first', 'second')[place]}: {part.heading})" if is_difference else ""
                 bounded = self._choices.bounded(parameter)
                 control = parameter_control(self, bounded, next(signed), of_what)
-                control.chosen.connect(lambda value, of=(place, parameter.name): self._set(*of, value))
+                control.chosen.connect(partial(self._set, place, parameter.name))
                 self._of_parameter[place, parameter.name] = control
         self.controls = list(self._of_parameter.values())
         if is_difference:
             self._mode = ChoiceControl(self, RAW_WORDS, "How the two are subtracted")
-            self._mode.chosen.connect(
-                lambda raw: self._choose(Difference(self.shows.minuend, self.shows.subtrahend, raw))
-            )
+            self._mode.chosen.connect(self._subtract)
             self.controls.append(self._mode)
         elif self.shows.done:
-            words = {kind.word: f"by {kind_name(kind).lower()}" for kind in offered_kinds()}
+            words: dict[Value, str] = {kind.word: f"by {kind_name(kind).lower()}" for kind in offered_kinds()}
             self._by = ChoiceControl(self, words, f"By which distance it is {self.shows.done}")
             self._by.chosen.connect(lambda word: self._choose(self._choices.with_part(self.shows, 0, word)))
             self.controls.insert(0, self._by)
         elif not self.controls and self.shows.word in EXACT:
             self.controls.append(FixedWord(self, "exact", "Of all eigenpairs; there is nothing to choose"))
-        order = [self.name]
+        order: list[QtWidgets.QWidget] = [self.name]
         for control in self.controls:
-            inside = [control.slider, control.button] if isinstance(control, NumberControl) else [control]
+            inside: list[QtWidgets.QWidget] = [control]
+            if isinstance(control, NumberControl):
+                inside = [control.slider, control.button]
             order += [each for each in inside if not isinstance(control, FixedWord)]
             for each in inside:
                 each.installEventFilter(self)
@@ -258,7 +260,7 @@ class PanelHead(QtWidgets.QWidget):
     def _show_values(self) -> None:
         for (place, name), control in self._of_parameter.items():
             control.show_value(self.shows.parts[place].specs[0][name])
-        if self._mode is not None:
+        if self._mode is not None and isinstance(self.shows, Difference):
             self._mode.show_value(self.shows.raw)
         if self._by is not None:
             self._by.show_value(self.shows.specs[0].word)
@@ -286,8 +288,7 @@ class PanelHead(QtWidgets.QWidget):
 
     def _lay_out(self) -> None:
         """From the left name, warning, parameters; from the right the two buttons."""
-        controls = [c for c in self.controls if not (self._warning and isinstance(c, FixedWord))]
-        controls = [] if self._plain else controls
+        controls = [c for c in self.controls if not (self._plain or (self._warning and isinstance(c, FixedWord)))]
         self.name.setText(self._name)
         left = MARGIN + self._letter_room + (DOT_ROOM if self._dot else 0)
         right = self.width() - MARGIN - ICON_SIDE
@@ -347,13 +348,10 @@ class PanelHead(QtWidgets.QWidget):
 
     # ------------------------------------------------------------------ events
     def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
-        reasons = QtCore.Qt.FocusReason
-        pressed = event.type() == QtCore.QEvent.Type.MouseButtonPress
-        reached = event.type() == QtCore.QEvent.Type.FocusIn and event.reason() in (
-            reasons.TabFocusReason,
-            reasons.BacktabFocusReason,
-        )
-        if pressed or reached:
+        kinds, reasons = QtCore.QEvent.Type, QtCore.Qt.FocusReason
+        by_keyboard = reasons.TabFocusReason, reasons.BacktabFocusReason
+        is_reached = event.type() == kinds.FocusIn and event.reason() in by_keyboard
+        if is_reached or event.type() == kinds.MouseButtonPress:
             self.clicked.emit()
         return bool(super().eventFilter(watched, event))
 
@@ -361,18 +359,16 @@ class PanelHead(QtWidgets.QWidget):
         self.clicked.emit()
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        painter = QtGui.QPainter(self)
+        painter = smooth_painter(self)
         painter.fillRect(self.rect(), QtGui.QColor(LOOK.theme.canvas))
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        painter.setPen(QtCore.Qt.PenStyle.NoPen)
         if self._dot:
+            painter.setPen(QtCore.Qt.PenStyle.NoPen)
             painter.setBrush(QtGui.QColor(self._dot))
             painter.drawEllipse(QtCore.QPointF(MARGIN + self._letter_room + 8, self.height() / 2), DOT, DOT)
         if self.letter:
             side = round(LETTER_SIDE * LOOK.scale)
             badge = QtCore.QRectF(MARGIN + 4, self._top(side), side, side)
-            painter.setBrush(QtGui.QColor(LOOK.theme.pressed))
-            painter.drawRoundedRect(badge, 4, 4)
+            paint_rounded(painter, badge, 4, LOOK.theme.pressed)
             painter.setFont(LOOK.font(11, bold=True))
             painter.setPen(QtGui.QColor(LOOK.theme.text))
             painter.drawText(badge, QtCore.Qt.AlignmentFlag.AlignCenter, self.letter)

@@ -13,6 +13,7 @@ from ...scene.levels import BOLD
 from ...scene.line_labels import PAD, STRAIGHT
 from ...scene.style import RIM, Style
 from ..look.look import LOOK
+from ..look.painting import round_pen
 
 FONT_SIZE = 11.0
 """Logical pixels."""
@@ -56,16 +57,14 @@ def painted(
         painter.translate(*(ratio * x for x in label.middle))
         painter.rotate(-label.angle)
         path = QtGui.QPainterPath()
-        path.addText(
-            QtCore.QPointF(-metrics.horizontalAdvance(label.text) / 2, metrics.capHeight() / 2), font, label.text
-        )
+        start = QtCore.QPointF(-metrics.horizontalAdvance(label.text) / 2, metrics.capHeight() / 2)
+        path.addText(start, font, label.text)
         rim = style.mark_edge if label.is_through else style.rim(signed, label.value)
         if rim is not None:
-            pen = QtGui.QPen(_colour(rim), 2 * (CASING if label.is_through else RIM) * ratio)
-            pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
-            painter.strokePath(path, pen)
+            width = 2 * (CASING if label.is_through else RIM) * ratio
+            painter.strokePath(path, round_pen(QtGui.QColor.fromRgbF(*rim), width))
         colour = style.source if label.is_through else style.line(signed, label.value / top if top > 0 else 0.0)
-        painter.fillPath(path, _colour(colour))
+        painter.fillPath(path, QtGui.QColor.fromRgbF(*colour))
     painter.end()
     return _pixels(image)
 
@@ -105,7 +104,3 @@ def _pixels(image: QtGui.QImage) -> ByteArray:
     if hasattr(memory, "setsize"):  # of PyQt
         memory.setsize(image.sizeInBytes())
     return np.array(memory, np.uint8).reshape(image.height(), image.width(), 4)
-
-
-def _colour(colour: Sequence[float]) -> QtGui.QColor:
-    return QtGui.QColor.fromRgbF(*colour)

@@ -1,26 +1,30 @@
 """The values of isolines on the panels' pictures: found on a thread once the camera rests, and gone when it moves."""
 
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from threading import Lock, Thread
+from typing import TYPE_CHECKING
 
 import numpy as np
 from qtpy import QtCore, QtGui
 
 from bihdist_core import Surface
 from bihdist_core.arrays import AnyArray, FloatArray
+from bihdist_core.progress import Progress
 
 from ...scene.camera import SeenNow
 from ...scene.corners import Rectangle
 from ...scene.drawable import outward_faces
 from ...scene.levels import Levels
-from ...scene.line_labels import Contour, Label, Line, labelled, value_text
+from ...scene.line_labels import Contour, Line, labelled, value_text
+from ..background import Background
 from ..look.look import LOOK
 from .label_painting import FONT_SIZE, Written, label_font, painted
 from .moving import REST_MS
 from .panel import DistancePanel
+
+if TYPE_CHECKING:
+    from ...figures.hidden_lines import HiddenLineRemoval
 
 GRID = 4.0
 """Logical pixels between the places of which it is known whether they are on the shape."""
@@ -64,33 +68,26 @@ class Asked:
 class LineLabels(QtCore.QObject):
     """See the module.  panels: asks for those that are shown."""
 
-    _found = QtCore.Signal(object, int, object)  # panel, of which of its pictures, what is written there
-
     def __init__(self, panels: Callable[[], Sequence[DistancePanel]], parent: QtCore.QObject | None = None) -> None:
         super().__init__(parent)
         self._panels = panels
+        self._background = Background("labels of isolines", _found, self)
+        self._background.answered.connect(lambda _, found: self._write(*found))
         self._timer = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
-        self._timer.timeout.connect(self._ask)
-        self._found.connect(self._write)
-        self._lock = Lock()
-        self._pending: dict[DistancePanel, tuple[int, Asked]] = {}
-        self._is_working = False
+        self._timer.timeout.connect(lambda: self._background.ask(self._open(self._panels()) or None))
         self._finder = Finder()
         self._done: dict[DistancePanel, int] = {}
 
     def watch(self, panel: DistancePanel) -> None:
         """Write on this panel's pictures, too."""
-        panel.view.drawn.connect(self._wait)
+        panel.view.drawn.connect(self._timer.start)
         panel.view.shot_wanted.connect(lambda: self.write_now([panel]))
 
     def close(self) -> None:
         """For good."""
         self._timer.stop()
         self._panels = tuple
-        self._pending = {}
-
-    def _wait(self) -> None:
-        self._timer.start()
+        self._background.close(waits=False)
 
     def write_now(self, panels: Sequence[DistancePanel] | None = None) -> None:
         """Without waiting, on all panels or on these."""
@@ -106,36 +103,20 @@ class LineLabels(QtCore.QObject):
                 found.append((panel, number, asked))
         return found
 
-    def _ask(self) -> None:
-        with self._lock:
-            self._pending = {panel: (number, asked) for panel, number, asked in self._open(self._panels())}
-            if not self._pending or self._is_working:
-                return
-            self._is_working = True
-        Thread(target=self._work, name="labels of isolines", daemon=True).start()
-
-    def _work(self) -> None:
-        finder = Finder()
-        while True:
-            with self._lock:
-                if not self._pending:
-                    self._is_working = False
-                    return
-                panel = next(iter(self._pending))
-                number, asked = self._pending.pop(panel)
-            written = finder.find(asked)
-            with suppress(RuntimeError):  # the window may have been closed meanwhile
-                self._found.emit(panel, number, written)
-
     def _write(self, panel: DistancePanel, number: int, written: Sequence[Written]) -> None:
         view = panel.view
         if view.picture is None or view.pictures != number:
             return  # of a picture that is gone
         self._done[panel] = number
-        if written:
-            scene = view.scene
-            signed, top = panel.answer.is_signed, scene.maximum
-            view.write(painted(view.picture, written, scene.style, signed, top, view.devicePixelRatioF()))
+        if written and panel.answer is not None:
+            scene, signed = view.scene, panel.answer.is_signed
+            view.write(painted(view.picture, written, scene.style, signed, scene.maximum, view.devicePixelRatioF()))
+
+
+def _found(pictures: Sequence[tuple[DistancePanel, int, Asked]], progress: Progress) -> Iterator[object]:
+    finder = Finder()
+    for panel, number, asked in pictures:
+        yield panel, number, finder.find(asked)
 
 
 def asked_of(panel: DistancePanel) -> Asked | None:
@@ -166,7 +147,7 @@ def asked_of(panel: DistancePanel) -> Asked | None:
         SeenNow(view.camera, width / max(height, 1)),
         (width, height),
         tuple(parts),
-        panel.marked,
+        panel.marks.places,
         scene.style.marker_size / 2 + 3,
         FONT_SIZE * LOOK.scale,
         {text: metrics.horizontalAdvance(text) for text in texts},
@@ -177,16 +158,19 @@ class Finder:
     """Finds labels; keeps what is hidden from one panel to the next, which sees the same surface alike."""
 
     def __init__(self) -> None:
-        self._kept: tuple[object, ...] = (None,)
+        self._key: object = None
+        self._sight: HiddenLineRemoval | None = None  # with the surface, whose id stays its own
+        self._covers: dict[tuple[Rectangle, ...], AnyArray] = {}
 
     def find(self, asked: Asked) -> list[Written]:
         """On any thread."""
         from ...figures.hidden_lines import HiddenLineRemoval, contours_seen
 
-        if self._kept[0] != asked.sight_key:
+        sight, covers = self._sight, self._covers
+        if sight is None or self._key != asked.sight_key:
             sight = HiddenLineRemoval(asked.surface, asked.projection, asked.picture, asked.outward)
-            self._kept = (asked.sight_key, sight, asked.surface, {})  # the surface, so that its id stays its own
-        _, sight, _, covers = self._kept
+            covers = {}
+            self._key, self._sight, self._covers = asked.sight_key, sight, covers
         marked = sight.pixels(asked.marked)[:, :2]
         marked = marked[np.isfinite(marked).all(axis=1)]
         found: list[Written] = []
@@ -202,21 +186,14 @@ class Finder:
                 covers[key] = _cover(sight.covers, part, others, frames)
             is_on = partial(_is_on, covers[key], part.box)
             place = _shares(marked, part.source) * _size(part.box) + _corner(part.box)
-            lines, labels = labelled(
-                contours,
-                (*_corner(part.box), *_size(part.box)),
-                asked.size,
-                asked.widths.__getitem__,
-                is_on,
-                place,
-                asked.apart,
-            )
-            found += [_written(label, lines[label.contour], asked.widths[label.text]) for label in labels]
+            frame = (*_corner(part.box), *_size(part.box))
+            width_of = asked.widths.__getitem__
+            lines, labels = labelled(contours, frame, asked.size, width_of, is_on, place, asked.apart)
+            for each in labels:
+                line, width = lines[each.contour], asked.widths[each.text]
+                way = (each.x, each.y), each.angle
+                found.append(Written(each.text, *way, width, line.value, line.is_bold, line.is_through))
         return found
-
-
-def _written(label: Label, line: Contour, width: float) -> Written:
-    return Written(label.text, (label.x, label.y), label.angle, width, line.value, line.is_bold, line.is_through)
 
 
 def _cover(
@@ -242,16 +219,18 @@ def _within(places: FloatArray, box: Rectangle, beyond: float) -> AnyArray:
     """Which of places (k, 2) are in a box that is larger by so much at each side."""
     left, right, top, bottom = box
     x, y = places.T
-    return (x > left - beyond) & (x < right + beyond) & (y > top - beyond) & (y < bottom + beyond)
+    found: AnyArray = (x > left - beyond) & (x < right + beyond) & (y > top - beyond) & (y < bottom + beyond)
+    return found
 
 
 def _is_on(cover: AnyArray, box: Rectangle, places: FloatArray) -> AnyArray:
-    """The same of places (k, 2) of the part in this box."""
+    """Which of places (k, 2) of the part in a box are on what its cover (l, m) shows."""
     rows, columns = cover.shape
     shares = _shares(places, box)
-    is_inside = ((shares >= 0) & (shares < 1)).all(axis=1)
+    across, down = ((shares >= 0) & (shares < 1)).T
     column, row = np.floor(np.clip(shares, 0, 1 - 1e-9) * (columns, rows)).astype(int).T
-    return is_inside & cover[row, column]
+    found: AnyArray = across & down & cover[row, column]
+    return found
 
 
 def _moved(lines: Sequence[Line], part: Part) -> list[Line]:
@@ -262,7 +241,8 @@ def _moved(lines: Sequence[Line], part: Part) -> list[Line]:
     for points, closed in lines:
         ring = np.concatenate([points, points[:1]]) if closed else points
         shares = _shares(ring, part.source)
-        inside = ((shares >= 0) & (shares <= 1)).all(axis=1)
+        across, down = ((shares >= 0) & (shares <= 1)).T
+        inside = across & down
         kept = inside | np.append(inside[1:], False) | np.append(False, inside[:-1])
         ends = np.flatnonzero(np.diff(np.concatenate([[0], kept.astype(int), [0]]))).reshape(-1, 2)
         found += [(shares[a:b] * _size(part.box) + _corner(part.box), False) for a, b in ends if b - a > 1]

@@ -1,75 +1,107 @@
-"""Lines over a surface that are also told where it hides them, such as a path: painted on its picture."""
+"""Lines over a surface, such as a path or what a field starts from: painted on its picture by their looks."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from qtpy import QtCore, QtGui
 
-from ...marks.line_looks import LineLook
+from ...marks.line_looks import LineLook, Stroke
 from ...scene.lines_of_sight import seen_in
-from ...scene.offscreen_renderer import OffscreenRenderer
-from ...scene.panel_scene import PanelScene
 from ...scene.style import Style
+from ..look.painting import round_pen
+
+if TYPE_CHECKING:
+    from .view import View
 
 Course = tuple[LineLook, np.ndarray]
 """A look, and points (k, 3) of a line."""
+
+FINE = 0.005
+"""Of the extent of all lines, at most from one of their points to the next: so finely it is told what is hidden."""
 
 
 class LineMarks:
     """The lines of one view.
 
-    points: (k, 3) of all, one line after another.  pixels: (k, 2) device pixels of these, y down, NaN where there is
-    nothing to paint; is_seen: (k,) whether the surface is not before them; both of the picture that `see` was called
-    for.
+    points: (k, 3) of all, one line after another.  pixels: (k, 2) device pixels of these, y down, or NaN;
+    is_seen: (k,) whether the surface is not before them; both of the picture that `see` was called for.
     """
 
-    def __init__(self) -> None:
-        self._lines: Sequence[Course] = ()
+    def __init__(self, view: "View") -> None:
+        self._view = view
+        self._looks: list[LineLook] = []
+        self.points, self._ends = np.empty((0, 3)), np.empty(0, int)
+        self._forget()
+
+    def _forget(self) -> None:
         self.pixels, self.is_seen = np.empty((0, 2)), np.empty(0, bool)
+        self._paths: list[tuple[QtGui.QRegion, list[tuple[Stroke, QtGui.QPainterPath]]]] = []
 
-    @property
-    def points(self) -> np.ndarray:
-        """All points (k, 3) of the lines."""
-        return np.concatenate([np.empty((0, 3)), *(points for _, points in self._lines)])
+    def show(self, lines: Sequence[Course]) -> None:
+        """These and no others, from the next picture on."""
+        lines = sorted(lines, key=lambda line: line[0].rank)
+        extent = max((float(np.ptp(points, axis=0).max()) for _, points in lines), default=0.0)
+        courses = [_refined(points, FINE * extent) for _, points in lines]
+        self._looks = [look for look, _ in lines]
+        self.points = np.concatenate([np.empty((0, 3)), *courses])
+        self._ends = np.cumsum([len(points) for points in courses])[:-1]
 
-    def show(self, lines: Sequence[Course]) -> bool:
-        """These, and whether that has to be drawn."""
-        before, self._lines = self._lines, sorted(lines, key=lambda line: line[0].rank)
-        return bool(before or lines)
-
-    def see(self, scene: PanelScene, offscreen: OffscreenRenderer) -> None:
-        """What is seen in the picture that has just been drawn; insets lie over the lines."""
-        self.pixels, self.is_seen = np.empty((0, 2)), np.empty(0, bool)
-        if not self._lines:
+    def see(self) -> None:
+        """What is seen in the picture that has just been drawn, and in its insets."""
+        self._forget()
+        if not self._looks:
             return
-        depths = offscreen.depths()
-        self.pixels, self.is_seen = seen_in(scene.renderer, self.points, depths)
-        for left, bottom, width, height in scene.insets.covered:
-            top = len(depths) - bottom - height
-            low, high = (left, top), (left + width, top + height)
-            self.pixels[((self.pixels >= low) & (self.pixels < high)).all(axis=1)] = np.nan
+        view, depths = self._view, self._view.offscreen.depths()
+        for renderer, region, (left, top, width, height) in view.parts():
+            pixels, is_seen = seen_in(renderer, self.points, depths[top : top + height, left : left + width])
+            pixels += left, top
+            if renderer is view.scene.renderer:
+                self.pixels, self.is_seen = pixels, is_seen
+            self._paths.append((region, list(self._strokes(pixels / view.devicePixelRatioF(), is_seen))))
 
-    def paint(self, painter: QtGui.QPainter, style: Style, ratio: float, share: float = 1.0) -> None:
-        """ratio: device pixels in a logical one; share: of the usual widths."""
-        if not len(self.pixels):
-            return
-        ends = np.cumsum([len(points) for _, points in self._lines])[:-1]
-        places, seen = np.split(self.pixels / ratio, ends), np.split(self.is_seen, ends)
-        painter.save()
-        painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
-        for is_seen in (False, True):  # what is hidden lies behind
-            for (look, _), line, which in zip(self._lines, places, seen, strict=True):
-                pieces = _runs(line, which == is_seen)
-                for stroke in look.strokes if is_seen else look.hidden:
-                    pen = QtGui.QPen(QtGui.QColor.fromRgbF(*style.named(stroke.colour)), share * stroke.width)
-                    pen.setCapStyle(QtCore.Qt.PenCapStyle.RoundCap)
-                    pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
-                    if stroke.dots:
-                        pen.setDashPattern([0.01, stroke.dots / stroke.width])
-                    painter.setPen(pen)
-                    for piece in pieces:
-                        painter.drawPolyline(piece)
-        painter.restore()
+    def _strokes(self, pixels: np.ndarray, is_seen: np.ndarray) -> Iterator[tuple[Stroke, QtGui.QPainterPath]]:
+        """The lowest first; lines of one look are one path, so that where they meet no rim lies over another line."""
+        places, seen = np.split(pixels, self._ends), np.split(is_seen, self._ends)
+        looks = dict.fromkeys(self._looks)
+        for is_meant in (False, True):  # what is hidden lies behind
+            for look in looks:
+                path = QtGui.QPainterPath()
+                for other, line, which in zip(self._looks, places, seen, strict=True):
+                    for piece in _runs(line, which == is_meant) if other == look else ():
+                        path.addPolygon(piece)
+                if not path.isEmpty():
+                    yield from ((stroke, path) for stroke in (look.strokes if is_meant else look.hidden))
+
+    def paint(self, painter: QtGui.QPainter) -> None:
+        """On the view and its insets."""
+        view = self._view
+        for region, strokes in self._paths:
+            painter.save()
+            painter.setClipRegion(region, QtCore.Qt.ClipOperation.IntersectClip)
+            for stroke, path in strokes:
+                painter.strokePath(path, pen_of(stroke, view.scene.style, view.proportion))
+            painter.restore()
+
+
+def pen_of(stroke: Stroke, style: Style, share: float) -> QtGui.QPen:
+    """What a stroke is painted with, in this share of its usual width."""
+    pen = round_pen(QtGui.QColor.fromRgbF(*style.named(stroke.colour)), share * stroke.width)
+    if stroke.dots:
+        pen.setDashPattern([0.01, stroke.dots / stroke.width])
+    return pen
+
+
+def _refined(points: np.ndarray, step: float) -> np.ndarray:
+    """Points (k, 3) of a line with others between them, none farther than a step from the next."""
+    lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    if not (step > 0 and (lengths > step).any()):
+        return points
+    counts = np.ceil(np.maximum(lengths / step, 1)).astype(int)
+    at = np.append(
+        np.repeat(np.arange(len(counts)), counts) + np.concatenate([np.arange(n) / n for n in counts]), len(counts)
+    )
+    return np.stack([np.interp(at, np.arange(len(points)), x) for x in points.T], 1)
 
 
 def _runs(places: np.ndarray, is_meant: np.ndarray) -> list[QtGui.QPolygonF]:

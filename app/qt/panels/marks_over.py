@@ -8,13 +8,14 @@ from qtpy import QtCore, QtGui
 
 from bihdist_core.arrays import AnyArray, FloatArray
 
+from ...marks.line_looks import SOURCE
 from ...marks.primitives import LegendRow
 from ...scene.axes import arms, middle
 from ...scene.camera import camera_seen, frame
 from ...scene.lines_of_sight import pixels_in
 from . import overlay
-from .anchor_labels import AnchorLabel, paint_anchor_labels
-from .line_marks import LineMarks
+from .line_marks import LineMarks, pen_of
+from .mark_texts import paint_texts
 from .notes import paint_legend, paint_note
 from .overlay import Pointed
 from .point_marks import PointMarks
@@ -32,7 +33,7 @@ class MarksOver:
     def __init__(self, view: "View") -> None:
         self._view = view
         self.points = PointMarks(view)
-        self.lines = LineMarks()
+        self.lines = LineMarks(view)
         self.legend: Sequence[LegendRow] = ()
         self.pointed: Pointed | None = None
         self.sentence = ""
@@ -40,8 +41,6 @@ class MarksOver:
         self.strokes: Sequence[AnyArray] = ()  # (k, 3) each: what has been drawn
         self._has_axes = False
         self._covered = QtCore.QRect()  # by the ring and its label
-        self._labels: tuple[AnchorLabel, ...] = ()
-        self._unlabelled: frozenset[int] | None = None  # which of them the surface hides; None until it is looked
         self._dabs: list[tuple[str, QtGui.QPolygonF]] = []  # of a brush that is down
         self.ends = np.empty((0, 3))  # of what is joined
 
@@ -73,12 +72,6 @@ class MarksOver:
         before, self._covered = self._covered, self._cover()
         self._view.update(before | self._covered)
 
-    def show_anchors(self, labels: Sequence[AnchorLabel]) -> None:
-        """Write values beside anchors."""
-        if labels or self._labels:
-            self._labels, self._unlabelled = tuple(labels), None
-            self._view.update()
-
     def show_legend(self, rows: Sequence[LegendRow]) -> None:
         """What glyphs stand for."""
         if rows != self.legend:
@@ -108,9 +101,8 @@ class MarksOver:
 
     def see(self) -> None:
         """Another picture has been drawn: what is hidden in it?"""
-        self._unlabelled = None
         self.points.see_again()
-        self.lines.see(self._view.scene, self._view.offscreen)
+        self.lines.see()
         self._covered = self._cover()
 
     # ------------------------------------------------------------------ painting
@@ -118,7 +110,7 @@ class MarksOver:
         """What lies lowest first."""
         view = self._view
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        self.lines.paint(painter, view.scene.style, view.devicePixelRatioF(), view.proportion)
+        self.lines.paint(painter)
         for colour, places in self._dabs:
             painter.setPen(QtGui.QPen(QtGui.QColor(colour), DAB))
             painter.drawPoints(places)
@@ -126,8 +118,7 @@ class MarksOver:
         if self._has_axes:
             at = middle(view.width(), view.height(), view.scene.insets.corners)
             overlay.paint_axes(painter, arms(frame(camera_seen(view.camera, 1.0))), at)
-        if self._labels:
-            paint_anchor_labels(painter, self._seen_labels(), QtCore.QRectF(view.rect()))
+        paint_texts(painter, self.points.texts(), QtCore.QRectF(view.rect()))
         self.points.paint_standing(painter)
         if self.legend and not self.sentence:
             paint_legend(painter, QtCore.QRectF(view.rect()), self.legend)
@@ -138,7 +129,11 @@ class MarksOver:
         for end in self.ends:
             self._paint_ring(painter, view.place_of(end), True, not view.sees(end))
         for stroke in self.strokes:
-            overlay.paint_stroke(painter, [view.place_of(x) for x in stroke], view.scene.style)
+            path = QtGui.QPainterPath(view.place_of(stroke[0]))
+            for place in stroke[-1:] if len(stroke) < 2 else stroke[1:]:
+                path.lineTo(view.place_of(place))
+            for each in SOURCE.strokes:
+                painter.strokePath(path, pen_of(each, view.scene.style, view.proportion))
         if self.pointed is not None:
             self._paint_pointed(painter, self.pointed)
 
@@ -163,15 +158,3 @@ class MarksOver:
             view = QtCore.QRectF(self._view.rect())
             found |= overlay.label_place(at, self.pointed.value, self.pointed.share, view)
         return found.toAlignedRect().adjusted(-2, -2, 2, 2)
-
-    def _seen_labels(self) -> list[tuple[AnchorLabel, QtCore.QPointF]]:
-        """Those whose places are seen."""
-        if self._unlabelled is None:
-            self._unlabelled = frozenset(
-                k for k, label in enumerate(self._labels) if not self._view.sees(label.position)
-            )
-        return [
-            (label, self._view.place_of(label.position))
-            for k, label in enumerate(self._labels)
-            if k not in self._unlabelled
-        ]

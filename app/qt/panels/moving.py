@@ -20,8 +20,7 @@ class Moving(QtCore.QObject):
         super().__init__(parent)
         self._views = views
         self.fluent = FLUENT
-        self._timer = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
-        self._timer.timeout.connect(self.rest)
+        self._timer = QtCore.QTimer(self, singleShot=True, interval=REST_MS, timeout=self.rest)
 
     def moved(self, rest_ms: int = REST_MS) -> None:
         """The user has moved the camera, or changed what all panels show; nothing has been drawn since.

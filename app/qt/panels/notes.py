@@ -8,6 +8,7 @@ from ...marks.glyphs import TRIANGLE_UP
 from ...marks.primitives import LegendRow, PointMark
 from ...scene.style import Style
 from ..look.look import LOOK
+from ..look.painting import baseline, paint_rounded, translucent
 from .glyph_painting import paint_glyph, paint_sample
 
 LEFT, TOP, GAP = 14.0, 15.0, 10.0
@@ -32,16 +33,11 @@ def paint_note(painter: QtGui.QPainter, view: QtCore.QRectF, style: Style, notes
     room = MOST_NOTE * view.width() - left
     fitting = (words for words in notes[view.height() < LOW * LOOK.scale :] if metrics.horizontalAdvance(words) <= room)
     words = next(fitting, notes[-1])
-    baseline = at.y() + (metrics.ascent() - metrics.descent()) / 2
-    ground = QtGui.QColor(LOOK.theme.canvas)
-    ground.setAlphaF(0.8)
     box = QtCore.QRectF(4, 2, left + metrics.horizontalAdvance(words), 2 * (at.y() - 2))
-    painter.setPen(QtCore.Qt.PenStyle.NoPen)
-    painter.setBrush(ground)
-    painter.drawRoundedRect(box, 4, 4)
+    paint_rounded(painter, box, 4, translucent(LOOK.theme.canvas, 0.8))
     paint_glyph(painter, PointMark(0, TRIANGLE_UP), at, style, 1.0)
     painter.setPen(QtGui.QColor(LOOK.theme.quiet))
-    painter.drawText(QtCore.QPointF(left, baseline), words)
+    painter.drawText(QtCore.QPointF(left, baseline(painter, at.y())), words)
 
 
 def paint_legend(painter: QtGui.QPainter, view: QtCore.QRectF, rows: Sequence[LegendRow]) -> None:
@@ -56,5 +52,5 @@ def paint_legend(painter: QtGui.QPainter, view: QtCore.QRectF, rows: Sequence[Le
         paint_sample(painter, row.glyph, QtCore.QPointF(x, middle), QtGui.QColor(colour))
         painter.setPen(QtGui.QColor(LOOK.theme.quiet))
         x += 14 * LOOK.scale
-        painter.drawText(QtCore.QPointF(x, middle + (metrics.ascent() - metrics.descent()) / 2), row.text)
+        painter.drawText(QtCore.QPointF(x, baseline(painter, middle)), row.text)
         x += metrics.horizontalAdvance(row.text) + 22 * LOOK.scale

@@ -5,10 +5,11 @@ from math import exp, inf, log
 from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import ParameterError
-from bihdist_core.distances.kinds import Parameter
+from bihdist_core.distances.kinds import Parameter, Value
 
 from ..look.look import LOOK
 from ..look.numbers import MINUS, number
+from ..look.painting import smooth_painter
 from ..look.text_box import TextBox, mark_wrong
 from .flat_button import paint_ring
 
@@ -52,7 +53,7 @@ def meaning(parameter: Parameter) -> str:
     return f"{parameter.meaning[:1].upper()}{parameter.meaning[1:]}"
 
 
-def shown_value(parameter: Parameter, value: float | int | str) -> str:
+def shown_value(parameter: Parameter, value: Value) -> str:
     """As it stands in the head: a mark as a fraction, else three digits, or four where three do not say it."""
     if isinstance(value, str):
         return value
@@ -88,11 +89,11 @@ class ValueSlider(QtWidgets.QSlider):
         self._by_keyboard = False
         LOOK.changed.connect(self.update)
 
-    def show_value(self, value: float) -> None:
+    def show_value(self, value: Value) -> None:
         """Without emitting, and not under the user's hand."""
         if not self.isSliderDown():
             with QtCore.QSignalBlocker(self):
-                self.setValue(min(max(step_of_value(self.parameter, value), 0), STEPS))
+                self.setValue(min(max(step_of_value(self.parameter, float(value)), 0), STEPS))
 
     def wheelEvent(self, event: QtGui.QWheelEvent) -> None:
         if self.hasFocus():
@@ -107,9 +108,7 @@ class ValueSlider(QtWidgets.QSlider):
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         super().paintEvent(event)
         if self._by_keyboard and self.hasFocus():
-            painter = QtGui.QPainter(self)
-            painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-            paint_ring(painter, QtCore.QRectF(self.rect()))
+            paint_ring(smooth_painter(self), QtCore.QRectF(self.rect()))
 
 
 class PopUp(QtWidgets.QFrame):
@@ -165,10 +164,13 @@ class TypedPopUp(PopUp):
         self.box = TextBox(self)
         self.box.returnPressed.connect(self._typed)
         self.box.textEdited.connect(lambda: self._complain(""))
-        self.complaint = QtWidgets.QLabel("", self)
+        self.complaint = QtWidgets.QLabel("", self, wordWrap=True, visible=False)
         self.complaint.setProperty("error", True)
-        self.complaint.setWordWrap(True)
-        self.complaint.hide()
+
+    def open_under(self, control: QtWidgets.QWidget, right: int = 0) -> None:
+        super().open_under(control, right)
+        self.box.setFocus(QtCore.Qt.FocusReason.PopupFocusReason)
+        self.box.selectAll()
 
     def _lay_out(self, left: QtWidgets.QWidget, right: QtWidgets.QWidget) -> None:
         grid = QtWidgets.QGridLayout(self)
@@ -198,7 +200,7 @@ class NumberPopUp(TypedPopUp):
     def __init__(self, parameter: Parameter, parent: QtWidgets.QWidget) -> None:
         super().__init__(meaning(parameter), parent)
         self.parameter = parameter
-        self._value: float = 0.0
+        self._value: Value = 0.0
         self.slider = ValueSlider(parameter, self)
         self.slider.setMinimumWidth(150)
         self.slider.sliderMoved.connect(lambda step: self._write(value_of_step(parameter, step)))
@@ -209,20 +211,18 @@ class NumberPopUp(TypedPopUp):
         self.box.setToolTip(f"{symbol(parameter)}: any number above {parameter.above:g}{most}; Enter sets it")
         self._lay_out(self.slider, self.box)
 
-    def show_value(self, value: float) -> None:
+    def show_value(self, value: Value) -> None:
         """Without emitting; what is being typed stays."""
         self._value = value
         self.slider.show_value(value)
         if not (self.isVisible() and self.box.isModified()):
             self._write(value)
 
-    def open_under(self, control: QtWidgets.QWidget) -> None:
+    def open_under(self, control: QtWidgets.QWidget, right: int = 0) -> None:
         self._write(self._value)
-        super().open_under(control)
-        self.box.setFocus(QtCore.Qt.FocusReason.PopupFocusReason)
-        self.box.selectAll()
+        super().open_under(control, right)
 
-    def _write(self, value: float) -> None:
+    def _write(self, value: Value) -> None:
         self.box.setText(self.parameter.written(value))
         self._complain("")
 

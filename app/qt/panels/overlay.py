@@ -9,11 +9,10 @@ from qtpy import QtCore, QtGui
 
 from bihdist_core.arrays import FloatArray
 
-from ...marks.line_looks import SOURCE
 from ...scene.axes import ARM, Arm
-from ...scene.style import Style
 from ..look.look import LOOK
 from ..look.numbers import number_width, paint_number
+from ..look.painting import paint_rounded, round_pen, translucent
 
 REACH = 14
 """Logical pixels about a place that its ring may cover."""
@@ -73,18 +72,6 @@ def paint_ring(painter: QtGui.QPainter, at: QtCore.QPointF, is_own: bool, is_hid
         painter.drawEllipse(at, 2.0, 2.0)
 
 
-def paint_stroke(painter: QtGui.QPainter, places: Sequence[QtCore.QPointF], style: Style) -> None:
-    """A line through places as it is drawn, in the source's colour with its rim."""
-    painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
-    path = QtGui.QPolygonF(places if len(places) > 1 else [*places, *places])
-    for stroke in SOURCE.strokes:
-        pen = QtGui.QPen(QtGui.QColor.fromRgbF(*style.named(stroke.colour)), stroke.width)
-        pen.setCapStyle(QtCore.Qt.PenCapStyle.RoundCap)
-        pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)
-        painter.setPen(pen)
-        painter.drawPolyline(path)
-
-
 def label_place(at: QtCore.QPointF, value: str, share: str, view: QtCore.QRectF) -> QtCore.QRectF:
     """Where the label of a place stands, always inside the view."""
     width = 2 * LABEL_PADDING + number_width(LOOK.font(12, bold=True), value)
@@ -106,9 +93,7 @@ def paint_label(painter: QtGui.QPainter, place: QtCore.QRectF, value: str, share
     ground, plain, quiet = theme.label, theme.label_text, theme.label_quiet
     if is_meant:
         ground, plain, quiet = theme.fill, theme.on_fill, theme.on_fill
-    painter.setPen(QtCore.Qt.PenStyle.NoPen)
-    painter.setBrush(QtGui.QColor(ground))
-    painter.drawRoundedRect(place, 4, 4)
+    paint_rounded(painter, place, 4, ground)
     x = place.left() + LABEL_PADDING
     for text, bold, colour in ((value, True, plain), (share, False, quiet)):
         painter.setFont(LOOK.font(12, bold))
@@ -124,11 +109,7 @@ def paint_axes(painter: QtGui.QPainter, arms: Sequence[Arm], at: tuple[float, fl
     metrics = painter.fontMetrics()
     x, y = at
     for arm in arms:
-        colour = QtGui.QColor(LOOK.theme.quiet)
-        colour.setAlphaF(arm.opacity)
-        pen = QtGui.QPen(colour, 1.5)
-        pen.setCapStyle(QtCore.Qt.PenCapStyle.RoundCap)
-        painter.setPen(pen)
+        painter.setPen(round_pen(translucent(LOOK.theme.quiet, arm.opacity), 1.5))
         painter.drawLine(QtCore.QPointF(x, y), QtCore.QPointF(x + ARM * arm.x, y - ARM * arm.y))
         if arm.letter_at is None:
             continue
@@ -139,15 +120,10 @@ def paint_axes(painter: QtGui.QPainter, arms: Sequence[Arm], at: tuple[float, fl
 
 def paint_sentence(painter: QtGui.QPainter, view: QtCore.QRect, words: str) -> None:
     """Why there is no field, in the middle, on the ground of the panel."""
-    theme = LOOK.theme
     painter.setFont(LOOK.font(13))
     room = view.adjusted(24, 24, -24, -24)
     flags = int(QtCore.Qt.AlignmentFlag.AlignCenter | QtCore.Qt.TextFlag.TextWordWrap)
     box = painter.fontMetrics().boundingRect(room, flags, words)
-    ground = QtGui.QColor(theme.canvas)
-    ground.setAlphaF(0.88)
-    painter.setPen(QtCore.Qt.PenStyle.NoPen)
-    painter.setBrush(ground)
-    painter.drawRoundedRect(box.adjusted(-12, -8, 12, 8), 6, 6)
-    painter.setPen(QtGui.QColor(theme.text))
+    paint_rounded(painter, QtCore.QRectF(box.adjusted(-12, -8, 12, 8)), 6, translucent(LOOK.theme.canvas, 0.88))
+    painter.setPen(QtGui.QColor(LOOK.theme.text))
     painter.drawText(room, flags, words)

@@ -1,6 +1,5 @@
 """One panel: its head, its view, and its colour bar.  Gestures become signals; it decides nothing."""
 
-from collections.abc import Sequence
 from html import escape
 
 import numpy as np
@@ -15,6 +14,7 @@ from bihdist_core.distances.answers import Answer
 from ...document.document import COMPARISON, Zoom
 from ...document.looks import AS_IT_IS, TWENTY_STEPS, Isolines, Shading
 from ...document.quantities import DistanceFrom
+from ...marks.primitives import Caption
 from ...scene.bands import band_edges
 from ...scene.drawable import drawable
 from ...scene.height_field import rise, warp_by_scalar
@@ -22,10 +22,10 @@ from ...scene.levels import in_unit, with_kept_step
 from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.picking import LatePicker
 from ...scene.prepared import Drawn
-from ...scene.style import Style
 from ...session.answering import Shown
 from ...session.isoline_points import IsolinePoint
 from ...session.loaded_mesh import LoadedMesh
+from ..look.layouts import in_column
 from ..look.look import LOOK
 from .answer_bar import show_answer
 from .colour_bar import ColourBar
@@ -44,12 +44,12 @@ COMPACT_BELOW = 360
 ACCENT = 2
 """Height of the line over the panel that the keys go to."""
 
+NOTHING = Drawn(AS_IT_IS, vtkPolyData(), None)
+
 
 class DistancePanel(QtWidgets.QWidget):
     """See the module.  id, surface: those of the document's panel."""
 
-    cancelled = QtCore.Signal()
-    retried = QtCore.Signal()
     ended = QtCore.Signal(object)  # where its colour bar is to end, None for the field's own maximum
 
     def __init__(self, offscreen: OffscreenRenderer, parent: QtWidgets.QWidget | None = None) -> None:
@@ -63,35 +63,24 @@ class DistancePanel(QtWidgets.QWidget):
         self._end = EndPopUp(self)
         self._end.chosen.connect(self._end_at)
         self.waiting = Waiting(self)
-        self.waiting.cancelled.connect(self.cancelled)
         self.stopped = Stopped(self.view)
-        self.stopped.retried.connect(self.retried)
         self._accent = QtWidgets.QWidget(self, objectName="activeLine")
         self._accent.setAttribute(QtCore.Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        layout = QtWidgets.QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self.head)
-        layout.addWidget(self.view, 1)
-        layout.addWidget(self.bar)
+        in_column(self.head, (self.view, 1), self.bar, of=self, spacing=0)
         self.view.resized.connect(self._place_waiting)
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Ignored)
-        self._loaded: LoadedMesh | None = None
-        self._shape: Surface | None = None
-        self._raised: tuple[int, float, float] | None = None  # the field, its top, and the height
-        self._shading, self._drawn = AS_IT_IS, None  # of the surface as it lies
+        self.loaded: LoadedMesh | None = None
+        self._height_field: Surface | None = None  # that is drawn instead of the surface
+        self._raised: tuple[int, float, float] | None = None  # its field, where that ends, and its height
+        self._shading, self._drawn = AS_IT_IS, NOTHING  # of the surface as it lies
         self._zooms: tuple[Zoom, ...] = ()
-        self._isolines = TWENTY_STEPS
+        self.isolines = TWENTY_STEPS  # of the document
         self._top = 0.0  # where the colours of the answer end
         self.answer: Answer | None = None
         self._is_preview = self._is_waiting = self._in_shares = self._is_compact = self.keeps_step = False
-        self.show_active(False)
+        self.show_active(False)  # as long as it is the only one
 
     # ------------------------------------------------------------------ how it looks
-    def show_style(self, style: Style) -> bool:
-        """Whether that is another look, so that all has to be shown again."""
-        return self.view.show_style(style)
-
     def show_active(self, is_active: bool) -> None:
         """Whether this is the panel that the keys go to."""
         self._accent.setVisible(is_active)
@@ -118,8 +107,8 @@ class DistancePanel(QtWidgets.QWidget):
         self._forget()
 
     def _forget(self) -> None:
-        self._loaded = self.answer = self._shape = self._raised = self._drawn = None
-        self._zooms = ()
+        self.loaded = self.answer = self._height_field = self._raised = None
+        self._drawn, self._zooms = NOTHING, ()
         self.marks.rest()
         self.view.picker = None
         self.view.scene.show_surface(vtkPolyData(), (0, 1, 0, 1, 0, 1))
@@ -132,10 +121,10 @@ class DistancePanel(QtWidgets.QWidget):
     # ------------------------------------------------------------------ state into pixels
     def show_surface(self, loaded: LoadedMesh) -> None:
         """Another surface, without a field yet; or the same in another look, with what others have added to it."""
-        if loaded is not self._loaded:
+        if loaded is not self.loaded:
             self.view.plotter.clear()
         self._forget()
-        self._loaded = loaded
+        self.loaded = loaded
         self.head.show_surface(loaded.surface)
         self.marks.begin(loaded.surface)
         self.view.picker = loaded.prepared.picker
@@ -147,13 +136,13 @@ class DistancePanel(QtWidgets.QWidget):
 
     def show_shading(self, shading: Shading, drawn: Drawn) -> None:
         """Shade the surface so; drawn: the mesh for that, as it lies."""
-        scene, before = self.view.scene, self._drawn
+        scene = self.view.scene
         scene.show_shading(shading)
-        if self._raised is not None and shading != self._shading:
-            scene.show_normals(drawable(self._shape, shading))
-        elif self._raised is None and drawn is not before:
+        if self._height_field is None and drawn is not self._drawn:
             scene.show_normals(drawn.mesh)
             scene.take_stand_in(drawn.stand_in)
+        elif self._height_field is not None and shading != self._shading:
+            scene.show_normals(drawable(self._height_field, shading))
         self._shading, self._drawn = shading, drawn
         self.view.redraw()
 
@@ -165,25 +154,20 @@ class DistancePanel(QtWidgets.QWidget):
 
     def settle_insets(self) -> None:
         """Put the insets where they hide the least."""
-        if self._loaded is not None and self._zooms:
-            samples = self._loaded.prepared.samples if self._raised is None else self.positions
-            marked = list(self.marks.anchors) + ([] if self.source is None else [self.source])
-            self.view.scene.insets.settle(samples, self.positions[marked])
+        if self.loaded is not None and self._zooms:
+            samples = self.loaded.prepared.samples if self._height_field is None else self.positions
+            self.view.scene.insets.settle(samples, self.marks.places)
 
     def show_isolines(self, isolines: Isolines, through: tuple[IsolinePoint, ...] = ()) -> None:
         """These, and one through each of the points, which have dots."""
-        self._isolines = isolines
+        self.isolines = isolines
         scene = self.view.scene
         scene.show_isolines(self._lines, tuple(point.value for point in through))
-        lines = scene.levels.values[scene.levels.is_through]
-        self.marks.mark_passed([point for point in through if point.value in lines])
+        self.marks.mark_passed(through, self.answer)
         self._show_bands()
         self._show_bar()
         self._warn()
         self.view.redraw()
-
-    def _show_bands(self) -> None:
-        self.view.scene.show_bands(self._edges)
 
     @property
     def _edges(self) -> AnyArray:
@@ -196,32 +180,19 @@ class DistancePanel(QtWidgets.QWidget):
         """The document's, as those of the answer."""
         answer, step = self.answer, self.view.scene.levels.step
         if answer is None:
-            return self._isolines
-        lines = in_unit(self._isolines, answer.scale, self._in_shares, answer.is_signed)
+            return self.isolines
+        lines = in_unit(self.isolines, answer.scale, self._in_shares, answer.is_signed)
         return with_kept_step(lines, step, self._top, answer.maximum, answer.is_signed) if self.keeps_step else lines
 
     @property
-    def loaded(self) -> LoadedMesh | None:
-        """The surface that it shows."""
-        return self._loaded
+    def _current(self) -> Answer | None:
+        """The answer, unless it is not what is asked for now."""
+        return None if self._is_waiting else self.answer
 
     @property
     def shape(self) -> Surface | None:
         """The surface as it is drawn, perhaps as a height field; None if there is none."""
-        return self._loaded.surface if self._loaded is not None and self._raised is None else self._shape
-
-    @property
-    def isolines(self) -> Isolines:
-        """Which isolines the panel draws."""
-        return self._isolines
-
-    @property
-    def marked(self) -> FloatArray:
-        """(k, 3) where marks are."""
-        largest = None if self.answer is None else self.answer.largest
-        ids = [vertex for vertex in (self.marks.source, largest) if vertex is not None]
-        ids += self.marks.anchors
-        return np.concatenate([self.positions[ids], self.marks.dots])
+        return self._height_field or (None if self.loaded is None else self.loaded.surface)
 
     @property
     def source(self) -> int | None:
@@ -249,38 +220,35 @@ class DistancePanel(QtWidgets.QWidget):
             scene.show_isolines(self._lines)
         self._raise(answer, self._top, height)
         if answer.colours is not None:
-            self.view.scene.show_colours(answer.colours)
+            scene.show_colours(answer.colours)
         elif answer.field is None:
-            self.view.scene.show_bare(is_plain=not answer.failure)
+            scene.show_bare(is_plain=not answer.failure)
         else:
-            self.view.scene.show_field(answer.field, maximum, answer.is_signed, not answer.is_rough)
+            scene.show_field(answer.field, maximum, answer.is_signed, not answer.is_rough)
             self._show_bands()
-        self.marks.mark_source()
-        self.view.scene.mark_largest(None if answer.largest is None else self.positions[answer.largest])
+        self.marks.mark_field(answer)
+        self.view.redraw()
         self.show_waiting(None)
         self.show_error_estimate(shown)
         self._show_bar()
 
     def _show_bar(self) -> None:
-        answer = self.answer
-        if answer is None or answer.field is None or self._is_waiting:
+        answer = self._current
+        if answer is None or answer.field is None:
             self.bar.clear()
-            return
-        show_answer(self.bar, answer, self.view.scene, self._edges, self._in_shares)
+        else:
+            show_answer(self.bar, answer, self.view.scene, self._edges, self._in_shares)
 
-    def show_prediction(self, best: float | None, sentence: Sequence[str], plain: str) -> None:
-        """Of a prediction: the misfit of the best, None for none; a sentence where nothing is predicted, also shorter.
-
-        plain: the name of a surface that is shown as it is, instead of what is predicted there.
-        """
-        self.bar.show_rest(best, "misfit of the best")
-        self.bar.show_sentence(sentence)
-        self.head.show_plain(plain)
+    def show_caption(self, caption: Caption) -> None:
+        """What stands at the bar and in the head besides the field."""
+        self.bar.show_rest(caption.value, caption.unit)
+        self.bar.show_sentence(caption.sentence)
+        self.head.show_plain(caption.plain)
 
     def ask_end(self) -> None:
         """Let it be typed where the colour bar ends."""
-        answer = self.answer
-        if answer is not None and answer.field is not None and not self._is_waiting:
+        answer = self._current
+        if answer is not None and answer.field is not None:
             self._end.ask(self.bar, self.view.scene.maximum, answer.maximum, answer.unit)
 
     def _end_at(self, end: float | None) -> None:
@@ -290,24 +258,26 @@ class DistancePanel(QtWidgets.QWidget):
 
     def _raise(self, answer: Answer, top: float, height: float) -> None:
         """Let the surface be a height field of the answer, or flat again."""
-        prepared, surface = self._loaded.prepared, self._loaded.surface
-        is_relief = bool(height) and answer.field is not None and prepared.is_flat
-        raised = (id(answer.field), top, height) if is_relief else None
+        if self.loaded is None:
+            return
+        prepared, shape, scene = self.loaded.prepared, self.loaded.surface, self.view.scene
+        field = answer.field if height and prepared.is_flat else None
+        raised = None if field is None else (id(field), top, height)
         if raised == self._raised:
             return
         self._raised = raised
-        bounds = prepared.bounds
-        if is_relief:
-            up = rise(bounds, height)
-            surface = warp_by_scalar(surface, answer.field, top, up)
-            *others, low, high = bounds
-            bounds = (*others, low - up, high + up)
-        # Of a height field it is made when somebody points at it.
-        self.view.picker = LatePicker(surface) if is_relief else prepared.picker
-        self._shape = surface
-        self.view.scene.show_shape(drawable(surface, self._shading) if is_relief else self._drawn.mesh, bounds)
-        self.view.scene.take_stand_in(None if is_relief else self._drawn.stand_in)
-        self.marks.follow(surface)
+        if field is None:
+            self._height_field, self.view.picker = None, prepared.picker
+            scene.show_shape(self._drawn.mesh, prepared.bounds)
+            scene.take_stand_in(self._drawn.stand_in)
+        else:
+            *others, low, high = prepared.bounds
+            up = rise(prepared.bounds, height)
+            shape = self._height_field = warp_by_scalar(shape, field, top, up)
+            self.view.picker = LatePicker(shape)  # made when somebody points at it
+            scene.show_shape(drawable(shape, self._shading), (*others, low - up, high + up))
+            scene.take_stand_in(None)
+        self.marks.follow(shape)
         self.show_insets(self._zooms)
         self.settle_insets()
 
@@ -323,10 +293,10 @@ class DistancePanel(QtWidgets.QWidget):
 
     def _warn(self) -> None:
         """Of what is not as one would think."""
-        accuracy = None if self.answer is None else self.answer.accuracy
-        is_poor = accuracy is not None and accuracy.is_poor and not self._is_preview
-        poor = f"Not exact here: only {accuracy.text}." if is_poor else ""
-        self.head.show_warning(" ".join(text for text in (poor, self.view.scene.too_many) if text))
+        poor = ""
+        if self.answer is not None and self.answer.accuracy.is_poor and not self._is_preview:
+            poor = f"Not exact here: only {self.answer.accuracy.text}."
+        self.head.show_warning(" ".join(filter(None, (poor, self.view.scene.too_many))))
 
     def show_waiting(self, progress: tuple[float, str] | None, is_old: bool = True) -> None:
         """What is being computed; None when nothing is.  is_old: the field that is shown is not what is asked for."""
@@ -344,7 +314,7 @@ class DistancePanel(QtWidgets.QWidget):
             self.waiting.show_progress(*progress)
         if changes and is_waiting:
             # It takes a while: let the place be seen meanwhile.
-            self.marks.mark_source()
+            self.marks.mark_field(self.answer)
         if changes:
             self._show_bar()
 
@@ -363,14 +333,14 @@ class DistancePanel(QtWidgets.QWidget):
     # ------------------------------------------------------------------ the pointer
     def point_at(self, vertex: int | None, is_own: bool, is_hidden: bool = False) -> None:
         """Put the ring at a vertex, and its value into the bar and, under the pointer, beside it."""
-        words = value_words(None if self._is_waiting else self.answer, vertex, self.head.shows)
-        if vertex is None or self._loaded is None:
+        answer = self._current
+        words = value_words(answer, vertex, self.head.shows)
+        if vertex is None or self.loaded is None:
             self.view.over.point_at(None)
         else:
             value, part = words if is_own else ("", "")
             self.view.over.point_at(Pointed(self.positions[vertex], is_own, is_hidden, value, part))
-        answer = self.answer
-        if vertex is None or answer is None or answer.field is None or self._is_waiting:
+        if vertex is None or answer is None or answer.field is None:
             self.bar.show_value(None)
         elif np.isnan(answer.field[vertex]):
             self.bar.show_words(words[0])
@@ -379,22 +349,19 @@ class DistancePanel(QtWidgets.QWidget):
 
     def image_of(self, vertex: int) -> int | None:
         """Where the map that is shown leads from a vertex; None for nowhere, and where no map is shown."""
-        leads_to = None if self.answer is None or self._is_waiting else self.answer.leads_to
+        leads_to = None if self._current is None else self._current.leads_to
         return None if leads_to is None or leads_to[vertex] < 0 else int(leads_to[vertex])
 
     def echo(self, place: Places | None) -> None:
         """Put a ring at one place, and its value into the bar: somewhere else the pointer is there."""
-        answer = self.answer
-        if place is None or self._loaded is None:
+        if place is None or self.loaded is None:
             self.point_at(None, False)
             return
         position = place.values(self.positions)[0]
         self.view.over.point_at(Pointed(position, False, not self.view.sees(position)))
-        if answer is None or answer.field is None or self._is_waiting:
-            self.bar.show_value(None)
-        else:
-            self.bar.show_value(float(place.values(answer.field)[0]))
+        field = None if self._current is None else self._current.field
+        self.bar.show_value(None if field is None else float(place.values(field)[0]))
 
     def words_at(self, vertex: int) -> str:
         """Its value in words, for the clipboard."""
-        return copied_words(None if self._is_waiting else self.answer, vertex, self.head.shows)
+        return copied_words(self._current, vertex, self.head.shows)

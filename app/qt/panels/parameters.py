@@ -10,6 +10,7 @@ from bihdist_core.distances.kinds import Parameter, Value
 from ..look.icons import icon
 from ..look.look import LOOK
 from ..look.numbers import number_width
+from ..look.painting import baseline
 from .flat_button import GAP, HEIGHT, PAD, FlatButton
 from .number_box import STEPS, NumberPopUp, ValueSlider, meaning, shown_value, symbol, value_of_step
 
@@ -34,9 +35,8 @@ class ChoiceControl(FlatButton):
     def show_value(self, value: Value) -> None:
         """Without emitting."""
         self.value = value
-        self.setText(
-            self.words.get(value, str(value)) + (f": {self._meant}" if self._meant and value == "auto" else "")
-        )
+        meant = f": {self._meant}" if self._meant and value == "auto" else ""
+        self.setText(self.words.get(value, str(value)) + meant)
         self.setToolTip(self.tip)
         self.setAccessibleName(f"{self.tip}: {self.text()}")
 
@@ -71,10 +71,9 @@ class NumberControl(QtWidgets.QWidget):
 
     chosen = QtCore.Signal(object)
 
-    def __init__(self, parent: QtWidgets.QWidget, parameter: Parameter, sign: str = "", tip: str = "") -> None:
+    def __init__(self, parent: QtWidgets.QWidget, parameter: Parameter, sign: str, tip: str) -> None:
         super().__init__(parent)
-        self.parameter = parameter
-        self.sign, self.tip = sign or symbol(parameter), tip or meaning(parameter)
+        self.parameter, self.sign, self.tip = parameter, sign, tip
         self.value: Value = parameter.default
         self._has_slider = False
         # How many of something is typed; a slider for it is in the pop-up.
@@ -151,10 +150,7 @@ class NumberControl(QtWidgets.QWidget):
         self._lay_out()
 
     def _lay_out(self) -> None:
-        if not self._has_slider:
-            self.button.setGeometry(self.rect())
-            return
-        left, value = self._sign_width(), self._value_width()
+        left, value = (self._sign_width(), self._value_width()) if self._has_slider else (0, self.width())
         self.slider.setGeometry(left, 0, max(self.width() - left - value, 0), self.height())
         self.button.setGeometry(self.width() - value, 0, value, self.height())
 
@@ -163,9 +159,7 @@ class NumberControl(QtWidgets.QWidget):
             painter = QtGui.QPainter(self)
             painter.setFont(LOOK.font())
             painter.setPen(QtGui.QColor(LOOK.theme.quiet))
-            metrics = QtGui.QFontMetricsF(painter.font())
-            baseline = round((self.height() + metrics.ascent() - metrics.descent()) / 2)
-            painter.drawText(QtCore.QPointF(PAD, baseline), self.sign)
+            painter.drawText(QtCore.QPointF(PAD, round(baseline(painter, self.height() / 2))), self.sign)
 
 
 @lru_cache
@@ -188,8 +182,7 @@ class FixedWord(QtWidgets.QLabel):
         LOOK.follow(self, self._fit)
 
     def _fit(self) -> None:
-        """In the letters of the rest of the head: a style sheet keeps a window's font from what is in it."""
-        self.setFont(LOOK.font())
+        self.setFont(LOOK.font())  # a style sheet keeps a window's font from what is in it
 
     def least(self, with_slider: bool) -> int:
         """Pixels that it needs."""
@@ -210,11 +203,10 @@ Control = ChoiceControl | NumberControl | FixedWord
 
 def parameter_control(parent: QtWidgets.QWidget, parameter: Parameter, sign: str, of_what: str) -> Control:
     """of_what: which of two distances it belongs to, or nothing."""
-    tip = f"{meaning(parameter)}{of_what}"
     if parameter.choices:
         head, semicolon, rest = meaning(parameter).partition(";")
         return ChoiceControl(parent, {word: word for word in parameter.choices}, f"{head}{of_what}{semicolon}{rest}")
-    return NumberControl(parent, parameter, sign, tip)
+    return NumberControl(parent, parameter, sign, f"{meaning(parameter)}{of_what}")
 
 
 def fill_choices(menu: QtWidgets.QMenu, words: dict[Value, str], now: Value, choose: Callable[[Value], None]) -> None:
@@ -237,8 +229,7 @@ def tick(action: QtWidgets.QAction, is_chosen: bool) -> None:
 def signs(parameters: Sequence[Parameter]) -> list[str]:
     """How the parameters of one head are called: those with the same symbol are numbered, t₁ and t₂."""
     symbols = [symbol(parameter) for parameter in parameters]
-    found = []
-    for place, each in enumerate(symbols):
-        count = symbols[: place + 1].count(each)
-        found.append(f"{each}{'₁₂₃₄'[count - 1]}" if symbols.count(each) > 1 else each)
-    return found
+    return [
+        f"{each}{'₁₂₃₄'[symbols[:place].count(each)]}" if symbols.count(each) > 1 else each
+        for place, each in enumerate(symbols)
+    ]

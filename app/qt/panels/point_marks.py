@@ -1,6 +1,6 @@
 """The marked points of a view: which of them the surface hides, what is under the pointer, and how they are painted."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,7 @@ from ...marks.primitives import PointMark
 from ...scene.picking import pixel_of
 from . import overlay
 from .glyph_painting import covers, outline_at, paint_glyph
+from .mark_texts import MarkText
 
 if TYPE_CHECKING:
     from .view import View
@@ -69,8 +70,7 @@ class PointMarks(QtCore.QObject):
         self._view = view
         self._groups: dict[str, Group] = {}
         self.is_meant = False
-        self._rest = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
-        self._rest.timeout.connect(self._look_again)
+        self._rest = QtCore.QTimer(self, singleShot=True, interval=REST_MS, timeout=self._look_again)
 
     # ------------------------------------------------------------------ what there is
     def show(self, key: str, marks: Sequence[PointMark], positions: np.ndarray, lit: Collection[str] = ()) -> None:
@@ -133,12 +133,6 @@ class PointMarks(QtCore.QObject):
         return (*camera.GetPosition(), *camera.GetFocalPoint(), camera.GetParallelProjection())
 
     # ------------------------------------------------------------------ where they are
-    def at(self, renderer: Any, position: np.ndarray) -> QtCore.QPointF:
-        """Where a position (3,) is seen in the view or in an inset, in logical pixels."""
-        x, y = pixel_of(renderer, position)
-        ratio = self._view.devicePixelRatioF()
-        return QtCore.QPointF(x / ratio, self._view.height() - y / ratio)
-
     def standing(self, key: str = "") -> list[tuple[Placed, QtCore.QPointF]]:
         """Those that stand, with their places, what lies lowest first; not those that an inset covers."""
         view, found = self._view, []
@@ -146,7 +140,7 @@ class PointMarks(QtCore.QObject):
             if each.stands:
                 pixel = pixel_of(view.renderer, each.position)
                 if view.scene.insets.renderer_at(*pixel) is view.renderer:
-                    found.append((each, self.at(view.renderer, each.position)))
+                    found.append((each, view.place_of(each.position)))
         return sorted(found, key=lambda each: each[0].level)
 
     def standing_at(self, position: QtCore.QPoint) -> tuple[str, int] | None:
@@ -165,19 +159,26 @@ class PointMarks(QtCore.QObject):
     # ------------------------------------------------------------------ painting
     def paint_flat(self, painter: QtGui.QPainter) -> None:
         """Those that do not stand, also in insets; the hidden ones lie lowest."""
-        view = self._view
-        flat = sorted(
-            (each for each in self.placed() if not each.stands), key=lambda each: (each.is_seen, each.mark.glyph.rank)
-        )
+        view, flat = self._view, [each for each in self.placed() if not each.stands]
         if not flat:
             return
+        flat.sort(key=lambda each: (each.is_seen, each.mark.glyph.rank))
         painter.save()
-        for renderer, region in self._regions():
+        for renderer, region, _ in view.parts():
             painter.setClipRegion(region)
             for each in flat:
-                at = self.at(renderer, each.position)
+                at = view.place_of(each.position, renderer)
                 paint_glyph(painter, each.mark, at, view.scene.style, view.proportion, not each.is_seen)
         painter.restore()
+
+    def texts(self) -> list[MarkText]:
+        """What stands beside marks that are seen; those with words aside have a label of their own."""
+        view = self._view
+        return [
+            (each.mark.text, each.is_lit, self.at(view.renderer, each.position))
+            for each in self.placed()
+            if each.mark.text and not each.mark.aside and each.is_seen
+        ]
 
     def paint_standing(self, painter: QtGui.QPainter) -> None:
         """Over all others; labels of what has one beside it."""
@@ -191,23 +192,6 @@ class PointMarks(QtCore.QObject):
                 box = _label_box(each.mark, at, style, QtCore.QRectF(view.rect()), others)
                 overlay.paint_label(painter, box, each.mark.text, each.mark.aside, self.is_meant)
 
-    def _regions(self) -> Iterator[tuple[Any, QtGui.QRegion]]:
-        """The view without its insets, and these, each with its renderer."""
-        view = self._view
-        boxes = {renderer: self._box(*box) for renderer, box in view.scene.insets.placed.items()}
-        everywhere = QtGui.QRegion(view.rect())
-        for box in boxes.values():
-            everywhere -= QtGui.QRegion(box)
-        yield view.renderer, everywhere
-        for renderer, box in boxes.items():
-            yield renderer, QtGui.QRegion(box)
-
-    def _box(self, left: int, bottom: int, width: int, height: int) -> QtCore.QRect:
-        """In logical pixels, of a box in device pixels with y up."""
-        ratio = self._view.devicePixelRatioF()
-        top = self._view.height() - (bottom + height) / ratio
-        return QtCore.QRectF(left / ratio, top, width / ratio, height / ratio).toAlignedRect()
-
 
 def _label_box(
     mark: PointMark, tip: QtCore.QPointF, style: Any, view: QtCore.QRectF, others: Sequence[QtCore.QRectF]
@@ -218,13 +202,10 @@ def _label_box(
     gap = overlay.LABEL_PADDING
     reach = outline.width() / 2
     middle = outline.top() + reach if outline.top() < tip.y() - 1 else outline.bottom() - reach
-    places = [
-        QtCore.QPointF(outline.right() + gap, middle - size.height() / 2),
-        QtCore.QPointF(outline.left() - gap - size.width(), middle - size.height() / 2),
-        QtCore.QPointF(tip.x() - size.width() / 2, outline.top() - gap - size.height()),
-        QtCore.QPointF(tip.x() - size.width() / 2, outline.bottom() + gap),
-    ]
-    boxes = [QtCore.QRectF(place, size) for place in places]
+    left, top = tip.x() - size.width() / 2, middle - size.height() / 2
+    right_or_left = (outline.right() + gap, top), (outline.left() - gap - size.width(), top)
+    above_or_below = (left, outline.top() - gap - size.height()), (left, outline.bottom() + gap)
+    boxes = [QtCore.QRectF(QtCore.QPointF(*place), size) for place in (*right_or_left, *above_or_below)]
     inside = [box for box in boxes if view.adjusted(4, 4, -4, -4).contains(box)]
     free = [box for box in inside if not any(box.intersects(other) for other in others)]
     return (free or inside or boxes)[0]

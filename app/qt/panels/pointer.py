@@ -101,14 +101,10 @@ class Pointer:
             self._draw_to(event.pos())
             return
         step, self._last = event.pos() - self._last, event.pos()
-        if self._drop:
+        if self._drop or self._held >= 0:
             hit = view.pick(event.pos() + self._grip)
             if hit is not None:
-                view.happened.emit(MarkDrag(*self._drop, hit))
-        elif self._held >= 0:
-            hit = view.pick(event.pos())
-            if hit is not None:
-                view.happened.emit(MarkDrag("", self._held, hit))
+                view.happened.emit(MarkDrag(*(self._drop or ("", self._held)), hit))
         elif not view.is_empty:
             self._drag(step, event.modifiers())
 
@@ -152,10 +148,10 @@ class Pointer:
 
     def double_click(self, event: QtGui.QMouseEvent) -> None:
         """The first click has moved the source there, or has chosen a pin."""
-        if event.button() == QtCore.Qt.MouseButton.LeftButton and not self._over.points.standing_at(event.pos()):
-            hit = self._view.pick(event.pos())
-            if hit is not None:
-                self._view.centre(hit.position)
+        is_left = event.button() == QtCore.Qt.MouseButton.LeftButton
+        hit = self._view.pick(event.pos()) if is_left and not self._over.points.standing_at(event.pos()) else None
+        if hit is not None:
+            self._view.centre(hit.position)
         self._press = None
 
     def point_again(self) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from qtpy import QtCore
 
-from ...session.perturbed_meshes import counterpart
+from ...session.derived_surfaces import counterpart
 from .panel import DistancePanel
 
 

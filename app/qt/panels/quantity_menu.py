@@ -1,11 +1,14 @@
 """The menu of what a panel can show: distances, the user's own fields, and differences of two."""
 
 from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
+from functools import partial
 
 from qtpy import QtWidgets
 
 from bihdist_core import ParameterError, Surface
-from bihdist_core.distances.kinds import Kind, Parameter, Spec, kind_of, kinds
+from bihdist_core.distances.kinds import Kind, Parameter, Spec, Value, kind_of, kinds
 
 from ...document.quantities import (
     Difference,
@@ -18,7 +21,7 @@ from ...document.quantities import (
 )
 from .parameters import tick
 
-RAW_WORDS = {False: "fractions of the maximum", True: "in units"}
+RAW_WORDS: dict[Value, str] = {False: "fractions of the maximum", True: "in units"}
 """How the two ways to subtract are called, by `Difference.raw`."""
 
 
@@ -26,10 +29,8 @@ def offered_kinds() -> list[Kind]:
     """The distances that there are."""
     found = []
     for word in kinds():
-        try:
+        with suppress(ParameterError):  # somebody else's that cannot be loaded; asked for by its word it says why
             found.append(kind_of(word))
-        except ParameterError:
-            continue  # somebody else's that cannot be loaded; asked for by its word it says why
     return found
 
 
@@ -78,58 +79,51 @@ class Choices:
 def fill_menu(menu: QtWidgets.QMenu, shows: Quantity, choices: Choices, choose: Callable[[Quantity], None]) -> None:
     """Make the entries; `choose` is called with the quantity that one stands for."""
     menu.clear()
-    if shows.is_difference:
-        _fill_for_difference(menu, shows, choices, choose)
+
+    def choose_part(place: int, chosen: str | OwnField) -> None:
+        choose(choices.with_part(shows, place, chosen))
+
+    if isinstance(shows, Difference):
+        for place, (word, part) in enumerate(zip(("First", "Second"), shows.parts, strict=True)):
+            inner = menu.addMenu(_plain(f"{word}: {part.heading}"))
+            _add_parts(inner, choices, part, partial(choose_part, place))
+        _fill_for_difference(menu, shows, choose)
         return
     if shows.done:
-        _fill_distances(menu, shows, choices, choose)
+        for each in shows.choices:
+            tick(_add(menu, each.words, each.tip, partial(choose, each.shows)), each.is_shown)
+        if shows.choices:
+            menu.addSeparator()
+        (spec,) = shows.specs
+        _add_parts(menu.addMenu(_plain(f"By {kind_name(spec.kind)}")), choices, shows, partial(choose_part, 0))
+        _add(menu, "The distance itself", "", partial(choose, DistanceFrom(spec)))
         return
-    _add_parts(menu, choices, shows, lambda chosen: choose(choices.with_part(shows, 0, chosen)))
+    _add_parts(menu, choices, shows, partial(choose_part, 0))
     menu.addSeparator()
     offered = [kind.choice_by(shows.specs[0], choices.has_other) for kind in quantity_kinds() if shows.is_distance]
     for each in filter(None, offered):
-        _add(menu, each.words, each.tip, lambda shows=each.shows: choose(shows))
+        _add(menu, each.words, each.tip, partial(choose, each.shows))
     if shows.is_map:
         return  # of colours there are no differences
-    inner = _inner(menu, "Difference with")
-    _add_parts(inner, choices, None, lambda chosen: choose(choices.difference(shows, chosen)), _can_differ_from(shows))
+
+    def can_differ(part: Quantity) -> bool:
+        """Less itself it would be zero, unless a parameter can be another."""
+        return part.word != shows.word or (part.is_distance and bool(part.specs[0].values))
+
+    inner = menu.addMenu("Difference with")
+    _add_parts(inner, choices, None, lambda chosen: choose(choices.difference(shows, chosen)), can_differ)
 
 
-def _fill_distances(
-    menu: QtWidgets.QMenu, shows: Quantity, choices: Choices, choose: Callable[[Quantity], None]
-) -> None:
-    """Variants; by which distance; and back to the distance itself."""
-    for each in shows.choices:
-        tick(_add(menu, each.words, each.tip, lambda shows=each.shows: choose(shows)), each.is_shown)
-    if shows.choices:
-        menu.addSeparator()
-    (spec,) = shows.specs
-    inner = _inner(menu, f"By {kind_name(spec.kind)}")
-    _add_parts(inner, choices, shows, lambda chosen: choose(choices.with_part(shows, 0, chosen)))
-    _add(menu, "The distance itself", "", lambda: choose(DistanceFrom(spec)))
-
-
-def _can_differ_from(shows: Quantity) -> Callable[[Quantity], bool]:
-    """Less itself it would be zero, unless a parameter can be another."""
-    return lambda part: part.word != shows.word or (part.is_distance and bool(part.specs[0].values))
-
-
-def _fill_for_difference(
-    menu: QtWidgets.QMenu, shows: Difference, choices: Choices, choose: Callable[[Quantity], None]
-) -> None:
-    for place, (word, part) in enumerate(zip(("First", "Second"), shows.parts, strict=True)):
-        inner = _inner(menu, f"{word}: {part.heading}")
-        _add_parts(inner, choices, part, lambda chosen, place=place: choose(choices.with_part(shows, place, chosen)))
+def _fill_for_difference(menu: QtWidgets.QMenu, shows: Difference, choose: Callable[[Quantity], None]) -> None:
     swapped = Difference(shows.subtrahend, shows.minuend, shows.raw)
-    _add(menu, "Swap them", f"Show {quantity_name(swapped)}", lambda: choose(swapped))
+    _add(menu, "Swap them", f"Show {quantity_name(swapped)}", partial(choose, swapped))
     menu.addSeparator()
     for raw, words in RAW_WORDS.items():
         tip = "As they are, where both have the same units" if raw else "Each as a fraction of its own maximum"
-        other = Difference(shows.minuend, shows.subtrahend, raw)
-        entry = f"{words[0].upper()}{words[1:]}"
-        tick(_add(menu, entry, tip, lambda other=other: choose(other)), raw == shows.raw)
+        entry = _add(menu, f"{words[0].upper()}{words[1:]}", tip, partial(choose, replace(shows, raw=bool(raw))))
+        tick(entry, raw == shows.raw)
     menu.addSeparator()
-    _add(menu, "Show the first alone", f"Show {shows.minuend.heading}", lambda: choose(shows.minuend))
+    _add(menu, "Show the first alone", f"Show {shows.minuend.heading}", partial(choose, shows.minuend))
 
 
 def _add_parts(
@@ -140,22 +134,16 @@ def _add_parts(
     is_offered: Callable[[Quantity], bool] = lambda part: True,
 ) -> None:
     """Every distance, then every field."""
+    menu.setToolTipsVisible(True)
     for kind in offered_kinds():
         if is_offered(DistanceFrom(Spec.of(kind.word))):
-            hint = f"{kind.hint[:1].upper()}{kind.hint[1:]}"
-            action = _add(menu, kind_name(kind), hint, lambda word=kind.word: choose(word))
+            action = _add(menu, kind_name(kind), f"{kind.hint[:1].upper()}{kind.hint[1:]}", partial(choose, kind.word))
             tick(action, now is not None and bool(now.specs) and now.specs[0].word == kind.word)
     fields = [field for field in map(OwnField, choices.fields) if is_offered(field)]
     if fields:
         menu.addSeparator()
     for field in fields:
-        tick(_add(menu, field.name, "A field of your own", lambda field=field: choose(field)), field == now)
-
-
-def _inner(menu: QtWidgets.QMenu, text: str) -> QtWidgets.QMenu:
-    inner = menu.addMenu(_plain(text))
-    inner.setToolTipsVisible(True)
-    return inner
+        tick(_add(menu, field.name, "A field of your own", partial(choose, field)), field == now)
 
 
 def _add(menu: QtWidgets.QMenu, text: str, tip: str, choose: Callable[[], None]) -> QtWidgets.QAction:

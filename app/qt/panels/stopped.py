@@ -5,7 +5,9 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core.sources.words import short_words_of
 
 from ...session.answering import Shown
+from ..look.layouts import in_column
 from ..look.look import LOOK
+from ..look.painting import paint_rounded, smooth_painter, translucent
 
 MARGIN, ABOVE = 24, 12
 """Between it and the sides of the view, and its lower edge."""
@@ -23,11 +25,8 @@ class Stopped(QtWidgets.QWidget):
         self.button = QtWidgets.QPushButton("Retry", self, autoDefault=False)
         self.button.setToolTip("Compute this panel again from the start")
         self.button.clicked.connect(self.retried)
-        column = QtWidgets.QVBoxLayout(self)
-        column.setContentsMargins(12, 8, 12, 10)
-        column.setSpacing(8)
-        column.addWidget(self.words)
-        column.addWidget(self.button, 0, QtCore.Qt.AlignmentFlag.AlignCenter)
+        button = self.button, 0, QtCore.Qt.AlignmentFlag.AlignCenter
+        in_column(self.words, button, of=self, spacing=8, margins=(12, 8, 12, 10))
         self.hide()
 
     def show_words(self, words: str) -> None:
@@ -47,9 +46,8 @@ class Stopped(QtWidgets.QWidget):
         margins, metrics = self.layout().contentsMargins(), self.words.fontMetrics()
         beside = margins.left() + margins.right()
         room = max(view.width() - 2 * MARGIN - beside, 1)
-        words = metrics.boundingRect(
-            QtCore.QRect(0, 0, room, 10_000), int(QtCore.Qt.TextFlag.TextWordWrap), self.words.text()
-        )
+        room_for_all, wrap = QtCore.QRect(0, 0, room, 10_000), int(QtCore.Qt.TextFlag.TextWordWrap)
+        words = metrics.boundingRect(room_for_all, wrap, self.words.text())
         width = max(words.width() + 2, self.button.sizeHint().width())
         self.words.setFixedSize(width, words.height())
         size = QtCore.QSize(width + beside, self.layout().totalSizeHint().height())
@@ -57,12 +55,7 @@ class Stopped(QtWidgets.QWidget):
         self.setGeometry(QtCore.QRect(QtCore.QPoint((view.width() - size.width()) // 2, top), size))
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        painter, ground = QtGui.QPainter(self), QtGui.QColor(LOOK.theme.canvas)
-        ground.setAlphaF(0.88)
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        painter.setPen(QtCore.Qt.PenStyle.NoPen)
-        painter.setBrush(ground)
-        painter.drawRoundedRect(self.rect(), 6, 6)
+        paint_rounded(smooth_painter(self), QtCore.QRectF(self.rect()), 6, translucent(LOOK.theme.canvas, 0.88))
 
 
 def stopped_words(shown: Shown | None) -> str:

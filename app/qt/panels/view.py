@@ -1,5 +1,7 @@
 """The picture of a panel: a surface that is drawn off the screen, once for each change, and where places are in it."""
 
+from collections.abc import Iterator
+
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
@@ -8,7 +10,7 @@ from bihdist_core.arrays import AnyArray, FloatArray
 
 from ...scene import moves
 from ...scene.offscreen_renderer import OffscreenRenderer
-from ...scene.picking import Hit, Picker, pixel_of
+from ...scene.picking import Hit, LatePicker, Picker, pixel_of
 from ...scene.proportion import proportion
 from ...scene.style import Style
 from ..look.look import LOOK
@@ -42,16 +44,14 @@ class View(QtWidgets.QWidget):
         self.offscreen = offscreen
         self.plotter = offscreen.new_plotter(self.redraw)
         self.scene = offscreen.new_scene(scale=self.devicePixelRatioF(), plotter=self.plotter)
-        self.picker: Picker | None = None
+        self.picker: Picker | LatePicker | None = None
         self.handles = np.empty((0, 3))  # where the source's marks are
         self.upright: FloatArray | None = None  # what stays upright while the surface turns
         self._picture: QtGui.QImage | None = None
         self._drawing = np.empty((0, 0, 4), np.uint8)
         self._written: AnyArray | None = None
         self.pictures = 0  # how many have been drawn
-        self._is_stale = True
-        self._is_empty = True
-        self._is_dimmed = False
+        self._is_stale, self._is_empty, self._is_dimmed = True, True, False
         self.setMouseTracking(True)
         self.setFocusPolicy(QtCore.Qt.FocusPolicy.StrongFocus)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_OpaquePaintEvent)
@@ -189,9 +189,28 @@ class View(QtWidgets.QWidget):
         return (self._drawing if self._written is None else self._written)[..., :3].copy()
 
     # ------------------------------------------------------------------ places
-    def place_of(self, point: FloatArray) -> QtCore.QPointF:
-        """Where a point (3,) is seen, in logical pixels."""
-        x, y = pixel_of(self.renderer, point)
+    def parts(self) -> Iterator[tuple[vtkRenderer, QtGui.QRegion, tuple[int, int, int, int]]]:
+        """The view without its insets, and these: renderers, regions, and (left, top, width, height) of the picture.
+
+        The latter are device pixels, of the view's own all of them.
+        """
+        (width, height), ratio = self.pixels, self.devicePixelRatioF()
+        placed = self.scene.insets.placed.items()
+        boxes = {each: (left, height - bottom - high, wide, high) for each, (left, bottom, wide, high) in placed}
+        regions = {
+            each: QtGui.QRegion(QtCore.QRectF(*(side / ratio for side in box)).toAlignedRect())
+            for each, box in boxes.items()
+        }
+        everywhere = QtGui.QRegion(self.rect())
+        for region in regions.values():
+            everywhere -= region
+        yield self.renderer, everywhere, (0, 0, width, height)
+        for each, box in boxes.items():
+            yield each, regions[each], box
+
+    def place_of(self, point: FloatArray, renderer: vtkRenderer | None = None) -> QtCore.QPointF:
+        """Where a point (3,) is seen, in logical pixels; renderer: of an inset, if it is that."""
+        x, y = pixel_of(renderer or self.renderer, point)
         ratio = self.devicePixelRatioF()
         return QtCore.QPointF(x / ratio, self.height() - y / ratio)
 
@@ -220,11 +239,6 @@ class View(QtWidgets.QWidget):
         depth = (point - np.array(camera.GetPosition())) @ np.array(camera.GetDirectionOfProjection())
         return float(2 * depth * np.tan(np.radians(camera.GetViewAngle()) / 2) / max(self.height(), 1))
 
-    @property
-    def source(self) -> AnyArray | None:
-        """(3,) where its first mark is."""
-        return self.handles[0] if len(self.handles) else None
-
     def mark_at(self, position: QtCore.QPoint) -> int:
         """The number of the source's mark that is seen under a point of the view; -1 for none."""
         if not 0 < len(self.handles) <= MOST_HELD or self.picker is None or self._is_empty:
@@ -242,7 +256,7 @@ class View(QtWidgets.QWidget):
     # ------------------------------------------------------------------ the camera
     def zoom(self, factor: float, position: QtCore.QPoint | None = None) -> None:
         """Nearer by a factor, about what is under a point of the view; about the middle if none is given."""
-        about = self._focal_point()
+        about = np.array(self.camera.GetFocalPoint())
         if position is not None:
             hit = self.pick(position)
             about = moves.at_focal_depth(self.renderer, *self._pixel(position)) if hit is None else hit.position
@@ -264,9 +278,6 @@ class View(QtWidgets.QWidget):
         """Let a point (3,) be in the middle, and what is turned about."""
         moves.centre(self.camera, point)
         self.moved.emit()
-
-    def _focal_point(self) -> AnyArray:
-        return np.array(self.camera.GetFocalPoint())
 
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
         super().resizeEvent(event)

@@ -4,6 +4,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from ..look.look import LOOK
 from ..look.numbers import number_width, paint_number
+from ..look.painting import translucent
 from .flat_button import ICON_SIDE, FlatButton
 
 HEIGHT, COMPACT_HEIGHT = 28, 18
@@ -48,8 +49,6 @@ class Waiting(QtWidgets.QWidget):
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         theme, painter = LOOK.theme, QtGui.QPainter(self)
-        ground = QtGui.QColor(theme.canvas)
-        ground.setAlphaF(0.85)
         painter.fillRect(0, 0, self.width(), LINE, QtGui.QColor(theme.border))
         if 0.0 <= self._fraction <= 1.0:
             painter.fillRect(QtCore.QRectF(0, 0, self._fraction * self.width(), LINE), QtGui.QColor(theme.accent))
@@ -63,6 +62,7 @@ class Waiting(QtWidgets.QWidget):
             text = metrics.elidedText(text, QtCore.Qt.TextElideMode.ElideMiddle, max(room, 0))
         # Behind the words only: what is below is the picture.
         width = number_width(painter.font(), text)
+        ground = translucent(theme.canvas, 0.85)
         painter.fillRect(QtCore.QRectF(0, LINE, 14 + width + 8, self.height() - LINE), ground)
         baseline = LINE + (self.height() - LINE + metrics.ascent() - metrics.descent()) / 2
         paint_number(painter, 14, baseline, text)

@@ -15,11 +15,8 @@ TOOL = Tool(
     gesture="gestures:PairGestures",
     dock="dock:PairsDock",
     commands={"correspond": "command", "evaluate": "evaluate_command"},
-    quantities=("quantity:Prediction", "quantity:MapColours"),
-    parts=(
-        "..document.pairs:Pairs",
-        "..document.maps:Maps",
-    ),
+    quantities=("quantity:Prediction", "maps:MapColours"),
+    parts=("pairs:Pairs", "maps:Maps"),
     options="options:ROWS",
     marks="marks:marks",
 )

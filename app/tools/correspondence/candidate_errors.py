@@ -9,11 +9,11 @@ from qtpy import QtCore
 
 from bihdist_core.progress import Progress
 
-from ...document.prediction import predicts_in
 from ...qt.background import Background
 from ...qt.context import Context
-from ...session.candidate_errors import CandidatesAsked, CandidatesJudged, CandidatesJudging, candidates_asked
-from ...session.pair_locations import candidate_in
+from .candidate_judgement import CandidatesAsked, CandidatesJudged, CandidatesJudging, candidates_asked
+from .pair_locations import candidate_in
+from .prediction import predicts_in
 
 
 class CandidateErrors(QtCore.QObject):

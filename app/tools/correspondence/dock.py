@@ -9,9 +9,6 @@ from bihdist_core.formats.vertex_maps import PAIR_FORMATS, read_pairs, write_pai
 
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.maps import shows_maps
-from ...document.pairs import Pair, Pairs, add_pairs, half_pair, number_of, remove_pairs
-from ...document.prediction import predict, predicts, show_distances
 from ...document.quantities import kind_name
 from ...qt.context import Context
 from ...qt.docks.dock import PAD
@@ -22,10 +19,13 @@ from ...qt.files.saving import save
 from ...qt.look.look import LOOK
 from ...qt.panels.flat_button import FlatButton
 from ...scene.style import PINS, WAITING
-from ...session.pair_locations import vertex_pairs
 from ...session.questions import vertex_at
 from .gestures import PairGestures
 from .map_errors import MapErrors
+from .maps import shows_maps
+from .pair_locations import vertex_pairs
+from .pairs import Pair, Pairs, add_pairs, half_pair, number_of, remove_pairs
+from .prediction import predict, predicts, show_distances
 from .row import PairRow, column_ends
 
 ALONE = "Pairs are of points on two meshes: open a second one beside this."
@@ -125,7 +125,7 @@ class PairsDock(Instrument):
 
     def show_closed(self) -> None:
         self.errors.show_closed()
-        self.context.grid.marks.choose_pair("")
+        self.context.grid.marks.light(self.word, ())
 
     def _show_rows(self, document: Document) -> None:
         half = half_pair(document)
@@ -148,7 +148,7 @@ class PairsDock(Instrument):
             row.show_pair(
                 number, colour, self._place(pair.first) or guess, self._place(pair.second) or guess, pair.is_half
             )
-            row.show_chosen(self.context.grid.marks.chosen_pair in pair.points)
+            row.show_chosen(pair.points[0] in self.context.grid.marks.lit(self.word))
         is_alone, is_on = len(document.surfaces) < 2, predicts(document)
         other = "" if half is None else "B" if half.first else "A"
         self._head.setVisible(bool(document[Pairs].pairs))

@@ -8,7 +8,13 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import ParameterError
 
 from ...document.document import Document
-from ...document.pairs import (
+from ...qt.context import Context
+from ...qt.dragging import Dragging
+from ...qt.gesture import Gesture
+from ...qt.panels.events import Click
+from .candidate_errors import CandidateErrors
+from .pair_locations import Candidate, candidate_in
+from .pairs import (
     Pair,
     Pairs,
     drop_half,
@@ -19,13 +25,7 @@ from ...document.pairs import (
     waiting_point,
     whole_pairs,
 )
-from ...document.prediction import predicts_in
-from ...qt.context import Context
-from ...qt.dragging import Dragging
-from ...qt.gesture import Gesture
-from ...qt.panels.events import Click
-from ...session.pair_locations import Candidate, candidate_in
-from .candidate_errors import CandidateErrors
+from .prediction import predicts_in
 
 if TYPE_CHECKING:
     from ...scene.picking import Hit
@@ -131,8 +131,8 @@ class PairGestures(Gesture):
         self.context.edit(remove_pairs(self._document, pairs))
 
     def remove_chosen(self) -> bool:
-        name = self._grid.marks.chosen_pair
-        found = [pair for pair in self._document[Pairs].pairs if name and name in pair.points]
+        lit = self._grid.marks.lit(self.tool)
+        found = [pair for pair in self._document[Pairs].pairs if pair.points[0] in lit]
         if found:
             self.choose("")
             self.remove(found)
@@ -140,7 +140,8 @@ class PairGestures(Gesture):
 
     def choose(self, point: str) -> None:
         """Let the pair of a point stand out, in the list, too."""
-        self._grid.marks.choose_pair(point)
+        points = next((pair.points for pair in self._document[Pairs].pairs if point in pair.points), ())
+        self._grid.marks.light(self.tool, points)
         self.chosen.emit(point)
 
     def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
@@ -174,7 +175,7 @@ class PairGestures(Gesture):
                 self.put(panel, found.vertex)
             return
         name = pair.points[0]
-        self.choose("" if self._grid.marks.chosen_pair in pair.points else name)
+        self.choose("" if name in self._grid.marks.lit(self.tool) else name)
 
     def _has_point(self, pair: Pair, surface: str) -> bool:
         return any(self._document.point(name).surface == surface for name in pair.points)

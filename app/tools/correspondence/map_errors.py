@@ -12,9 +12,6 @@ from bihdist_core.progress import Progress
 
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.maps import MapColours, MapFile, Maps, show_maps, shows_maps
-from ...document.pairs import whole_pairs
-from ...document.prediction import predict
 from ...document.quantities import kind_name
 from ...qt.context import Context
 from ...qt.docks.dock import PAD
@@ -22,9 +19,12 @@ from ...qt.docks.panel_dots import curve_colour
 from ...qt.files.saving import save
 from ...qt.look.look import LOOK
 from ...qt.panels.flat_button import FlatButton
-from ...session.judging import Asked, Judgement, Judging, Map, asked_of, maps_of
 from .error_chart import ErrorChart, ErrorTable, MapCurve
+from .judgement import Asked, Judgement, Judging, Map, asked_of, maps_of
 from .map_truth import MapTruth
+from .maps import MapColours, MapFile, Maps, show_maps, shows_maps
+from .pairs import whole_pairs
+from .prediction import predict, predicts_in
 
 NO_TRUTH = "Without a truth there is no error. Choose the same ids, or a map's file, where it is known."
 NO_MAP = "Errors come with the first pair."
@@ -204,7 +204,7 @@ class MapErrors(QtWidgets.QWidget):
         document, found = self._document, {}
         for panel in document.panels:
             shows = panel.shows
-            if shows.is_prediction and panel.surface == document.surfaces[1].name:
+            if predicts_in(panel) and panel.surface == document.surfaces[1].name:
                 found[panel.id] = self._colour_of(shows.specs[0])
             elif isinstance(shows, MapColours) and shows.by:
                 found[panel.id] = self._colour_of(

@@ -12,12 +12,12 @@ from bihdist_core import BihdistError
 from bihdist_core.formats.vertex_maps import MAP_FORMATS
 
 from ...document.file_names import file_name
-from ...document.maps import MapFile, Maps, with_map, with_truth
 from ...qt.files.chart_files import paper_theme, save_figure
 from ...qt.files.saving import save
 from ...qt.panels.flat_button import FlatButton
-from ...session.judging import is_same_ids
-from ...session.map_answers import map_file
+from .judgement import is_same_ids
+from .map_answers import map_file
+from .maps import MapFile, Maps, with_map, with_truth
 
 READ = f"Maps ({' '.join(f'*{extension}' for extension in MAP_FORMATS)});;All files (*)"
 SAMPLES = {100: "Over 100 sampled vertices", 400: "Over 400 sampled vertices", 0: "Over all vertices"}

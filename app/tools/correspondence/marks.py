@@ -4,22 +4,26 @@ from weakref import WeakKeyDictionary
 
 from bihdist_core.distances.answers import Answer
 
-from ...document.maps import Maps, Truth
 from ...marks.glyphs import CANDIDATE, CROSS, PIN
 from ...marks.marked_panel import MarkedPanel
-from ...marks.primitives import LegendRow, PointMark
+from ...marks.primitives import Caption, LegendRow, PointMark
 from ...scene.style import PINS, WAITING
-from ...session.candidate_errors import CandidatesJudged, CandidatesJudging, candidates_asked
-from ...session.pair_locations import LocatedPairPoint, candidate_in, located_pair_points
+from .candidate_judgement import CandidatesJudged, CandidatesJudging, candidates_asked
+from .map_answers import colours_words
+from .maps import Maps, Truth
+from .pair_locations import Candidate, LocatedPairPoint, candidate_in, located_pair_points
+from .pairs import pair_words, waiting_point
+from .prediction import predicts_in
 
 
-def marks(marked: MarkedPanel) -> list[PointMark | LegendRow]:
+def marks(marked: MarkedPanel) -> list[PointMark | LegendRow | Caption]:
     """The points on a panel's surface, and the best candidate of its answer with where the point belongs."""
     document, panel = marked.document, marked.panel
-    found: list[PointMark | LegendRow] = [
-        pair_mark(each) for each in located_pair_points(document, panel.surface, marked.loaded)
-    ]
     candidate = candidate_in(document, panel, marked.answer)
+    found: list[PointMark | LegendRow | Caption] = [
+        *(pair_mark(each) for each in located_pair_points(document, panel.surface, marked.loaded)),
+        _caption(marked, candidate),
+    ]
     judged = marked.find(CandidatesJudged, lambda: None if candidate is None else _judged(marked, candidate.vertex))
     if judged is not None and judged.places:
         name = "The place where the point belongs"
@@ -33,6 +37,23 @@ def marks(marked: MarkedPanel) -> list[PointMark | LegendRow]:
         found.append(PointMark(candidate.vertex, CANDIDATE, WAITING, text, candidate.number, name=name, aside=aside))
         found.append(LegendRow(CANDIDATE, "candidate"))
     return found
+
+
+def _caption(marked: MarkedPanel, candidate: Candidate | None) -> Caption:
+    """The misfit of the candidate; where none is predicted, what waits, once for each surface; or what colours say."""
+    document, panel, answer = marked.document, marked.panel, marked.answer
+    if candidate is not None:
+        return Caption(value=candidate.misfit, unit="misfit of the best")
+    if not predicts_in(panel) or answer.failure:
+        return Caption(colours_words(answer))
+    sentence, name = pair_words(document, panel.surface), marked.loaded.surface.name
+    if marked.is_for_figure:
+        waiting = waiting_point(document)
+        is_here = waiting is not None and waiting.surface == panel.surface
+        return Caption(sentence if is_here else ("",), plain=name)
+    others = document.panels_of(panel.surface)
+    is_alone = sum(map(predicts_in, others)) == 1
+    return Caption(sentence if others[0] == panel else ("",), plain=name if is_alone else "")
 
 
 def pair_mark(located: LocatedPairPoint) -> PointMark:

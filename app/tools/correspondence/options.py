@@ -1,8 +1,106 @@
-"""What lines that make a figure, which is of one mesh, need not say of pairs and maps."""
+"""Pairs, and what is shown between two meshes instead of distances, as figures are told of them."""
 
-from ...document.option import unsaid
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from bihdist_core.errors import ParameterError
+
+from ...document.document import Document
+from ...document.file import checksum
+from ...document.option import Option, Row, unsaid
+from ...document.page import Recipe
+from .maps import SAME_IDS, MapFile, Maps, show_maps
+from .pairs import Pairs, drop_half, pair_instead, place_point
+from .prediction import predict
+
+PAIRS = "pairs"
+"""In the place of a map's file: the maps that pairs make, by each distance that is shown."""
+
+
+def _put(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
+    import numpy as np
+
+    from bihdist_core.formats.vertex_maps import read_pairs
+
+    document, pairs = recipe.document, values.get("pairs", ())
+    pairs = np.asarray(read_pairs(pairs) if isinstance(pairs, str) else pairs)
+    if pairs.size:
+        if pairs.ndim != 2 or pairs.shape[1] != 2 or pairs.dtype.kind not in "iu":
+            raise ParameterError(f"Pairs are whole numbers of shape (k, 2), not {pairs.dtype} of {pairs.shape}.")
+        _check_two(document, "--pairs", "pairs=")
+        document = pair_instead(document, [(int(i), int(j)) for i, j in pairs])
+    if "predict" in values and values.get("maps"):
+        raise ParameterError(
+            "--predict and --map (in Python predict= and maps=) are figures of their own; leave one of them out."
+        )
+    if "predict" in values:
+        document = _with_prediction(document, values["predict"])
+    elif len(values.get("maps", ())):
+        document = _with_maps(document, values["maps"])
+    return replace(recipe, document=document)
+
+
+def _with_prediction(document: Document, vertex: int) -> Document:
+    """Where a vertex of the first surface is on the second, by each distance that is shown.
+
+    ParameterError without pairs, or a second surface.
+    """
+    _check_two(document, "--predict", "predict=")
+    if not any(not pair.is_half for pair in document[Pairs].pairs):
+        raise ParameterError("--predict goes by pairs; name their file with --pairs (in Python, give pairs=).")
+    return place_point(drop_half(predict(document)), document.surfaces[0].name, vertex)
+
+
+def _with_maps(document: Document, names: Sequence[str]) -> Document:
+    """Maps from the first surface to the second, in colours: files, "identity", or PAIRS.
+
+    ParameterError without a second surface, without pairs for PAIRS, and for a file that cannot be read.
+    """
+    _check_two(document, "--map", "maps=")
+    if PAIRS in names and not document[Pairs].pairs:
+        raise ParameterError(f"--map {PAIRS} is made by pairs; name their file with --pairs (in Python, give pairs=).")
+    files = [name for name in dict.fromkeys(names) if name != PAIRS]
+    maps = tuple(MapFile(path, "" if path == SAME_IDS else checksum(path)) for path in files)
+    specs = dict.fromkeys(spec for panel in document.panels for spec in panel.shows.specs)
+    by = [each for name in dict.fromkeys(names) for each in (specs if name == PAIRS else [name])]
+    return show_maps(document.with_part(replace(document[Maps], maps=maps)), by)
+
+
+def _check_two(document: Document, option: str, argument: str) -> None:
+    if len(document.surfaces) < 2:
+        raise ParameterError(
+            f"{option} goes from one mesh to another; name a second one after the first (in Python, beside= with "
+            f"{argument})."
+        )
+
 
 ROWS = (
+    Row(
+        (
+            Option(
+                "maps",
+                "instead of distances where each vertex of A is on B, in colours: a .npy or .txt file with one of B "
+                f"for each of A; or `{PAIRS}`, for the maps by each --distance from --pairs; repeat",
+                (),
+                flag="map",
+                metavar="MAP",
+                repeats=True,
+                replaces_panels=True,
+            ),
+            Option(
+                "predict",
+                "instead of distances how badly each vertex of B fits vertex V of A, by each --distance from --pairs, "
+                "and which fits best",
+                metavar="V",
+                read=int,
+                replaces_panels=True,
+            ),
+            Option("pairs", "known pairs, a line `i,j` for each: vertex i of A is j of B", (), metavar="FILE"),
+        ),
+        put=_put,
+        is_of_two=True,
+    ),
     unsaid("with one mesh there are none", "Pairs.pairs", "Maps.maps"),
     unsaid("what maps are measured by, which no picture shows", "Maps.truth"),
 )

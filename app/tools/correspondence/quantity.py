@@ -8,12 +8,13 @@ from bihdist_core.distances.kinds import Spec
 
 from ...document.document import Document
 from ...document.json_values import record
-from ...document.maps import MapColours as MapColours
-from ...document.prediction import PREDICTION
 from ...document.quantities import ByDistance, Choice, Quantity, read_spec
 
 if TYPE_CHECKING:
-    from ...session.prediction_answers import PredictionQuestion
+    from .prediction_answers import PredictionQuestion
+
+PREDICTION = "prediction by "
+"""What the words of a prediction begin with."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class Prediction(ByDistance):
     """
 
     spec: Spec
-    is_prediction = True
+    relates_surfaces = True
     done = "predicted"
 
     @property
@@ -46,7 +47,7 @@ class Prediction(ByDistance):
 
     def question(self, document: Document, surface: str) -> "PredictionQuestion":
         """What has to be answered to predict the partner of the next point."""
-        from ...session.prediction_answers import prediction_question
+        from .prediction_answers import prediction_question
 
         return prediction_question(document, surface, self.spec)
 

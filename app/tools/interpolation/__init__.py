@@ -16,7 +16,7 @@ TOOL = Tool(
     dock="dock:AnchorsDock",
     commands={"interpolate": "command"},
     quantities=("quantity:Interpolant",),
-    parts=("..document.anchors:Anchors",),
+    parts=("part:Anchors",),
     options="options:ROWS",
     marks="marks:marks",
 )

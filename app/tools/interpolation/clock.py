@@ -4,10 +4,10 @@ import time
 
 from qtpy import QtCore
 
-from ...document.anchors import Anchor, Anchors
 from ...qt.context import Context
 from ...session.loaded_mesh import LoadedMesh
 from .answers import InterpolantMemory
+from .part import Anchor, Anchors
 
 
 class AnchorClock:

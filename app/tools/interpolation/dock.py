@@ -9,10 +9,10 @@ from bihdist_core import BihdistError, ParameterError
 from bihdist_core.formats.anchors import ANCHOR_FORMATS, read_anchors, write_anchors
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
 
-from ...document.anchors import Anchor, Anchors, add_anchor, change_anchor, remove_anchors
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.pins import Pins
+from ...document.quantities import Quantity
+from ...document.shared_parts.pins import Pins
 from ...qt.context import Context
 from ...qt.docks.dock import PAD
 from ...qt.docks.instrument import Instrument
@@ -26,6 +26,7 @@ from ...session.questions import vertex_at
 from .clock import AnchorClock
 from .extrema import AnchorExtrema
 from .gestures import AnchorGestures
+from .part import Anchor, Anchors, add_anchor, change_anchor, remove_anchors
 from .quantity import Interpolant, interpolate, interpolated, show_distances
 from .row import BOX, AnchorRow
 from .samples import AnchorSamples
@@ -156,7 +157,7 @@ class AnchorsDock(Instrument):
 
     def show_closed(self) -> None:
         self.extrema.leave()
-        self.context.grid.marks.choose_anchor("")
+        self.context.grid.marks.light(self.word, ())
 
     def _anchors(self, document: Document) -> list[Anchor]:
         surface = document.surfaces[0].name
@@ -170,6 +171,7 @@ class AnchorsDock(Instrument):
             gone = self.rows.pop(point)
             gone.hide()
             gone.deleteLater()
+        lit = self.context.grid.marks.lit(self.word)
         values = [anchor.value for anchor in anchors if anchor.value is not None]
         ends = (min([0.0, *values]), max([1.0, *values]))
         for number, anchor in enumerate(anchors):
@@ -180,7 +182,7 @@ class AnchorsDock(Instrument):
                 self._list.removeWidget(row)
                 self._list.insertWidget(number, row)
             row.show_anchor(anchor.name or anchor.point, anchor.value or 0.0, anchor.left_out, ends)
-            row.show_chosen(anchor.point == self.context.grid.marks.chosen_anchor)
+            row.show_chosen(anchor.point in lit)
 
     def _new_row(self, point: str) -> AnchorRow:
         row = AnchorRow(point)
@@ -277,7 +279,7 @@ class AnchorsDock(Instrument):
             self._show(self._document.with_part(replace(self._document[Anchors], weights=weights)), name)
 
     def _show_total(self, word: str) -> None:
-        def shown(shows):
+        def shown(shows: Quantity) -> Quantity:
             parts = (replace(p, total=word == "total") if isinstance(p, Interpolant) else p for p in shows.parts)
             return shows.with_parts(tuple(parts))
 
@@ -287,11 +289,11 @@ class AnchorsDock(Instrument):
     def take_pins(self) -> None:
         """An anchor at each pin that is at a vertex, from 0 for the first to 1 for the last."""
         document = self._document
-        pins = [(pin, document.point(pin.point)) for pin in document[Pins].pins]
-        there = [(pin, point) for pin, point in pins if isinstance(point.at, int)]
-        for k, (pin, point) in enumerate(there):
+        pins = [(pin.name, document.point(pin.point)) for pin in document[Pins].pins]
+        there = [(name, point.at, point.surface) for name, point in pins if isinstance(point.at, int)]
+        for k, (name, vertex, surface) in enumerate(there):
             value = round(k / max(1, len(there) - 1), 3)
-            document, _ = add_anchor(document, point.at, value, point.surface, pin.name)
+            document, _ = add_anchor(document, vertex, value, surface, name)
         self._show(document)
 
     # ------------------------------------------------------------------ files
@@ -306,7 +308,7 @@ class AnchorsDock(Instrument):
         """Anchors of a file besides those that there are, or why not; how far they were moved to vertices is said."""
         session, document = self.context.session, self._document
         try:
-            found = read_anchors(path, session.surface)
+            found = read_anchors(path, session.first_surface)
             for vertex, value, name in zip(found.vertices.tolist(), found.values.tolist(), found.names, strict=True):
                 document, _ = add_anchor(document, vertex, value, document.surfaces[0].name, name)
         except BihdistError as error:
@@ -319,10 +321,10 @@ class AnchorsDock(Instrument):
 
     def choose_and_save(self) -> None:
         """Ask for a file, and write the anchors."""
-        document, surface = self._document, self.context.session.surface
+        document, surface = self._document, self.context.session.first_surface
         anchors = self._anchors(document)
         vertices = [vertex_at(document.point(anchor.point).at, surface) for anchor in anchors]
-        values = [anchor.value for anchor in anchors]
+        values = [anchor.value for anchor in anchors if anchor.value is not None]
         names = tuple(anchor.name for anchor in anchors)
 
         def write(path: str) -> None:
@@ -332,15 +334,15 @@ class AnchorsDock(Instrument):
 
     def save_fields(self) -> None:
         """What the panels show of interpolants."""
-        session = self.context.session
+        session, surface = self.context.session, self.context.session.first_surface
         fields = {}
         for panel in session.document.panels_of():
             shown = session.shown.get(panel.id)
             is_meant = any(isinstance(part, Interpolant) for part in panel.shows.parts)
             if is_meant and shown is not None and shown.answer.field is not None:
                 fields[str(panel.shows)] = shown.answer.field
-        name = file_name([session.first_surface.name], "interpolants")
-        save(self.context, "Save interpolants", name, FIELD_FORMATS, lambda p: write_fields(p, session.surface, fields))
+        name = file_name([surface.name], "interpolants")
+        save(self.context, "Save interpolants", name, FIELD_FORMATS, lambda path: write_fields(path, surface, fields))
 
 
 def _line() -> QtWidgets.QFrame:

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 from qtpy import QtWidgets
 
+from bihdist_core.analysis.quality import OtherExtrema
 from bihdist_core.applications.tips import at_tips, tips
 from bihdist_core.arrays import AnyArray, IntArray
 from bihdist_core.progress import Progress
@@ -13,7 +14,6 @@ from ...document.document import Document
 from ...document.quantities import kind_name
 from ...qt.context import Context
 from ...qt.docks.fact_table import FactTable
-from ...qt.docks.findings import Findings
 from ...session.loaded_mesh import LoadedMesh
 from .quantity import interpolated
 
@@ -29,7 +29,7 @@ class AnchorExtrema(FactTable):
         self._tips = context.background("tips", _found_tips)
         self._tips.answered.connect(self._take_tips)
         self._tips.failed.connect(self._no_tips)
-        context[Findings].quality_changed.connect(self.show_counts)
+        context.found_changed.connect(self._take_found)
 
     def show_document(self, document: Document) -> None:
         """Look for the tips of another surface's limbs, and count extrema anew."""
@@ -47,6 +47,10 @@ class AnchorExtrema(FactTable):
     def _no_tips(self, *_: object) -> None:
         self._ends = np.zeros(0, int)
         self.show_counts()
+
+    def _take_found(self, kind: type) -> None:
+        if kind is OtherExtrema:
+            self.show_counts()
 
     def show_counts(self) -> None:
         """Show how many extrema each interpolant has beside its anchors."""
@@ -66,7 +70,7 @@ class AnchorExtrema(FactTable):
         self.show_facts([("Panel", "at tips", "elsewhere"), *facts] if facts else [])
 
     def _counts(self, panel: int) -> tuple[int, int] | None:
-        found = self._context[Findings].found(panel).extrema
+        found = self._context.found(panel, OtherExtrema)
         if found is None or self._ends is None:
             return None
         near = int(at_tips(self._context.session.first_surface, found.vertices, self._ends).sum())

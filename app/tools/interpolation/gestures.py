@@ -6,13 +6,14 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
 
-from ...document.anchors import Anchors, add_anchor, remove_anchors
 from ...document.document import Document
 from ...document.edits import put_point
 from ...qt.context import Context
 from ...qt.dragging import Dragging
 from ...qt.gesture import Gesture
 from ...qt.panels.events import Click
+from .part import Anchors, add_anchor, remove_anchors
+from .quantity import Interpolant
 
 if TYPE_CHECKING:
     from ...scene.picking import Hit
@@ -28,7 +29,7 @@ class AnchorGestures(Gesture):
     def is_on(self, panel: int) -> bool:
         """Whether a panel shows an interpolant, so that what is done there is done to anchors."""
         shows = self.context.document.panel(panel).shows
-        return any(part.has_anchors for part in shows.parts)
+        return any(isinstance(part, Interpolant) for part in shows.parts)
 
     def click(self, panel: int, click: Click) -> None:
         self.put(panel, click.hit)
@@ -65,7 +66,7 @@ class AnchorGestures(Gesture):
 
     def choose(self, point: str) -> None:
         """Let the anchor at a point stand out, in the list, too."""
-        self.context.grid.marks.choose_anchor(point)
+        self.context.grid.marks.light("anchors", (point,) if point else ())
         self.chosen.emit(point)
 
     def remove(self, points: list[str]) -> None:
@@ -74,11 +75,11 @@ class AnchorGestures(Gesture):
         session.show(remove_anchors(session.document, points))
 
     def remove_chosen(self) -> bool:
-        name = self.context.grid.marks.chosen_anchor
-        is_there = any(anchor.point == name for anchor in self.context.document[Anchors].anchors)
-        if is_there:
-            self.remove([name])
-        return is_there
+        lit = self.context.grid.marks.lit("anchors")
+        found = [anchor.point for anchor in self.context.document[Anchors].anchors if anchor.point in lit]
+        if found:
+            self.remove(found)
+        return bool(found)
 
     def drag(self, panel: int, number: int, hit: "Hit") -> None:
         """One of the anchors is over a place; one that another has is passed."""

@@ -6,11 +6,11 @@ from typing import Any
 
 from bihdist_core.errors import ParameterError
 
-from ...document.anchors import Anchor, Anchors
 from ...document.document import Point, free_names
 from ...document.option import NotExpressible, Option, Row, attribute, digits, unsaid, vertex_of
 from ...document.page import Recipe
 from ...document.removal import without_orphans
+from .part import Anchor, Anchors
 
 
 def _anchors_of(recipe: Recipe) -> dict[str, Any]:

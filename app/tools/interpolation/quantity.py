@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 from bihdist_core.distances.kinds import Spec
 
-from ...document.anchors import Anchors
 from ...document.document import Document
+from ...document.edits import show_distances as distances_again
 from ...document.json_values import flag, record
-from ...document.prediction import show_distances as distances_again
 from ...document.quantities import ByDistance, Choice, Quantity, read_spec
+from .part import Anchors
 
 if TYPE_CHECKING:
     from .answers import InterpolantQuestion
@@ -28,12 +28,11 @@ class Interpolant(ByDistance):
 
     spec: Spec
     total: bool = False
-    has_anchors = True
     done = "interpolated"
 
-    @property
-    def interpolates(self) -> bool:
-        return not self.total
+    def marks_extrema(self, document: Document) -> bool:
+        """They tell against an interpolant but at its anchors; marked while the dock is open."""
+        return not self.total and "anchors" in document.docks
 
     @property
     def before(self) -> str:
@@ -92,7 +91,7 @@ class Interpolant(ByDistance):
 
 def interpolated(shows: Quantity) -> Interpolant | None:
     """The interpolant that a panel shows by itself; None for another quantity, and for a sum of weights."""
-    return shows if isinstance(shows, Interpolant) and shows.interpolates else None
+    return shows if isinstance(shows, Interpolant) and not shows.total else None
 
 
 def interpolate(document: Document) -> Document:

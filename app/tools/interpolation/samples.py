@@ -7,12 +7,11 @@ from bihdist_core import BihdistError
 from bihdist_core.arrays import AnyArray
 from bihdist_core.sources.source import SourceSet
 
-from ...document.anchors import Anchors, add_anchor
 from ...document.document import Document, Panel
 from ...qt.context import Context
-from ...qt.docks.findings import Findings
+from ...session.farthest_points import Sampled, SamplesQuestion, Sampling
 from ...session.questions import first_source, vertex_at
-from ...session.sampling import Sampled, SamplesQuestion, Sampling
+from .part import Anchors, add_anchor
 from .quantity import Interpolant
 
 USUAL, MOST = 5, 100
@@ -28,7 +27,7 @@ class AnchorSamples(QtWidgets.QWidget):
     def __init__(self, context: Context) -> None:
         super().__init__()
         self._context = context
-        self._sampling = Sampling(context[Findings].post, self._sampled, self._show_going)
+        self._sampling = Sampling(context.post, self._sampled, self._show_going)
         self._asked: tuple[Document, AnyArray, int] | None = None  # of whose anchors, by which panel
         self.add = QtWidgets.QPushButton("Add samples", autoDefault=False)
         self.add.setToolTip("Anchors at points that are farthest from each other, by the active panel's distance")

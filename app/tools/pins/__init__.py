@@ -14,7 +14,7 @@ TOOL = Tool(
     synonyms="measure distance between points markers landmarks matrix table",
     dock="dock:PinsDock",
     gesture="gestures:PinGestures",
-    parts=("..document.pins:Pins",),
+    parts=("..document.shared_parts.pins:Pins", "part:PinsListing"),
     options="options:ROWS",
     marks="marks:marks",
 )

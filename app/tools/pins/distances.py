@@ -12,7 +12,6 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import Source
 
 from ...document.document import Document
-from ...document.pins import Pins
 from ...document.quantities import kind_name
 from ...qt.context import Context
 from ...qt.look.look import LOOK
@@ -20,9 +19,10 @@ from ...qt.look.numbers import number
 from ...qt.panels.flat_button import FlatButton
 from ...qt.panels.quantity_menu import offered_kinds
 from ...scene.style import PINS
-from ...session.pairwise_distances import PairwiseDistances
-from ...session.pin_locations import LocatedPin
+from .locations import LocatedPin
 from .matrix import PinMatrix
+from .pairwise_distances import PairwiseDistances
+from .part import PinsListing
 
 PAD = 12
 MOST_COMPARED = 40
@@ -36,7 +36,7 @@ class PinDistances(QtWidgets.QWidget):
         super().__init__()
         self.context = context
         self._places: tuple[LocatedPin, ...] = ()
-        self.spec: Spec | None = None
+        self.spec = self._specs(context.document)[0]
         self._among = PairwiseDistances(context.post, self._show_among)
         heading = QtWidgets.QLabel("Distances among pins")
         heading.setProperty("heading", True)
@@ -78,7 +78,7 @@ class PinDistances(QtWidgets.QWidget):
         """By a distance of the panels unless another has been chosen."""
         self._places = tuple(places)
         self.setVisible(len(self._places) > 1)
-        self.spec = document[Pins].pin_list.distance or self._specs(document)[0]
+        self.spec = document[PinsListing].distance or self._specs(document)[0]
         self._ask()
 
     def end(self) -> None:
@@ -121,9 +121,7 @@ class PinDistances(QtWidgets.QWidget):
         """Whose distances among pins are shown."""
         session = self.context.session
         document = session.document
-        session.show(
-            document.with_part(replace(document[Pins], pin_list=replace(document[Pins].pin_list, distance=spec)))
-        )
+        session.show(document.with_part(replace(document[PinsListing], distance=spec)))
 
     @property
     def _compared(self) -> list[Spec]:
@@ -133,7 +131,7 @@ class PinDistances(QtWidgets.QWidget):
 
     def _ask(self) -> None:
         session = self.context.session
-        self._among.ask(session.loaded(), session.document.areas, self._compared, self._at)
+        self._among.ask(session.mesh(), session.document.areas, self._compared, self._at)
         self._show_among()
 
     def _show_among(self) -> None:
@@ -159,7 +157,7 @@ class PinDistances(QtWidgets.QWidget):
         session = self.context.session
         loaded, areas = session.loaded(), session.document.areas
         places = self._places
-        if loaded is None or self.spec is None:
+        if loaded is None:
             return
         if i >= 0 and max(i, j) < len(places):
             parts = [f"{escape(places[i].name)} to {escape(places[j].name)}"]

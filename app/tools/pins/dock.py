@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,8 +14,8 @@ from bihdist_core.distances.answers import Answer
 from bihdist_core.sources.words import short_words_of, source_from_words
 
 from ...document.document import Document
-from ...document.pins import Pin, Pins, add_pins, change_pin, move_pin, remove_pins
 from ...document.quantities import quantity_name
+from ...document.shared_parts.pins import Pin, Pins, add_pins, change_pin, move_pin, remove_pins
 from ...qt.context import Context
 from ...qt.docks.instrument import Instrument
 from ...qt.look.numbers import number, percent, share
@@ -23,11 +24,12 @@ from ...qt.look.text_box import TextBox, mark_wrong
 from ...qt.panels.events import MarkClick
 from ...qt.panels.flat_button import FlatButton
 from ...scene.style import PINS
-from ...session.pin_locations import LocatedPin, located_pins
 from ...session.questions import source_at
 from .distances import PinDistances
 from .files import PinFiles
+from .locations import LocatedPin, located_pins
 from .menus import PinMenu
+from .part import PinsListing
 from .table import PinRow, PinTable
 
 PAD = 12
@@ -77,7 +79,7 @@ class PinsDock(Instrument):
         self.wrong = QtWidgets.QLabel(visible=False, wordWrap=True)
         self.wrong.setProperty("error", True)
         self.table = PinTable(self)
-        self.table.chosen.connect(context.grid.marks.light_pins)
+        self.table.chosen.connect(partial(context.grid.marks.light, "pins"))
         context.grid.events.on(MarkClick, self._choose)
         self.table.rows.named.connect(self.rename)
         self.table.moved.connect(self.move_to)
@@ -150,7 +152,7 @@ class PinsDock(Instrument):
         if loaded is None:
             return
         self.places = located_pins(document, document.surfaces[0].name, loaded.surface)
-        self.ways.choose("share" if document[Pins].pin_list.shares else "value")
+        self.ways.choose("share" if document[PinsListing].shares else "value")
         self.note_changed.emit(str(len(self.places)) if self.places else "")
         self.empty.setVisible(not self.places)
         self.table.setVisible(bool(self.places))
@@ -193,7 +195,7 @@ class PinsDock(Instrument):
         if surface is None:
             return
         answers = self.answers()
-        listed = self.context.document[Pins].pin_list
+        listed = self.context.document[PinsListing]
         rows = []
         for place in self.places:
             at = place.position(surface.vertices)
@@ -232,19 +234,15 @@ class PinsDock(Instrument):
     @property
     def has_positions(self) -> bool:
         """Whether the list has columns of places."""
-        return self.context.document[Pins].pin_list.positions
+        return self.context.document[PinsListing].positions
 
     def show_positions(self, is_on: bool) -> None:
         """Show x, y and z in the list, or no longer."""
         self.list_otherwise(positions=is_on)
 
     def list_otherwise(self, **changes: Any) -> None:
-        """Fields of the document's `PinList`."""
-        self._show(
-            lambda document: document.with_part(
-                replace(document[Pins], pin_list=replace(document[Pins].pin_list, **changes))
-            )
-        )
+        """Fields of the document's `PinsListing`."""
+        self._show(lambda document: document.with_part(replace(document[PinsListing], **changes)))
 
     def copy_matrix(self) -> None:
         """The distances among the pins."""

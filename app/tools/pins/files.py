@@ -16,7 +16,7 @@ from ...document.file_names import file_name
 from ...qt.context import Context
 from ...qt.files.saving import ask_path
 from ...qt.look.numbers import number, share
-from ...session.pin_locations import LocatedPin, matrix_text, pins_text, pins_to_write, with_pins
+from .locations import LocatedPin, matrix_text, pins_text, pins_to_write, with_pins
 
 READ = f"Pins ({' '.join(f'*{extension}' for extension in PIN_FORMATS)});;All files (*)"
 

@@ -8,7 +8,7 @@ from bihdist_core import ParameterError
 from bihdist_core.sources.source import Source
 
 from ...document.edits import move_source, put_point
-from ...document.pins import Pin, Pins, add_pins, remove_pins
+from ...document.shared_parts.pins import Pin, Pins, add_pins, remove_pins
 from ...qt.context import Context
 from ...qt.gesture import Gesture
 from ...qt.panels.events import Click
@@ -69,9 +69,9 @@ class PinGestures(Gesture):
         """Where the list of pins is closed, it stands out, until it is clicked again, and is named."""
         if "pins" in self.context.document.docks:
             return  # the list does it
-        pin, lit = self._pin(number), set(self._grid.marks.lit)
+        pin, lit = self._pin(number), set(self._grid.marks.lit(self.tool))
         chosen = lit ^ {pin.point} if has_ctrl else {pin.point} - lit
-        self._grid.marks.light_pins(tuple(chosen))
+        self._grid.marks.light(self.tool, tuple(chosen))
         if pin.point in chosen:
             where = self.context.document.point(pin.point).at
             self.context.tell(f"{_name(pin, number).capitalize()}: {_place(where)}")

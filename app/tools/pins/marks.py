@@ -4,7 +4,7 @@ from ...marks.glyphs import PIN
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import PointMark
 from ...scene.style import PINS
-from ...session.pin_locations import LocatedPin, located_pins
+from .locations import LocatedPin, located_pins
 
 
 def marks(marked: MarkedPanel) -> list[PointMark]:

@@ -10,7 +10,7 @@ from bihdist_core.sources.words import words_of
 from ...document.labels import MARK_COLOURS
 from ...document.option import NotExpressible, Option, Row, unsaid, vertex
 from ...document.page import Recipe
-from ...document.pins import Pins, pin_instead
+from ...document.shared_parts.pins import Pins, pin_instead
 
 
 def _pins_of(recipe: Recipe) -> dict[str, Any]:
@@ -57,6 +57,6 @@ ROWS = (
         _pins_of,
         _with_pins,
     ),
-    unsaid("for the window's list", "Pins.pin_list"),
+    unsaid("for the window's list", "PinsListing.distance", "PinsListing.shares", "PinsListing.positions"),
     unsaid("figures show numbers", "Pin.name"),
 )

@@ -14,7 +14,7 @@ TOOL = Tool(
     synonyms="measure plot graph along geodesic path curve section",
     dock="dock:ProfileDock",
     commands={"profile": "command"},
-    parts=("..document.profile:Profile",),
+    parts=("part:Profile",),
     options="options:ROWS",
     marks="marks:marks",
 )

@@ -10,10 +10,10 @@ from bihdist_core import BihdistError, ParameterError
 from bihdist_core.analysis.plane_sections import PARTS
 
 from ...document.document import Document
-from ...document.pins import Pins, pinned_at
-from ...document.profile import SECTIONS, Profile, points_along
-from ...qt.docks.badges import badge_of
+from ...document.shared_parts.pins import Pins, pinned_at
 from ...qt.look.text_box import TextBox
+from .badges import badge_of
+from .part import SECTIONS, Profile, points_along
 
 if TYPE_CHECKING:
     from .dock import ProfileDock

@@ -7,8 +7,8 @@ from ...commands.mesh import check_mesh
 from ...commands.options import SOURCE, add_areas, add_distance, add_rows, quantities, source
 from ...commands.pairs import pins_in
 from ...commands.terminal import judged, progress_line, tell_repairs
-from ...document.profile import Profile
 from .options import ACROSS, WAY
+from .part import Profile
 
 WORDS = "distances along a path through points of a mesh, as numbers and as a chart"
 TEXT = ".csv"
@@ -51,14 +51,14 @@ def run(options: argparse.Namespace) -> int:
 
     from ...document.document import COMPARISON, comparison
     from ...document.page import Page, Recipe
-    from ...document.pins import add_pins
-    from ...document.profile import with_profile, words_in
+    from ...document.shared_parts.pins import add_pins
     from ...figures.draw import FIGURE_FORMATS
     from ...figures.export import compute, open_document
     from ...session.array_store import ArrayStore
-    from ...session.profiling import path_of
     from .figure import save_profile_figure
     from .figure_curves import profile_fields, profile_figure
+    from .part import with_profile, words_in
+    from .paths import path_of
 
     for output in options.output:
         check_output(output, (*PROFILE_FORMATS, *FIGURE_FORMATS))

@@ -1,7 +1,7 @@
 """The dock of the profile: the fields of all panels along a path, live, and where the path leads."""
 
-from collections.abc import Callable
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 from qtpy import QtCore, QtWidgets
@@ -12,18 +12,21 @@ from bihdist_core.analysis.surface_paths import SurfacePath
 from bihdist_core.arrays import FloatArray
 
 from ...document.document import Document
-from ...document.profile import Profile, points_along
 from ...qt.context import Context
-from ...qt.docks.badges import BadgeButton, BadgeRow, badge_of
 from ...qt.docks.instrument import Instrument
 from ...qt.look.look import LOOK
 from ...qt.look.segments import Segments
 from ...qt.panels.flat_button import FlatButton
-from ...session.profiling import PathWanted, PathWorker, wanted_path
+from .badges import BadgeButton, BadgeRow, badge_of
 from .charts import ProfileCharts
 from .choices import WAYS, ProfileChoices
 from .curves import ProfileCurve, profile_curve
 from .files import ProfileFiles
+from .part import Profile, points_along
+from .paths import PathWanted, PathWorker, wanted_path
+
+if TYPE_CHECKING:
+    from ...qt.panels.panel import DistancePanel
 
 FINDING = "Finding the path…"
 
@@ -37,20 +40,16 @@ DRAWN = 500
 class ProfileDock(Instrument):
     word, title, area = "profile", "Profile", "below"
 
-    _posted = QtCore.Signal(object)
-
     def __init__(self, context: Context) -> None:
         super().__init__(context)
         self.chart = ProfileCharts(self)
         self.path: SurfacePath | None = None
         self.curves: dict[int, ProfileCurve] = {}
-        self._places: Places | None = None
         self._path_surface: Surface | None = None
         self._wanted: PathWanted | None = None
         self.surface = "A"
         self._echoed: float | None = None  # where the pointer in the chart is, as a length
-        self._posted.connect(self._run)
-        self._worker = PathWorker(self._posted.emit, self._found, self._going)
+        self._worker = PathWorker(context.post, self._found, self._going)
         self.files = ProfileFiles(self)
         self.choices = ProfileChoices(self)
         self.ends = (BadgeButton(self, "From"), BadgeButton(self, "To"))
@@ -76,11 +75,6 @@ class ProfileDock(Instrument):
         self.setMinimumHeight(124)
         self.chart.pointed.connect(self._point)
         LOOK.follow(self, self._colour)
-
-    @staticmethod
-    def _run(function: Callable[[], None]) -> None:
-        """What the lane has posted, on the window's thread."""
-        function()
 
     def title_widgets(self) -> list[QtWidgets.QWidget]:
         return [self.ends[0], self._between, self._to, self.ends[1], self.way]
@@ -110,14 +104,14 @@ class ProfileDock(Instrument):
             self._show_way()
             self._worker.ask(wanted)
         elif self.path is not None:
-            self._show_path()  # panels and pins may be others
+            self._show_path(self.path)  # panels and pins may be others
 
     def show_answer(self, panel: int) -> None:
-        if self._has_path:
+        if self._path_here is not None:
             self._read(panel)
             self._show_curves()
             if self._echoed is not None:
-                self._echo(self._echoed)
+                self._echo(self._path_here, self._echoed)
 
     @property
     def pointed_surface(self) -> str:
@@ -125,15 +119,16 @@ class ProfileDock(Instrument):
 
     def show_pointed(self, vertex: int | None) -> None:
         """Near the path on a surface: where that is in the chart."""
-        if self._echoed is not None or not self._has_path:
+        path = self._path_here
+        if self._echoed is not None or path is None:
             return
         surface = self.surface_of(self.surface)
-        arc = None if vertex is None else self._arc_near(surface.vertices[vertex])
+        arc = None if vertex is None else self._arc_near(path, surface.vertices[vertex])
         self.chart.show_at(arc, "" if vertex is None else f"vertex {vertex}")
 
     def show_again(self) -> None:
-        if self._has_path:
-            self._show_path()
+        if self._path_here is not None:
+            self._show_path(self._path_here)
 
     def show_closed(self) -> None:
         self._worker.ask(None)
@@ -152,20 +147,20 @@ class ProfileDock(Instrument):
         return self.context.document
 
     @property
-    def _has_path(self) -> bool:
-        """Whether there is one on the surface that is shown now."""
+    def _path_here(self) -> SurfacePath | None:
+        """The path, if it is on the surface that is shown now."""
         loaded = self.context.session.loaded(self.surface)
-        return self.path is not None and loaded is not None and loaded.surface is self._path_surface
+        return self.path if loaded is not None and loaded.surface is self._path_surface else None
 
     @property
-    def _panels(self) -> list:
+    def _panels(self) -> "list[DistancePanel]":
         """Those of the path's surface."""
         panels = self.context.document.panels
         return [self.context.grid.panel(panel.id) for panel in panels if panel.surface == self.surface]
 
     def surface_of(self, name: str) -> Surface:
         """The surface of a name in the document."""
-        return self.context.session.loaded(name).surface
+        return self.context.session.mesh(name).surface
 
     def seen(self) -> tuple[float, float, float]:
         """(3,) the direction in which the panels are looked at."""
@@ -180,22 +175,21 @@ class ProfileDock(Instrument):
             self._show_none(found)
             return
         self.path, self._path_surface = found, wanted.surface
-        self._places = found.places
-        self._show_path()
+        self._show_path(found)
 
     def _going(self, text: str) -> None:
         self.note_changed.emit(text)
 
     def _show_none(self, sentence: str) -> None:
-        self.path = self._places = None
+        self.path = None
         self.curves = {}
         self.chart.say(sentence)
         self._show_way()
         self._put_path(None)
         self.files.allow(False)
 
-    def _show_path(self) -> None:
-        path, document = self.path, self.document
+    def _show_path(self, path: SurfacePath) -> None:
+        document = self.document
         self.chart.say("")
         names = points_along(document)
         names = (*names, names[0])  # a whole section may come back to the first
@@ -210,7 +204,7 @@ class ProfileDock(Instrument):
     def _put_path(self, places: Places | None) -> None:
         """Over the panels of its surface."""
         for panel in self.context.grid.panels:
-            self.context.grid.marks.show_found(panel.id, Places, places if panel in self._panels else None)
+            self.context.show_found(panel.id, Places, places if panel in self._panels else None)
 
     def _show_way(self) -> None:
         self.way.setText(self.path.label if self.path is not None else WAYS[self.document[Profile].way])
@@ -230,13 +224,14 @@ class ProfileDock(Instrument):
 
     def _read(self, id: int) -> None:
         """The field of a panel along the path."""
-        shown, document = self.context.session.shown.get(id), self.document
+        shown, document, path = self.context.session.shown.get(id), self.document, self.path
         panel = next((panel for panel in document.panels if panel.id == id), None)
         self.curves.pop(id, None)
-        if shown is None or panel is None or panel.surface != self.surface or shown.answer.field is None:
+        if path is None or shown is None or panel is None or panel.surface != self.surface:
             return
-        values = self._places.values(shown.answer.field)
-        self.curves[id] = profile_curve(document, id, shown.answer, values, LOOK.theme.curves)
+        if shown.answer.field is not None:
+            values = path.along(shown.answer.field)
+            self.curves[id] = profile_curve(document, id, shown.answer, values, LOOK.theme.curves)
 
     def _show_curves(self) -> None:
         order = [panel.id for panel in self.document.panels if panel.id in self.curves]
@@ -245,29 +240,29 @@ class ProfileDock(Instrument):
     # ------------------------------------------------------------------ the pointer
     def _point(self, at: tuple[float, float] | None) -> None:
         """In the chart: the place on all panels, and its values on their bars."""
-        status = self.context.status
-        if at is None or not self._has_path:
+        status, path = self.context.status, self._path_here
+        if at is None or path is None:
             if self._echoed is not None:
                 self._echoed = None
                 self._unpoint()
                 status.show_place(None, None)
             self.chart.show_at(None)
             return
-        arc = float(np.clip(at[0], 0, self.path.length))
-        place = self.path.at([arc])
+        arc = float(np.clip(at[0], 0, path.length))
+        place = path.at([arc])
         vertex = int(place.corners[0, int(place.weights[0].argmax())])
-        self._echo(arc)
+        self._echo(path, arc)
         surface = self.surface_of(self.surface)
         status.show_place(vertex, place.values(surface.vertices)[0])
         self.chart.show_at(arc, f"vertex {vertex}")
 
-    def _echo(self, arc: float) -> None:
+    def _echo(self, path: SurfacePath, arc: float) -> None:
         """Rings on the panels, and ticks on their bars, at a length along the path."""
         if self._echoed is None:
             self._unpoint()
         self._echoed = arc
         for panel in self._panels:
-            panel.echo(self.path.at([arc]))
+            panel.echo(path.at([arc]))
 
     def _unpoint(self) -> None:
         grid = self.context.grid
@@ -277,10 +272,9 @@ class ProfileDock(Instrument):
     def leaveEvent(self, event: QtCore.QEvent) -> None:
         self._point(None)
 
-    def _arc_near(self, point: FloatArray) -> float | None:
+    def _arc_near(self, path: SurfacePath, point: FloatArray) -> float | None:
         """The length up to the place of the path that is nearest to a point (3,) of the surface, if that is seen near
         it."""
-        path = self.path
         arc = nearest_arc(path, point)
         if not self._panels:
             return None

@@ -20,6 +20,7 @@ from .curves import ProfileCurve, parted
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
     from matplotlib.text import Annotation
 
 LEAST_ACROSS = 2.8
@@ -77,7 +78,7 @@ def save_profile_figure(figure: ProfileFigure, path: str | os.PathLike[str], pro
     save_chart(path, figure.look, high, lambda page: _fill(page, figure, is_row), progress)
 
 
-def _fill(page: Any, figure: ProfileFigure, is_row: bool) -> None:
+def _fill(page: "Figure", figure: ProfileFigure, is_row: bool) -> None:
     plots = figure.plots
     rows = page.subplots(*((1, len(plots)) if is_row else (len(plots), 1)), squeeze=False)
     named = []
@@ -93,9 +94,10 @@ def _fill(page: Any, figure: ProfileFigure, is_row: bool) -> None:
         _mark(axes, figure, is_row or k == 0)
         named.append(_name(axes, figure, curves, drawn))
     # How high the plots are is known once all words are there.
-    page.get_layout_engine().execute(page)
+    if (engine := page.get_layout_engine()) is not None:
+        engine.execute(page)
     for axes, names in zip(rows.flat, named, strict=True):
-        _spread(axes, figure.look.points, names)
+        _spread(axes, figure.look.points, page.get_figheight(), names)
 
 
 def _draw(axes: "Axes", figure: ProfileFigure, curves: Sequence[ProfileCurve], drawn: Sequence[FloatArray]) -> None:
@@ -170,10 +172,10 @@ def _name(
     ]
 
 
-def _spread(axes: "Axes", points: float, names: Sequence[Any]) -> None:
-    """One above the other where they would touch."""
+def _spread(axes: "Axes", points: float, inches: float, names: Sequence["Annotation"]) -> None:
+    """One above the other where they would touch, on a page so many inches high."""
     low, high = axes.get_ylim()
-    line = points * 1.25 / 72 / (axes.get_position().height * axes.figure.get_figheight())
+    line = points * 1.25 / 72 / (axes.get_position().height * inches)
     halves = [line * (1 + name.get_text().count("\n")) / 2 for name in names]
     places: list[float] = []
     for k, name in enumerate(names):

@@ -10,12 +10,12 @@ from bihdist_core.distances.answers import Answer
 
 from ...document.document import Document
 from ...document.page import Page
-from ...document.pins import Pins
-from ...document.profile import Profile, points_along
+from ...document.shared_parts.pins import Pins
 from ...figures.chart_page import ChartLook
 from ...scene.style import PINS, Style, curve_colours, style_of
 from .curves import profile_curve
 from .figure import ProfileFigure, ProfileKnot
+from .part import Profile, points_along
 
 
 def profile_figure(document: Document, page: Page, path: SurfacePath, answers: Mapping[int, Answer]) -> ProfileFigure:

@@ -3,11 +3,11 @@
 from bihdist_core import BihdistError
 from bihdist_core.analysis.places import Places
 
-from ...document.profile import shows_path
 from ...marks.line_looks import PATH
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import LineMark, Remark
-from ...session.profiling import path_of
+from .part import shows_path
+from .paths import path_of
 
 
 def marks(marked: MarkedPanel) -> list[LineMark | Remark]:

@@ -8,7 +8,7 @@ from bihdist_core.errors import ParameterError
 
 from ...document.option import NotExpressible, Option, Row, numbers, unsaid, with_commas
 from ...document.page import Recipe
-from ...document.profile import SECTIONS, WAYS, Profile, profile_words, shows_path, with_profile, words_in
+from .part import SECTIONS, WAYS, Profile, profile_words, shows_path, with_profile, words_in
 
 WAY = Option(
     "way",

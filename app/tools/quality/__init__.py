@@ -12,5 +12,6 @@ TOOL = Tool(
     icon="quality",
     synonyms="measure check triangles extrema isotropy",
     dock="dock:QualityDock",
+    findings="findings:QualityFindings",
     marks="marks:marks",
 )

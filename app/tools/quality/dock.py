@@ -9,13 +9,13 @@ from ...document.edits import mark_extrema
 from ...document.quantities import quantity_name
 from ...qt.context import Context
 from ...qt.docks.dock import PAD
-from ...qt.docks.findings import Findings
 from ...qt.docks.instrument import Instrument
 from ...qt.docks.panel_dots import curve_colour
 from ...qt.docks.plain import fill, lie_on_dock
 from ...qt.look.look import LOOK
 from ...qt.panels.flat_button import FlatButton
-from ...session.quality import Found
+from .findings import QualityFindings
+from .judgement import Found
 from .measures import MEASURES, NONE, WAITING
 from .polar_chart import PolarChart
 
@@ -89,7 +89,7 @@ class QualityDock(Instrument):
         self.copy_button.setToolTip("Copy the table as text")
         self.copy_button.setAccessibleName("Copy the table as text")
         self.copy_button.activated.connect(self.copy)
-        context[Findings].quality_changed.connect(self._fill)
+        context[QualityFindings].changed.connect(self._fill)
         LOOK.follow(self, self._restyle)
 
     def head_widgets(self) -> list[QtWidgets.QWidget]:
@@ -151,7 +151,7 @@ class QualityDock(Instrument):
             return  # the document's change is on its way
         progress_display, sampled = False, dict[int, int]()
         for k, panel in enumerate(document.panels):
-            found = self.context[Findings].found(panel.id)
+            found = self.context[QualityFindings].found(panel.id)
             failed = self._failed(panel.id)
             old = self._before.get(panel.id, Found())
             if found.whole is not None:
@@ -181,7 +181,7 @@ class QualityDock(Instrument):
     def text(self) -> str:
         """The table, with tabulators and all digits."""
         panels = self.context.document.panels
-        found = [self.context[Findings].found(panel.id) for panel in panels]
+        found = [self.context[QualityFindings].found(panel.id) for panel in panels]
         lines = [["", *(quantity_name(panel.shows) for panel in panels)]]
         lines += [
             [
@@ -207,7 +207,7 @@ class QualityDock(Instrument):
     def _go_to(self, row: int, column: int) -> None:
         """To the place that a number is about."""
         panel = self.context.document.panels[column]
-        found = self.context[Findings].found(panel.id)
+        found = self.context[QualityFindings].found(panel.id)
         vertex = _place(MEASURES[row].name, found)
         if vertex is not None:
             widget = self.context.grid.panel(panel.id)

@@ -1,11 +1,14 @@
 """Extrema of fields."""
 
-from bihdist_core.analysis.quality import OtherExtrema
+from weakref import WeakKeyDictionary
+
+from bihdist_core import BihdistError
+from bihdist_core.analysis.quality import OtherExtrema, other_extrema
+from bihdist_core.distances.answers import Answer
 
 from ...marks.glyphs import TRIANGLE_DOWN, TRIANGLE_UP
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import PointMark
-from ...session.extrema import extrema_of
 from ...session.questions import questions
 
 
@@ -19,7 +22,17 @@ def marks(marked: MarkedPanel) -> list[PointMark]:
 
 
 def _extrema(marked: MarkedPanel) -> OtherExtrema | None:
-    document = marked.document
-    if not document.extrema:
+    """Those for a figure, found once for each answer; None where the document marks none, and of a constant field."""
+    document, answer, surface = marked.document, marked.answer, marked.loaded.surface
+    if not document.extrema or answer.field is None:
         return None
-    return extrema_of(questions(document)[marked.panel.id], marked.loaded.surface, marked.answer)
+    if answer not in _found:
+        question = questions(document)[marked.panel.id]
+        try:
+            _found[answer] = other_extrema(surface, answer.field, question.start(answer.field, surface))
+        except BihdistError:
+            _found[answer] = None
+    return _found[answer]
+
+
+_found: WeakKeyDictionary[Answer, OtherExtrema | None] = WeakKeyDictionary()

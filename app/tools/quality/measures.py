@@ -8,7 +8,7 @@ import numpy as np
 from bihdist_core.analysis.quality import FieldQuality
 
 from ...qt.look.numbers import number, share
-from ...session.quality import Found
+from .judgement import Found
 
 WAITING, NONE = "…", "–"
 

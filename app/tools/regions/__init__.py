@@ -13,7 +13,9 @@ TOOL = Tool(
     synonyms="sampling voronoi segmentation clusters",
     dock="dock:RegionsDock",
     commands={"samples": "samples_command", "regions": "command"},
-    parts=("..document.regions:DividedPanels",),
+    findings="findings:RegionFindings",
+    panel_edits="part:PANEL_EDITS",
+    parts=("part:DividedPanels",),
     options="options:ROWS",
     marks="marks:marks",
 )

@@ -11,13 +11,11 @@ from bihdist_core.formats.curve_output import CURVE_FORMATS
 
 from ...document.document import Document, Panel
 from ...document.file_names import file_name
-from ...document.pins import Pins
 from ...document.quantities import quantity_name
-from ...document.regions import DividedPanels, can_divide, show_regions
+from ...document.shared_parts.pins import Pins
 from ...qt.context import Context
 from ...qt.docks.badges import BADGE, Badge, paint_badge
 from ...qt.docks.dock import PAD
-from ...qt.docks.findings import Findings
 from ...qt.docks.instrument import Instrument
 from ...qt.docks.panel_dots import SIDE, curve_colour, dot
 from ...qt.docks.plain import fill, lie_on_dock
@@ -27,6 +25,8 @@ from ...qt.look.numbers import number, share
 from ...qt.look.segments import Segments
 from ...qt.panels.flat_button import FlatButton
 from ...scene.style import PINS
+from .findings import RegionFindings
+from .part import DividedPanels, can_divide, show_regions
 from .sampler import Sampler
 
 ROW, HEAD = 30, 32
@@ -57,8 +57,8 @@ class RegionsDock(Instrument):
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
-        self._findings = context[Findings]
-        self.sampler = Sampler(context, self._findings.post)
+        self._findings = context[RegionFindings]
+        self.sampler = Sampler(context)
         self.ticks: dict[int, QtWidgets.QCheckBox] = {}
         self._ticks = QtWidgets.QVBoxLayout()
         self._ticks.setSpacing(4)
@@ -108,7 +108,7 @@ class RegionsDock(Instrument):
         menu = QtWidgets.QMenu(self.save_button)
         menu.aboutToShow.connect(self._fill_menu)
         self.save_button.setMenu(menu)
-        self._findings.regions_changed.connect(lambda *_: self._fill())
+        self._findings.changed.connect(lambda *_: self._fill())
         LOOK.follow(self, self._restyle)
 
     def head_widgets(self) -> list[QtWidgets.QWidget]:

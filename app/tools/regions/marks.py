@@ -5,7 +5,7 @@ from bihdist_core.analysis.region_boundaries import region_boundaries
 from ...marks.line_looks import BOUNDARY
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import LineMark
-from ...session.regions import Divided, regions_of, regions_questions
+from .division import Divided, regions_of, regions_questions
 
 
 def marks(marked: MarkedPanel) -> list[LineMark]:

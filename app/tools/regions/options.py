@@ -8,7 +8,7 @@ from bihdist_core.errors import ParameterError
 
 from ...document.option import Option, Row
 from ...document.page import Recipe
-from ...document.regions import divide, divided_panels
+from .part import divide, divided_panels
 
 
 def _panel_numbers(text: str) -> str | tuple[int, ...]:

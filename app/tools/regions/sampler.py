@@ -10,24 +10,24 @@ from bihdist_core.arrays import AnyArray, IntArray
 
 from ...document.document import Panel
 from ...document.file_names import file_name
-from ...document.pins import add_pins
 from ...document.quantities import quantity_name
+from ...document.shared_parts.pins import add_pins
 from ...qt.context import Context
 from ...qt.files.saving import save, written
-from ...session.sampling import Sampled, SamplesQuestion, Sampling
+from ...session.farthest_points import Sampled, SamplesQuestion, Sampling
 
 USUAL, MOST = 10, 10_000
 """Points at first, and at most."""
 
 
 class Sampler(QtWidgets.QWidget):
-    """`post` runs a function on the window's thread."""
+    """Their number, two buttons, and by which distance they would be."""
 
-    def __init__(self, context: Context, post: Callable[[Callable[[], None]], None]) -> None:
+    def __init__(self, context: Context) -> None:
         super().__init__()
         self._context = context
         self._then: Callable[[AnyArray], None] = lambda vertices: None
-        self._sampling = Sampling(post, self._sampled, self._show_going)
+        self._sampling = Sampling(context.post, self._sampled, self._show_going)
         self.count = QtWidgets.QSpinBox()
         self.count.setRange(1, MOST)
         self.count.setValue(USUAL)

@@ -16,4 +16,6 @@ TOOL = Tool(
     dock="dock:RobustnessDock",
     commands={"perturb": "command"},
     quantities=("quantity:ChangeOf",),
+    options="options:ROWS",
+    add_panel="comparison:add_row",
 )

@@ -6,8 +6,8 @@ from qtpy import QtCore
 
 from bihdist_core.applications.changes import Perturbation
 
-from ...document.perturbation_edits import change_as
 from ...qt.context import Context
+from .comparison import change_as, change_mesh
 
 SOON_MS = 60
 """Between two changes that are asked for while a slider moves."""
@@ -64,7 +64,7 @@ class ChangeAsking(QtCore.QObject):
         if wanted == (self._asked if session.is_opening else change_as(session.document)):
             return
         self._asked, self._asked_at = wanted, time.monotonic()
-        session.change_mesh(wanted, self._key)
+        session.apply(lambda document: change_mesh(document, wanted), self._key)
 
     def _refused(self, _: str) -> None:
         if self.wanted is None:

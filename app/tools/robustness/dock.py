@@ -12,10 +12,9 @@ from bihdist_core.arrays import IntArray
 from bihdist_core.counts import counted
 from bihdist_core.formats.mesh_output import MESH_FORMATS, write_mesh
 
+from ...document.derived_surfaces import changed_mesh, without_changed
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.perturbation import changed_mesh
-from ...document.perturbation_edits import cut_by, refuse_change
 from ...qt.context import Context
 from ...qt.docks.brushing import RADII, Brushing
 from ...qt.docks.dock import PAD
@@ -25,7 +24,9 @@ from ...qt.files.saving import MESH_FILES, save
 from ...qt.look.segments import Segments
 from ...qt.panels.flat_button import FlatButton
 from ...session.loaded_mesh import LoadedMesh
+from .comparison import refuse_change
 from .confirmation import ChangeAsking
+from .cuts import cut_by
 from .gestures import ChangeGestures
 from .rows import AmountRow, ChosenRow, Scale, label, quiet
 from .table import ChangeTable
@@ -230,7 +231,7 @@ class RobustnessDock(Instrument):
 
     def leave(self) -> None:
         if changed_mesh(self.context.document) is not None:
-            self.context.session.change_mesh(Perturbation())
+            self.context.session.apply(without_changed)
 
     def _stop(self) -> None:
         """Let the pointer mean what it usually does."""

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Any
 from bihdist_core.distances.kinds import Spec
 
 from ...document.json_values import record, text
-from ...document.perturbation import CHANGE
 from ...document.quantities import FromPoint, Quantity, kind_name, read_spec
 
 if TYPE_CHECKING:
     from ...document.document import Document
     from .answers import ChangeQuestion
+
+CHANGE = "change of "
+"""What the words of a change begin with."""
 
 
 @dataclass(frozen=True)

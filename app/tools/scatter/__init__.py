@@ -15,7 +15,7 @@ TOOL = Tool(
     dock="dock:ScatterDock",
     parts=(
         "part:Scatter",
-        "..document.selections:Selections",
+        "..document.shared_parts.selections:Selections",
     ),
     options="options:ROWS",
     marks="marks:marks",

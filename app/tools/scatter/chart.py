@@ -108,7 +108,7 @@ class ScatterChart(Chart):
             ends = [QtCore.QPointF(*map(float, self.pixels(value, value))) for value in (low, high)]
             painter.drawLine(*ends)
         if self.scatter is not None:
-            painter.drawImage(plot, self._picture(plot))
+            painter.drawImage(plot, self._picture(self.scatter, plot))
         painter.setFont(LOOK.font(12))
         metrics = QtGui.QFontMetricsF(painter.font())
         (across, dot), (up, other_dot) = self._names
@@ -127,16 +127,16 @@ class ScatterChart(Chart):
         paint_dot(painter, QtCore.QPointF(-width / 2 - 10, 0), other_dot)
         painter.restore()
 
-    def _picture(self, plot: QtCore.QRectF) -> QtGui.QImage:
+    def _picture(self, scatter: FieldScatter, plot: QtCore.QRectF) -> QtGui.QImage:
         """A cell for each pixel or some: grey by the logarithm of how many are in it, selections in their colours."""
-        ratio, size = self.devicePixelRatioF(), cell_size(len(self.scatter.ids))
+        ratio, size = self.devicePixelRatioF(), cell_size(len(scatter.ids))
         columns, rows = (max(round(side * ratio / size), 1) for side in (plot.width(), plot.height()))
         grid = columns, rows, (self.across.low, self.across.high), (self.up.low, self.up.high)
         chosen = []
         for vertices, colour in self._selections:
             shown = QtGui.QColor(PINS[colour])
             chosen.append((vertices, _rgb(shown.lighter(150) if LOOK.theme.is_dark else shown)))
-        pixels = density_picture(self.scatter, grid, _rgb(QtGui.QColor(LOOK.theme.text)), chosen)
+        pixels = density_picture(scatter, grid, _rgb(QtGui.QColor(LOOK.theme.text)), chosen)
         image = QtGui.QImage(pixels.data, columns, rows, 4 * columns, QtGui.QImage.Format.Format_RGBA8888)
         return image.copy()
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core import Surface
+from bihdist_core import ParameterError, Surface
 from bihdist_core.analysis.field_scatter import FieldScatter, field_scatter
 from bihdist_core.analysis.field_statistics import Agreement, field_agreement
-from bihdist_core.arrays import AnyArray, IntArray
+from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.formats.field_output import write_array
 from bihdist_core.progress import Progress
@@ -18,7 +18,8 @@ from bihdist_core.progress import Progress
 from ...document.document import Document
 from ...document.file_names import file_name
 from ...document.quantities import quantity_name
-from ...document.selections import Selections, vertices_of
+from ...document.runs import ids_of
+from ...document.shared_parts.selections import Selections
 from ...qt.context import Context
 from ...qt.docks.brushing import Brushing
 from ...qt.docks.chart import Axis
@@ -46,9 +47,12 @@ SIDE = 250
 
 @dataclass(frozen=True, eq=False)
 class _Request:
+    """fields: those of the two answers, (n,) each."""
+
     surface: Surface
     across: Answer
     up: Answer
+    fields: tuple[FloatArray, FloatArray]
     shares: bool
 
     @property
@@ -57,11 +61,10 @@ class _Request:
 
 
 def _compared(request: _Request, progress: Progress) -> Iterator[FieldScatter | Agreement]:
-    fields = request.across.field, request.up.field
-    scatter = field_scatter(request.surface, *fields, request.shares)
+    scatter = field_scatter(request.surface, *request.fields, request.shares)
     scatter.sort()
     yield scatter
-    yield field_agreement(request.surface, *fields, request.shares)
+    yield field_agreement(request.surface, *request.fields, request.shares)
 
 
 class ScatterDock(Instrument):
@@ -148,7 +151,7 @@ class ScatterDock(Instrument):
         self._save.setMenu(menu)
         self._save.setEnabled(False)
         self._found: Agreement | None = None
-        self._asked: tuple = ()
+        self._asked: tuple[object, ...] = ()
         self._request: _Request | None = None
         self._background = context.background("scatter", _compared)
         self._background.answered.connect(self._take)
@@ -161,20 +164,18 @@ class ScatterDock(Instrument):
     # ------------------------------------------------------------------ what is shown
     def show_document(self, document: Document, before: Document | None) -> None:
         self.shares.choose("shares" if document[Scatter].shares else "value")
-        across, up = self._pair(document)
-        for button, id in ((self.across_button, across), (self.up_button, up)):
-            button.setText("" if id is None else self._name(document, id))
+        names = self._names(document) or ("", "")
+        for button, name in zip((self.across_button, self.up_button), names, strict=True):
+            button.setText(name)
             button.updateGeometry()
         if before is None or document[Selections].selections != before[Selections].selections:
-            self.chart.show_selections(
-                [(vertices_of(each.runs), each.colour) for each in document[Selections].selections]
-            )
+            self.chart.show_selections([(ids_of(each.runs), each.colour) for each in document[Selections].selections])
         self.list.show_selections(document[Selections].selections, self.context[Brushing].current)
         self._below.setCurrentWidget(self.list if document[Selections].selections else self._hint)
         self._compare()
 
     def show_answer(self, panel: int) -> None:
-        if panel in self._pair(self.context.document):
+        if panel in (self._pair(self.context.document) or ()):
             self._compare()
 
     def show_pointed(self, vertex: int | None) -> None:
@@ -189,12 +190,14 @@ class ScatterDock(Instrument):
             self._compare()
 
     @staticmethod
-    def _pair(document: Document) -> tuple[int | None, int | None]:
-        """The panels across and up: those that are chosen, or the first that are left."""
+    def _pair(document: Document) -> tuple[int, int] | None:
+        """The panels across and up: those that are chosen, or the first that are left; None where there is none."""
         ids = [panel.id for panel in document.panels_of()]
+        if not ids:
+            return None
         across, up = (id if id in ids else None for id in (document[Scatter].across, document[Scatter].up))
         if across is None:
-            across = next((id for id in ids if id != up), ids[0] if ids else None)
+            across = next((id for id in ids if id != up), ids[0])
         if up is None:
             up = next((id for id in ids if id != across), across)
         return across, up
@@ -206,24 +209,29 @@ class ScatterDock(Instrument):
         place = list(names).index(id) + 1
         return f"{names[id]} ({place})" if list(names.values()).count(names[id]) > 1 else names[id]
 
+    def _names(self, document: Document) -> tuple[str, str] | None:
+        """Of the panels across and up."""
+        pair = self._pair(document)
+        return None if pair is None else (self._name(document, pair[0]), self._name(document, pair[1]))
+
     def _compare(self) -> None:
         """Ask for what is to be shown, if it is not shown yet."""
         session = self.context.session
         document, shown = session.document, session.shown
-        across, up = self._pair(document)
-        if session.surface is None or across not in shown or up not in shown:
+        pair = self._pair(document)
+        if session.surface is None or pair is None or not shown.keys() >= set(pair):
             return  # on its way
-        answers = shown[across].answer, shown[up].answer
-        key = (*(id(answer.field) for answer in answers), document[Scatter].shares, across, up, document.panels)
+        across, up = (shown[panel].answer for panel in pair)
+        key = (id(across.field), id(up.field), document[Scatter].shares, *pair, document.panels)
         if key == self._asked:
             return
         self._asked = key
-        for answer in answers:
-            if answer.field is None:
-                self._background.ask(None)
-                self._refuse(None, answer.failure or NO_FIELD)
-                return
-        self._request = _Request(session.surface, *answers, document[Scatter].shares)
+        if across.field is None or up.field is None:
+            self._background.ask(None)
+            self._refuse(None, (across if across.field is None else up).failure or NO_FIELD)
+            return
+        fields = across.field, up.field
+        self._request = _Request(session.surface, across, up, fields, document[Scatter].shares)
         self._background.ask(self._request)
 
     def _refuse(self, request: object, sentence: str) -> None:
@@ -240,28 +248,31 @@ class ScatterDock(Instrument):
 
     def _show_scatter(self, request: _Request, scatter: FieldScatter) -> None:
         document = self.context.document
+        pair = self._pair(document)
+        if pair is None:
+            return
         ids = [panel.id for panel in document.panels]
         curves = LOOK.theme.curves
-        names = tuple((self._name(document, id), curves[ids.index(id) % len(curves)]) for id in self._pair(document))
-        axes = [
+        name, other = ((self._name(document, id), curves[ids.index(id) % len(curves)]) for id in pair)
+        across, up = (
             Axis(low, high, "" if request.shares else answer.unit, request.shares)
             for (low, high), answer in zip(
                 axis_ends(scatter, request.has_common_unit), (request.across, request.up), strict=True
             )
-        ]
+        )
         self._found = None
         self._save.setEnabled(True)
-        self.chart.show_scatter(scatter, names, tuple(axes), request.has_common_unit)
+        self.chart.show_scatter(scatter, (name, other), (across, up), request.has_common_unit)
 
     def _show_agreement(self, request: _Request, found: Agreement) -> None:
         self._found = found
         lines = [("rank correlation", number(found.spearman)), ("rank correlation by area", number(found.by_area))]
         if request.has_common_unit:
-            difference = request.across.field[found.largest_at], request.up.field[found.largest_at]
-            sizes = (1.0, 1.0)
-            if request.shares:
-                sizes = tuple(float(np.nanmax(np.abs(each.field))) for each in (request.across, request.up))
-            sign = np.sign(difference[1] / sizes[1] - difference[0] / sizes[0])
+            across, up = (
+                field[found.largest_at] / (np.nanmax(np.abs(field)) if request.shares else 1.0)
+                for field in request.fields
+            )
+            sign = np.sign(up - across)
             written = share if request.shares else number
             lines += [
                 ("mean deviation, by area", written(found.mean)),
@@ -279,7 +290,8 @@ class ScatterDock(Instrument):
     def _fill(self, menu: QtWidgets.QMenu, side: str) -> None:
         menu.clear()
         document = self.context.document
-        chosen = self._pair(document)[0 if side == "across" else 1]
+        across, up = self._pair(document) or (-1, -1)
+        chosen = across if side == "across" else up
         for panel in document.panels_of():
             action = menu.addAction(self._name(document, panel.id))
             action.setCheckable(True)
@@ -288,14 +300,13 @@ class ScatterDock(Instrument):
 
     def choose_panel(self, side: str, id: int) -> None:
         """side: "across" or "up"; the other panel takes the place of this one where they would be the same."""
-        session = self.context.session
-        across, up = self._pair(session.document)
-        pair = {"across": across, "up": up}
-        other = "up" if side == "across" else "across"
-        if pair[other] == id:
-            pair[other] = pair[side]
-        pair[side] = id
-        session.show(session.document.with_part(replace(session.document[Scatter], **pair)))
+        document = self.context.document
+        across, up = self._pair(document) or (id, id)
+        if side == "across":
+            across, up = id, across if up == id else up
+        else:
+            across, up = up if across == id else across, id
+        self.context.edit(document.with_part(replace(document[Scatter], across=across, up=up)))
 
     def _choose_shares(self, word: str) -> None:
         session = self.context.session
@@ -305,7 +316,8 @@ class ScatterDock(Instrument):
     def _select(self, corners: AnyArray, keys: QtCore.Qt.KeyboardModifiers) -> None:
         modifier = QtCore.Qt.KeyboardModifier
         way = "added" if keys & modifier.ShiftModifier else "removed" if keys & modifier.ControlModifier else "new"
-        self.context[Brushing].select(self.chart.scatter.inside(corners), way)
+        if self.chart.scatter is not None:
+            self.context[Brushing].select(self.chart.scatter.inside(corners), way)
 
     def _choose(self, name: str) -> None:
         self.context[Brushing].choose(name)
@@ -332,23 +344,27 @@ class ScatterDock(Instrument):
 
     # ------------------------------------------------------------------ what is saved
     def figure(self) -> "ScatterFigure":
-        """What the chart shows, in the style of the page."""
+        """What the chart shows, in the style of the page; ParameterError while it shows none."""
         from ...figures.chart_page import ChartLook
         from ...figures.scatter_figure import INCHES, ScatterAxis, ScatterFigure
 
         context, request, found = self.context, self._request, self._found
-        document, page = context.document, context.page
-        axes = []
-        for id, axis in zip(self._pair(document), (self.chart.across, self.chart.up), strict=True):
-            unit = "% of the maximum" if document[Scatter].shares else axis.unit
-            axes.append(ScatterAxis(self._name(document, id), unit, axis.low, axis.high))
+        document, page, scatter = context.document, context.page, self.chart.scatter
+        names = self._names(document)
+        if scatter is None or request is None or names is None:
+            raise ParameterError("There is no scatter yet; wait until both panels have a field.")
+        across, up = (
+            ScatterAxis(name, "% of the maximum" if document[Scatter].shares else axis.unit, axis.low, axis.high)
+            for name, axis in zip(names, (self.chart.across, self.chart.up), strict=True)
+        )
         return ScatterFigure(
-            self.chart.scatter,
-            *axes,
+            scatter,
+            across,
+            up,
             in_shares=document[Scatter].shares,
             is_common=request.has_common_unit,
             selections=tuple(
-                (each.name, vertices_of(each.runs), PINS[each.colour]) for each in document[Selections].selections
+                (each.name, ids_of(each.runs), PINS[each.colour]) for each in document[Selections].selections
             ),
             correlation=None if found is None else found.spearman,
             largest=found.largest_at if found is not None and request.has_common_unit else None,
@@ -357,7 +373,7 @@ class ScatterDock(Instrument):
 
     def _file_name(self) -> str:
         session = self.context.session
-        panels = [session.document.panel(id) for id in self._pair(session.document)]
+        panels = [session.document.panel(id) for id in self._pair(session.document) or ()]
         return file_name([session.first_surface.name], "scatter", *(str(panel.shows) for panel in panels))
 
     def save_figure(self, *_: object, path: str = "") -> None:
@@ -374,8 +390,8 @@ class ScatterDock(Instrument):
         if scatter is None:
             return
         document = context.document
-        header = ["vertex", *(self._name(document, id) for id in self._pair(document))]
-        chosen = [np.isin(scatter.ids, vertices_of(each.runs)) for each in document[Selections].selections]
+        header = ["vertex", *(self._names(document) or ())]
+        chosen = [np.isin(scatter.ids, ids_of(each.runs)) for each in document[Selections].selections]
         table = np.column_stack([scatter.ids, scatter.x, scatter.y, *chosen])
         header += [each.name for each in document[Selections].selections]
 

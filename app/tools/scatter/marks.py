@@ -1,6 +1,7 @@
 """Selected vertices."""
 
-from ...document.selections import Selections, vertices_of
+from ...document.runs import ids_of
+from ...document.shared_parts.selections import Selections
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import AreaMark
 from ...scene.style import PINS
@@ -14,4 +15,4 @@ def marks(marked: MarkedPanel) -> list[AreaMark]:
         last = each.runs[-1][1]
         if last >= len(marked.loaded.surface.vertices):
             marked.loaded.surface.check_vertex(last)
-    return [AreaMark(vertices_of(each.runs), PINS[each.colour]) for each in chosen]
+    return [AreaMark(ids_of(each.runs), PINS[each.colour]) for each in chosen]

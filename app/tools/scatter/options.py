@@ -16,7 +16,8 @@ LONGEST = 1000
 
 def _selections_of(recipe: Recipe) -> dict[str, Any]:
     """In the colours that they get by themselves."""
-    from ...document.selections import Selections, runs_in_words
+    from ...document.runs import runs_in_words
+    from ...document.shared_parts.selections import Selections
 
     selections = recipe.document[Selections].selections
     if any(each.surface != recipe.document.surfaces[0].name for each in selections):
@@ -30,7 +31,7 @@ def _selections_of(recipe: Recipe) -> dict[str, Any]:
 
 
 def _with_selections(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
-    from ...document.selections import select_instead
+    from ...document.shared_parts.selections import select_instead
 
     document = recipe.document
     selected = select_instead(document, map(_runs, values["selections"]), document.surfaces[0].name)
@@ -43,7 +44,7 @@ def _runs(chosen: Any) -> Runs:
 
     from bihdist_core.analysis.selecting import is_ids_file, read_ids
 
-    from ...document.selections import runs_from_words, runs_of
+    from ...document.runs import runs_from_words, runs_of
 
     if not isinstance(chosen, str):
         return runs_of(np.asarray(chosen))

@@ -8,7 +8,8 @@ from bihdist_core.analysis.selecting import SELECTION_WAYS, write_selection
 
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.selections import Selection, Selections, change_selection, select, vertices_of
+from ...document.runs import ids_of
+from ...document.shared_parts.selections import Selection, Selections, change_selection, select
 from ...qt.context import Context
 from ...qt.docks.brushing import Brushing
 from ...qt.files.saving import save
@@ -132,7 +133,7 @@ class SelectionList(QtWidgets.QTreeWidget):
         (selection,) = found
 
         def write(path: str) -> None:
-            write_selection(path, surface, vertices_of(selection.runs), way, selection.name)
+            write_selection(path, surface, ids_of(selection.runs), way, selection.name)
 
         if path is not None:
             write(path)

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from qtpy import QtCore, QtWidgets
 
+from bihdist_core import ParameterError
 from bihdist_core.analysis.field_statistics import FieldStatistics, field_statistics, rank_correlation
+from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.formats.field_output import write_array
 from bihdist_core.progress import Progress, part
@@ -42,24 +44,25 @@ SHARES = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 @dataclass(frozen=True, eq=False)
 class _Request:
-    """parts: the question of a difference, whose two fields are correlated."""
+    """field: (n,) the answer's.  parts: the question of a difference, whose two fields are correlated."""
 
     loaded: LoadedMesh
     answer: Answer
+    field: FloatArray
     parts: DifferenceQuestion | None
 
 
 def _numbers(request: _Request, progress: Progress) -> Iterator[FieldStatistics | float]:
     surface = request.loaded.surface
-    yield field_statistics(surface, request.answer.field, BINS, SHARES)
+    yield field_statistics(surface, request.field, BINS, SHARES)
     if request.parts is not None:
-        fields = [
+        one, other = (
             request.loaded.answer(question, part(progress, k / 2, (k + 1) / 2)).field
             for k, question in enumerate((request.parts.minuend, request.parts.subtrahend))
-        ]
-        if all(field is not None for field in fields):
-            there = np.isfinite(fields[0]) & np.isfinite(fields[1]) & (surface.component_of_vertex >= 0)
-            yield rank_correlation(fields[0][there], fields[1][there])
+        )
+        if one is not None and other is not None:
+            there = np.isfinite(one) & np.isfinite(other) & (surface.component_of_vertex >= 0)
+            yield rank_correlation(one[there], other[there])
 
 
 class StatisticsDock(Instrument):
@@ -165,8 +168,8 @@ class StatisticsDock(Instrument):
                 self._background.ask(None)
                 self._refuse(None, shown.answer.failure or NO_FIELD)
             else:
-                parts = question if len(question.parts) > 1 else None
-                self._request = _Request(loaded, shown.answer, parts)
+                parts = question if isinstance(question, DifferenceQuestion) else None
+                self._request = _Request(loaded, shown.answer, shown.answer.field, parts)
                 self._background.ask(self._request)
         else:
             self._show()
@@ -200,7 +203,7 @@ class StatisticsDock(Instrument):
         colours = scene.style.bin_colours(found.bins, top, signed)
         self.histogram.show_bins(found.bins, found.areas, colours, answer.unit, signed)
         self._unit.setText("fraction of the area")
-        self.facts.show_facts(self._facts(found, answer))
+        self.facts.show_facts(self._facts(found, self._request))
         self.quantiles.show_facts(self._quantiles(found, answer))
 
     def _ids(self) -> list[int]:
@@ -212,16 +215,17 @@ class StatisticsDock(Instrument):
             for part, value in zip(found.shares, found.quantiles, strict=True)
         ]
 
-    def _facts(self, found: FieldStatistics, answer: Answer, exact: bool = False) -> list[tuple[str, ...]]:
+    def _facts(self, found: FieldStatistics, request: _Request, exact: bool = False) -> list[tuple[str, ...]]:
         """exact: with all digits."""
+        answer = request.answer
 
         def written(value: float, with_sign: bool = True) -> tuple[str, ...]:
             return self._written(value, answer, with_sign, exact)
 
         facts: list[tuple[str, ...]] = []
         if answer.is_signed:
-            sign = answer.field[found.largest_at]
-            facts.append((f"largest, at vertex {found.largest_at}", *written(float(sign))))
+            largest = float(request.field[found.largest_at])
+            facts.append((f"largest, at vertex {found.largest_at}", *written(largest)))
             facts.append(("mean size, by area", *written(found.mean_size, False)))
         else:
             facts.append((f"greatest, at vertex {found.greatest_at}", *written(found.greatest)))
@@ -246,13 +250,19 @@ class StatisticsDock(Instrument):
         self._unit.setText(words or "fraction of the area")
 
     # ------------------------------------------------------------------ what is saved
+    def _there(self) -> tuple[_Request, FieldStatistics]:
+        """What was asked for, and its numbers; ParameterError as long as there are none."""
+        if self._request is None or self.statistics is None:
+            raise ParameterError("There are no statistics yet; wait until the panel has a field.")
+        return self._request, self.statistics
+
     def figure(self) -> "HistogramFigure":
         """The histogram, in the style and the colours of figures."""
         from ...figures.chart_page import ChartLook
         from ...figures.histogram_figure import HistogramFigure
 
-        found, answer, context = self.statistics, self._request.answer, self.context
-        page, document = context.page, context.document
+        (request, found), context = self._there(), self.context
+        answer, page, document = request.answer, context.page, context.document
         style = style_of(page.style, document.colours)
         top = context.grid.panel(self._panel).view.scene.maximum
         return HistogramFigure(
@@ -278,10 +288,11 @@ class StatisticsDock(Instrument):
 
     def save_numbers(self, *_: object, path: str = "") -> None:
         """The ends of each bin, and its area."""
-        context, found = self.context, self.statistics
-        table = np.column_stack([found.bins[:-1], found.bins[1:], found.areas])
+        context = self.context
 
         def write(path: str) -> None:
+            _, found = self._there()
+            table = np.column_stack([found.bins[:-1], found.bins[1:], found.areas])
             write_array(path, table, ["from", "to", "area"])
 
         if path:
@@ -291,7 +302,7 @@ class StatisticsDock(Instrument):
 
     def copy(self) -> None:
         """What the dock says, with tabs and all digits, as spreadsheets read it."""
-        found, answer = self.statistics, self._request.answer
-        facts = [(self.name.text(),), *self._facts(found, answer, True), *self._quantiles(found, answer, True)]
+        request, found = self._there()
+        facts = [(self.name.text(),), *self._facts(found, request, True), *self._quantiles(found, request.answer, True)]
         QtWidgets.QApplication.clipboard().setText("".join("\t".join(fact) + "\n" for fact in facts))
         self.context.tell("The statistics are on the clipboard")

@@ -15,7 +15,7 @@ from ...qt.docks.fact_table import FactTable
 from ...qt.look.look import LOOK
 from ...qt.look.numbers import share
 from ...session.loaded_mesh import LoadedMesh
-from ...session.questions import Question
+from ...session.questions import DistanceQuestion, Question
 
 MOST = 200
 """Eigenpairs at most."""
@@ -29,7 +29,7 @@ CURVES = 64
 """Height of the curves, in logical pixels."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class _Request:
     loaded: LoadedMesh
     areas: str
@@ -75,21 +75,15 @@ class TruncationBox(QtWidgets.QWidget):
 
     def expect(self, loaded: LoadedMesh | None, question: Question | None) -> None:
         """The question of the panel that it is about."""
-        is_meant = question is not None and question.is_distance and question.specs[0].word == "biharmonic"
-        source = question.at if is_meant else None
         self._wanted = None
-        if loaded is None or not is_meant:
+        if loaded is None or not isinstance(question, DistanceQuestion) or question.spec.word != "biharmonic":
             self._rest("For a panel with the biharmonic distance.")
-        elif source is None:
+        elif question.at is None:
             self._rest("For a source that is there.")
         else:
-            before = self._request
-            same = before is not None and (before.loaded, before.areas, before.source) == (
-                loaded,
-                question.areas,
-                source,
-            )
-            self._wanted = before if same else _Request(loaded, question.areas, source)
+            before, wanted = self._request, _Request(loaded, question.areas, question.at)
+            same = before == wanted
+            self._wanted = before if same else wanted
             if self._is_on and not same:
                 self.compute()
             elif not self._is_on:

@@ -20,11 +20,11 @@ from bihdist_core.errors import Cancelled
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
-from ..document.document import Document, MeshFile
-from ..document.pins import Pins
-from ..document.regions import DividedPanels
-from .latest_request_worker import LatestRequestWorker
-from .loaded_mesh import LoadedMesh
+from ...document.document import Document, MeshFile
+from ...document.shared_parts.pins import Pins
+from ...session.latest_request_worker import LatestRequestWorker
+from ...session.loaded_mesh import LoadedMesh
+from .part import DividedPanels
 
 MEMORY = 512_000_000
 """Bytes of pins' fields that are kept: 640 of 100,000 vertices."""

@@ -30,9 +30,9 @@ from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 from bihdist_core.surface import Surface
 
-from .latest_request_worker import LatestRequestWorker
-from .loaded_mesh import LoadedMesh
-from .questions import DistanceQuestion, Question, vertex_at
+from ...session.latest_request_worker import LatestRequestWorker
+from ...session.loaded_mesh import LoadedMesh
+from ...session.questions import DistanceQuestion, Question, vertex_at
 
 GEODESIC = Spec.of("geodesic")
 

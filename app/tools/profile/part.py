@@ -8,11 +8,11 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source, SurfacePoint, checked_source
 from bihdist_core.sources.words import words_of
 
-from .document import Document, Point, free_names
-from .edits import show_dock
-from .looks import one_of
-from .part import Part
-from .pins import Pins
+from ...document.document import Document, Point, free_names
+from ...document.edits import show_dock
+from ...document.looks import one_of
+from ...document.part import Part
+from ...document.shared_parts.pins import Pins
 
 SECTIONS = {"section": "shorter", "section-longer": "longer", "section-whole": "whole"}
 """Ways of a profile by a plane through two points and a direction, and the part of the section that each takes."""

@@ -3,18 +3,23 @@
 import os
 from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import whole_number
 
-from .document import Document, Panel, Point, free_names, unlike
-from .json_values import record, text
-from .looks import one_of
+from ...document.document import Document, Panel, Point, free_names, unlike
+from ...document.json_values import record, text
+from ...document.looks import one_of
+from ...document.part import Part
+from ...document.quantities import DistanceFrom, Quantity, read_spec
 from .pairs import Pairs
-from .part import Part
-from .quantities import DistanceFrom, Quantity, read_spec
+
+if TYPE_CHECKING:
+    from bihdist_core.surface import Surface
+
+    from .map_answers import MapQuestion, PositionQuestion
 
 MOST_MAPS = 5
 """Shown beside the surface that they lead to."""
@@ -85,6 +90,7 @@ class MapColours(Quantity):
 
     by: Spec | str = ""
     is_map = True
+    relates_surfaces = True
 
     def __str__(self) -> str:
         return f"{MAP_BY}{self.by}" if isinstance(self.by, Spec) else f"{MAP}{self.by}" if self.by else POSITIONS
@@ -128,6 +134,12 @@ class MapColours(Quantity):
         check_two(document)
         if surface != document.surfaces[0].name:
             raise ParameterError(f"Maps are from the surface {document.surfaces[0].name!r}, and shown on it.")
+
+    def question(self, document: Document, surface: str) -> "PositionQuestion | MapQuestion":
+        """What has to be answered to show where the map leads."""
+        from .map_answers import map_question
+
+        return map_question(self, document, surface)
 
     def with_paths(self, named: Callable[[str], str]) -> "MapColours":
         return MapColours(MapFile(self.by).at(named).path) if isinstance(self.by, str) and self.by else self
@@ -182,6 +194,13 @@ class Maps(Part):
     def with_paths(self, named: Callable[[str], str]) -> "Maps":
         file, partners = (each and each.at(named) for each in (self.truth.file, self.truth.partners))
         return Maps(tuple(map.at(named) for map in self.maps), replace(self.truth, file=file, partners=partners))
+
+    def check_files(self, surfaces: Mapping[str, "Surface"]) -> None:
+        """Every map is one between the first two surfaces."""
+        from .map_answers import map_in
+
+        for map in self.maps:
+            map_in(map, *list(surfaces.values())[:2])
 
 
 def check_two(document: Document) -> None:

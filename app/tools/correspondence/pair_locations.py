@@ -8,12 +8,12 @@ from bihdist_core import ParameterError, Surface
 from bihdist_core.arrays import IntArray
 from bihdist_core.distances.answers import Answer
 
-from ..document.document import Document, Panel
-from ..document.pairs import Pair, Pairs, half_pair, number_of, pair_words, waiting_point, whole_pairs
-from ..document.prediction import predicts_in
-from .loaded_mesh import LoadedMesh
+from ...document.document import Document, Panel
+from ...session.loaded_mesh import LoadedMesh
+from ...session.questions import vertex_at
+from .pairs import Pair, Pairs, half_pair, number_of, waiting_point, whole_pairs
+from .prediction import predicts_in
 from .prediction_answers import candidate_of
-from .questions import vertex_at
 
 
 @dataclass(frozen=True)
@@ -62,18 +62,6 @@ def candidate_in(document: Document, panel: Panel, answer: Answer | None) -> Can
         return None
     vertex, share = candidate_of(answer.field)
     return Candidate(number_of(document, half), vertex, float(answer.field[vertex]), share)
-
-
-def plain_heading(document: Document, panel: Panel, loaded: LoadedMesh, answer: Answer) -> tuple[str, str] | None:
-    """What stands over a panel that predicts nothing now: the name of its surface, and what waits there.
-
-    None where it does, and where it is said why it cannot.
-    """
-    if not predicts_in(panel) or answer.field is not None or answer.failure:
-        return None
-    waiting = waiting_point(document)
-    is_here = waiting is not None and waiting.surface == panel.surface
-    return loaded.surface.name, pair_words(document, panel.surface)[0] if is_here else ""
 
 
 def vertex_pairs(document: Document, first: Surface, second: Surface) -> IntArray:

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 
 from bihdist_core.errors import ParameterError
 
-from .document import Document
-from .part import Part
-from .pins import Pins
+from ...document.document import Document
+from ...document.panel_edits import PanelEdit
+from ...document.part import Part
+from ...document.shared_parts.pins import Pins
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,21 @@ def can_divide(document: Document, panel: int) -> bool:
     return shown.shows.is_distance and any(
         document.point(name).surface == shown.surface for name in document[Pins].points
     )
+
+
+def _turn(document: Document, panel: int) -> Document:
+    return show_regions(document, panel, panel not in document[DividedPanels].regions)
+
+
+PANEL_EDITS = (
+    PanelEdit(
+        "Regions of the pins",
+        _turn,
+        lambda document, panel: panel in document[DividedPanels].regions or can_divide(document, panel),
+        synonyms="voronoi cells nearest",
+    ),
+)
+"""Show them or not, by the menu over a panel."""
 
 
 def divide(document: Document, which: str | Sequence[int]) -> Document:

@@ -19,11 +19,11 @@ from bihdist_core.sources.source import Source, SurfacePoint
 from bihdist_core.sources.words import words_of
 from bihdist_core.surface import Surface
 
-from ..document.document import Document
-from ..document.pins import Pins
-from ..document.profile import SECTIONS, Profile, points_along
-from .latest_request_worker import LatestRequestWorker
-from .loaded_mesh import LoadedMesh
+from ...document.document import Document
+from ...document.shared_parts.pins import Pins
+from ...session.latest_request_worker import LatestRequestWorker
+from ...session.loaded_mesh import LoadedMesh
+from .part import SECTIONS, Profile, points_along
 
 FEW = "A profile goes from point to point: pin two points, or choose its ends above."
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,15 +16,13 @@ from bihdist_core.formats.vertex_maps import read_map
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
-from ..document.document import Document, MeshFile
-from ..document.file import checksum
-from ..document.maps import SAME_IDS, MapColours, MapFile, Maps
-from ..document.pairs import other_side
+from ...document.document import Document, MeshFile
+from ...document.file import checksum
+from ...session.loaded_mesh import LoadedMesh
+from ...session.questions import Question
+from .maps import SAME_IDS, MapColours, MapFile, Maps
+from .pairs import other_side
 from .prediction_answers import NO_OTHER, correspondence, pairs_on
-from .questions import Question
-
-if TYPE_CHECKING:
-    from .loaded_mesh import LoadedMesh
 
 NO_PAIRS = "There is no pair yet, and pairs make the map."
 """What a panel of a map says where there can be none."""
@@ -42,7 +39,7 @@ class PositionQuestion(Question):
         return str(MapColours())
 
     def answer(
-        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+        self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
     ) -> Answer:
         colours = position_colours(loaded.surface)
         colours.flags.writeable = False
@@ -82,7 +79,7 @@ class MapQuestion(Question):
         return str(MapColours(self.by.path if isinstance(self.by, MapFile) else self.by))
 
     def answer(
-        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+        self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
     ) -> Answer:
         """Each vertex in the colour of the one that it is mapped to."""
         other = loaded.standing_beside(self.other)

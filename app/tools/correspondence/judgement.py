@@ -27,11 +27,11 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
-from ..document.document import Document
-from ..document.maps import SAME_IDS, MapFile, Maps, Truth
-from ..document.pairs import whole_pairs
-from .loaded_mesh import LoadedMesh
+from ...document.document import Document
+from ...session.loaded_mesh import LoadedMesh
 from .map_answers import map_in
+from .maps import SAME_IDS, MapFile, Maps, Truth
+from .pairs import whole_pairs
 from .prediction_answers import correspondence
 
 MOST_KEPT = 40_000_000
@@ -51,7 +51,7 @@ Map = Spec | MapFile
 
 def maps_of(document: Document) -> tuple[Map, ...]:
     """Those that the panels show, or predict a point of, each once; and those of the document's files."""
-    shown = [panel.shows for panel in document.panels if panel.shows.is_prediction or panel.shows.is_map]
+    shown = [panel.shows for panel in document.panels if panel.shows.relates_surfaces]
     return (*dict.fromkeys(spec for each in shown for spec in each.specs), *document[Maps].maps)
 
 

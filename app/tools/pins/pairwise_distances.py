@@ -17,8 +17,8 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
-from .latest_request_worker import LatestRequestWorker
-from .loaded_mesh import LoadedMesh
+from ...session.latest_request_worker import LatestRequestWorker
+from ...session.loaded_mesh import LoadedMesh
 
 AT_ONCE = 8
 """Sources between two places where the work can be given up."""

@@ -7,12 +7,12 @@ import numpy as np
 
 from bihdist_core.progress import Progress
 
-from ..document.document import Document
-from ..document.maps import Maps, Truth
-from ..document.pairs import other_side, waiting_point
-from .judging import KeptGeodesics, right_places
-from .loaded_mesh import LoadedMesh
-from .questions import vertex_at
+from ...document.document import Document
+from ...session.loaded_mesh import LoadedMesh
+from ...session.questions import vertex_at
+from .judgement import KeptGeodesics, right_places
+from .maps import Maps, Truth
+from .pairs import other_side, waiting_point
 
 
 @dataclass(frozen=True, eq=False)

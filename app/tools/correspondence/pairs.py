@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source
 
-from .document import Document, Point, free_names
-from .labels import check_colour, next_colour
-from .part import Part
-from .removal import without_orphans
+from ...document.document import Document, Point, free_names
+from ...document.labels import check_colour, next_colour
+from ...document.part import Part
+from ...document.removal import without_orphans
 
 MOST_PAIRS = 200
 """Each has a column of distances on both surfaces for each panel."""

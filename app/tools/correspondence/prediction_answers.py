@@ -3,7 +3,6 @@
 import threading
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,13 +14,11 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
-from ..document.document import Document, MeshFile
-from ..document.pairs import other_side, waiting_point, whole_pairs
-from ..document.prediction import PREDICTION
-from .questions import ByDistance, vertex_at
-
-if TYPE_CHECKING:
-    from .loaded_mesh import LoadedMesh
+from ...document.document import Document, MeshFile
+from ...session.loaded_mesh import LoadedMesh
+from ...session.questions import ByDistance, vertex_at
+from .pairs import other_side, waiting_point, whole_pairs
+from .quantity import PREDICTION
 
 NO_OTHER = "There is no second mesh: open one beside this to find corresponding points."
 """What a panel of a prediction says where there can be none."""
@@ -101,7 +98,7 @@ class PredictionQuestion(ByDistance):
         return f"{PREDICTION}{self.spec}"
 
     def answer(
-        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+        self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
     ) -> Answer:
         """The misfit of every vertex to the point; neither field nor failure where none waits, or no pair is known."""
         other = loaded.standing_beside(self.other)
@@ -125,7 +122,7 @@ class PredictionQuestion(ByDistance):
         sentence = f"the best is vertex {best}, misfit {field[best]:.4g}, {100 * share:.1f} % of the largest"
         return Answer(label=label, unit=MISFIT, field=field, error_estimate=ErrorEstimate(), remark=sentence)
 
-    def is_at_hand(self, loaded: "LoadedMesh") -> bool:
+    def is_at_hand(self, loaded: LoadedMesh) -> bool:
         """Whether the distances from all points of the pairs are known, or nothing waits."""
         other = loaded.standing_beside(self.other)
         if other is None or self.at is None:
@@ -161,8 +158,8 @@ def correspondence(
     areas: str,
     spec: Spec,
     pairs: Sequence[tuple[Source | None, Source | None]],
-    one: "LoadedMesh",
-    two: "LoadedMesh",
+    one: LoadedMesh,
+    two: LoadedMesh,
     progress: Progress | None = None,
 ) -> Correspondence:
     """From one surface to another, of pairs of points of the one and the other; columns that are known are used again.

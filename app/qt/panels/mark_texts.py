@@ -1,49 +1,37 @@
-"""The values of anchors, and the texts of other marks, painted beside them."""
+"""The texts of marks, such as the values of anchors, painted beside them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from qtpy import QtCore, QtGui
 
-from bihdist_core.arrays import FloatArray
-
 from ..look.look import LOOK
+from ..look.painting import paint_rounded
 
 AWAY, HEIGHT, PAD, DOT = 9.0, 21.0, 5.0, 6.0
 """Logical pixels: from the place to the label, its height, beside the text, and from a place to its mark's rim."""
 
 
-@dataclass(frozen=True, eq=False)
-class AnchorLabel:
-    """A value at a position (3,); is_chosen: it stands out."""
-
-    position: FloatArray
-    text: str
-    is_chosen: bool = False
+MarkText = tuple[str, bool, QtCore.QPointF]
+"""What stands beside a mark, whether that stands out, and where it is."""
 
 
-def paint_anchor_labels(
-    painter: QtGui.QPainter, labels: list[tuple[AnchorLabel, QtCore.QPointF]], view: QtCore.QRectF
-) -> None:
-    """At their places in a view; what is chosen comes first, and one that would cover another is left out."""
+def paint_texts(painter: QtGui.QPainter, texts: Sequence[MarkText], view: QtCore.QRectF) -> None:
+    """At their places in a view; what stands out comes first, and one that would cover another is left out."""
     theme = LOOK.theme
     painter.setFont(LOOK.font(12, bold=True))
     metrics = QtGui.QFontMetricsF(painter.font())
     sizes = [
-        QtCore.QSizeF(metrics.horizontalAdvance(label.text) + 2 * PAD * LOOK.scale, HEIGHT * LOOK.scale)
-        for label, _ in labels
+        QtCore.QSizeF(metrics.horizontalAdvance(text) + 2 * PAD * LOOK.scale, HEIGHT * LOOK.scale)
+        for text, _, _ in texts
     ]
-    ranks = [not label.is_chosen for label, _ in labels]
-    boxes = label_boxes([at for _, at in labels], sizes, ranks, view)
-    for (label, _), box in zip(labels, boxes, strict=True):
+    boxes = label_boxes([at for _, _, at in texts], sizes, [not is_lit for _, is_lit, _ in texts], view)
+    for (text, is_lit, _), box in zip(texts, boxes, strict=True):
         if box is None:
             continue
-        ground, text = (theme.fill, theme.on_fill) if label.is_chosen else (theme.raised, theme.text)
-        painter.setPen(QtGui.QPen(QtGui.QColor(ground if label.is_chosen else theme.text), 1))
-        painter.setBrush(QtGui.QColor(ground))
-        painter.drawRoundedRect(box, 4, 4)
-        painter.setPen(QtGui.QColor(text))
-        painter.drawText(box, QtCore.Qt.AlignmentFlag.AlignCenter, label.text)
+        ground, ink = (theme.fill, theme.on_fill) if is_lit else (theme.raised, theme.text)
+        paint_rounded(painter, box, 4, ground, ground if is_lit else theme.text)
+        painter.setPen(QtGui.QColor(ink))
+        painter.drawText(box, QtCore.Qt.AlignmentFlag.AlignCenter, text)
 
 
 def label_boxes(

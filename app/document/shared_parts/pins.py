@@ -3,15 +3,14 @@
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, replace
 
-from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source, SurfacePoint
 from bihdist_core.sources.words import short_words_of
 
-from .document import Document, Point, free_names, unlike
-from .labels import check_colour, check_name, next_colour
-from .part import Part
-from .removal import without_orphans
+from ..document import Document, Point, free_names, unlike
+from ..labels import check_colour, check_name, next_colour
+from ..part import Part
+from ..removal import without_orphans
 
 MOST_PINS = 200
 """Their distances among each other are a matrix that somebody reads."""
@@ -34,24 +33,10 @@ class Pin:
 
 
 @dataclass(frozen=True)
-class PinList:
-    """How pins are listed.
-
-    distance: whose distances among them, the first panel's if None.  shares: of the maxima instead of values.
-    positions: whether their coordinates are listed.
-    """
-
-    distance: Spec | None = None
-    shares: bool = False
-    positions: bool = False
-
-
-@dataclass(frozen=True)
 class Pins(Part):
-    """The pins in their order, and how they are listed."""
+    """The pins in their order."""
 
     pins: tuple[Pin, ...] = ()
-    pin_list: PinList = PinList()
 
     @property
     def points(self) -> tuple[str, ...]:

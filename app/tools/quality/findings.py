@@ -1,74 +1,50 @@
-"""What is found out in the background about what the panels show, and drawn on them: extrema while the dock of quality
-is open or the document says so, those of interpolants beside the dock of anchors, and regions of the pins where the
-document says so."""
-
-from collections.abc import Callable
-from contextlib import suppress
+"""The quality of what panels show, found out in the background while the dock is open, and the extrema that are marked:
+those of all panels then and where the document says so, otherwise those of quantities that ask for it."""
 
 from qtpy import QtCore
 
 from bihdist_core.analysis.quality import OtherExtrema
 
 from ...document.document import Panel
-from ...session.quality import Found, Quality
+from ...qt.context import Context
 from ...session.questions import Question, are_about_the_same, questions
-from ...session.regions import Divided, Dividing, regions_questions
-from ..context import Context
+from .judgement import Found, Quality
 
 REST_MS = 150
 """Fields that follow each other faster, as in a drag, are not judged."""
 
 
-class Findings(QtCore.QObject):
-    """quality_changed: more is known of some panel, or less; regions_changed: of a panel."""
+class QualityFindings(QtCore.QObject):
+    """changed: more is known of some panel, or less."""
 
-    quality_changed = QtCore.Signal()
-    regions_changed = QtCore.Signal(int)
-    _posted = QtCore.Signal(object)
+    changed = QtCore.Signal()
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
         self._context = context
-        self._quality: Quality | None = None  # once the dock has been opened
-        self._dividing = Dividing(self.post, self._show_regions)
+        self._quality: Quality | None = None  # once something is marked
         self._is_closed = False
-        self._posted.connect(self._run)
         self._rest = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
-        self._rest.timeout.connect(self._ask_quality)
+        self._rest.timeout.connect(self._ask)
         context.document_changed.connect(self.document_changed)
         context.answer_changed.connect(self.answer_changed)
-        context.panels_cleared.connect(self.show_again)
+        context.panels_cleared.connect(self._show_extrema)
         context.closed.connect(self.close)
 
     # ------------------------------------------------------------------ what is told
     def document_changed(self, _: object = None) -> None:
-        """Ask for regions and extrema of what is shown now."""
-        session = self._context.session
-        if session.surface is None or self._is_closed:
-            return
-        asked = {}
-        for id, question in regions_questions(session.document).items():
-            loaded = session.loaded(session.document.panel(id).surface)
-            if loaded is not None:
-                asked[id] = (question, loaded)
-        self._dividing.ask(asked)
-        self._quality_wanted()
+        """Ask for the quality of what is shown now."""
+        if self._is_there:
+            self._want()
 
     def answer_changed(self, _: int) -> None:
-        """Ask for the extrema of another answer."""
-        self._quality_wanted()
-
-    def show_again(self) -> None:
-        """The panels have forgotten what was drawn on them."""
-        for panel in self._context.grid.panels:
-            self._show_regions(panel.id)
-        self._show_extrema()
+        """Ask for the quality of another answer."""
+        self._want()
 
     def close(self) -> None:
         """Nothing more is found out."""
         self._is_closed = True
         self._rest.stop()
-        self._dividing.close()
         if self._quality is not None:
             self._quality.close()
 
@@ -78,18 +54,10 @@ class Findings(QtCore.QObject):
         question = self._judged_question(panel)
         return Found() if question is None or self._quality is None else self._quality.found(question)
 
-    def divided(self, panel: int) -> Divided | None:
-        """The regions that a panel shows."""
-        return self._dividing.divided(panel)
-
-    def is_divided(self, panel: int) -> bool:
-        """Whether these are the regions of where the pins are now."""
-        return self._dividing.is_answered(panel)
-
     @property
     def is_complete(self) -> bool:
         """Whether there is nothing more to be found out."""
-        if self._rest.isActive() or not self._dividing.is_complete:
+        if self._rest.isActive():
             return False
         panels = self._context.document.panels
         judged = [panel.id for panel in panels if self._is_marked(panel) and self._judged_question(panel.id)]
@@ -108,8 +76,8 @@ class Findings(QtCore.QObject):
     def _is_marked(self, panel: Panel) -> bool:
         """Whether the extrema of what a panel shows are drawn there."""
         document = self._context.document
-        has_anchors = "anchors" in document.docks and panel.shows.interpolates
-        return self._is_judging or ((document.extrema or has_anchors) and self._is_there)
+        is_asked_for = document.extrema or panel.shows.marks_extrema(document)
+        return self._is_judging or (is_asked_for and self._is_there)
 
     @property
     def _is_there(self) -> bool:
@@ -123,20 +91,19 @@ class Findings(QtCore.QObject):
             return None
         return shown.asked
 
-    # ------------------------------------------------------------------ quality
-    def _quality_wanted(self) -> None:
+    # ------------------------------------------------------------------ what is asked, and shown
+    def _want(self) -> None:
         if self._is_marking:
             self._rest.start()
-        self._show_extrema()
-        self.quality_changed.emit()
+        self._tell()
 
-    def _ask_quality(self) -> None:
+    def _ask(self) -> None:
         if not self._is_marking:
             if self._quality is not None:
                 self._quality.ask({})
             return
         if self._quality is None:
-            self._quality = Quality(self.post, self._judged)
+            self._quality = Quality(self._context.post, self._tell)
         session, asked, on_its_way = self._context.session, {}, {}
         now = questions(session.document)
         for panel in session.document.panels:
@@ -150,29 +117,12 @@ class Findings(QtCore.QObject):
                 on_its_way[now[panel.id]] = loaded
         self._quality.ask(asked, not self._is_judging, on_its_way)
 
-    def _judged(self) -> None:
+    def _tell(self) -> None:
         self._show_extrema()
-        self.quality_changed.emit()
+        self.changed.emit()
 
     def _show_extrema(self) -> None:
         marked = {panel.id for panel in self._context.document.panels if self._is_marked(panel)}
         for panel in self._context.grid.panels:
             extrema = self.found(panel.id).extrema if panel.id in marked else None
-            self._context.grid.marks.show_found(panel.id, OtherExtrema, extrema)
-
-    # ------------------------------------------------------------------ regions
-    def _show_regions(self, panel: int) -> None:
-        divided = self._dividing.divided(panel)
-        if any(shown.id == panel for shown in self._context.grid.panels):
-            self._context.grid.marks.show_found(panel, Divided, divided)
-        self.regions_changed.emit(panel)
-
-    # ------------------------------------------------------------------ threads
-    def post(self, function: Callable[[], None]) -> None:
-        """Run a function on the window's thread, unless the window is closed by then."""
-        with suppress(RuntimeError):  # the window may be gone
-            self._posted.emit(function)
-
-    def _run(self, function: Callable[[], None]) -> None:
-        if not self._is_closed:
-            function()
+            self._context.show_found(panel.id, OtherExtrema, extrema)

@@ -7,11 +7,11 @@ from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source
 
-from .document import Document, Point, free_names
-from .labels import check_name
-from .looks import LARGEST
-from .part import Part
-from .removal import without_orphans
+from ...document.document import Document, Point, free_names
+from ...document.labels import check_name
+from ...document.looks import LARGEST
+from ...document.part import Part
+from ...document.removal import without_orphans
 
 MOST_ANCHORS = 500
 """Each has a column of distances for each panel."""
@@ -48,6 +48,10 @@ class Anchors(Part):
     @property
     def points(self) -> tuple[str, ...]:
         return tuple(anchor.point for anchor in self.anchors)
+
+    @property
+    def has_values(self) -> bool:
+        return any(anchor.value is not None for anchor in self.anchors)
 
     def without_points(self, points: Set[str]) -> "Anchors":
         return replace(self, anchors=tuple(anchor for anchor in self.anchors if anchor.point not in points))

@@ -1,0 +1,1 @@
+"""Parts of documents that several tools use, which do not import each other."""
