@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bihdist_core import surface
 from bihdist_core.errors import MeshError
 from bihdist_core.formats import mesh_text, obj, off, ply, stl
 from bihdist_core.formats.mesh_io import surface_in
@@ -222,3 +223,23 @@ def test_corners_in_one_place_are_found_as_by_sorting():
         points = rng.integers(-sides, sides, (count, 3)) * rng.choice([0.1, -0.1], (count, 3))
         for a, b in zip(stl.merged(points), stl._merged_by_sorting(points), strict=True):
             assert (a.dtype, a.shape, a.tobytes()) == (b.dtype, b.shape, b.tobytes())
+
+
+def test_faces_are_proper_as_without_the_kernel(monkeypatch):
+    rng = np.random.default_rng(0)
+    vertices = rng.random((9, 3))
+    found = []
+    for count in rng.integers(1, 9, 500):
+        # Now and then an id that there is not, and often a vertex or a face twice.
+        faces = rng.integers(0, rng.choice([6, 9, 9, 9, 10]), (count, 3)) - rng.choice([0, 0, 0, 1])
+        results = []
+        for kernel in (library(), None):
+            monkeypatch.setattr(surface, "library", lambda kernel=kernel: kernel)
+            try:
+                made = surface.Surface(vertices, faces)
+                results.append((made.faces.tolist(), made.repairs))
+            except MeshError as error:
+                results.append(str(error))
+        assert results[0] == results[1]
+        found.append(results[0][1] == ())
+    assert 50 < sum(found) < 450
