@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from .arrays import AnyArray, BoolArray, FloatArray, IntArray
 from .errors import MeshError, VertexError
+from .kernel.library import DONE, library
 
 Coordinates = FloatArray | list[FloatArray]
 """(3, m): vectors, each coordinate for itself."""
@@ -291,13 +292,15 @@ def _checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[IntArray, l
     """(m, 3) faces that can be used, and what was dropped, in words."""
     try:
         f = np.array(faces)
-        whole = f.astype(np.int64)
+        whole = np.ascontiguousarray(f, np.int64)
     except (TypeError, ValueError) as error:
         raise MeshError(f"{name}: the faces are not an array of vertex ids ({error}).") from None
     if f.size == 0:
         raise MeshError(f"{name} has no faces; a surface needs at least one triangle.")
     if f.ndim != 2 or f.shape[1] != 3:
         raise MeshError(f"{name}: faces must have shape (m, 3), not {f.shape}.")
+    if f.dtype.kind in "iu" and _are_proper(whole, n):
+        return whole, []
     bad = np.flatnonzero(((whole < 0) | (whole >= n) | (whole != f)).any(axis=1))
     if len(bad):
         raise MeshError(f"{name}: face {bad[0]} has the vertices {_row(f[bad[0]])}; ids run from 0 to {n - 1}.")
@@ -315,6 +318,12 @@ def _checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[IntArray, l
     if not len(unique):
         raise MeshError(f"{name}: every face names a vertex twice; a surface needs at least one triangle.")
     return whole[unique], repairs
+
+
+def _are_proper(faces: IntArray, n: int) -> bool:
+    """Whether the kernel finds nothing wrong with the (m, 3) faces of n vertices."""
+    kernel, slots = library(), 2 << len(faces).bit_length()
+    return kernel is not None and kernel.bih_check_faces(n, len(faces), faces, slots, np.empty(slots, np.int32)) == DONE
 
 
 def _without_repeats(faces: IntArray, some: IntArray) -> IntArray:

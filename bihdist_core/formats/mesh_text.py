@@ -63,7 +63,7 @@ def mesh_text(
     try:
         # No vertex is shorter than '0 0 0', few faces are; memory that is not used is not taken.
         points, sizes, corners = np.empty((length // 6 + 1, 3)), *(np.empty(length // k + 1, np.int64) for k in (6, 2))
-        words = np.empty((length // 64 + 64, 3), np.int64)
+        words = np.empty((length // 16 + 1, 3), np.int64)
     except MemoryError:
         return None
     arrays: tuple[AnyArray, ...] = (points, sizes, corners, words)

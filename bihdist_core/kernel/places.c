@@ -1,4 +1,4 @@
-/* Which points are in one place. */
+/* Which points are in one place, and whether a face is there twice: found by hashing. */
 #include "kernel.h"
 
 /* Number the places of k finite points (k, 3) in the order in which they first appear: place (n, 3), number (k,).
@@ -28,4 +28,27 @@ API i64 bih_merge_points(i64 k, const double *point, i64 slots, i32 *table, doub
     number[i] = table[s];
   }
   return n;
+}
+
+/* Whether each of m faces (m, 3) names three different vertices from 0 to n - 1, and no other face the same three.
+ * table (slots,), a power of two above m. */
+API i32 bih_check_faces(i64 n, i64 m, const i64 *face, i64 slots, i32 *table) {
+  for (i64 s = 0; s < slots; s++) table[s] = -1;
+  for (i64 f = 0; f < m; f++) {
+    const i64 *v = face + 3 * f;
+    i64 low = least(v[0], least(v[1], v[2])), high = most(v[0], most(v[1], v[2]));
+    if (low < 0 || high >= n || v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) return OUTSIDE;
+    i64 middle = v[0] + v[1] + v[2] - low - high;
+    uint64_t hash = ((uint64_t)low * 0x9e3779b97f4a7c15 ^ (uint64_t)middle) * 0x9e3779b97f4a7c15 + (uint64_t)high;
+    hash *= 0x9e3779b97f4a7c15;
+    i64 s = (i64)((hash ^ hash >> 32) & (uint64_t)(slots - 1));
+    for (; table[s] >= 0; s = (s + 1) & (slots - 1)) {
+      const i64 *u = face + 3 * (i64)table[s];
+      if (u[0] + u[1] + u[2] == low + middle + high && least(u[0], least(u[1], u[2])) == low &&
+          most(u[0], most(u[1], u[2])) == high)
+        return OUTSIDE;
+    }
+    table[s] = (i32)f;
+  }
+  return DONE;
 }
