@@ -69,7 +69,9 @@ static inline const byte *read_digits(const byte *s, Digits *d) {
 /* The high word of a product of 128 bits, and the low one. */
 static inline u64 product(u64 a, u64 b, u64 *low) {
   u64 a0 = (uint32_t)a, a1 = a >> 32, b0 = (uint32_t)b, b1 = b >> 32;
-  u64 left = a1 * b0 + (a0 * b0 >> 32), right = a0 * b1 + (uint32_t)left;
+  u64 left = a1 * b0 + (a0 * b0 >> 32);
+  __asm__("" : "+r"(left)); /* else Clang finds out, and calls a library where it has no such instruction */
+  u64 right = a0 * b1 + (uint32_t)left;
   *low = a * b;
   return a1 * b1 + (left >> 32) + (right >> 32);
 }
