@@ -51,7 +51,7 @@ def _read_plain(raw: bytes) -> Polygons | None:
         return None
     keywords = np.array([keyword_code(word.encode()) for word in ("v", "f", "l", "p", *_OTHER_STATEMENTS)], np.uint64)
     found = mesh_text("read_obj", (keywords, len(keywords)), raw, _VERTEX_SIZES, comment=b"#")
-    return found and Polygons(found.vertices, found.sizes, found.corners, _facts(found.loose))
+    return Polygons(found.vertices, found.sizes, found.corners, _facts(found.loose)) if found else None
 
 
 def _read_any(raw: bytes, name: str) -> Polygons:

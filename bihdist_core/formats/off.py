@@ -34,7 +34,7 @@ def _read_plain(raw: bytes, name: str) -> Polygons | None:
     except MeshError:
         return None
     found = mesh_text("read_lists", (header, n, p, True), raw, allowed, comment=b"#")
-    return found and Polygons(found.vertices, found.sizes, found.corners)
+    return Polygons(found.vertices, found.sizes, found.corners) if found else None
 
 
 def _read_any(raw: bytes, name: str) -> Polygons:

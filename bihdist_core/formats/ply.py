@@ -129,7 +129,7 @@ def _read_plain(raw: bytes, elements: list[_Element], body: int) -> Polygons | N
             names = [column.name for column in columns if not column.count_kind]
             if names[:3] == ["x", "y", "z"] and len(columns) == len(set(names)) and ids.count_kind and ids.name in _IDS:
                 found = mesh_text("read_lists", (0, n, p, False), raw, [len(columns)], begin=body)
-                return found and Polygons(found.vertices, found.sizes, found.corners)
+                return Polygons(found.vertices, found.sizes, found.corners) if found else None
     return None
 
 

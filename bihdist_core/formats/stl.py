@@ -29,10 +29,10 @@ def read_stl(raw: bytes, name: str) -> Polygons:
         corners = _text_corners(raw, name)
     else:
         corners = _binary_corners(raw, name)
-    bad = np.flatnonzero(~np.isfinite(corners).all(axis=1))
+    bad = np.flatnonzero(~np.isfinite(corners))
     if len(bad):
-        place = ", ".join(f"{c:g}" for c in corners[bad[0]])
-        raise MeshError(f"{name}: triangle {bad[0] // 3} has a corner at ({place}); all must be finite numbers.")
+        place = ", ".join(f"{c:g}" for c in corners[bad[0] // 3])
+        raise MeshError(f"{name}: triangle {bad[0] // 9} has a corner at ({place}); all must be finite numbers.")
     vertices, ids = merged(corners)
     fact = (
         f"{counted(len(corners), 'triangle corner')} at {counted(len(vertices), 'place')} merged into one vertex each, "

@@ -6,7 +6,6 @@
 #include "kernel.h"
 
 typedef uint64_t u64;
-__extension__ typedef unsigned __int128 u128;
 typedef unsigned char byte;
 
 enum { LEAST = -342, MOST = 308, DIGITS = 19 };
@@ -67,6 +66,16 @@ static inline const byte *read_digits(const byte *s, Digits *d) {
   return s;
 }
 
+/* The high word of a product of 128 bits, and the low one. */
+static inline u64 product(u64 a, u64 b, u64 *low) {
+  u64 a0 = (uint32_t)a, a1 = a >> 32, b0 = (uint32_t)b, b1 = b >> 32;
+  u64 left = a1 * b0 + (a0 * b0 >> 32);
+  __asm__("" : "+r"(left)); /* else Clang finds out, and calls a library where it has no such instruction */
+  u64 right = a0 * b1 + (uint32_t)left;
+  *low = a * b;
+  return a1 * b1 + (left >> 32) + (right >> 32);
+}
+
 /* The bits of w 10^e, rounded to nearest, w > 0; 0 where it is subnormal or infinite.  Eisel and Lemire's algorithm: the
  * product with 128 bits of 5^e always decides (Lemire, Number parsing at a gigabyte per second, 2021; Mushtak and Lemire,
  * Fast number parsing without fallback, 2023). */
@@ -75,9 +84,11 @@ static inline u64 rounded(const u64 *powers, u64 w, i64 e) {
   const u64 *power = powers + 2 * (e - LEAST);
   int shift = __builtin_clzll(w);
   w <<= shift;
-  u128 product = (u128)w * power[0];
-  if ((product >> 64 & 0x1ff) == 0x1ff) product += (u128)w * power[1] >> 64;
-  u64 high = (u64)(product >> 64), low = (u64)product;
+  u64 low, rest, high = product(w, power[0], &low);
+  if ((high & 0x1ff) == 0x1ff) {
+    u64 more = product(w, power[1], &rest);
+    low += more, high += low < more;
+  }
   int top = (int)(high >> 63);
   u64 bits = high >> (top + 9); /* 54 of them: one more than a double has */
   i64 exponent = ((217706 * e) >> 16) + 1086 + top - shift; /* 217706 / 2^16 is close to log2(10) */
