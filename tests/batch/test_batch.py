@@ -36,7 +36,8 @@ def folder(tmp_path_factory):
 def done(folder, tmp_path_factory):
     """A whole run: where its results are."""
     out = tmp_path_factory.mktemp("out")
-    assert batch(folder, out, "--do", "fields,pairs,eigen,fps", "--sources", "farthest:12", "--eigenpairs", "9") == 0
+    options = ("--sources", "farthest:12", "--eigenpairs", "9", "--workers", "2")
+    assert batch(folder, out, "--do", "fields,pairs,eigen,fps", *options) == 0
     return out
 
 

@@ -164,7 +164,7 @@ class DistancePanel(QtWidgets.QWidget):
         scene = self.view.scene
         scene.show_isolines(self._lines, tuple(point.value for point in through))
         self.marks.mark_passed(through, self.answer)
-        self._show_bands()
+        scene.show_bands(self._edges)
         self._show_bar()
         self._warn()
         self.view.redraw()
@@ -225,7 +225,7 @@ class DistancePanel(QtWidgets.QWidget):
             scene.show_bare(is_plain=not answer.failure)
         else:
             scene.show_field(answer.field, maximum, answer.is_signed, not answer.is_rough)
-            self._show_bands()
+            scene.show_bands(self._edges)
         self.marks.mark_field(answer)
         self.view.redraw()
         self.show_waiting(None)
