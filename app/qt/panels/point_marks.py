@@ -175,7 +175,7 @@ class PointMarks(QtCore.QObject):
         """What stands beside marks that are seen; those with words aside have a label of their own."""
         view = self._view
         return [
-            (each.mark.text, each.is_lit, self.at(view.renderer, each.position))
+            (each.mark.text, each.is_lit, view.place_of(each.position))
             for each in self.placed()
             if each.mark.text and not each.mark.aside and each.is_seen
         ]
