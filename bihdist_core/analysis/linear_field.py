@@ -108,7 +108,8 @@ class LinearField:
             return upper
         lower = float(ends[first - 1])
         missing = [below + faces.area_below(value) - area for value in (lower, (lower + upper) / 2, upper)]
-        return lower + (upper - lower) * _root(*missing)
+        part = _root(*missing)
+        return lower + (upper - lower) * part if part < 1 else upper  # to the last digit
 
     def _part(self, chosen: BoolArray) -> "LinearField":
         if chosen.all():
