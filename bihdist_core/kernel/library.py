@@ -97,13 +97,13 @@ class Factor(Structure):
 
 
 class _Array:
-    """An argument: a contiguous array, or None; it is kept while the function runs."""
+    """An argument: a contiguous array, or None; the call keeps it while the function runs."""
 
     @classmethod
     def from_param(cls, array: AnyArray | None) -> Any:
         if array is not None and not array.flags.c_contiguous:
             raise TypeError("The kernel takes contiguous arrays only.")
-        return array if array is None else array.ctypes
+        return array if array is None else c_void_p(array.ctypes.data)
 
 
 _P, _A, _I = c_void_p, _Array, c_int64

@@ -189,8 +189,8 @@ class CompiledTree:
         size = 2 * (c + m) * sp_
         self.inverse[:-1][top] = np.cumsum(size[top]) - size[top]
         self.shared_room = int(max(2 * (m * mp)[task].sum(), size[top].sum()))
-        self.rank[:] = np.cumsum(np.repeat(top, c)) - 1
         """Doubles of the area that tasks share, with derivatives."""
+        self.rank[:] = np.cumsum(np.repeat(top, c)) - 1
         tasks = np.flatnonzero(task)
         self.tasks = [(int(q if top[q] else self._begin[q]), int(q)) for q in tasks]
         number = {int(q): k for k, q in enumerate(tasks)}
