@@ -210,6 +210,10 @@ class Surface:
     @cached_property
     def _face_measures(self) -> tuple[FloatArray, FloatArray]:
         """(m,) areas and (m,) squares of the longest edges."""
+        if lib := library():
+            areas, longest = np.empty((2, len(self.faces)))
+            lib.bih_face_measures(len(self.faces), self.vertices, self.faces, areas, longest)
+            return areas, longest
         a, b, c = self.sides()
         normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
         longest = np.maximum(np.maximum(dots(a, a), dots(b, b)), dots(c, c))
@@ -258,9 +262,13 @@ def dots(a: Coordinates, b: Coordinates) -> FloatArray:
 def connected(edges: IntArray, n: int) -> IntArray:
     """(n,) component, from 0 in the order of their least vertices, of each vertex of a graph with edges (2, e).
 
-    Each tree joins that of its least neighbour, until none has a neighbour: some ten rounds (Liu and Tarjan, Simple
-    Concurrent Connected Components Algorithms, 2022).  SciPy's search is slower, and other Python threads stand still.
+    Without the compiled kernel each tree joins that of its least neighbour, until none has a neighbour: some ten rounds
+    (Liu and Tarjan, Simple Concurrent Connected Components Algorithms, 2022).  SciPy's search is slower.
     """
+    if lib := library():
+        label, (one, other) = np.empty(n, np.int64), np.ascontiguousarray(edges, np.int64)
+        lib.bih_connected(n, len(one), one, other, label)
+        return label
     root = np.arange(n)
     i, j = edges
     while len(i):

@@ -52,3 +52,20 @@ API i32 bih_check_faces(i64 n, i64 m, const i64 *face, i64 slots, i32 *table) {
   }
   return DONE;
 }
+
+static i64 root_of(i64 *above, i64 v) {
+  while (above[v] != v) v = above[v] = above[above[v]];
+  return v;
+}
+
+/* label (n,): the component, numbered by its least vertex, of each vertex of a graph with e edges one - other. */
+API void bih_connected(i64 n, i64 e, const i64 *one, const i64 *other, i64 *label) {
+  i64 count = 0;
+  for (i64 v = 0; v < n; v++) label[v] = v;
+  for (i64 k = 0; k < e; k++) { /* a tree's root is its least vertex */
+    i64 a = root_of(label, one[k]), b = root_of(label, other[k]);
+    if (a < b) label[b] = a;
+    else label[a] = b;
+  }
+  for (i64 v = 0; v < n; v++) label[v] = label[v] == v ? count++ : label[label[v]];
+}
