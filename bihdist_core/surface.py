@@ -210,10 +210,6 @@ class Surface:
     @cached_property
     def _face_measures(self) -> tuple[FloatArray, FloatArray]:
         """(m,) areas and (m,) squares of the longest edges."""
-        if lib := library():
-            areas, longest = np.empty((2, len(self.faces)))
-            lib.bih_face_measures(len(self.faces), self.vertices, self.faces, areas, longest)
-            return areas, longest
         a, b, c = self.sides()
         normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
         longest = np.maximum(np.maximum(dots(a, a), dots(b, b)), dots(c, c))

@@ -49,41 +49,19 @@ API i64 bih_stiffness(i64 n, i64 m, const i64 *faces, const double *weight, i32 
   return put;
 }
 
-typedef struct {
-  double side[3][3]; /* side k is opposite to corner k */
-} Triangle;
-
-static Triangle triangle(const double *x, const i64 *face) {
-  Triangle t;
-  for (int k = 0; k < 3; k++)
-    for (int a = 0; a < 3; a++) t.side[k][a] = x[3 * face[(k + 2) % 3] + a] - x[3 * face[(k + 1) % 3] + a];
-  return t;
-}
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-/* Of each face (m, 3) its area (m,) and the square of its longest side (m,); x (n, 3). */
-API void bih_face_measures(i64 m, const double *x, const i64 *faces, double *area, double *longest) {
-  for (i64 f = 0; f < m; f++) {
-    Triangle t = triangle(x, faces + 3 * f);
-    const double *a = t.side[0], *b = t.side[1];
-    double normal[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    double most = 0;
-    for (int k = 0; k < 3; k++) {
-      double square = dot(t.side[k], t.side[k]);
-      most = square > most ? square : most;
-    }
-    area[f] = __builtin_sqrt(dot(normal, normal)) / 2, longest[f] = most;
-  }
-}
 
 /* Of each face (m, 3) the cotangents of its corners (3, m) and the squared lengths of the sides opposite to them (3, m);
  * x (n, 3), area (m,). */
 API void bih_corners(i64 m, const double *x, const i64 *faces, const double *area, double *cotangent, double *square) {
   for (i64 f = 0; f < m; f++) {
-    Triangle t = triangle(x, faces + 3 * f);
+    double side[3][3];
+    for (int k = 0; k < 3; k++)
+      for (int a = 0; a < 3; a++)
+        side[k][a] = x[3 * faces[3 * f + (k + 2) % 3] + a] - x[3 * faces[3 * f + (k + 1) % 3] + a];
     for (int k = 0; k < 3; k++) {
-      square[k * m + f] = dot(t.side[k], t.side[k]);
-      cotangent[k * m + f] = -dot(t.side[(k + 1) % 3], t.side[(k + 2) % 3]) / (2 * area[f]);
+      square[k * m + f] = dot(side[k], side[k]);
+      cotangent[k * m + f] = -dot(side[(k + 1) % 3], side[(k + 2) % 3]) / (2 * area[f]);
     }
   }
 }

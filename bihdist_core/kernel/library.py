@@ -127,7 +127,6 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "send_units": (None, (_P, _A, _A, _I, _I, _A, _A, _A)),
     "sweep_down_both": (c_int32, (_P, _I, _I, _I, _A, _A, _A, _P)),
     "connected": (None, (_I, _I, _A, _A, _A)),
-    "face_measures": (None, (_I, _A, _A, _A, _A)),
     "corners": (None, (_I, _A, _A, _A, _A, _A)),
     "stiffness": (c_int64, (_I, _I, _A, _A, _A, _A, _A, _A)),
     "check_faces": (c_int32, (_I, _I, _A, _I, _A)),
