@@ -69,7 +69,7 @@ SYNONYMS = {
     "keys": "help shortcuts palette gestures",
     "tour": "help tutorial introduction",
     "about": "version licence citation",
-    **{f"panel {text}": edit.synonyms for text, edit in panel_edits().items()},
+    **{f"panel {text}": edit.synonyms for text, edit in panel_edits().items() if edit.synonyms},
     **{f"dock {tool.word}": tool.synonyms for tool in docked_tools().values()},
 }
 """Nothing here is shown; only what is typed in the palette is compared with it."""

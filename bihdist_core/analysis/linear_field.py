@@ -86,8 +86,8 @@ class LinearField:
 
     def quantiles(self, shares: npt.ArrayLike) -> FloatArray:
         """(q,) the least values that the field does not exceed on these shares (q,), from 0 to 1, of the area."""
-        area = self.area
-        return np.array([self._value_at(share * area) for share in np.asarray(shares, np.float64)])
+        area, most = self.area, float(self.ends[-1])
+        return np.array([self._value_at(x * area) if x < 1 else most for x in np.asarray(shares, np.float64)])
 
     def _value_at(self, area: float) -> float:
         faces, below, ends = self, 0.0, self.ends
@@ -108,8 +108,7 @@ class LinearField:
             return upper
         lower = float(ends[first - 1])
         missing = [below + faces.area_below(value) - area for value in (lower, (lower + upper) / 2, upper)]
-        part = _root(*missing)
-        return lower + (upper - lower) * part if part < 1 else upper  # to the last digit
+        return lower + (upper - lower) * _root(*missing)
 
     def _part(self, chosen: BoolArray) -> "LinearField":
         if chosen.all():

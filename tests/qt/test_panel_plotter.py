@@ -157,7 +157,7 @@ def test_it_is_in_insets(viewer):
     viewer.document = replace(viewer.document, zooms=(Zoom(highest, 2.0),))
     add_points(viewer)
     shot = shots(viewer)[0]
-    ((left, bottom, width, height),) = views(viewer)[0].scene.insets.covered
+    ((left, bottom, width, height),) = views(viewer)[0].scene.insets.placed.values()
     top = shot.shape[0] - bottom - height
     assert len(added(shot[top : top + height, left : left + width])) > 50
     viewer.panels[0].plotter.clear()

@@ -9,6 +9,7 @@ from app.marks.glyphs import TRIANGLE_UP
 from app.tools.regions.part import DividedPanels
 from bihdist_core import farthest_points, read_surface, region_boundaries, region_mesh, voronoi_regions
 from bihdist_core.distances.kinds import Spec
+from tests.qt.painting import painted
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
@@ -141,14 +142,14 @@ def test_farthest_points_are_pinned_and_divide_the_panels(loaded, tmp_path):
     distance = s.session.loaded().distances("voronoi").get(SHOWN[0])
     wanted = farthest_points(distance, 7, 5)
     assert [s.document.point(pin.point).at for pin in s.document[Pins].pins] == wanted.tolist()
-    before = s.pictures()
+    before = [painted(panel.view) for panel in s.panels[:2]]
     press(regions.ticks[0], 8)
     assert s.document[DividedPanels].regions == (0,)
     known(s)
     columns = distance.from_sources(wanted)
     found = voronoi_regions(s.session.surface, columns)
     assert parts(s.window).regions.divided(0).regions.areas == pytest.approx(found.areas, rel=1e-9)
-    after = s.pictures()
+    after = [painted(panel.view) for panel in s.panels[:2]]
     assert (before[0] != after[0]).any()
     assert (before[1] == after[1]).all()
     # The same from the panel's own menu, and back.
@@ -167,7 +168,7 @@ def test_farthest_points_are_pinned_and_divide_the_panels(loaded, tmp_path):
     s.session.undo()
     assert s.document[DividedPanels].regions == ()
     s.settle(0.1)
-    assert (s.pictures()[0] == before[0]).all()
+    assert (painted(s.panels[0].view) == before[0]).all()
     s.session.redo()
     known(s)
     # Files are those that the library writes.

@@ -150,8 +150,8 @@ def test_waiting_ends_where_the_user_stops_it(shown, mesh_file, end):
     from qtpy import QtCore
 
     viewer = shown(SURFACE, ["biharmonic"])
-    stop = viewer._window.cancel if end == "cancel" else viewer._window.close
-    QtCore.QTimer.singleShot(0, stop)
+    window = viewer._window
+    QtCore.QTimer.singleShot(0, window.context.actions["stop"].trigger if end == "cancel" else window.close)
     other = replace(viewer.document.surfaces[0], path=mesh_file(bumpy(20_000)), sha256="")
     with pytest.raises(BihdistError, match="stopped" if end == "cancel" else "closed"):
         viewer.document = replace(viewer.document, surfaces=(other,))
