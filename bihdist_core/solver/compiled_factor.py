@@ -36,6 +36,8 @@ class CompiledFactor:
         self._boundaries = np.empty(parts * tree.factor_size[1] + PADDING)
         self._shared = np.empty(tree.shared_room + PADDING)
         self._eliminate(matrix, areas, job)
+        if not self._dual:
+            self._shared = np.empty(0)
 
     @property
     def nbytes(self) -> int:
@@ -52,7 +54,6 @@ class CompiledFactor:
     def _eliminate(self, matrix: sp.csr_matrix, areas: FloatArray | None, job: Job) -> None:
         lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
         rows = rows_of(matrix.indptr, matrix.indices, matrix.data)
-
         workspaces = Workspaces()
 
         def eliminate(task: tuple[int, int]) -> None:
