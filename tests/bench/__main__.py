@@ -22,6 +22,7 @@ from . import (
     moving_row,
     other_rows,
     peers,
+    reading_row,
     region_row,
     scatter_row,
     window_rows,
@@ -52,6 +53,9 @@ ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
     20: anchor_row.anchor_moved,
     21: batch_rows.batch,
     22: batch_rows.parcels,
+    23: exact_rows.small_meshes,
+    24: reading_row.reading,
+    25: exact_rows.cholesky,
 }
 
 
@@ -84,7 +88,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--quick", action="store_true", help="small meshes and one round: checks the form, not times")
     parser.add_argument("--only", type=_numbers, metavar="1,2", help="these rows only")
     parser.add_argument("--json", metavar="FILE", help="write the table there as well")
-    parser.add_argument("--mesh", metavar="FILE", help="a mesh in place of the generated sphere in rows 1 to 6, 10, 11")
+    mesh = "a mesh in place of the generated sphere in rows 1 to 6, 10, 11 and 25"
+    parser.add_argument("--mesh", metavar="FILE", help=mesh)
     return parser
 
 

@@ -1,47 +1,46 @@
-"""Rows 1 to 4 and 11: what the exact distance costs.
+"""Rows 1 to 4, 11, 23 and 25: what the exact distance costs.
 
 Set-up always means from arrays to the first exact field, so that nothing hides in laziness.
 """
 
 import tempfile
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from bihdist_core import BiharmonicDistance, Surface
 from bihdist_core.analysis.all_pairs import write_all_pairs
+from bihdist_core.solver.blas import one_blas_thread
+from bihdist_core.solver.elimination_tree import EliminationTree
+from bihdist_core.solver.factor import Factor
+from bihdist_core.solver.worker_threads import without_workers
 
 from . import machine, peers
 from .case import EXACT, Case, difference, main_case
 from .child import forget_peak, in_child, peak_memory
 from .least_work import column_bytes, operations
-from .meshes import bumpy_sphere
+from .meshes import along_curve, bumpy_sphere
 from .size import Size
 from .table import Line, compared
 from .timing import alternate, timed
 
 SINGLE = 2e-7
 """Rounding to float32."""
+CHOLESKY_BOUND = 1.0
 
 
 def set_up(size: Size) -> Iterator[Line]:
     case = main_case(size)
-    result = alternate(case.set_up, lambda: peers.heat_solver(*case.arrays), size.rounds)
-    values = result.answer.from_source(case.source)[case.targets]
+    line = _set_up_line(case, f"exact set-up, {case.count}")
     work = operations(case.component.tree())
-    memory = in_child(_set_up_alone, size)
-    yield compared(
-        1,
-        f"exact set-up, {case.count}",
-        result,
-        bound=0.6,
-        limit=work / result.our_time / machine.limits()[1],
-        memory=memory,
-        error=case.error(values),
-        tolerance=EXACT,
-        note="peer: potpourri3d, heat solver constructed",
-    )
+    yield replace(line, limit=work / line.ours / machine.limits()[1], memory=in_child(_set_up_alone, size))
+    ordered = Case(*along_curve(*case.arrays), size)
+    yield _set_up_line(ordered, f"exact set-up, numbered along a curve, {case.count}")
+    with one_blas_thread(), without_workers():
+        line = _set_up_line(case, f"exact set-up on one thread, {case.count}")
+    yield line
     laplacian = case.distance.laplacian
     yield compared(
         1,
@@ -49,6 +48,19 @@ def set_up(size: Size) -> Iterator[Line]:
         alternate(lambda: BiharmonicDistance(laplacian).accuracy, case.set_up, size.rounds),
         bound=0.1,
         note="peer: our set-up",
+    )
+
+
+def _set_up_line(case: Case, work: str) -> Line:
+    result = alternate(case.set_up, lambda: peers.heat_solver(*case.arrays), case.size.rounds)
+    return compared(
+        1,
+        work,
+        result,
+        bound=0.6,
+        error=case.error(result.answer.from_source(case.source)[case.targets]),
+        tolerance=EXACT,
+        note="peer: potpourri3d, heat solver constructed",
     )
 
 
@@ -142,6 +154,72 @@ def column(size: Size) -> Iterator[Line]:
         error=difference(factor.sandwich_columns(index)[:, 0], twice, over=np.abs(twice).max()),
         tolerance=EXACT,
         note=f"{np.median(copied) / 1e9:.1f} GB/s copied on two threads",
+    )
+
+
+def small_meshes(size: Size) -> Iterator[Line]:
+    """From arrays to one field of each of many small meshes."""
+    cases = [Case(*bumpy_sphere(1000, seed), size) for seed in range(size.small)]
+
+    def ours() -> list[np.ndarray]:
+        return [BiharmonicDistance(Surface(*case.arrays)).from_source(case.source) for case in cases]
+
+    def heat() -> list[np.ndarray]:
+        return [peers.heat_solver(*case.arrays).compute_distance(case.source) for case in cases]
+
+    result = alternate(ours, heat, size.rounds)
+    yield compared(
+        23,
+        f"exact set-up and one field of {len(cases):,} meshes of about 1,000 vertices",
+        result,
+        bound=1.0,
+        error=max(case.error(field[case.targets]) for case, field in zip(cases[:20], result.answer, strict=False)),
+        tolerance=EXACT,
+        note="peer: potpourri3d, heat solver constructed and one heat solve",
+    )
+
+
+def cholesky(size: Size) -> Iterator[Line]:
+    """The factor alone, without diagonals, and columns of G A G, by CHOLMOD on the same pinned matrix."""
+    case = main_case(size)
+    works = f"factor of the pinned matrix, {case.count}", f"column of G A G, {case.count}"
+    if not peers.is_installed("cholespy"):
+        for work in works:
+            yield Line(25, work, bound=CHOLESKY_BOUND, note="skipped: cholespy, which has CHOLMOD, is not installed")
+        return
+    component = case.component
+    keep = np.arange(len(component.areas)) != component.pin
+    matrix, areas, x = component.stiffness[keep][:, keep], component.areas[keep], component.surface.vertices[keep]
+    compressed, source = matrix.tocsc(), np.count_nonzero(keep[: case.source])
+    unit = np.eye(1, len(areas), source)[0]
+    result = alternate(
+        lambda: Factor(EliminationTree(matrix, x), matrix), lambda: peers.cholmod(compressed), size.rounds
+    )
+    solve, expected = result.peer_answer, result.peer_answer(unit)
+    yield compared(
+        25,
+        works[0],
+        result,
+        bound=CHOLESKY_BOUND,
+        error=difference(result.answer.solve(unit), expected, over=np.abs(expected).max()),
+        tolerance=EXACT,
+        note="peer: CHOLMOD by cholespy; both with their ordering",
+    )
+    factor = Factor(EliminationTree(matrix, x), matrix, areas)
+    result = alternate(
+        lambda: factor.sandwich_columns([source])[:, 0],
+        lambda: solve(areas * solve(unit)),
+        3 * size.rounds,
+        size.repeat,
+    )
+    yield compared(
+        25,
+        works[1],
+        result,
+        bound=CHOLESKY_BOUND,
+        error=difference(result.answer, result.peer_answer, over=np.abs(result.peer_answer).max()),
+        tolerance=EXACT,
+        note="peer: two solves by CHOLMOD",
     )
 
 

@@ -8,14 +8,16 @@ from collections.abc import Callable
 
 import numpy as np
 
+from bihdist_core.solver.z_order import z_order
+
 Arrays = tuple[np.ndarray, np.ndarray]
 
 
-def bumpy_sphere(n: int) -> Arrays:
+def bumpy_sphere(n: int, seed: int = 0) -> Arrays:
     """Closed, genus 0, irregular: a jittered icosphere with points added in some of its faces, its edges flipped
     until they are Delaunay, its radius varied."""
     x, faces = _icosphere(max(1, round(np.sqrt(n / 15))))
-    random = np.random.default_rng(0)
+    random = np.random.default_rng(seed)
     x += 0.9 / np.sqrt(len(x)) * random.uniform(-1, 1, x.shape)
     split = random.random(len(faces)) < 0.25
     a, b, c = faces[split].T
@@ -98,6 +100,16 @@ MAKERS: dict[str, Callable[[int], Arrays]] = {
     "folded sheet": folded_sheet,
     "needle": needle,
 }
+
+
+def along_curve(x: np.ndarray, faces: np.ndarray) -> Arrays:
+    """The same mesh, its vertices numbered along Morton's curve and its faces sorted by their first one."""
+    cells = ((x - x.min(axis=0)) / np.ptp(x, axis=0).max() * 1023).astype(np.int64)
+    order = np.argsort(z_order(cells.T, 10), kind="stable")
+    new = np.empty_like(order)
+    new[order] = np.arange(len(x))
+    faces = new[faces]
+    return x[order], faces[np.argsort(faces.min(axis=1), kind="stable")]
 
 
 def _shuffled(x: np.ndarray, faces: np.ndarray, random: np.random.Generator) -> Arrays:

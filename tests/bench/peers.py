@@ -1,6 +1,9 @@
 """The programs we are measured against, and slow, independent ways to the same numbers."""
 
+from collections.abc import Callable
 from importlib import metadata
+from importlib.util import find_spec
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -13,7 +16,17 @@ from bihdist_core.laplacian import Component
 
 def versions() -> str:
     """Names and versions of everything that takes part."""
-    return ", ".join(f"{name} {metadata.version(name)}" for name in ("potpourri3d", "scipy", "numpy", "pyvista", "vtk"))
+    names = ("potpourri3d", "scipy", "numpy", "pyvista", "vtk", *filter(is_installed, OPTIONAL))
+    return ", ".join(f"{name} {metadata.version(name)}" for name in names)
+
+
+OPTIONAL = {"meshio": "meshio", "trimesh": "trimesh", "libigl": "igl", "cholespy": "cholespy"}
+"""What takes part where it is installed, and the modules' names."""
+
+
+def is_installed(name: str) -> bool:
+    """Whether one of the optional peers is."""
+    return find_spec(OPTIONAL[name]) is not None
 
 
 def heat_solver(vertices: np.ndarray, faces: np.ndarray):
@@ -43,6 +56,48 @@ def edge_distances_to_file(graph: sp.csr_matrix, path: str, rows: int = 256) -> 
     for start in range(0, n, rows):
         out[start : start + rows] = dijkstra(graph, indices=np.arange(start, min(start + rows, n)))
     out.flush()
+
+
+def cholmod(matrix: sp.csc_matrix) -> Callable[[np.ndarray], np.ndarray]:
+    """Factor a symmetric positive definite matrix by CHOLMOD, through cholespy; what solves with the factor."""
+    from cholespy import CholeskySolverD, MatrixType
+
+    solver = CholeskySolverD(matrix.shape[0], matrix.indptr, matrix.indices, matrix.data, MatrixType.CSC)
+
+    def solve(b: np.ndarray) -> np.ndarray:
+        x = np.empty_like(b)
+        solver.solve(b, x)
+        return x
+
+    return solve
+
+
+def read_by_vtk(path: str) -> Any:
+    from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkOFFReader
+    from vtkmodules.vtkIOPLY import vtkPLYReader
+
+    reader = {"off": vtkOFFReader, "obj": vtkOBJReader, "ply": vtkPLYReader}[path[-3:]]()
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
+
+
+def read_by_meshio(path: str) -> Any:
+    import meshio
+
+    return meshio.read(path)
+
+
+def read_by_trimesh(path: str) -> Any:
+    import trimesh
+
+    return trimesh.load(path, process=False)
+
+
+def read_by_libigl(path: str) -> Any:
+    import igl
+
+    return igl.read_triangle_mesh(path)
 
 
 def arpack_eigenvalues(component: Component, count: int, tolerance: float) -> np.ndarray:

@@ -9,10 +9,11 @@ from .meshes import bumpy_sphere
 
 @dataclass(frozen=True)
 class Size:
-    """main: vertices of rows 1 to 6, 9 to 11; pairs: of row 4; growth: of row 7, row 8 takes the last; window: of
+    """main: vertices of rows 1 to 6, 9 to 11, 25; pairs: of row 4; growth: of row 7, row 8 takes the last; window: of
     rows 13 and 14; drag: of row 15; moving: of row 16; scatter: of row 18; live: of row 19; meshes: how many of row 21;
-    cortex and parcels: of row 22; moves: of the source in row 15; seconds: of a drag in row 19; pointed: places in
-    row 13; file: a mesh that takes the place of the bumpy sphere of `main` vertices."""
+    cortex and parcels: of row 22; small: how many meshes of row 23; read: vertices of row 24; moves: of the source in
+    row 15; seconds: of a drag in row 19; pointed: places in row 13; file: a mesh that takes the place of the bumpy
+    sphere of `main` vertices."""
 
     main: int = 112_000
     pairs: int = 16_000
@@ -27,6 +28,8 @@ class Size:
     meshes: int = 400
     cortex: int = 160_000
     parcels: int = 400
+    small: int = 1000
+    read: int = 1_000_000
     moves: int = 188
     seconds: float = 3.0
     pointed: int = 100
@@ -63,6 +66,8 @@ QUICK = Size(
     meshes=2,
     cortex=2000,
     parcels=20,
+    small=10,
+    read=2000,
     moves=20,
     seconds=0.3,
     pointed=20,

@@ -11,7 +11,7 @@ import pytest
 from bihdist_core import Surface
 from tests.bench import machine
 from tests.bench.__main__ import ROWS
-from tests.bench.meshes import MAKERS
+from tests.bench.meshes import MAKERS, along_curve, bumpy_sphere
 from tests.bench.table import COLUMNS, Line, render
 from tests.bench.timing import alternate
 
@@ -37,7 +37,7 @@ def is_a_count(line):
 def test_every_row_is_there_with_its_bound(quick):
     printed, written = quick
     lines = written["lines"]
-    assert {line["row"] for line in lines} == set(ROWS) == set(range(1, 23))
+    assert {line["row"] for line in lines} == set(ROWS) == set(range(1, 26))
     assert all(
         line["bound"] is not None for line in lines if "folded" not in line["work"] and "needle" not in line["work"]
     )
@@ -59,7 +59,7 @@ def test_a_click_draws_each_panel_once_and_pointing_draws_none(quick):
 def test_what_is_fast_is_also_right(quick):
     lines = quick[1]["lines"]
     measured = [line for line in lines if line["error"] is not None]
-    assert {line["row"] for line in measured} >= {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}
+    assert {line["row"] for line in measured} >= {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 23, 24}
     wrong = [(line["work"], line["error"]) for line in measured if not line["is_accurate"]]
     assert not wrong
 
@@ -76,6 +76,14 @@ def test_meshes_are_what_they_are_called(name):
     assert surface.genus == (2 if name == "genus 2" else 0)
     assert surface.boundary_loop_count == {"folded sheet": 1, "needle": 2}.get(name, 0)
     assert all(np.array_equal(a, b) for a, b in zip(MAKERS[name](6000), (vertices, faces), strict=True))
+
+
+def test_a_mesh_numbered_along_a_curve_is_the_same_with_near_numbers_near():
+    vertices, faces = bumpy_sphere(2000)
+    x, f = along_curve(vertices, faces)
+    corners, expected = (np.unique(mesh.reshape(-1, 9), axis=0) for mesh in (x[f], vertices[faces]))
+    assert np.array_equal(corners, expected)
+    assert np.median(np.ptp(f, axis=1)) < np.median(np.ptp(faces, axis=1)) / 10
 
 
 def test_ratios_are_taken_round_by_round():
