@@ -91,14 +91,16 @@ class ChildProcess:
         self.end = weakref.finalize(self, _end, self.process, self._readers, self._starting)
 
     def ask(
-        self, request: bytes, report: Callable[[bytearray], object] = lambda told: None
+        self, request: bytes | Sequence[bytes | memoryview], report: Callable[[bytearray], object] = lambda told: None
     ) -> "SimpleQueue[bytearray | str]":
         """A queue that will hold the answer, or a text that says why there is none.
 
+        request: in one piece or in several, which are not put together: that would hold up other threads.
         report: takes each report, on a thread of its own.
         """
         answers: SimpleQueue[bytearray | str] = SimpleQueue()
-        message, self._unsent = self._unsent + request, b""
+        message = [self._unsent, *([request] if isinstance(request, bytes) else request)]
+        self._unsent = b""
         # A thread per request, as pipes cannot be waited for with a time limit on Windows; a daemon, as it must not
         # keep the interpreter alive.  It holds the process, not this object, which may be collected meanwhile.
         reader = threading.Thread(target=_converse, args=(self.process, message, answers, report), daemon=True)
@@ -115,15 +117,16 @@ class ChildProcess:
 
 def _converse(
     process: subprocess.Popen[bytes],
-    message: bytes,
+    message: Sequence[bytes | memoryview],
     answers: "SimpleQueue[bytearray | str]",
     report: Callable[[bytearray], object],
 ) -> None:
     requests, replies = cast(io.FileIO, process.stdin), cast(io.FileIO, process.stdout)
     try:
-        rest = memoryview(message)
-        while len(rest):
-            rest = rest[requests.write(rest) :]
+        for piece in message:
+            rest = memoryview(piece)
+            while len(rest):
+                rest = rest[requests.write(rest) :]
         while True:
             status, count = (int.from_bytes(_read(replies, 8), sys.byteorder) for _ in range(2))
             content = _read(replies, count)

@@ -34,7 +34,9 @@ def aside(work: Callable[..., Result], *arguments: Any, progress: Progress | Non
     child = ChildProcess(SERVED, framed(__name__.encode()))
     reports: list[bytearray] = []
     try:
-        answers = child.ask(framed(b"".join(_packed((work, arguments)))), reports.append)
+        pieces = _packed((work, arguments))
+        length = sum(memoryview(piece).nbytes for piece in pieces)
+        answers = child.ask([length.to_bytes(8, sys.byteorder), *pieces], reports.append)
         while True:
             try:
                 answer = answers.get(timeout=REPORT_EVERY)

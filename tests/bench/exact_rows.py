@@ -33,31 +33,31 @@ CHOLESKY_BOUND = 1.0
 
 def set_up(size: Size) -> Iterator[Line]:
     case = main_case(size)
-    line = _set_up_line(case, f"exact set-up, {case.count}")
+    line = _set_up_line(case, f"exact set-up, {case.count}", 0.2)
     work = operations(case.component.tree())
     yield replace(line, limit=work / line.ours / machine.limits()[1], memory=in_child(_set_up_alone, size))
     ordered = Case(*along_curve(*case.arrays), size)
-    yield _set_up_line(ordered, f"exact set-up, numbered along a curve, {case.count}")
+    yield _set_up_line(ordered, f"exact set-up, numbered along a curve, {case.count}", 0.24)
     with one_blas_thread(), without_workers():
-        line = _set_up_line(case, f"exact set-up on one thread, {case.count}")
+        line = _set_up_line(case, f"exact set-up on one thread, {case.count}", 0.28)
     yield line
     laplacian = case.distance.laplacian
     yield compared(
         1,
         f"accuracy of the exact distance, {case.count}",
         alternate(lambda: BiharmonicDistance(laplacian).accuracy, case.set_up, size.rounds),
-        bound=0.1,
+        bound=0.3,
         note="peer: our set-up",
     )
 
 
-def _set_up_line(case: Case, work: str) -> Line:
+def _set_up_line(case: Case, work: str, bound: float) -> Line:
     result = alternate(case.set_up, lambda: peers.heat_solver(*case.arrays), case.size.rounds)
     return compared(
         1,
         work,
         result,
-        bound=0.6,
+        bound=bound,
         error=case.error(result.answer.from_source(case.source)[case.targets]),
         tolerance=EXACT,
         note="peer: potpourri3d, heat solver constructed",
@@ -72,7 +72,7 @@ def one_field(size: Size) -> Iterator[Line]:
         2,
         f"one exact field, {case.count}",
         result,
-        bound=0.22,
+        bound=0.1,
         limit=column_bytes(case.component.tree()) / result.our_time / machine.limits()[0],
         error=case.error(values),
         tolerance=EXACT,
@@ -94,7 +94,7 @@ def many_sources(size: Size) -> Iterator[Line]:
         3,
         f"{len(case.sources)} sources to all, {case.count}, set-up included",
         result,
-        bound=0.7,
+        bound=0.14,
         error=case.error(result.answer[case.targets, 0]),
         tolerance=EXACT,
         note="peer: scipy Dijkstra",
@@ -119,7 +119,7 @@ def all_pairs(size: Size) -> Iterator[Line]:
         4,
         f"all pairs to float32 on disk, {case.count}",
         result,
-        bound=1.0,
+        bound=0.14,
         memory=memory,
         error=case.error(values),
         tolerance=SINGLE,

@@ -24,7 +24,7 @@ WEIGHT = 1e-8
 def eigenpairs(size: Size) -> Iterator[Line]:
     case = main_case(size)
     component = case.component
-    for count, bound in zip(size.eigenpairs, (0.6, 0.5), strict=True):
+    for count, bound in zip(size.eigenpairs, (0.2, 0.13), strict=True):
 
         def ours(count: int = count) -> Spectrum:
             return smallest_eigenpairs(component.stiffness, component.areas, component.solve, count, tolerance=RESIDUAL)
@@ -83,7 +83,7 @@ def heat_geodesic(size: Size) -> Iterator[Line]:
         6,
         f"heat geodesic, set-up, {case.count}",
         result,
-        bound=0.6,
+        bound=0.2,
         error=error,
         tolerance=HEAT,
         note="peer: potpourri3d, heat solver constructed",
@@ -98,7 +98,7 @@ def heat_geodesic(size: Size) -> Iterator[Line]:
         6,
         f"heat geodesic, one field, {case.count}",
         result,
-        bound=0.5,
+        bound=0.2,
         note="peer: one potpourri3d heat solve",
     )
 
