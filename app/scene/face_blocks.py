@@ -9,7 +9,8 @@ import numpy as np
 
 from bihdist_core import Surface
 from bihdist_core.arrays import FloatArray, IntArray
-from bihdist_core.solver.z_order import z_order
+
+from .z_order import z_order
 
 BLOCK = 128
 """Faces in a block: looking at all boxes of a million faces then costs about as much as looking into those that a

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from bihdist_core.solver.z_order import z_order
+from app.scene.z_order import z_order
 
 Arrays = tuple[np.ndarray, np.ndarray]
 

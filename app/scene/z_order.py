@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..arrays import AnyArray
+from bihdist_core.arrays import AnyArray
 
 
 def z_order(cells: Sequence[AnyArray], bits: int) -> AnyArray:
