@@ -96,14 +96,16 @@ class Factor(Structure):
     _fields_ = (("tree", POINTER(Tree)), ("dual", c_int32), ("pivots", c_void_p), ("boundaries", c_void_p))
 
 
+_FIRST: Any = ctypes.c_char
+"""The first byte of an array."""
+
+
 class _Array:
     """An argument: a contiguous array, or None; the call keeps it while the function runs."""
 
     @classmethod
     def from_param(cls, array: AnyArray | None) -> Any:
-        if array is not None and not array.flags.c_contiguous:
-            raise TypeError("The kernel takes contiguous arrays only.")
-        return array if array is None else c_void_p(array.ctypes.data)
+        return None if array is None else c_void_p(at(array))
 
 
 _P, _A, _I = c_void_p, _Array, c_int64
@@ -127,6 +129,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "send_units": (None, (_P, _A, _A, _I, _I, _A, _A, _A)),
     "sweep_down_both": (c_int32, (_P, _I, _I, _I, _A, _A, _A, _P)),
     "connected": (None, (_I, _I, _A, _A, _A)),
+    "measures": (None, (_I, _A, _A, _A, _A)),
     "corners": (None, (_I, _A, _A, _A, _A, _A)),
     "stiffness": (c_int64, (_I, _I, _A, _A, _A, _A, _A, _A)),
     "check_faces": (c_int32, (_I, _I, _A, _I, _A)),
@@ -169,10 +172,13 @@ def _loaded(name: str) -> Any:
 
 
 def at(array: AnyArray | None) -> int | None:
-    """The address of a contiguous array, for a structure; the array must outlive it."""
+    """The address of a contiguous array, for a structure; the array must outlive it.  TypeError if it has gaps."""
     if array is None:
         return None
-    assert array.flags.c_contiguous
+    if not array.flags.c_contiguous:
+        raise TypeError("The kernel takes contiguous arrays only.")
+    if array.flags.writeable and array.size:
+        return ctypes.addressof(_FIRST.from_buffer(array))  # in a quarter of the time
     return array.ctypes.data
 
 
