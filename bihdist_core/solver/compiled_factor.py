@@ -139,9 +139,9 @@ class CompiledFactor:
         result = np.empty(b.shape)
         with workspaces.of(tree.n * width) as x:
             x = x.reshape(tree.n, width)
-            x[:, : b.shape[1]], x[:, b.shape[1] :] = b[tree.vertices], 0
+            x[:, : b.shape[1]], x[:, b.shape[1] :] = b[tree.order], 0
             self._solve_in_place(x, run)
-            result[tree.vertices] = x[:, : b.shape[1]]
+            result[tree.order] = x[:, : b.shape[1]]
         return result
 
     def _solve_in_place(self, x: FloatArray, run: Run) -> None:
@@ -181,17 +181,22 @@ class CompiledFactor:
         everything = self._workspace((0, len(tree.parent) - 1), 2 * width)
         lib.bih_send_units(factor, front, places, len(index), width, xy, count, everything)
 
-        def down(task: tuple[int, int]) -> FloatArray:
+        def down(task: tuple[int, int]) -> None:
             lib.bih_sweep_down_both(factor, *task, width, xy, count, self._workspace(task, 2 * width), NEVER)
-            piece: FloatArray = xy[tree.first[task[0]] : tree.first[task[1] + 1], width : width + len(index)]
-            return piece
 
-        def finish(task: tuple[int, int], piece: FloatArray) -> None:
-            receive(tree.vertices[tree.first[task[0]] : tree.first[task[1] + 1]], piece)
+        def finish(task: tuple[int, int]) -> None:
+            down(task)
+            places = slice(tree.first[task[0]], tree.first[task[1] + 1])
+            values = xy[places, width : width + len(index)]
+            # One column is taken from between those of G, among which arithmetic is slow.
+            receive(tree.order[places], values.copy() if width == 1 else values)
 
         for q in reversed(tree.tops):
-            finish((q, q), down((q, q)).copy())  # those below need it as it is
-        run(lambda task: finish(task, down(task)), tree.branches)
+            down((q, q))
+        if len(tree.top_places):
+            # A copy: those below need it as it is.
+            receive(tree.order[tree.top_places], xy[tree.top_places, width : width + len(index)])
+        run(finish, tree.branches)
 
     def _workspace(self, task: tuple[int, int], width: int) -> FloatArray:
         return np.empty(library().bih_sweep_room(ctypes.byref(self.tree.struct), *task, width))

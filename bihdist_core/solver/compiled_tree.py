@@ -91,13 +91,23 @@ class CompiledTree:
 
     @cached_property
     def branches(self) -> list[tuple[int, int]]:
-        """The tasks below the top: first and last front of each."""
-        return [task for task in self.tasks if not self.top[task[1]]]
+        """The subtrees below the top, siblings as one: first and last front of each."""
+        merged: list[tuple[int, int]] = []
+        for first, last in self.tasks:
+            if not self.top[last]:
+                begin = merged.pop()[0] if merged and merged[-1][1] + 1 == first else first
+                merged.append((begin, last))
+        return merged
 
     @cached_property
     def tops(self) -> list[int]:
         """The fronts above the branches, in postorder."""
         return [int(q) for q in np.flatnonzero(self.top)]
+
+    @cached_property
+    def order(self) -> IntArray:
+        """(n,) `vertices` as NumPy takes indices at once, which gathers in half the time."""
+        return self.vertices.astype(np.intp)
 
     @cached_property
     def top_places(self) -> IntArray:
