@@ -215,7 +215,7 @@ class Component:
         scaled = u[index] / self.areas.sum()
 
         def centred(rows: AnyArray, columns: slice, values: FloatArray) -> None:
-            values -= u[rows, None] * scaled[columns]
+            values -= u[rows][:, None] * scaled[columns]
             receive(rows, columns, values)
 
         self.factor(diagonals=True).each_sandwich_piece(index, centred)

@@ -77,7 +77,6 @@ TREE_ARRAYS = {
     "row_block": np.int64,
     "stack": np.int64,
     "inverse": np.int64,
-    "shared": np.uint8,
     "top": np.uint8,
     "rank": np.int32,
 }
