@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import AnyArray, BoolArray, FloatArray, IntArray
+from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..progress import Progress
 from ..solver.worker_threads import Job
 from ..sources.pieces import Pieces
 from ..surface import Surface
+from .place_pairs import by_start
 from .unfolding_mesh import UnfoldingMesh
 
 MOST_PER_VERTEX, MOST_AT_LEAST = 5_000, 100_000_000
@@ -127,6 +128,32 @@ class ExactGeodesic:
         """(k,) distances of places in faces; see `field`."""
         return self.field(sources, places, progress, radius=radius, offsets=offsets).at_places
 
+    def between(self, u: Pieces, v: Pieces, progress: Progress | None = None) -> FloatArray:
+        """(k,) distances of k pairs of points, NaN where no way leads; several sources at a time."""
+        rows = [list(by_start(each)) for each in (u, v)]
+        here, there = (u, v) if len(rows[0]) <= len(rows[1]) else (v, u)
+        groups = rows[here is v]
+        found = np.empty(len(u))
+
+        def one(number: int, watch: kernel.Watch) -> None:
+            start, mine = groups[number]
+            goals = self._mesh.at_pieces(there.some(mine))[:2]
+            found[mine] = self._field(self._mesh.at_pieces(start), goals, watch, targets_only=True).at_places
+
+        self._in_workers(one, len(groups), progress)
+        return found
+
+    def path(self, start: Pieces, stop: Pieces, progress: Progress | None = None) -> FacePath:
+        """The shortest path between two points, one piece each; see `field` for errors."""
+        starts, goals = self._mesh.at_pieces(stop), self._mesh.at_pieces(start)[:2]
+        fields: list[GeodesicField] = []
+
+        def one(_: int, watch: kernel.Watch) -> None:
+            fields.append(self._field(starts, goals, watch, targets_only=True))
+
+        self._in_workers(one, 1, progress)
+        return fields[0].path_to_place(0)
+
     def columns(self, vertices: npt.ArrayLike, progress: Progress | None = None) -> FloatArray:
         """(n, k) distances from each of k vertices, several at a time."""
         ids = self.surface.check_vertices(vertices)
@@ -190,6 +217,7 @@ class ExactGeodesic:
         offsets: FloatArray | None = None,
         radius: float = np.inf,
         everything: bool = False,
+        targets_only: bool = False,
     ) -> GeodesicField:
         mesh, unit = self._mesh, self._mesh.unit
         shifts = np.zeros(len(starts[0])) if offsets is None else offsets / unit
@@ -197,7 +225,7 @@ class ExactGeodesic:
         run = kernel.Run(mesh=ctypes.pointer(mesh.structure), offset=kernel.at(shifts), radius=radius / unit)
         run.source = kernel.Places(len(starts[0]), *map(kernel.at, starts))
         run.most_crossed = MOST_PER_VERTEX * mesh.vertices + MOST_AT_LEAST
-        run.everything = 3 if everything else 0
+        run.everything, run.targets_only = 3 * everything, targets_only
         count = 0
         if goals is not None:
             count = len(goals[0])
@@ -215,7 +243,8 @@ class ExactGeodesic:
             kept += [reached, work.complete(run, watch, self.surface.name)]
         finally:
             self._free.put(work)
-        self._usual = max(float(run.crossed), 1.0)
+        if not targets_only:
+            self._usual = max(float(run.crossed), 1.0)
         lengths = reached["distance"]
         found = np.concatenate([lengths[mesh.same_number], lengths[mesh.vertices :]])
         found[found > run.radius] = np.inf

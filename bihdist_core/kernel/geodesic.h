@@ -94,6 +94,7 @@ typedef struct {
   i64 crossed, most_crossed; /* windows that crossed a face, and how many may */
   double radius;
   i32 free, everything; /* the first window of those that are free again; what is not left out */
+  i32 targets_only;     /* whether to end once the targets are reached */
 } Run;
 
 static inline i32 next_side(i32 h) { return h % 3 == 2 ? h - 2 : h + 1; }

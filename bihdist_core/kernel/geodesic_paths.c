@@ -36,7 +36,8 @@ static i32 corner_at(const Mesh *mesh, i32 h, i32 vertex) {
   return NONE;
 }
 
-/* A vertex at the end of side h through which the way across it at x goes, or as good as; `rest` from the source. */
+/* A vertex at an end of side h, nearer than `limit`, through which the way across it at x goes, or as good as; NONE
+ * without one.  The way comes from (px, py), which is s from the source. */
 static i32 vertex_on_way(const Run *run, i32 h, double x, double px, double py, double s, double limit) {
   const Side *side = &run->mesh->side[h];
   for (int k = 0; k < 2; k++) {
@@ -60,6 +61,7 @@ static i32 straight_part(const Run *run, i64 id, Pieces *out) {
   else set_weights(here, run->target.begin + 3 * (id - mesh->vertices));
   in_frame(mesh, h, here, &qx, &qy);
   double s = r->distance - length_of(qx - px, qy + py);
+  double limit = id < mesh->vertices ? r->distance : __builtin_inf();
   for (i64 steps = 0; steps <= 3 * mesh->faces; steps++) {
     if (out->count == out->room) return NO_ROOM;
     double *end = out->end + 3 * out->count;
@@ -76,7 +78,7 @@ static i32 straight_part(const Run *run, i64 id, Pieces *out) {
     const Side *side = &mesh->side[h];
     if (py < 0) py = 0;
     double x = clamp(py + qy > 0 ? px + (qx - px) * (py / (py + qy)) : qx, 0, side->length);
-    i32 through = vertex_on_way(run, h, x, px, py, s, r->distance);
+    i32 through = vertex_on_way(run, h, x, px, py, s, limit);
     if (through >= 0) {
       at_corner(corner_at(mesh, h, through), end);
       return through;
@@ -116,8 +118,9 @@ API i64 bih_geodesic_path(const Run *run, i64 id, i64 room, i32 *face, double *b
   while (id >= 0 && run->reached[id].from >= 0) {
     i32 before = straight_part(run, id, &out);
     if (before < NONE) return before;
-    if (before >= 0 && !(run->reached[before].distance < run->reached[id].distance) && before != id) return LOST;
-    if (before == id) return LOST;
+    /* From vertex to vertex it is nearer and nearer; a target may be where a vertex is. */
+    if (before >= 0 && id < run->mesh->vertices && !(run->reached[before].distance < run->reached[id].distance))
+      return LOST;
     id = before;
   }
   return out.count;

@@ -177,28 +177,41 @@ API i32 bih_geodesic_begin(Run *run) {
   return DONE;
 }
 
-/* Go on until all within the radius is reached: DONE, STOPPED, TOO_MUCH, or NO_ROOM, after which it can go on.  The
- * watch counts windows. */
-API i32 bih_geodesic_run(Run *run, Watch *watch) {
+/* Targets are reached straight from the corners of their faces; returns the largest distance. */
+static double reach_from_corners(Run *run) {
   const Mesh *mesh = run->mesh;
-  i64 sides = 3 * mesh->faces, told = run->crossed;
-  enum { OFTEN = 1024 };
-  while (run->waiting && run->heap[0].distance <= run->radius) {
-    i32 id = run->heap[0].id;
-    if (!has_room_for(run, id)) return NO_ROOM;
-    if (run->crossed - told >= OFTEN) advance(watch, run->crossed - told), told = run->crossed;
-    if (stopped(watch)) return STOPPED;
-    if (run->crossed > run->most_crossed) return TOO_MUCH;
-    pop(run);
-    if (id < sides) cross_all(run, id);
-    else bend(run, (i32)(id - sides));
-  }
-  for (i64 t = 0; t < run->target.count; t++) /* straight from the corners of its face */
+  double largest = 0;
+  for (i64 t = 0; t < run->target.count; t++) {
+    const Reached *target = &run->reached[mesh->vertices + t];
     for (int k = 0; k < 3; k++) {
       i32 h = 3 * run->target.face[t] + k, vertex = mesh->side[h].vertex;
       double x, y;
       in_frame(mesh, h, run->target.begin + 3 * t, &x, &y);
       reach(run, mesh->vertices + t, run->reached[vertex].distance + length_of(x, y), h, 0, 0, vertex, NONE);
     }
+    if (target->distance > largest) largest = target->distance;
+  }
+  return largest;
+}
+
+/* Go on until all within the radius is reached: DONE, STOPPED, TOO_MUCH, or NO_ROOM, after which it can go on.  The
+ * watch counts windows. */
+API i32 bih_geodesic_run(Run *run, Watch *watch) {
+  i64 sides = 3 * run->mesh->faces, told = run->crossed;
+  enum { OFTEN = 1024 };
+  while (run->waiting && run->heap[0].distance <= run->radius) {
+    i32 id = run->heap[0].id;
+    if (!has_room_for(run, id)) return NO_ROOM;
+    if (run->crossed - told >= OFTEN) {
+      advance(watch, run->crossed - told), told = run->crossed;
+      if (run->targets_only && reach_from_corners(run) <= run->heap[0].distance) break;
+    }
+    if (stopped(watch)) return STOPPED;
+    if (run->crossed > run->most_crossed) return TOO_MUCH;
+    pop(run);
+    if (id < sides) cross_all(run, id);
+    else bend(run, (i32)(id - sides));
+  }
+  reach_from_corners(run);
   return DONE;
 }

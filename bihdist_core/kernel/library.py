@@ -140,6 +140,7 @@ class Run(Structure):
         ("radius", c_double),
         ("free", c_int32),
         ("everything", c_int32),
+        ("targets_only", c_int32),
     )
 
     source: Places
@@ -155,6 +156,7 @@ class Run(Structure):
     most_crossed: int
     radius: float
     everything: int
+    targets_only: int
 
 
 class _Array:
