@@ -217,8 +217,10 @@ class Answering:
                     request.loaded.distances(question.areas).get(spec, preparing)
             except (SolverError, MemoryError):
                 return False
-            answer = request.loaded.answer(question, asking)
-            self._kept.put(question, answer)
+            # How accurate a stand-in is nobody asks.
+            answer = request.loaded.answer(question, asking, at_once=lambda first: True)
+            if answer.is_final:
+                self._kept.put(question, answer)
         if not answer.failure:
             self._deliver(id, request, answer, is_preview=True)
         return not answer.failure

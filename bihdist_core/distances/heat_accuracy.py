@@ -32,8 +32,12 @@ class HeatErrors:
         below: a fraction of the maximum by which some field fell below the straight line, which no geodesic distance
         does.
         """
-        said = f"{_percent(self.mean)} off in the mean and {_percent(self.largest)} at most, from {self.sources} vertices"
-        return ErrorEstimate(said + _beneath(below, self.largest), True, max(self.largest, below))
+        mean, largest = _percent(self.mean), _percent(max(self.largest, below))
+        text = f"accurate to {mean} of the maximum in the mean and {largest} at the worst"
+        if below > self.largest:
+            text += ", where it falls below the straight line"
+        text += f", measured from {self.sources} vertices" if self.sources > 1 else ", measured from one vertex"
+        return ErrorEstimate(text, True, max(self.largest, below), f"{mean} off in the mean")
 
 
 def heat_errors(surface: Surface, heat: HeatTimes) -> HeatErrors | None:
@@ -61,10 +65,6 @@ def below_straight_line(surface: Surface, source: int, field: FloatArray) -> flo
     """By how much of its maximum a field (n,) from a vertex falls below straight lines at most; 0 where it does not."""
     straight = np.linalg.norm(surface.vertices - surface.vertices[source], axis=1)
     return float(max((straight - field).max(), 0.0) / max(straight.max(), field.max()))
-
-
-def _beneath(below: float, known: float) -> str:
-    return f"; {_percent(below)} below the straight line somewhere" if below > known else ""
 
 
 def _percent(share: float) -> str:
