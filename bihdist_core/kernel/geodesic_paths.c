@@ -1,6 +1,8 @@
 /* The way back from what a run reached to its source. */
 #include "geodesic.h"
 
+#define AS_GOOD 1e-12 /* of the distance and the edge: a way through a vertex may be longer by this */
+
 typedef struct {
   i64 room, count;
   i32 *face;
@@ -36,15 +38,16 @@ static i32 corner_at(const Mesh *mesh, i32 h, i32 vertex) {
   return NONE;
 }
 
-/* A vertex at an end of side h, nearer than `limit`, through which the way across it at x goes, or as good as; NONE
- * without one.  The way comes from (px, py), which is s from the source. */
-static i32 vertex_on_way(const Run *run, i32 h, double x, double px, double py, double s, double limit) {
+/* A vertex at an end of side h, nearer than `limit`, by which a way from (qx, qy) to its source, `distance` long, goes
+ * across the side at x, or as good as; NONE without one. */
+static i32 vertex_on_way(const Run *run, i32 h, double x, double qx, double qy, double distance, double limit) {
   const Side *side = &run->mesh->side[h];
   for (int k = 0; k < 2; k++) {
     double at = k ? side->length : 0;
     i32 v = run->mesh->side[k ? next_side(h) : h].vertex;
-    if (__builtin_fabs(x - at) <= CRACK * side->length && run->reached[v].distance < limit &&
-        run->reached[v].distance <= s + length_of(at - px, py) + CRACK * side->length)
+    double there = run->reached[v].distance;
+    if (__builtin_fabs(x - at) <= CRACK * side->length && there < limit &&
+        there + length_of(qx - at, qy) <= distance + AS_GOOD * (distance + side->length))
       return v;
   }
   return NONE;
@@ -78,7 +81,7 @@ static i32 straight_part(const Run *run, i64 id, Pieces *out) {
     const Side *side = &mesh->side[h];
     if (py < 0) py = 0;
     double x = clamp(py + qy > 0 ? px + (qx - px) * (py / (py + qy)) : qx, 0, side->length);
-    i32 through = vertex_on_way(run, h, x, px, py, s, limit);
+    i32 through = vertex_on_way(run, h, x, qx, qy, s + length_of(qx - px, qy + py), limit);
     if (through >= 0) {
       at_corner(corner_at(mesh, h, through), end);
       return through;

@@ -14,12 +14,13 @@ static void direction_at(const Window *w, double x, double *dx, double *dy) {
   else *dx = x - w->px, *dy = w->py;
 }
 
-/* A point (x, y) of the face ahead is reached by a window, which has the distance there. */
-static void reach_by(Run *run, i64 id, double distance, i32 from, double x, double y, const Window *w) {
+/* Vertex or target `id` is reached by the ray of a window that crosses the edge at x. */
+static void reach_by(Run *run, i64 id, double distance, i32 from, double x, const Window *w) {
   double px = w->px, py = w->py;
   if (w->parallel) { /* the foot on the straight source */
-    double way = distance - run->offset[-2 - w->root];
-    px = x - way * w->px, py = way * w->py - y;
+    double offset = run->offset[-2 - w->root], way = distance_at(w, x) - offset;
+    if (distance < offset) distance = offset;
+    px = x - way * w->px, py = way * w->py;
   }
   reach(run, id, distance, from, px, py, w->root, w->over);
 }
@@ -61,7 +62,6 @@ void leave(Run *run, i32 h, Window w) {
 /* Whether a point (x, y) of the face ahead is seen, or as good as; its distance, and where on the edge the ray to it
  * crosses.  all: the window sees the whole face. */
 static int sees(const Window *w, double x, double y, double tolerance, int all, double *across, double *distance) {
-  double dx, dy;
   if (w->parallel) *across = x - w->px * (y / w->py), *distance = w->s + x * w->px + y * w->py;
   else {
     *across = w->py + y > 0 ? w->px + (x - w->px) * (w->py / (w->py + y)) : x;
@@ -70,8 +70,7 @@ static int sees(const Window *w, double x, double y, double tolerance, int all, 
   double c = clamp(*across, w->b0, w->b1);
   if (all || c == *across) return 1;
   if (!(__builtin_fabs(c - *across) <= tolerance)) return 0;
-  direction_at(w, c, &dx, &dy);
-  if (!w->parallel) *distance = distance_at(w, c) + length_of(x - c, y);
+  *distance = distance_at(w, c) + length_of(x - c, y);
   return 1;
 }
 
@@ -93,10 +92,10 @@ static void cross(Run *run, i32 h, const Window *w) {
     for (i32 t = run->first_target[h / 3]; t >= 0; t = run->next_target[t]) {
       double tx, ty;
       in_frame(mesh, h, run->target.begin + 3 * (i64)t, &tx, &ty);
-      if (sees(w, tx, ty, tolerance, all, &across, &d)) reach_by(run, mesh->vertices + t, d, h, tx, ty, w);
+      if (sees(w, tx, ty, tolerance, all, &across, &d)) reach_by(run, mesh->vertices + t, d, h, clamp(across, w->b0, w->b1), w);
     }
   int seen = sees(w, x, y, tolerance, all, &across, &d), left = all || w->b0 < across, right = all || w->b1 > across;
-  if (seen) reach_by(run, apex, d, h, x, y, w);
+  if (seen) reach_by(run, apex, d, h, clamp(across, w->b0, w->b1), w);
   else if (!(run->everything & ALL_WINDOWS)) { /* beside the beam: is the apex nearer to all that lies ahead? */
     double b = left && !right ? w->b0 : w->b1;
     if (run->reached[apex].distance + length_of(x - b, y) < distance_at(w, b) * (1 - EQUAL)) return;
