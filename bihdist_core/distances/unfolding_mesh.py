@@ -14,6 +14,9 @@ from ..surface import Surface
 MOST_FACES = (2**31 - 1) // 6
 """Numbers of sides are below 2^31, twice."""
 
+ASIDE = 1e-10
+"""Of coordinates: the least size of a face that is added."""
+
 RENUMBERED_FROM = 30_000
 """Vertices; smaller meshes are in the processor's cache anyway."""
 
@@ -71,17 +74,16 @@ class UnfoldingMesh:
         for vertices in left.values():
             if self._face_with(vertices) is None:
                 flaps[tuple(sorted(vertices))] = None
-        more_points, more_faces = [], []
+        more_points: list[FloatArray] = []
+        more_faces: list[tuple[int, ...]] = []
         for vertices in flaps:
-            start, stop = points[vertices[0]], points[vertices[-1]]
-            way = stop - start
-            size = np.linalg.norm(way) or 1.0
-            aside = np.eye(3)[np.abs(way).argmin()]
-            if len(vertices) == 2:
-                new = [(start + stop) / 2 + size * aside]
-            else:
-                new = [start + size * np.eye(3)[0], start + size * np.eye(3)[1]]
-            more_faces.append((*vertices, *range(len(points) + len(more_points), len(points) + len(more_points) + len(new))))
+            start, way = points[vertices[0]], points[vertices[-1]] - points[vertices[0]]
+            # So far from the edge that its place can be told from that of the edge.
+            size = max(float(np.linalg.norm(way)), ASIDE * float(np.abs(start).max())) or 1.0
+            axes = size * np.eye(3)[np.argsort(np.abs(way), kind="stable")]
+            new = [start + way / 2 + axes[0]] if len(vertices) == 2 else [start + axes[0], start + axes[1]]
+            count = len(points) + len(more_points)
+            more_faces.append((*vertices, *range(count, count + len(new))))
             more_points += new
         if flaps:
             faces = np.concatenate([corners, np.array(more_faces, np.int32)])
@@ -94,8 +96,9 @@ class UnfoldingMesh:
 
     def _face_with(self, vertices: list[int]) -> int | None:
         """A face that did not collapse, with these vertices."""
-        at = self._corner[self._first[vertices[0]] : self._first[vertices[0] + 1]] // 3
-        return next((int(face) for face in at if np.isin(vertices, self._same[self._corners[face]]).all()), None)
+        ends = self._same[vertices]
+        at = self._corner[self._first[ends[0]] : self._first[ends[0] + 1]] // 3
+        return next((int(face) for face in at if np.isin(ends, self._same[self._corners[face]]).all()), None)
 
     def at_vertices(self, ids: IntArray) -> tuple[AnyArray, FloatArray, FloatArray]:
         """Vertices (k,) of the surface as the kernel's faces (k,) and weights (k, 3), twice."""

@@ -102,6 +102,17 @@ static inline i32 previous_side(i32 h) { return h % 3 ? h - 1 : h + 2; }
 static inline double length_of(double x, double y) { return __builtin_sqrt(x * x + y * y); }
 static inline double clamp(double x, double lo, double hi) { return x < lo ? lo : x > hi ? hi : x; }
 
+/* The cosine and sine of a face's corner at the beginning of a side. */
+typedef struct {
+  double c, s;
+} Ray;
+
+/* Of the short side of a needle this is exact to the last digit, where differences of coordinates in a frame are not. */
+static inline Ray corner_at(const Mesh *mesh, i32 h) {
+  double l = mesh->side[previous_side(h)].length;
+  return (Ray){mesh->side[h].x / l, mesh->side[h].y / l};
+}
+
 /* Where barycentric coordinates are in the frame of a side. */
 static inline void in_frame(const Mesh *mesh, i32 h, const double *weight, double *x, double *y) {
   const Side *side = &mesh->side[h];

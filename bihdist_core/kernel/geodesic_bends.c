@@ -3,16 +3,8 @@
 
 #define SLACK 1e-6 /* radians more than needed into which rays bend */
 
-typedef struct {
-  double c, s; /* a direction, as a unit vector from a side */
-} Ray;
-
 static Ray turned_back(Ray a, Ray b) { return (Ray){a.c * b.c + a.s * b.s, a.s * b.c - a.c * b.s}; }
 static int is_before(Ray a, Ray b) { return a.c * b.s - a.s * b.c > 0; } /* of angles between 0 and pi */
-static Ray corner_of(const Side *side) {
-  double l = length_of(side->x, side->y);
-  return (Ray){side->x / l, side->y / l};
-}
 
 /* Rays from a vertex over the face of its corner, from one direction to another; NULL: the corner's end. */
 static void fan(Run *run, i32 corner, const Ray *from, const Ray *to) {
@@ -39,7 +31,7 @@ typedef struct {
 static Straight straight_on(const Mesh *mesh, i32 begin, i32 out, Ray rest) {
   i32 vertex = mesh->side[begin].vertex, corner = NONE;
   while ((out = turn_over(mesh, vertex, out, &corner)) >= 0 && corner != begin) {
-    Ray width = corner_of(&mesh->side[corner]);
+    Ray width = corner_at(mesh, corner);
     if (is_before(rest, width)) return (Straight){out, corner, rest, width};
     rest = turned_back(rest, width);
   }
@@ -78,7 +70,7 @@ void bend(Run *run, i32 vertex) {
   }
   i32 begin = previous_side(from), corner;
   const Side *side = &mesh->side[from];
-  Ray width = corner_of(&mesh->side[begin]);
+  Ray width = corner_at(mesh, begin);
   double ax = -side->x, ay = -side->y, bx = here->px + ax, by = -here->py + ay;
   double c = ax * bx + ay * by, s = ax * by - ay * bx, l = length_of(c, s);
   Ray in = l > 0 ? (Ray){c / l, s / l} : (Ray){1, 0};

@@ -1,6 +1,8 @@
 /* The way back from what a run reached to its source. */
 #include "geodesic.h"
 
+#define AS_GOOD 1e-12 /* of the distance and the edge: a way through a vertex may be longer by this */
+
 typedef struct {
   i64 room, count;
   i32 *face;
@@ -30,21 +32,22 @@ static void on_source(const Run *run, i32 source, i32 h, double x, double y, dou
 }
 
 /* The side that begins at a vertex, of the face of side h; NONE if it is no corner of it. */
-static i32 corner_at(const Mesh *mesh, i32 h, i32 vertex) {
+static i32 corner_with(const Mesh *mesh, i32 h, i32 vertex) {
   for (int k = 0; k < 3; k++, h = next_side(h))
     if (mesh->side[h].vertex == vertex) return h;
   return NONE;
 }
 
-/* A vertex at an end of side h, nearer than `limit`, through which the way across it at x goes, or as good as; NONE
- * without one.  The way comes from (px, py), which is s from the source. */
-static i32 vertex_on_way(const Run *run, i32 h, double x, double px, double py, double s, double limit) {
+/* A vertex at an end of side h, nearer than `limit`, by which a way from (qx, qy) to its source, `distance` long, goes
+ * across the side at x, or as good as; NONE without one. */
+static i32 vertex_on_way(const Run *run, i32 h, double x, double qx, double qy, double distance, double limit) {
   const Side *side = &run->mesh->side[h];
   for (int k = 0; k < 2; k++) {
     double at = k ? side->length : 0;
     i32 v = run->mesh->side[k ? next_side(h) : h].vertex;
-    if (__builtin_fabs(x - at) <= CRACK * side->length && run->reached[v].distance < limit &&
-        run->reached[v].distance <= s + length_of(at - px, py) + CRACK * side->length)
+    double there = run->reached[v].distance;
+    if (__builtin_fabs(x - at) <= CRACK * side->length && there < limit &&
+        there + length_of(qx - at, qy) <= distance + AS_GOOD * (distance + side->length))
       return v;
   }
   return NONE;
@@ -62,11 +65,11 @@ static i32 straight_part(const Run *run, i64 id, Pieces *out) {
   in_frame(mesh, h, here, &qx, &qy);
   double s = r->distance - length_of(qx - px, qy + py);
   double limit = id < mesh->vertices ? r->distance : __builtin_inf();
-  for (i64 steps = 0; steps <= 3 * mesh->faces; steps++) {
+  for (i64 steps = 0; steps <= mesh->faces; steps++) { /* a shortest path crosses a face once */
     if (out->count == out->room) return NO_ROOM;
     double *end = out->end + 3 * out->count;
     out->face[out->count] = h / 3, set_weights(out->begin + 3 * out->count, here), out->count++;
-    i32 corner = root >= 0 ? corner_at(mesh, h, root) : NONE;
+    i32 corner = root >= 0 ? corner_with(mesh, h, root) : NONE;
     if (corner >= 0) {
       at_corner(corner, end);
       return root;
@@ -77,10 +80,10 @@ static i32 straight_part(const Run *run, i64 id, Pieces *out) {
     }
     const Side *side = &mesh->side[h];
     if (py < 0) py = 0;
-    double x = clamp(py + qy > 0 ? px + (qx - px) * (py / (py + qy)) : qx, 0, side->length);
-    i32 through = vertex_on_way(run, h, x, px, py, s, limit);
+    double x = clamp(py + qy > 0 ? px + (qx - px) * (py / (py + qy)) : px, 0, side->length);
+    i32 through = vertex_on_way(run, h, x, qx, qy, s + length_of(qx - px, qy + py), limit);
     if (through >= 0) {
-      at_corner(corner_at(mesh, h, through), end);
+      at_corner(corner_with(mesh, h, through), end);
       return through;
     }
     on_side(mesh, h, x, end);
@@ -97,10 +100,8 @@ static i32 straight_part(const Run *run, i64 id, Pieces *out) {
     /* The source is ahead, at (px, py) in the new frame: by which edge does the straight line come? */
     int right = (px - x) * side->y - py * (side->x - x) > 0;
     i32 e = right ? next_side(h) : previous_side(h);
-    const Side *other = &mesh->side[e];
-    if (!(other->length > 0)) return LOST;
-    double ox = right ? side->length : side->x, oy = right ? 0 : side->y;
-    double ux = ((right ? side->x : 0) - ox) / other->length, uy = ((right ? side->y : 0) - oy) / other->length;
+    Ray a = corner_at(mesh, right ? e : h);
+    double ox = right ? side->length : side->x, oy = right ? 0 : side->y, ux = -a.c, uy = right ? a.s : -a.s;
     double ax = px - ox, ay = py - oy, bx = x - ox, by = -oy;
     px = ax * ux + ay * uy, py = ux * -ay + uy * ax, qx = bx * ux + by * uy, qy = ux * by - uy * bx;
     if (qy < 0) qy = 0;
@@ -118,9 +119,7 @@ API i64 bih_geodesic_path(const Run *run, i64 id, i64 room, i32 *face, double *b
   while (id >= 0 && run->reached[id].from >= 0) {
     i32 before = straight_part(run, id, &out);
     if (before < NONE) return before;
-    /* From vertex to vertex it is nearer and nearer; a target may be where a vertex is. */
-    if (before >= 0 && id < run->mesh->vertices && !(run->reached[before].distance < run->reached[id].distance))
-      return LOST;
+    if (before >= 0 && run->reached[before].distance > run->reached[id].distance) return LOST;
     id = before;
   }
   return out.count;

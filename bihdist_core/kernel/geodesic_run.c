@@ -119,7 +119,8 @@ static void start_along(Run *run, i32 source) {
     in_frame(run->mesh, h, run->source.begin + 3 * (i64)source, &ax, &ay);
     in_frame(run->mesh, h, run->source.end + 3 * (i64)source, &bx, &by);
     double nx = by - ay, ny = ax - bx, l = length_of(nx, ny);
-    if (ny < 0) nx = -nx, ny = -ny; /* (nx, -ny) leads out over h */
+    if (ny > 0) nx = -nx; /* so that (nx, -ny) is at right angles and leads out over h */
+    else ny = -ny;
     nx /= l, ny /= l;
     if (!(ny > 0)) continue;
     double b0 = ax + nx * (ay / ny), b1 = bx + nx * (by / ny), limit = run->mesh->side[h].length;

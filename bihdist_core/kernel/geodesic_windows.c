@@ -14,12 +14,13 @@ static void direction_at(const Window *w, double x, double *dx, double *dy) {
   else *dx = x - w->px, *dy = w->py;
 }
 
-/* A point (x, y) of the face ahead is reached by a window, which has the distance there. */
-static void reach_by(Run *run, i64 id, double distance, i32 from, double x, double y, const Window *w) {
+/* Vertex or target `id` is reached by the ray of a window that crosses the edge at x. */
+static void reach_by(Run *run, i64 id, double distance, i32 from, double x, const Window *w) {
   double px = w->px, py = w->py;
   if (w->parallel) { /* the foot on the straight source */
-    double way = distance - run->offset[-2 - w->root];
-    px = x - way * w->px, py = way * w->py - y;
+    double offset = run->offset[-2 - w->root], way = distance_at(w, x) - offset;
+    if (distance < offset) distance = offset;
+    px = x - way * w->px, py = way * w->py;
   }
   reach(run, id, distance, from, px, py, w->root, w->over);
 }
@@ -61,7 +62,6 @@ void leave(Run *run, i32 h, Window w) {
 /* Whether a point (x, y) of the face ahead is seen, or as good as; its distance, and where on the edge the ray to it
  * crosses.  all: the window sees the whole face. */
 static int sees(const Window *w, double x, double y, double tolerance, int all, double *across, double *distance) {
-  double dx, dy;
   if (w->parallel) *across = x - w->px * (y / w->py), *distance = w->s + x * w->px + y * w->py;
   else {
     *across = w->py + y > 0 ? w->px + (x - w->px) * (w->py / (w->py + y)) : x;
@@ -70,71 +70,87 @@ static int sees(const Window *w, double x, double y, double tolerance, int all, 
   double c = clamp(*across, w->b0, w->b1);
   if (all || c == *across) return 1;
   if (!(__builtin_fabs(c - *across) <= tolerance)) return 0;
-  direction_at(w, c, &dx, &dy);
-  if (!w->parallel) *distance = distance_at(w, c) + length_of(x - c, y);
+  *distance = distance_at(w, c) + length_of(x - c, y);
   return 1;
 }
 
-/* How far from the origin a ray from (b, 0) meets the line from there through (x, y), l from it; NaN where it does not. */
-static double meeting(double b, double dx, double dy, double x, double y, double l) {
-  double across = dy * x - dx * y;
-  return across > 0 ? l * (dy * b / across) : __builtin_nan("");
+/* How far from the origin a ray from (b, 0) meets the line into this direction; NaN where it does not. */
+static double meeting(double b, double dx, double dy, Ray line) {
+  double across = dy * line.c - dx * line.s;
+  return across > 0 ? dy * b / across : __builtin_nan("");
+}
+
+/* A window leaves over the side before h; which of the two rays at its ends meets it there. */
+static void leave_left(Run *run, i32 h, const Window *w, int all, int right) {
+  i32 side = previous_side(h);
+  const Side *frame = &run->mesh->side[h];
+  double l = run->mesh->side[side].length, near = 0, far = l, dx, dy;
+  Ray a = corner_at(run->mesh, h);
+  Window out = *w;
+  if (!all) {
+    direction_at(w, w->b0, &dx, &dy), near = meeting(w->b0, dx, dy, a);
+    direction_at(w, w->b1, &dx, &dy);
+    if (!right) far = meeting(w->b1, dx, dy, a);
+  }
+  if (!(near > 0)) near = 0;
+  if (!(far < l)) far = l;
+  out.b0 = l - far, out.b1 = l - near; /* the frame begins at the apex, and runs to the origin */
+  if (w->parallel) {
+    out.s = w->s + frame->x * w->px + frame->y * w->py;
+    out.px = -(a.c * w->px + a.s * w->py), out.py = a.c * w->py - a.s * w->px;
+  } else out.px = l - (w->px * a.c - w->py * a.s), out.py = a.c * w->py + a.s * w->px;
+  leave(run, side, out);
+}
+
+/* The same over the side after h, whose frame runs from the end of h to the apex. */
+static void leave_right(Run *run, i32 h, const Window *w, int all, int left) {
+  i32 side = next_side(h);
+  double before = run->mesh->side[h].length, l = run->mesh->side[side].length, near = 0, far = l, dx, dy;
+  double px = before - w->px;
+  Ray a = corner_at(run->mesh, side);
+  Window out = *w;
+  if (!all) {
+    direction_at(w, w->b1, &dx, &dy), near = meeting(before - w->b1, -dx, dy, a);
+    direction_at(w, w->b0, &dx, &dy);
+    if (!left) far = meeting(before - w->b0, -dx, dy, a);
+  }
+  if (!(near > 0)) near = 0;
+  if (!(far < l)) far = l;
+  out.b0 = near, out.b1 = far;
+  if (w->parallel) {
+    out.s = w->s + before * w->px;
+    out.px = -a.c * w->px + a.s * w->py, out.py = a.c * w->py + a.s * w->px;
+  } else out.px = px * a.c - w->py * a.s, out.py = a.c * w->py + a.s * px;
+  leave(run, side, out);
 }
 
 /* A window crosses the face of side h and leaves over its two other sides. */
 static void cross(Run *run, i32 h, const Window *w) {
   const Mesh *mesh = run->mesh;
-  i32 right_side = next_side(h), left_side = previous_side(h), apex = mesh->side[left_side].vertex;
-  double l = mesh->side[h].length, x = mesh->side[h].x, y = mesh->side[h].y, tolerance = CRACK * l, across, d;
-  double left_length = mesh->side[left_side].length, right_length = mesh->side[right_side].length, dx, dy;
-  int all = !w->parallel && w->py <= SOURCE_ON_EDGE * l && w->px >= w->b0 - tolerance && w->px <= w->b1 + tolerance;
+  const Side *side = &mesh->side[h];
+  i32 apex = mesh->side[previous_side(h)].vertex;
+  double left_length = mesh->side[previous_side(h)].length, right_length = mesh->side[next_side(h)].length, across, d;
+  double longest = left_length > right_length ? left_length : right_length;
+  double tolerance = CRACK * (longest > side->length ? longest : side->length);
+  int all = !w->parallel && w->py <= SOURCE_ON_EDGE * side->length && w->px >= w->b0 - tolerance &&
+            w->px <= w->b1 + tolerance;
   run->crossed++;
   if (run->target.count)
     for (i32 t = run->first_target[h / 3]; t >= 0; t = run->next_target[t]) {
-      double tx, ty;
-      in_frame(mesh, h, run->target.begin + 3 * (i64)t, &tx, &ty);
-      if (sees(w, tx, ty, tolerance, all, &across, &d)) reach_by(run, mesh->vertices + t, d, h, tx, ty, w);
+      double x, y;
+      in_frame(mesh, h, run->target.begin + 3 * (i64)t, &x, &y);
+      if (sees(w, x, y, tolerance, all, &across, &d))
+        reach_by(run, mesh->vertices + t, d, h, clamp(across, w->b0, w->b1), w);
     }
-  int seen = sees(w, x, y, tolerance, all, &across, &d), left = all || w->b0 < across, right = all || w->b1 > across;
-  if (seen) reach_by(run, apex, d, h, x, y, w);
+  int seen = sees(w, side->x, side->y, tolerance, all, &across, &d);
+  int left = all || w->b0 < across, right = all || w->b1 > across;
+  if (seen) reach_by(run, apex, d, h, clamp(across, w->b0, w->b1), w);
   else if (!(run->everything & ALL_WINDOWS)) { /* beside the beam: is the apex nearer to all that lies ahead? */
     double b = left && !right ? w->b0 : w->b1;
-    if (run->reached[apex].distance + length_of(x - b, y) < distance_at(w, b) * (1 - EQUAL)) return;
+    if (run->reached[apex].distance + length_of(side->x - b, side->y) < distance_at(w, b) * (1 - EQUAL)) return;
   }
-  if (left && left_length > 0) { /* positions from the beginning of h towards the apex */
-    double near = 0, far = left_length, cx = x / left_length, sy = y / left_length;
-    Window out = *w;
-    if (!all) {
-      direction_at(w, w->b0, &dx, &dy), near = meeting(w->b0, dx, dy, x, y, left_length);
-      direction_at(w, w->b1, &dx, &dy);
-      if (!right) far = meeting(w->b1, dx, dy, x, y, left_length);
-    }
-    if (!(near > 0)) near = 0;
-    if (!(far < left_length)) far = left_length;
-    out.b0 = left_length - far, out.b1 = left_length - near;
-    if (w->parallel) { /* the frame begins at the apex, and runs to the origin */
-      out.s = w->s + x * w->px + y * w->py;
-      out.px = -(cx * w->px + sy * w->py), out.py = cx * w->py - sy * w->px;
-    } else out.px = left_length - (w->px * cx - w->py * sy), out.py = cx * w->py + sy * w->px;
-    leave(run, left_side, out);
-  }
-  if (right && right_length > 0) { /* mirrored: from the end of h towards the apex */
-    double near = 0, far = right_length, cx = (l - x) / right_length, sy = y / right_length, qx = l - w->px;
-    Window out = *w;
-    if (!all) {
-      direction_at(w, w->b1, &dx, &dy), near = meeting(l - w->b1, -dx, dy, l - x, y, right_length);
-      direction_at(w, w->b0, &dx, &dy);
-      if (!left) far = meeting(l - w->b0, -dx, dy, l - x, y, right_length);
-    }
-    if (!(near > 0)) near = 0;
-    if (!(far < right_length)) far = right_length;
-    out.b0 = near, out.b1 = far;
-    if (w->parallel) {
-      out.s = w->s + l * w->px;
-      out.px = -cx * w->px + sy * w->py, out.py = cx * w->py + sy * w->px;
-    } else out.px = qx * cx - w->py * sy, out.py = cx * w->py + sy * qx;
-    leave(run, right_side, out);
-  }
+  if (left) leave_left(run, h, w, all, right);
+  if (right) leave_right(run, h, w, all, left);
 }
 
 /* Whether a is nowhere farther than b on [x0, x1].  Their difference has one extremum at most, where rays are parallel. */
