@@ -391,4 +391,5 @@ def test_claims_two_points_that_few_eigenpairs_confuse(result):
     # A closed surface does not fit into the plane; the images of the points are equal to rounding.
     assert least < 1e-14
     assert (numbers(table, "biharmonic over its largest") > 0.02).all()
-    assert (numbers(table, "way along edges") > 0.2).all()
+    # Told from corner to corner of their faces.
+    assert (numbers(table, "way along edges") > 0.15).all()
