@@ -7,7 +7,7 @@
     np.array(reference.distances([7]), float)                       # (n,) what fast programs are held to
 
 `distances(sources, points)` gives the distance of every vertex, then of every point, in the mesh's length unit,
-infinite where no path leads.  All floats are taken as the exact numbers they are.
+infinite where no path leads.  All floats are taken as the exact numbers they are; there may be Fractions instead.
 
 The surface.  Faces are flat triangles, joined wherever they name the same two vertices, however many they are and
 however they are turned; vertices at the same place with different ids are not joined by that, but an edge of length 0
@@ -161,8 +161,8 @@ class GeodesicReference:
     Sight lines between vertices are kept, so that later calls are faster.
     """
 
-    def __init__(self, vertices: npt.ArrayLike, faces: npt.ArrayLike) -> None:
-        points = [[Fraction(c) for c in vertex] for vertex in np.asarray(vertices, float).tolist()]
+    def __init__(self, vertices: npt.ArrayLike | Sequence[Sequence[Number]], faces: npt.ArrayLike) -> None:
+        points = [[Fraction(c) for c in vertex] for vertex in np.asarray(vertices, object).tolist()]
         self.faces: list[list[int]] = np.asarray(faces, int).reshape(-1, 3).tolist()
         self._squares: dict[tuple[int, int], Fraction] = {}
         self._beyond: dict[tuple[int, int], list[_Beyond]] = {}
@@ -314,12 +314,12 @@ class GeodesicReference:
                 yield _Window(c, b, max(low, x) - x, high - x, rays.seen_from(x, ZERO, ONE, ZERO), passed)
             return
         apex = rays.crossing(x, y)
-        if apex > low:
+        if apex > low + self._sliver:
             ux, uy = x / left, y / left
             top = left if apex <= high else _meeting(rays, high, ZERO, ZERO, ux, uy)
             bottom = _meeting(rays, low, ZERO, ZERO, ux, uy)
             yield _Window(a, c, max(bottom, ZERO), min(top, left), rays.seen_from(ZERO, ZERO, ux, uy), passed)
-        if apex < high:
+        if apex < high - self._sliver:
             ux, uy = (base - x) / right, -y / right
             bottom = ZERO if apex >= low else _meeting(rays, low, x, y, ux, uy)
             top = _meeting(rays, high, x, y, ux, uy)
