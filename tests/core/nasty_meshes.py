@@ -73,7 +73,7 @@ class _Mesh:
     def grown(self, count: int, repeated: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
         steps: list[Callable[[], None]] = [self._component, self._fan, self._fin, self._split_edge, self._split_face]
         chances = [0.06, 0.08, 0.3, 0.28, 0.28]
-        self._component()
+        self._component(count)
         while len(self.faces) < count:
             before = self.vertices.copy(), self.faces.copy()
             steps[self.rng.choice(len(steps), p=chances)]()
@@ -91,16 +91,26 @@ class _Mesh:
         return np.array(self.vertices)[order], self.rng.permutation(faces)
 
     # ------------------------------------------------------------------ steps
-    def _component(self) -> None:
-        """A triangle, a tetrahedron, or a jittered piece of the plane, on its own or at a vertex that is there."""
+    def _component(self, most: int = 8) -> None:
+        """A triangle, a tetrahedron, or a grid of up to `most` faces, on its own or at a vertex that is there.
+
+        Grids are flat, flat with their vertices moved in the plane, or rough.
+        """
         kind = self.rng.integers(3)
         if kind < 2:
-            ids = [self._vertex(self._random()) for _ in range(3 + kind)]
+            places = [self._random() for _ in range(3 + kind)]
             faces = [(0, 1, 2), (0, 1, 3), (1, 2, 3), (2, 0, 3)][: 1 + 3 * kind]
         else:
-            corner, plane = self._random(), [np.array([x, y, 0]) / 4 for x in range(3) for y in range(3)]
-            ids = [self._vertex(corner + each + STEP * self.rng.integers(-900, 900, 3)) for each in plane]
-            faces = [(0, 1, 4), (0, 4, 3), (1, 2, 5), (1, 5, 4), (3, 4, 7), (3, 7, 6), (4, 5, 8), (4, 8, 7)]
+            k = int(self.rng.integers(1, int((most / 2) ** 0.5) + 1))
+            moved = STEP * 1000 * np.array([[0, 0, 0], [1, 1, 0], [1, 1, 3]][self.rng.integers(3)])
+            corner, cells = self._random(), [y * (k + 1) + x for x in range(k) for y in range(k)]
+            places = [
+                corner + np.array([x, y, 0]) / 4 + moved * self.rng.integers(-3, 4, 3)
+                for y in range(k + 1)
+                for x in range(k + 1)
+            ]
+            faces = [face for a in cells for face in ((a, a + 1, a + k + 2), (a, a + k + 2, a + k + 1))]
+        ids = [self._vertex(place) for place in places]
         if self.faces and self.rng.random() < 0.5:
             ids[0] = self._used_vertex()
         for face in faces:

@@ -269,9 +269,9 @@ def test_smaller_faces_change_nothing(seed):
             assert d == e or abs(d - e) < EXACT
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(6))
 def test_distances_are_symmetric_and_know_no_order(seed):
-    vertices, faces = nasty_mesh(seed, 40)
+    vertices, faces = nasty_mesh(seed, 30)
     rng = np.random.default_rng(seed)
     points = [FacePoint(int(f), random_weights(rng)) for f in rng.integers(0, len(faces), 5)]
     n, reference = len(vertices), GeodesicReference(vertices, faces)
@@ -303,21 +303,22 @@ def test_pruning_loses_nothing(seed):
             assert d == e or abs(d - e) < EXACT
 
 
-@pytest.mark.parametrize("seed", range(10))
-def test_ways_over_edges_come_close_from_above(seed):
+def test_ways_over_edges_come_close_from_above():
     """Most of them are as short; some stop at a vertex that a shorter one would go around."""
-    vertices, faces = nasty_mesh(seed, 24)
-    rng = np.random.default_rng(seed)
-    origin = random_origin(rng, faces)
-    points = [FacePoint(int(f), random_weights(rng)) for f in rng.integers(0, len(faces), 3)]
-    found = np.array(GeodesicReference(vertices, faces).distances([origin], points), float)
-    above = edge_ways(vertices, faces, origin, points)
-    reached = np.isfinite(found)
-    assert (np.isfinite(above) == reached).all()
-    excess = above[reached] - found[reached]
-    assert excess.min() > -ROUNDING
-    assert np.median(excess) < 1e-9
-    assert excess.max() < 0.01
+    excess = []
+    for seed in range(12):
+        vertices, faces = nasty_mesh(seed, 24)
+        rng = np.random.default_rng(seed)
+        origin = random_origin(rng, faces)
+        points = [FacePoint(int(f), random_weights(rng)) for f in rng.integers(0, len(faces), 3)]
+        found = np.array(GeodesicReference(vertices, faces).distances([origin], points), float)
+        above = edge_ways(vertices, faces, origin, points)
+        reached = np.isfinite(found)
+        assert (np.isfinite(above) == reached).all()
+        excess += (above[reached] - found[reached]).tolist()
+    assert min(excess) > -ROUNDING
+    assert np.quantile(excess, 0.8) < 1e-8
+    assert max(excess) < 0.01
 
 
 def test_what_pygeodesic_finds():
