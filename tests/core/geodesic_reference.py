@@ -50,8 +50,10 @@ ZERO, ONE, INFINITE = Decimal(0), Decimal(1), Decimal("Infinity")
 Number = int | float | Fraction
 Weights = tuple[Number, Number, Number]
 Lengths = dict[int, Decimal]
-Place = dict[int, Fraction]
+CornerWeights = dict[int, Fraction]
 """Weights of a face's corners by their ids, adding up to 1."""
+Targets = dict[int, list[tuple[int, CornerWeights]]]
+"""For each face the points in it, numbered -1, -2, ..., and where they are."""
 
 
 @dataclass(frozen=True)
@@ -126,7 +128,8 @@ class _Beams(NamedTuple):
         return x - y * self.dx / self.dy
 
     def graze(self, _low: Decimal, _high: Decimal, _small: Decimal) -> bool:
-        return self.dy <= SLIVER
+        """Never: where they run along an edge, their window there has no width."""
+        return False
 
     def seen_from(self, x: Decimal, y: Decimal, ux: Decimal, uy: Decimal) -> "_Beams":
         return _Beams(self.dx * ux + self.dy * uy, ux * self.dy - uy * self.dx, self.distance(x, y))
@@ -191,7 +194,6 @@ class GeodesicReference:
             if a < b:
                 self._at_vertex[c].append(beyond)
 
-    # ------------------------------------------------------------------ distances
     def distances(self, sources: Iterable[Source | Origin], points: Sequence[FacePoint] = ()) -> list[Decimal]:
         """The distance of each of the n vertices, then of each of the points, from the nearest of the sources.
 
@@ -233,7 +235,6 @@ class GeodesicReference:
                     reach(w, length + more)
         return found
 
-    # ------------------------------------------------------------------ sight lines
     def _from(self, origin: Origin, points: Sequence[FacePoint]) -> Lengths:
         """Lengths of straight stretches to vertices v and, as ~k, to points k."""
         if not isinstance(origin, FacePoint | FaceSegment):
@@ -243,7 +244,7 @@ class GeodesicReference:
         else:
             ends = [self._checked(origin.face, weights) for weights in (origin.start, origin.end)]
         face = self.faces[origin.face]
-        targets: dict[int, list[tuple[int, Place]]] = {}
+        targets: Targets = {}
         for k, point in enumerate(points):
             targets.setdefault(point.face, []).append((~k, self._checked(point.face, point.weights)))
         corners = [(v, {w: Fraction(w == v) for w in face}) for v in face]
@@ -268,7 +269,7 @@ class GeodesicReference:
                 self._known[v][w] = self._known[w][v] = min(length, self._known[w].get(v, INFINITE))
         return self._seen[v]
 
-    def _look(self, windows: Iterable[_Window], lengths: Lengths, targets: dict[int, list[tuple[int, Place]]]) -> None:
+    def _look(self, windows: Iterable[_Window], lengths: Lengths, targets: Targets) -> None:
         """Add to the lengths of stretches those to all that is seen through windows."""
         bound = self._shortest({v: d for v, d in lengths.items() if v >= 0}, self._known.__getitem__)
         stack = list(windows)
@@ -325,8 +326,7 @@ class GeodesicReference:
             top = _meeting(rays, high, x, y, ux, uy)
             yield _Window(c, b, max(bottom, ZERO), min(top, right), rays.seen_from(x, y, ux, uy), passed)
 
-    # ------------------------------------------------------------------ in one face
-    def _checked(self, face: int, weights: Weights) -> Place:
+    def _checked(self, face: int, weights: Weights) -> CornerWeights:
         """The weight of each corner, as an exact number; they add up to 1."""
         if not 0 <= face < len(self.faces) or not _is_face(self.faces[face]):
             raise ValueError(f"There is no face {face}.")
@@ -335,10 +335,10 @@ class GeodesicReference:
             raise ValueError(f"{weights} are no weights of a place in a face.")
         return {v: w / sum(exact) for v, w in zip(self.faces[face], exact, strict=True)}
 
-    def _in_face(self, ends: list[Place], place: Place) -> Decimal:
+    def _in_face(self, ends: list[CornerWeights], place: CornerWeights) -> Decimal:
         """The length from a place to the segment between two places of its face."""
 
-        def product(p: Place, q: Place) -> Fraction:
+        def product(p: CornerWeights, q: CornerWeights) -> Fraction:
             """Of vectors as weights that add up to 0: -sum over sides of (p_i q_j + p_j q_i) length_ij^2 / 2."""
             i, j, k = p
             sides = ((i, j), (j, k), (k, i))
@@ -356,12 +356,12 @@ class GeodesicReference:
         for a, b in ((i, j), (j, k), (k, i)):
             yield from (side for side in self._beyond.get((a, b), ()) if side.face == face)
 
-    def _rays(self, face: int, place: Place) -> Iterator[_Window]:
+    def _rays(self, face: int, place: CornerWeights) -> Iterator[_Window]:
         for side in self._sides(face):
             base = self._known[side.a][side.b]
             yield _Window(side.a, side.b, ZERO, base, _Rays(*_position(side, base, place)), 1 << face)
 
-    def _beams(self, face: int, start: Place, end: Place) -> Iterator[_Window]:
+    def _beams(self, face: int, start: CornerWeights, end: CornerWeights) -> Iterator[_Window]:
         for side in self._sides(face):
             base = self._known[side.a][side.b]
             (px, py), (qx, qy) = _position(side, base, start), _position(side, base, end)
@@ -375,7 +375,7 @@ class GeodesicReference:
             yield _Window(side.a, side.b, low, high, _Beams(dx, dy, -dx * px - dy * py), 1 << face)
 
 
-def _position(side: _Beyond, base: Decimal, place: Place) -> tuple[Decimal, Decimal]:
+def _position(side: _Beyond, base: Decimal, place: CornerWeights) -> tuple[Decimal, Decimal]:
     """Of a place in a face, in the frame of a side that it is seen through: y <= 0."""
     b, c = _decimal(place[side.b]), _decimal(place[side.c])
     return b * base + c * side.x, -c * side.y
