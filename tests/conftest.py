@@ -66,3 +66,12 @@ def mesh_file(tmp_path):
         return str(path)
 
     return write
+
+
+@pytest.fixture
+def unmeasured_fonts(monkeypatch):
+    """EPS files without the box around all glyphs of their fonts, which takes matplotlib two seconds for each font.
+
+    `test_eps_has_letters_and_no_transparency` writes them as they are.
+    """
+    monkeypatch.setattr("matplotlib.backends.backend_ps._bounds", lambda font: (0, 0, 0, 0), raising=False)
