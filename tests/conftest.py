@@ -31,6 +31,10 @@ if "PYTEST_XDIST_WORKER" in os.environ:
     for _name in THREADS:
         os.environ.setdefault(_name, "1")
 
+# The many programs that tests begin would each compile all of the project's modules, where the environment says so.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
+
 
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     # Shells have what they run in the background ignore interruptions, and so would the programs that tests begin.
