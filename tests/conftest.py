@@ -33,6 +33,10 @@ if "PYTEST_XDIST_WORKER" in os.environ:
     for _name in THREADS:
         os.environ.setdefault(_name, "1")
 
+# The many programs that tests begin would each compile all of the project's modules, where the environment says so.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
+
 
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     # Shells have what they run in the background ignore interruptions, and so would the programs that tests begin.
@@ -80,3 +84,11 @@ def no_exact_geodesics(monkeypatch):
         )
 
     monkeypatch.setattr("bihdist_core.distances.exact_geodesic.ExactGeodesic.__init__", fails)
+
+
+def unmeasured_fonts(monkeypatch):
+    """EPS files without the box around all glyphs of their fonts, which takes matplotlib two seconds for each font.
+
+    `test_eps_has_letters_and_no_transparency` writes them as they are.
+    """
+    monkeypatch.setattr("matplotlib.backends.backend_ps._bounds", lambda font: (0, 0, 0, 0), raising=False)

@@ -63,6 +63,7 @@ def mesh(mesh_file):
     return mesh_file(bumpy(400))
 
 
+@pytest.mark.usefixtures("unmeasured_fonts")
 @pytest.mark.parametrize("extension", [".svg", ".pdf", ".eps", ".png"])
 def test_charts(mesh, tmp_path, extension, capsys):
     files = [tmp_path / f"{name}{extension}" for name in ("shares", "values")]

@@ -88,6 +88,7 @@ def test_what_is_hidden_is_dotted(ball, mesh_file, tmp_path):
     assert 0 < lengths[1] < 0.8 * lengths[0]
 
 
+@pytest.mark.usefixtures("unmeasured_fonts")
 def test_all_formats_movies_and_python_have_it(ball, mesh_file, tmp_path):
     a, b, _ = ends(ball)
     path = mesh_file(ball)

@@ -19,7 +19,7 @@ def application():
 
 SMALL, WHOLE = (1000, 640), (1400, 860)
 """Sizes of windows, small and as on a desktop: the processor draws each pixel, in small ones twice as fast."""
-SMALL_IN = {"anchors", "beside", "closing", "colours", "controls", "docks", "drawn_sources", "export"}
+SMALL_IN = {"anchors", "beside", "closing", "colours", "controls", "docks", "drawn_sources", "export", "sessions"}
 """Modules of tests, without `test_`, in which small windows show all that there is to see."""
 
 
