@@ -174,7 +174,7 @@ class GeodesicPaths:
                 self.close()
                 raise
 
-    def _answer(self, request: bytes, report: Progress) -> bytearray:
+    def _answer(self, request: bytes, report: Progress) -> memoryview:
         child = self._child
         if child is None:
             raise SolverError("The process that computes paths has ended.")
