@@ -84,9 +84,10 @@ def _areas(surface: Surface, kind: str, corners: Corners) -> FloatArray:
         # Of an acute triangle, corner k gets the part nearer to it than to the others.
         part = cotangents * squares
         share = (part.sum(axis=0) - part) / 8
-        corner, face = np.nonzero(cotangents < 0)
+        obtuse = np.flatnonzero(cotangents < 0)
+        face = obtuse % len(area)
         share[:, face] = area[face] / 4
-        share[corner, face] = area[face] / 2
+        np.put(share, obtuse, area[face] / 2)
     flat, n = surface.degenerate_faces, len(surface.vertices)
     if not len(flat):
         return np.bincount(surface.faces.T.ravel(), share.ravel(), n).astype(float, copy=False)

@@ -143,8 +143,9 @@ class Surfaces:
             loaded.prepared = self._prepare(loaded.surface)
             loaded.up = self._known_up(loaded.mesh.sha256) or loaded.up
             loaded.first_look(loaded.up)
-            # Told by the view, for whose thread going over all faces would take too long.
+            # Told by the view and needed to pick, for whose thread going over all faces would take too long.
             surface_notes(loaded.surface)
+            _ = loaded.surface.mean_edge_length
             found.append(loaded)
         if opening.ahead is not None:
             opening.ahead(found, part(report, 0.5, 1))

@@ -73,7 +73,9 @@ def first_look(surface: Surface, up: str = "y") -> FirstLook:
 
 def is_flat(points: FloatArray) -> bool:
     """Whether points (n, 3) lie in a plane of constant z."""
-    return bool(np.ptp(points[:, 2]) <= 1e-6 * np.ptp(points, axis=0).max())
+    # Column by column, which is several times faster than along the short axis.
+    extents = [np.ptp(column) for column in points.T]
+    return bool(extents[2] <= 1e-6 * max(extents))
 
 
 class _Sight:

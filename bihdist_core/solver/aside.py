@@ -32,7 +32,7 @@ def aside(work: Callable[..., Result], *arguments: Any, progress: Progress | Non
     if is_alone() or not sys.executable or getattr(sys, "frozen", False):
         return work(*arguments, progress=report)
     child = ChildProcess(SERVED, framed(__name__.encode()))
-    reports: list[bytearray] = []
+    reports: list[memoryview] = []
     try:
         pieces = _packed((work, arguments))
         length = sum(memoryview(piece).nbytes for piece in pieces)
@@ -93,7 +93,7 @@ def _packed(value: object) -> list[bytes | memoryview]:
     return [b"".join(length.to_bytes(8, sys.byteorder) for length in lengths), *pieces]
 
 
-def _unpacked(content: bytearray) -> Any:
+def _unpacked(content: bytearray | memoryview) -> Any:
     whole = memoryview(content)
     count = int.from_bytes(whole[:8], sys.byteorder)
     lengths = [int.from_bytes(whole[8 * k + 8 : 8 * k + 16], sys.byteorder) for k in range(count)]
