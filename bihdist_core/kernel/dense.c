@@ -1,10 +1,6 @@
 /* Products and inverses of dense blocks, row by row, rows padded to PAD doubles. */
 #include "kernel.h"
 
-#ifndef LANES
-#define LANES 2 /* doubles in a register: 2 in SSE2, NEON and WebAssembly, 4 in AVX2 */
-#endif
-typedef double vec __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
 enum {
   TALL = 4,              /* a tile of a product is so many rows */
   WIDE = LANES > 2 ? 3 : 2, /* by so many registers */

@@ -20,7 +20,7 @@ static double *schur_of(const Elimination *e, i64 q) {
 
 static i64 work_of(Front f, int dual) {
   i64 products = dual ? f.c * (f.cp + 2 * f.mp) : 0;
-  return most(sweep_work(f.c, f.sp), most(products, most(f.c * f.mp, 2 * f.c * f.cp))) + f.cp + PAD;
+  return most(most(sweep_work(f.c, f.sp), f.s), most(products, most(f.c * f.mp, 2 * f.c * f.cp))) + f.cp + PAD;
 }
 
 /* What eliminating the fronts first to last needs, in doubles: room[0] for the stack, room[1] for the largest front,
@@ -35,8 +35,43 @@ API void bih_elimination_room(const Tree *t, i32 dual, i64 first, i64 last, i64 
   room[0] = padded(stack), room[1] = front + PAD, room[2] = room[0] + (1 + dual) * room[1] + work;
 }
 
-/* F and F1 of a front: the matrix' entries, areas, and the Schur complements of its children; above the diagonal. */
-static i32 assemble(Elimination *e, i64 q, Front f) {
+/* Add the Schur complement S of a child g into its parent's F; end (m,) as find_runs leaves it. */
+static void add_child(Front g, const work_i32 *end, const double *S, double *F, i64 ld) {
+  for (i64 i = 0; i < g.m; i++)
+    for (i64 j = i; j < g.m;) {
+      double *to = F + g.up[i] * ld + g.up[j];
+      const double *from = S + i * g.mp + j, *last = S + i * g.mp + end[j];
+      j = end[j];
+      for (; from + LANES <= last; from += LANES, to += LANES) *(vec *)to += *(const vec *)from;
+      for (; from < last; from++, to++) *to += *from;
+    }
+}
+
+/* Fetch what the pivots some places further on will need: rows of the matrix lie in an order of their own.  Inline, for
+ * GCC leaves out calls of functions that do no more than fetch. */
+static inline __attribute__((always_inline)) void fetch_ahead(const Elimination *e, i64 place) {
+  enum { STEP = 8 };
+  const Tree *t = e->factor->tree;
+  const Rows *L = e->matrix;
+  if (place + 3 * STEP >= t->n) return;
+  __builtin_prefetch(L->start + t->vertices[place + 3 * STEP]);
+  i64 v = t->vertices[place + 2 * STEP], k = L->start[v];
+  __builtin_prefetch(L->index + k), __builtin_prefetch(L->value + k), __builtin_prefetch(L->value + k + 7);
+  v = t->vertices[place + STEP];
+  for (k = L->start[v]; k < L->start[v + 1]; k++) __builtin_prefetch(t->place + L->index[k]);
+  if (e->areas) __builtin_prefetch(e->areas + v);
+}
+
+/* How many of the ascending rows (m,) are below a place. */
+static i64 count_below(const i32 *rows, i64 m, i64 place) {
+  i64 low = 0;
+  for (i64 half; m > 1; m -= half) half = m / 2, low += half * (rows[low + half - 1] < place); /* no branch to guess */
+  return m ? low + (rows[low] < place) : 0;
+}
+
+/* F and F1 of a front: the matrix' entries, areas, and the Schur complements of its children; above the diagonal.
+ * scale (c,): the matrix' own diagonal, before Schur complements come on top. */
+static i32 assemble(Elimination *e, i64 q, Front f, double *scale, double *work) {
   const Tree *t = e->factor->tree;
   const Rows *L = e->matrix;
   double *F = e->F, *F1 = e->F1;
@@ -46,39 +81,31 @@ static i32 assemble(Elimination *e, i64 q, Front f) {
   if (dual) zero(F1, 8 * f.s * ld);
   for (i64 i = 0; i < f.c; i++) {
     i64 v = t->vertices[f.first + i];
+    fetch_ahead(e, f.first + i);
     for (i64 k = L->start[v]; k < L->start[v + 1]; k++) {
       i64 to = t->place[L->index[k]], at = to - f.first;
       if (at < i || L->value[k] == 0) continue;
-      if (at >= f.c) { /* in the boundary, which ascends */
-        i64 low = 0, high = f.m;
-        while (low < high) {
-          i64 middle = (low + high) / 2;
-          if (f.rows[middle] < to) low = middle + 1;
-          else high = middle;
-        }
-        at = f.c + low;
-        if (low == f.m || f.rows[low] != to) {
+      if (at >= f.c) {
+        i64 below = count_below(f.rows, f.m, to);
+        at = f.c + below;
+        if (below == f.m || f.rows[below] != to) {
           e->row = v, e->column = L->index[k];
           return OUTSIDE;
         }
       }
       F[i * ld + at] += L->value[k];
     }
+    scale[i] = F[i * ld + i];
     if (dual) F1[i * ld + i] = e->areas[v];
   }
   for (int k = 0; k < 2 && t->children[2 * q] >= 0; k++) {
     i64 child = t->children[2 * q + k];
     Front g = front_of(t, child);
-    const double *S = schur_of(e, child), *S1 = S + g.m * g.mp;
-    for (i64 i = 0; i < g.m; i++)
-      for (i64 j = i, end; j < g.m; j = end) { /* runs of places that follow each other */
-        for (end = j + 1; end < g.m && g.up[end] == g.up[end - 1] + 1;) end++;
-        double *to = F + g.up[i] * ld + g.up[j], *to1 = F1 + g.up[i] * ld + g.up[j];
-        const double *from = S + i * g.mp + j, *from1 = S1 + i * g.mp + j;
-        for (i64 r = 0; r < end - j; r++) to[r] += from[r];
-        if (dual)
-          for (i64 r = 0; r < end - j; r++) to1[r] += from1[r];
-      }
+    const double *S = schur_of(e, child);
+    work_i32 *end = (work_i32 *)work;
+    find_runs(g, end);
+    add_child(g, end, S, F, ld);
+    if (dual) add_child(g, end, S + g.m * g.mp, F1, ld);
   }
   return DONE;
 }
@@ -163,15 +190,10 @@ static i32 eliminate(Elimination *e, i64 q) {
   Front f = front_of(t, q);
   i64 c = f.c, m = f.m, ld = f.sp, ln = (1 + e->factor->dual) * f.mp;
   double *F = e->F, *scale = e->work, *work = scale + f.cp, left = 1;
-  i32 status = assemble(e, q, f);
+  i32 status = assemble(e, q, f, scale, work);
   if (status) return status;
-  for (i64 i = 0; i < c; i++) { /* the matrix' own diagonal, before Schur complements came on top */
-    i64 v = t->vertices[f.first + i];
-    scale[i] = 0;
-    for (i64 k = e->matrix->start[v]; k < e->matrix->start[v + 1]; k++)
-      if (e->matrix->index[k] == v) scale[i] += e->matrix->value[k];
+  for (i64 i = 0; i < c; i++)
     if (!(scale[i] > 0)) return NOT_POSITIVE;
-  }
   if (!sweep(c, f.s, F, ld, scale, work, &left)) return NOT_POSITIVE;
   double *K = block_K(e->factor, q), *K1 = K + c * f.cp, *N = block_N(e->factor, q), *N1 = N + f.mp;
   for (i64 i = 0; i < c; i++) {
@@ -181,7 +203,7 @@ static i32 eliminate(Elimination *e, i64 q) {
     for (i64 j = m; j < f.mp; j++) N[i * ln + j] = 0;
   }
   if (left < STIFF) {
-    assemble(e, q, f); /* the children's Schur complements are still there */
+    assemble(e, q, f, scale, work); /* the children's Schur complements are still there */
     invert_by_cholesky(f, K, F, work);
     refine(f, K, N, ln, F, work);
   }

@@ -6,7 +6,7 @@
  *     Z12 = N Z22      Z11 = K + Z12 N^T      Z1_12 = N1 Z22 + N Z1_22      Z1_11 = K1 + Z12 N1^T + Z1_12 N^T */
 #include "kernel.h"
 
-static i64 work_of(Front f) { return 2 * f.c * f.mp + 2 * f.m * f.cp; }
+static i64 work_of(Front f) { return most(f.m, 2 * f.c * f.mp + 2 * f.m * f.cp); }
 
 /* What inverting the fronts first to last needs, in doubles: room[0] for the stack, room[1] in all. */
 API void bih_inversion_room(const Tree *t, i64 first, i64 last, i64 *room) {
@@ -20,8 +20,24 @@ API void bih_inversion_room(const Tree *t, i64 first, i64 last, i64 *room) {
 }
 
 static void transpose(i64 rows, i64 columns, const double *A, i64 lda, double *B, i64 ldb) {
-  for (i64 i = 0; i < rows; i++)
-    for (i64 j = 0; j < columns; j++) B[j * ldb + i] = A[i * lda + j];
+  enum { LINE = 8 };
+  for (i64 first = 0; first < rows; first += LINE)
+    for (i64 j = 0, end = least(first + LINE, rows); j < columns; j++)
+      for (i64 i = first; i < end; i++) B[j * ldb + i] = A[i * lda + j];
+}
+
+/* Z22 (m, m) of a front out of its parent's Z; end (m,) as find_runs leaves it. */
+static void gather(Front f, const work_i32 *end, const double *Zp, i64 ldp, double *Z, i64 ld) {
+  for (i64 i = 0; i < f.m; i++, Z += ld) {
+    for (i64 j = 0; j < f.m;) {
+      const double *from = Zp + f.up[i] * ldp + f.up[j];
+      double *to = Z + j, *last = Z + end[j];
+      j = end[j];
+      for (; to + LANES <= last; from += LANES, to += LANES) *(vec *)to = *(const vec *)from;
+      for (; to < last; from++, to++) *to = *from;
+    }
+    for (i64 j = f.m; j < ld - f.c; j++) Z[j] = 0;
+  }
 }
 
 static void invert(const Factor *factor, i64 q, double *const *blocks, double *stack, double *work, double *diagonal,
@@ -35,12 +51,10 @@ static void invert(const Factor *factor, i64 q, double *const *blocks, double *s
   if (parent >= 0) {
     Front p = front_of(t, parent);
     const double *Zp = blocks[parent] ? blocks[parent] : stack + t->inverse[parent], *Zp1 = Zp + p.s * p.sp;
-    for (i64 i = 0; i < m; i++) {
-      const double *from = Zp + f.up[i] * p.sp, *from1 = Zp1 + f.up[i] * p.sp;
-      double *to = Z + (c + i) * ld + c, *to1 = Z1 + (c + i) * ld + c;
-      for (i64 j = 0; j < m; j++) to[j] = from[f.up[j]], to1[j] = from1[f.up[j]];
-      for (i64 j = m; j < ld - c; j++) to[j] = to1[j] = 0;
-    }
+    work_i32 *end = (work_i32 *)work;
+    find_runs(f, end);
+    gather(f, end, Zp, p.sp, Z + c * ld + c, ld);
+    gather(f, end, Zp1, p.sp, Z1 + c * ld + c, ld);
   }
   zero(Y, 16 * c * mp);
   add_product(c, m, m, 1, N, ln, 1, Z + c * ld + c, ld, Y, mp);
@@ -66,9 +80,10 @@ static void invert(const Factor *factor, i64 q, double *const *blocks, double *s
   add_upper_product(c, c, m, 1, Y1, mp, 1, Nt, cp, Z1, ld);
   for (i64 i = 0; i < c; i++) {
     copy(Z + i * ld + c, Y + i * mp, 8 * m), copy(Z1 + i * ld + c, Y1 + i * mp, 8 * m);
-    for (i64 j = i; j < f.s; j++) Z[j * ld + i] = Z[i * ld + j], Z1[j * ld + i] = Z1[i * ld + j];
+    for (i64 j = i; j < c; j++) Z[j * ld + i] = Z[i * ld + j], Z1[j * ld + i] = Z1[i * ld + j];
     diagonal[vertices[i]] = Z[i * ld + i], sandwich[vertices[i]] = Z1[i * ld + i];
   }
+  transpose(c, m, Y, mp, Z + c * ld, ld), transpose(c, m, Y1, mp, Z1 + c * ld, ld);
 }
 
 /* The diagonals (n,) at the pivots of the fronts last to first, one task.  blocks (fronts,): of top fronts, where their

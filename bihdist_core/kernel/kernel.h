@@ -27,6 +27,13 @@ typedef int64_t i64;
 /* What functions return: 0, or how they failed. */
 enum { DONE = 0, STOPPED = -1, NOT_POSITIVE = -2, OUTSIDE = -3, ASYMMETRIC = -4, NO_ROOM = -5 };
 
+/* Doubles in a register: 2 in SSE2, NEON and WebAssembly, 4 in AVX2. */
+#ifndef LANES
+#define LANES 2
+#endif
+typedef double vec __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
+typedef int32_t work_i32 __attribute__((may_alias)); /* where doubles lie at other times */
+
 /* Rows of dense blocks are padded to so many doubles. */
 enum { PAD = 4 };
 static inline i64 padded(i64 k) { return (k + PAD - 1) & -(i64)PAD; }
@@ -104,6 +111,10 @@ static inline Front front_of(const Tree *t, i64 q) {
   i64 c = t->first[q + 1] - t->first[q], m = t->bound[q + 1] - t->bound[q];
   return (Front){c, m, c + m, padded(c), padded(m), padded(c + m), t->first[q], t->rows + t->bound[q],
                  t->up + t->bound[q]};
+}
+/* end (m,): for each boundary row where the run ends of rows that follow each other in the parent's front, too. */
+static inline void find_runs(Front f, work_i32 *end) {
+  for (i64 j = f.m; j-- > 0;) end[j] = (i32)(j + 1 < f.m && f.up[j + 1] == f.up[j] + 1 ? end[j + 1] : j + 1);
 }
 static inline double *block_K(const Factor *f, i64 q) { return f->pivots + (1 + f->dual) * f->tree->pivot_block[q]; }
 static inline double *block_N(const Factor *f, i64 q) { return f->boundaries + (1 + f->dual) * f->tree->row_block[q]; }

@@ -7,10 +7,6 @@
  * N1 x[boundary].  Then a vector is (n, 2 w), x and y beside each other, and one product with N serves both. */
 #include "kernel.h"
 
-#ifndef LANES
-#define LANES 2
-#endif
-typedef double vec __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
 enum { AHEAD = 256, LINE = 8 }; /* so many doubles are fetched before they are used; a line of the cache has so many */
 static inline void fetch_ahead(const double *N, i64 length) {
   for (i64 j = 0; j < length; j += LINE) __builtin_prefetch(N + AHEAD + j);

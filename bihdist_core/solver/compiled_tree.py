@@ -5,7 +5,7 @@ Fronts are numbered in postorder, so that a subtree is a range of them; `kernel/
 
 import ctypes
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -28,6 +28,8 @@ from ..kernel.library import (
 )
 from ..progress import Progress, part
 from .worker_threads import Job
+
+Count = TypeVar("Count", int, IntArray)
 
 PAD = 4
 """Rows of dense blocks are padded to so many numbers."""
@@ -87,7 +89,7 @@ class CompiledTree:
     @property
     def nbytes(self) -> int:
         """How many bytes its arrays take."""
-        return sum(getattr(self, name).nbytes for name in TREE_ARRAYS)
+        return sum(getattr(self, name).nbytes for name in ("order", *TREE_ARRAYS))
 
     @cached_property
     def branches(self) -> list[tuple[int, int]]:
@@ -224,7 +226,7 @@ class _Cut:
         return last, np.concatenate([one_subtrees, other_subtrees, own])
 
 
-def padded(count: Any) -> Any:
+def padded(count: Count) -> Count:
     """Rounded up to a multiple of PAD."""
     return -(-count // PAD) * PAD
 
