@@ -257,7 +257,7 @@ def test_without_workers_one_thread_makes_the_same_bits(monkeypatch):
 
 @pytest.mark.parametrize("call", [1, 3])
 def test_progress_can_stop_it(call, monkeypatch):
-    monkeypatch.setattr("bihdist_core.solver.worker_threads.REPORT_SECONDS", 0.001)
+    monkeypatch.setattr("bihdist_core.solver.worker_threads.REPORT_SECONDS", 0.0)
     matrix, x = grid(100, 150)
 
     def stopper():
