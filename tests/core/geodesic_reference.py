@@ -6,7 +6,7 @@ what is farther than the longest way along edges.
 
 from collections import defaultdict
 from decimal import Decimal, localcontext
-from heapq import heappop, heappush
+from heapq import heapify, heappop, heappush
 
 import numpy as np
 
@@ -33,35 +33,37 @@ class _Unfolding:
     def __init__(self, surface: Surface) -> None:
         self.points = [[Decimal(float(c)) for c in x] for x in surface.vertices]
         self.faces = [tuple(face) for face in surface.faces.tolist()]
-        self.longest = Decimal(float(EdgeGeodesic(surface).distances(np.arange(1))[:, 0].max() * 2 * (1 + 1e-9)))
+        self.surface, self.windows = surface, 0
         self.around, self.at_edge = defaultdict(list), defaultdict(list)
         for number, (a, b, c) in enumerate(self.faces):
             for vertex, p, q in ((a, b, c), (b, c, a), (c, a, b)):
                 self.around[vertex].append((number, p, q))
                 self.at_edge[frozenset((p, q))].append((number, vertex))
 
-    def distances(self, source) -> np.ndarray:
-        found, heap, done = {}, [], set()
+    def distances(self, source: int | tuple[int, tuple[float, float, float]]) -> np.ndarray:
+        found: dict[int, Decimal] = {}
         if isinstance(source, tuple):
             face, weights = source
             a, b, c = self.faces[face]
             total = sum(map(Decimal, weights))
             share = {v: Decimal(w) / total for v, w in zip((a, b, c), weights, strict=True)}
             point = [sum(share[v] * self.points[v][k] for v in share) for k in range(3)]
-            starts = [(face, p, q) for p, q in ((a, b), (b, c), (c, a))]
+            starts, corners = [(face, p, q) for p, q in ((a, b), (b, c), (c, a))], [a, b, c]
         else:
-            point, starts = self.points[source], self.around[source]
+            point, starts, corners = self.points[source], self.around[source], [source]
             found[source] = Decimal(0)
-            done.add(source)
-        for vertex, way in self.seen(point, starts).items():
-            found[vertex] = min(found.get(vertex, way), way)
-            heappush(heap, (found[vertex], vertex))
+        shifts = np.array([float(self.square(point, self.points[v]).sqrt()) for v in corners])
+        ways = EdgeGeodesic(self.surface).distances(np.array(corners)) + shifts
+        longest = Decimal(float(ways.min(axis=1).max()) * (1 + 1e-9))
+        found = self.seen(point, starts, longest) | found
+        heap, done = [(way, vertex) for vertex, way in found.items()], set()
+        heapify(heap)
         while heap:
             length, vertex = heappop(heap)
-            if vertex in done:
+            if vertex in done or vertex == source:
                 continue
             done.add(vertex)
-            for other, way in self.seen(self.points[vertex], self.around[vertex]).items():
+            for other, way in self.seen(self.points[vertex], self.around[vertex], longest - length).items():
                 if other not in found or length + way < found[other]:
                     found[other] = length + way
                     heappush(heap, (found[other], other))
@@ -70,8 +72,8 @@ class _Unfolding:
     def square(self, p, q) -> Decimal:
         return sum((a - b) ** 2 for a, b in zip(p, q, strict=True))
 
-    def seen(self, point, starts) -> dict[int, Decimal]:
-        """The lengths of straight ways from a point, whose faces have the opposite edges `starts`, to vertices."""
+    def seen(self, point, starts, longest: Decimal) -> dict[int, Decimal]:
+        """Of straight ways from a point, whose faces have the opposite edges `starts`, to vertices the lengths."""
         found: dict[int, Decimal] = {}
 
         def sees(vertex: int, square: Decimal) -> None:
@@ -90,7 +92,8 @@ class _Unfolding:
             stack.append((face, a, b, at_a, at_b, at_a, at_b))
         while stack:
             face, a, b, at_a, at_b, right, left = stack.pop()
-            if self.nearest(at_a, at_b) > self.longest**2:
+            self.windows += 1
+            if self.nearest(at_a, at_b) > longest**2:
                 continue
             for other, c in self.at_edge[frozenset((a, b))]:
                 if other == face:
