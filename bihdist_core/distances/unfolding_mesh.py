@@ -1,7 +1,6 @@
 """A surface as exact geodesic distance needs it: near in memory what is near in space, and no edge without a face."""
 
 import ctypes
-from typing import Any
 
 import numpy as np
 

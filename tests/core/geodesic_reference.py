@@ -82,7 +82,8 @@ class _Unfolding:
 
         stack = []
         for face, a, b in starts:
-            aa, bb, ab = (self.square(*ends) for ends in ((point, self.points[a]), (point, self.points[b]), (self.points[a], self.points[b])))
+            pa, pb = self.points[a], self.points[b]
+            aa, bb, ab = self.square(point, pa), self.square(point, pb), self.square(pa, pb)
             sees(a, aa)
             sees(b, bb)
             # In the plane, the point at the origin and a on the axis.

@@ -11,7 +11,6 @@ from bihdist_core import (
     OutputError,
     ParameterError,
     SolverError,
-    Surface,
     SurfacePoint,
     VertexError,
     isolines,
