@@ -131,8 +131,6 @@ class PathMaker:
                 raise ParameterError("A section needs a direction that lies in its plane; none is given.")
             return plane_section(wanted.surface, wanted.places, wanted.across, SECTIONS[wanted.way])
         if self._paths is None or self._paths.surface is not wanted.surface:
-            if self._paths is not None:
-                self._paths.close()
             self._paths = GeodesicPaths(wanted.surface)
         return self._paths.path(wanted.places, wanted.way, progress)
 
