@@ -26,7 +26,7 @@ NEAR = 1e-9
 
 
 class GeodesicPaths:
-    """Paths on one surface of any kind; what they need is made when it is first needed.  Usable from several threads."""
+    """Paths on one surface of any kind; what they need is made when first needed.  Usable from several threads."""
 
     def __init__(self, surface: Surface) -> None:
         self.surface = surface

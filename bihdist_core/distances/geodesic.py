@@ -118,7 +118,7 @@ class GeodesicDistance(Distance):
         return np.stack(fields, 1)
 
     def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
-        solver, surface, vertices = self._solvers[component.index], component.surface, pieces.vertices
+        solver, vertices = self._solvers[component.index], pieces.vertices
         if isinstance(solver, ExactGeodesic):
             if vertices is not None:
                 return solver.distances(component.local(vertices), progress)

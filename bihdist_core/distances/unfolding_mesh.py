@@ -1,7 +1,6 @@
 """A surface as exact geodesic distance needs it: near in memory what is near in space, and no edge without a face."""
 
 import ctypes
-from typing import Any
 
 import numpy as np
 
@@ -58,7 +57,7 @@ class UnfoldingMesh:
         first, corner = np.empty(n + 1, np.int32), np.empty(3 * m, np.int32)
         same, kind = np.empty(n, np.int32), np.empty(n, np.uint8)
         self.arrays = side, first, corner, same, kind
-        self.structure = kernel.Mesh(n, m, *map(kernel.at, self.arrays))
+        self.structure = kernel.Mesh(n, m, *(kernel.at(array) for array in self.arrays))
         work = np.empty((2, 3 * m), np.int32)
         kernel.library().bih_geodesic_mesh(
             ctypes.byref(self.structure), points, corners, work[0], work[1], np.empty(n + 1, np.int32)
@@ -76,14 +75,14 @@ class UnfoldingMesh:
                 flaps[tuple(sorted(vertices))] = None
         more_points: list[FloatArray] = []
         more_faces: list[tuple[int, ...]] = []
-        for vertices in flaps:
-            start, way = points[vertices[0]], points[vertices[-1]] - points[vertices[0]]
+        for edge in flaps:
+            start, way = points[edge[0]], points[edge[-1]] - points[edge[0]]
             # So far from the edge that its place can be told from that of the edge.
             size = max(float(np.linalg.norm(way)), ASIDE * float(np.abs(start).max())) or 1.0
             axes = size * np.eye(3)[np.argsort(np.abs(way), kind="stable")]
-            new = [start + way / 2 + axes[0]] if len(vertices) == 2 else [start + axes[0], start + axes[1]]
+            new = [start + way / 2 + axes[0]] if len(edge) == 2 else [start + axes[0], start + axes[1]]
             count = len(points) + len(more_points)
-            more_faces.append((*vertices, *range(count, count + len(new))))
+            more_faces.append((*edge, *range(count, count + len(new))))
             more_points += new
         if flaps:
             faces = np.concatenate([corners, np.array(more_faces, np.int32)])

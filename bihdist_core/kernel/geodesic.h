@@ -46,7 +46,7 @@ typedef struct {
   double b0, b1, px, py, s;
   i32 next, root; /* root: the vertex where the rays bent last, or -2 - the number of a source in a face */
   i32 over;       /* the last crossing on the way here of an edge of three or more faces */
-  i32 parallel;
+  unsigned char parallel, crossed; /* crossed: kept to compare later ones with, see geodesic_windows.c */
 } Window;
 
 /* How a vertex or a place was reached: in the face of side `from`, in a straight line from (px, -py) in its frame. */
@@ -135,4 +135,5 @@ void reach(Run *run, i64 id, double distance, i32 from, double px, double py, i3
 void leave(Run *run, i32 h, Window w);
 void cross_all(Run *run, i32 h);
 void bend(Run *run, i32 vertex);
+double nearest_share(const Run *run, i32 source, i32 h, double x, double y);
 #endif

@@ -18,7 +18,7 @@ static void fan(Run *run, i32 corner, const Ray *from, const Ray *to) {
     double hit = dy < 0 ? side->x - dx * side->y / dy : b[k];
     if (hit > 0 && hit < side->length) b[k] = hit;
   }
-  leave(run, h, (Window){b[0], b[1], side->x, side->y, run->reached[vertex].distance, NONE, vertex, NONE, 0});
+  leave(run, h, (Window){b[0], b[1], side->x, side->y, run->reached[vertex].distance, NONE, vertex, NONE, 0, 0});
 }
 
 /* Where a fan begins: the corner after which the angle from the way that came in is pi, and the ray of that. */

@@ -1,6 +1,7 @@
 /* The way back from what a run reached to its source. */
 #include "geodesic.h"
 
+#define THROUGH 1e-14 /* of an edge: a line this near to the apex goes through it, or along a face of no height */
 #define AS_GOOD 1e-12 /* of the distance and the edge: a way through a vertex may be longer by this */
 
 typedef struct {
@@ -21,13 +22,10 @@ static void at_corner(i32 h, double *weight) {
   for (int k = 0; k < 3; k++) weight[k] = k == h % 3;
 }
 
-/* The foot (x, y), in the frame of side h, on a source in its face. */
+/* The point of a source that is nearest to (x, y), in the frame of side h of its face: nothing is shorter than straight. */
 static void on_source(const Run *run, i32 source, i32 h, double x, double y, double *weight) {
   const double *begin = run->source.begin + 3 * (i64)source, *end = run->source.end + 3 * (i64)source;
-  double ax, ay, bx, by;
-  in_frame(run->mesh, h, begin, &ax, &ay), in_frame(run->mesh, h, end, &bx, &by);
-  double ux = bx - ax, uy = by - ay, square = ux * ux + uy * uy;
-  double t = square > 0 ? clamp(((x - ax) * ux + (y - ay) * uy) / square, 0, 1) : 0;
+  double t = nearest_share(run, source, h, x, y);
   for (int k = 0; k < 3; k++) weight[k] = (1 - t) * begin[k] + t * end[k];
 }
 
@@ -75,7 +73,7 @@ static i32 straight_part(const Run *run, i64 id, Pieces *out) {
       return root;
     }
     if (root < NONE && run->source.face[-2 - root] == h / 3) {
-      on_source(run, -2 - root, h, px, -py, end);
+      on_source(run, -2 - root, h, qx, qy, end);
       return NONE;
     }
     const Side *side = &mesh->side[h];
@@ -98,7 +96,8 @@ static i32 straight_part(const Run *run, i64 id, Pieces *out) {
     side = &mesh->side[h = t];
     on_side(mesh, h, x, here);
     /* The source is ahead, at (px, py) in the new frame: by which edge does the straight line come? */
-    int right = (px - x) * side->y - py * (side->x - x) > 0;
+    double turn = (px - x) * side->y - py * (side->x - x), l = side->length;
+    int right = __builtin_fabs(turn) > THROUGH * l * l ? turn > 0 : px > side->x;
     i32 e = right ? next_side(h) : previous_side(h);
     Ray a = corner_at(mesh, right ? e : h);
     double ox = right ? side->length : side->x, oy = right ? 0 : side->y, ux = -a.c, uy = right ? a.s : -a.s;
@@ -119,7 +118,9 @@ API i64 bih_geodesic_path(const Run *run, i64 id, i64 room, i32 *face, double *b
   while (id >= 0 && run->reached[id].from >= 0) {
     i32 before = straight_part(run, id, &out);
     if (before < NONE) return before;
-    if (before >= 0 && run->reached[before].distance > run->reached[id].distance) return LOST;
+    /* From vertex to vertex it is nearer; a target may be where a vertex is. */
+    if (before >= 0 && id < run->mesh->vertices && run->reached[before].distance > run->reached[id].distance)
+      return LOST;
     id = before;
   }
   return out.count;

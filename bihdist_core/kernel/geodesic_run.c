@@ -81,11 +81,13 @@ static int has_room_for(Run *run, i32 id) {
 
 /* ------------------------------------------------------------------ sources */
 
-/* The point of the segment from (ax, ay) to (bx, by) that is nearest to (x, y). */
-static void nearest_on(double ax, double ay, double bx, double by, double x, double y, double *fx, double *fy) {
+/* Where along a source the point is that is nearest to (x, y), in the frame of side h of its face: 0 to 1. */
+double nearest_share(const Run *run, i32 source, i32 h, double x, double y) {
+  double ax, ay, bx, by;
+  in_frame(run->mesh, h, run->source.begin + 3 * (i64)source, &ax, &ay);
+  in_frame(run->mesh, h, run->source.end + 3 * (i64)source, &bx, &by);
   double ux = bx - ax, uy = by - ay, square = ux * ux + uy * uy;
-  double t = square > 0 ? clamp(((x - ax) * ux + (y - ay) * uy) / square, 0, 1) : 0;
-  *fx = ax + t * ux, *fy = ay + t * uy;
+  return square > 0 ? clamp(((x - ax) * ux + (y - ay) * uy) / square, 0, 1) : 0;
 }
 
 static i32 vertex_at(const Mesh *mesh, i32 face, const double *weight) {
@@ -107,7 +109,7 @@ static void start_at_point(Run *run, i32 source, const double *weight) {
   for (i32 h = 3 * face; h < 3 * face + 3; h++) {
     double x, y;
     in_frame(run->mesh, h, weight, &x, &y);
-    leave(run, h, (Window){0, run->mesh->side[h].length, x, y, run->offset[source], NONE, -2 - source, NONE, 0});
+    leave(run, h, (Window){0, run->mesh->side[h].length, x, y, run->offset[source], NONE, -2 - source, NONE, 0, 0});
   }
 }
 
@@ -126,17 +128,17 @@ static void start_along(Run *run, i32 source) {
     double b0 = ax + nx * (ay / ny), b1 = bx + nx * (by / ny), limit = run->mesh->side[h].length;
     if (b1 < b0) l = b0, b0 = b1, b1 = l;
     leave(run, h, (Window){clamp(b0, 0, limit), clamp(b1, 0, limit), nx, ny, offset + ay * ny - ax * nx, NONE,
-                           -2 - source, NONE, 1});
+                           -2 - source, NONE, 1, 0});
   }
 }
 
 /* A straight way within the source's face to a point with these coordinates. */
 static void reach_within(Run *run, i32 source, i64 id, i32 h, const double *weight) {
-  double x, y, ax, ay, bx, by, fx, fy;
+  double x, y, ax, ay, bx, by;
   in_frame(run->mesh, h, weight, &x, &y);
   in_frame(run->mesh, h, run->source.begin + 3 * (i64)source, &ax, &ay);
   in_frame(run->mesh, h, run->source.end + 3 * (i64)source, &bx, &by);
-  nearest_on(ax, ay, bx, by, x, y, &fx, &fy);
+  double t = nearest_share(run, source, h, x, y), fx = ax + t * (bx - ax), fy = ay + t * (by - ay);
   reach(run, id, run->offset[source] + length_of(x - fx, y - fy), h, fx, -fy, -2 - source, NONE);
 }
 

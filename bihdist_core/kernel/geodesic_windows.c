@@ -1,8 +1,13 @@
-/* Windows: how they leave a face, what they lose to others, and how they cross the next. */
+/* Windows: how they leave a face, what they lose to others, and how they cross the next.
+ *
+ * Where faces have no height, windows could come round to the same side at no cost, for ever.  At the sides of such faces
+ * those that crossed stay in the list, and win where a later one is no nearer. */
 #include "geodesic.h"
 
 #define SOURCE_ON_EDGE 1e-13 /* of an edge: a source this near to it sees the whole face behind it */
 #define NARROW 4e-12         /* of an edge: windows overlap less only by rounding */
+#define THIN 1e-6            /* of the longest edge: the height of a face below which it has none */
+#define NEARER 1e-13         /* ratio by which a window is nearer that comes after another one crossed */
 
 static double distance_at(const Window *w, double x) {
   return w->parallel ? w->s + x * w->px : w->s + length_of(x - w->px, w->py);
@@ -125,15 +130,21 @@ static void leave_right(Run *run, i32 h, const Window *w, int all, int left) {
 }
 
 /* A window crosses the face of side h and leaves over its two other sides. */
-static void cross(Run *run, i32 h, const Window *w) {
+static void cross(Run *run, i32 h, const Window *entering) {
   const Mesh *mesh = run->mesh;
   const Side *side = &mesh->side[h];
   i32 apex = mesh->side[previous_side(h)].vertex;
   double left_length = mesh->side[previous_side(h)].length, right_length = mesh->side[next_side(h)].length, across, d;
   double longest = left_length > right_length ? left_length : right_length;
   double tolerance = CRACK * (longest > side->length ? longest : side->length);
+  Window here = *entering;
+  const Window *w = &here;
   int all = !w->parallel && w->py <= SOURCE_ON_EDGE * side->length && w->px >= w->b0 - tolerance &&
             w->px <= w->b1 + tolerance;
+  if (all) { /* from a point of the window, if need be by a detour along the edge */
+    here.px = clamp(w->px, w->b0, w->b1);
+    here.s += __builtin_fabs(here.px - entering->px);
+  }
   run->crossed++;
   if (run->target.count)
     for (i32 t = run->first_target[h / 3]; t >= 0; t = run->next_target[t]) {
@@ -155,13 +166,13 @@ static void cross(Run *run, i32 h, const Window *w) {
 
 /* Whether a is nowhere farther than b on [x0, x1].  Their difference has one extremum at most, where rays are parallel. */
 static int beats(const Window *a, const Window *b, double x0, double x1) {
-  if (distance_at(a, x0) > distance_at(b, x0) || distance_at(a, x1) > distance_at(b, x1)) return 0;
-  double x;
+  double ratio = 1 - NEARER * (a->crossed - b->crossed), x;
+  if (distance_at(a, x0) * ratio > distance_at(b, x0) || distance_at(a, x1) * ratio > distance_at(b, x1)) return 0;
   if (a->parallel && b->parallel) return 1;
   if (a->parallel) x = b->px + b->py * (a->px / a->py);
   else if (b->parallel) x = a->px + a->py * (b->px / b->py);
   else x = (a->px * b->py - b->px * a->py) / (b->py - a->py);
-  return !(x > x0 && x < x1) || distance_at(a, x) <= distance_at(b, x);
+  return !(x > x0 && x < x1) || distance_at(a, x) * ratio <= distance_at(b, x);
 }
 
 static void sort_by_begin(Run *run, i64 count) {
@@ -198,8 +209,8 @@ static i64 prune(Run *run, i32 h, i64 count) {
       double end = top->b1 < w->b1 ? top->b1 : w->b1;
       if (end - w->b0 <= narrow) break;
       if (beats(top, w, w->b0, end)) {
-        if (w->b1 <= top->b1) keep = 0;
-        else w->b0 = end - narrow / 4;
+        w->b0 = end - narrow / 4;
+        keep = w->b1 - w->b0 > narrow;
         break;
       }
       if (!beats(w, top, w->b0, end)) break;
@@ -215,18 +226,32 @@ static i64 prune(Run *run, i32 h, i64 count) {
   return left;
 }
 
+static int is_thin(const Mesh *mesh, i32 h) {
+  double longest = 0;
+  for (i32 k = h / 3 * 3; k < h / 3 * 3 + 3; k++)
+    if (mesh->side[k].length > longest) longest = mesh->side[k].length;
+  return mesh->side[h].y * mesh->side[h].length < THIN * longest * longest;
+}
+
 /* All windows waiting at side h cross its face. */
 void cross_all(Run *run, i32 h) {
   i64 count = 0;
-  i32 head = run->queue[h].head;
+  i32 head = run->queue[h].head, next;
+  int keep = !(run->everything & ALL_WINDOWS) && is_thin(run->mesh, h);
   for (i32 i = head; i >= 0; i = run->window[i].next) run->order[count++] = i;
   run->queue[h].head = NONE;
   sort_by_begin(run, count);
   i64 left = run->everything & ALL_WINDOWS ? count : prune(run, h, count);
   /* Downwards, so that the next lists are nearly in order. */
-  while (left--) cross(run, h, &run->window[run->order[left]]);
-  for (i32 i = head, next; i >= 0; i = next) {
-    next = run->window[i].next;
-    run->window[i].next = run->free, run->free = i, run->live--;
+  for (i64 k = left; k--;) {
+    Window *w = &run->window[run->order[k]];
+    if (!w->crossed) cross(run, h, w);
+    w->crossed = 2;
+  }
+  for (i32 i = head; i >= 0; i = next) {
+    Window *w = &run->window[i];
+    next = w->next;
+    if (keep && w->crossed == 2) w->crossed = 1, w->next = run->queue[h].head, run->queue[h].head = i;
+    else w->next = run->free, run->free = i, run->live--;
   }
 }
