@@ -1,4 +1,4 @@
-"""`python -m tests.bench [--quick] [--only 1,2] [--json FILE] [--mesh FILE]`: the speed of everything, in one table.
+"""`python -m tests.bench [--quick] [--only 1,2] [--before REF] [--json FILE]`: the speed of everything, in one table.
 
 What is judged are ratios of times measured in turn in the same run; the times themselves are only told.
 """
@@ -8,12 +8,14 @@ import json
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
 from dataclasses import replace
 from datetime import date
 
 from . import (
     anchor_row,
     batch_rows,
+    before,
     drag_row,
     exact_rows,
     growth_rows,
@@ -65,10 +67,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.mesh:
         size = replace(size, file=options.mesh)
     lines: list[Line] = []
-    for row in options.only or ROWS:
-        for line in ROWS[row](size):
-            lines.append(line)
-            print(render([line]).splitlines()[-1], file=sys.stderr, flush=True)
+    with ExitStack() as stack:
+        measure = _row_here
+        if options.before:
+            try:
+                tree = stack.enter_context(before.checked_out(options.before))
+            except ValueError as error:
+                print(error, file=sys.stderr)
+                return 2
+            passed = ["--quick"] * options.quick + (["--mesh", options.mesh] if options.mesh else [])
+            measure = lambda row, size: iter(before.beside(tree, row, passed))  # noqa: E731
+        for row in options.only or ROWS:
+            for line in measure(row, size):
+                lines.append(line)
+                print(render([line]).splitlines()[-1], file=sys.stderr, flush=True)
     copied, multiplied = machine.limits()
     facts = {
         "date": date.today().isoformat(),
@@ -83,10 +95,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
+def _row_here(row: int, size: Size) -> Iterator[Line]:
+    return ROWS[row](size)
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__.split("\n\n")[1])
     parser.add_argument("--quick", action="store_true", help="small meshes and one round: checks the form, not times")
     parser.add_argument("--only", type=_numbers, metavar="1,2", help="these rows only")
+    parser.add_argument("--before", metavar="REF", help="the rows of that commit beside this tree's")
     parser.add_argument("--json", metavar="FILE", help="write the table there as well")
     mesh = "a mesh in place of the generated sphere in rows 1 to 6, 10, 11 and 25"
     parser.add_argument("--mesh", metavar="FILE", help=mesh)
