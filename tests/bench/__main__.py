@@ -5,6 +5,7 @@ What is judged are ratios of times measured in turn in the same run; the times t
 
 import argparse
 import json
+import os
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
@@ -75,7 +76,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             except ValueError as error:
                 print(error, file=sys.stderr)
                 return 2
-            passed = ["--quick"] * options.quick + (["--mesh", options.mesh] if options.mesh else [])
+            passed = ["--quick"] * options.quick + (["--mesh", os.path.abspath(options.mesh)] if options.mesh else [])
             measure = lambda row, size: iter(before.beside(tree, row, passed))  # noqa: E731
         for row in options.only or ROWS:
             for line in measure(row, size):

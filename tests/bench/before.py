@@ -49,4 +49,7 @@ def lines_of(tree: Path, row: int, arguments: Sequence[str]) -> list[Line]:
 def beside(tree: Path, row: int, arguments: Sequence[str]) -> list[Line]:
     """This tree's lines of a row, with the seconds of the earlier tree's lines of the same words."""
     earlier = {line.work: line.ours for line in lines_of(tree, row, arguments)}
-    return [replace(line, before=earlier.get(line.work)) for line in lines_of(ROOT, row, arguments)]
+    lines = lines_of(ROOT, row, arguments)
+    if not lines:
+        raise RuntimeError(f"Row {row} could not be measured in this tree.")
+    return [replace(line, before=earlier.get(line.work)) for line in lines]

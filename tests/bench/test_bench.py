@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from bihdist_core import Surface
-from tests.bench import machine
+from tests.bench import before, machine
 from tests.bench.__main__ import ROWS
 from tests.bench.meshes import MAKERS, along_curve, bumpy_sphere
 from tests.bench.table import COLUMNS, Line, render
@@ -107,3 +107,13 @@ def test_a_line_says_whether_it_holds():
 def test_the_machine_has_limits():
     assert machine.bandwidth(megabytes=4) > 1e8
     assert machine.matmul_rate(size=64) > 1e8
+
+
+def test_a_commit_that_is_not_there_is_named():
+    with pytest.raises(ValueError, match="no commit 'nonsense'"), before.checked_out("nonsense"):
+        pass
+
+
+def test_a_line_without_an_earlier_one_shows_a_dash():
+    assert render([Line(1, "work", ours=1.0)]).count("–") == 2
+    assert "0.5" in render([Line(1, "work", ours=1.0, before=2.0)])
