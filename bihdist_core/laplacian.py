@@ -10,6 +10,7 @@ is the Green's function of the biharmonic operator up to terms that cancel in di
 """
 
 import threading
+from copy import copy
 
 import numpy as np
 import scipy.sparse as sp
@@ -18,7 +19,7 @@ from .arrays import AnyArray, FloatArray, IntArray
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError, SolverError
 from .locked_cached_property import locked_cached_property
-from .operators import AREAS, stiffness, vertex_areas
+from .operators import AREAS, operators
 from .progress import Progress, part, turn
 from .solver.aside import aside
 from .solver.elimination_tree import EliminationTree
@@ -47,14 +48,18 @@ class Laplacian:
         return f"Laplacian({self.surface!r}, {self.areas_kind} areas)"
 
     @locked_cached_property
+    def _operators(self) -> tuple[sp.csr_matrix, FloatArray]:
+        return operators(self.surface, self.areas_kind)
+
+    @property
     def stiffness(self) -> sp.csr_matrix:
         """(n, n) cotangent stiffness matrix, positive semi-definite; no unit."""
-        return stiffness(self.surface)
+        return self._operators[0]
 
-    @locked_cached_property
+    @property
     def areas(self) -> FloatArray:
         """(n,) vertex areas, unit length squared."""
-        return vertex_areas(self.surface, self.areas_kind)
+        return self._operators[1]
 
     @locked_cached_property
     def eigenpair_counts(self) -> IntArray:
@@ -210,7 +215,7 @@ class Component:
         scaled = u[index] / self.areas.sum()
 
         def centred(rows: AnyArray, columns: slice, values: FloatArray) -> None:
-            values -= u[rows, None] * scaled[columns]
+            values -= u[rows][:, None] * scaled[columns]
             receive(rows, columns, values)
 
         self.factor(diagonals=True).each_sandwich_piece(index, centred)
@@ -299,8 +304,9 @@ def as_laplacian(laplacian: Laplacian | Surface) -> Laplacian:
 def _pinned(matrix: sp.csr_matrix, pin: int) -> sp.csr_matrix:
     """The symmetric matrix with row and column `pin` replaced by the identity's; it shares the pattern's arrays."""
     start, index, value = matrix.indptr, matrix.indices, matrix.data.copy()
-    for row in index[start[pin] : start[pin + 1]]:
-        entries = slice(start[row], start[row + 1])
-        value[entries][index[entries] == pin] = 0
-    value[start[pin] : start[pin + 1]] = index[start[pin] : start[pin + 1]] == pin
-    return sp.csr_matrix((value, index, start), shape=matrix.shape)
+    value[index == pin] = 0
+    row = slice(start[pin], start[pin + 1])
+    value[row] = index[row] == pin
+    pinned = copy(matrix)
+    pinned.data = value
+    return pinned

@@ -20,19 +20,32 @@ from .surface import FLAT, Surface
 
 AREAS = ("voronoi", "barycentric")
 
+Corners = tuple[FloatArray, FloatArray, FloatArray]
+"""(3, m) cotangent of each corner, (3, m) squared length of the side opposite to it, (m,) face areas."""
+
+
+def operators(surface: Surface, areas: str = "voronoi") -> tuple[sp.csr_matrix, FloatArray]:
+    """`stiffness` (n, n) and `vertex_areas` (n,), for which the faces are measured once."""
+    corners = _corners(surface)
+    return _assembled(surface, _weights(surface, corners)), _areas(surface, areas, corners)
+
 
 def stiffness(surface: Surface) -> sp.csr_matrix:
     """(n, n) cotangent stiffness matrix; the rows of unreferenced vertices are empty."""
+    return _assembled(surface, face_weights(surface))
+
+
+def _assembled(surface: Surface, weights: FloatArray) -> sp.csr_matrix:
     n, f = len(surface.vertices), surface.faces
-    weights = face_weights(surface)
     if lib := library():
-        room = n + 6 * len(f)
+        room = n + 9 * len(f)
         start, index, value = np.empty(n + 1, np.int32), np.empty(room, np.int32), np.empty(room)
         count = lib.bih_stiffness(
-            n, len(f), np.ascontiguousarray(f, np.int64), np.ascontiguousarray(weights), start, index, value,
-            np.empty(n, np.int32),
-        )  # fmt: skip
-        return sp.csr_matrix((value[:count].copy(), index[:count].copy(), start), shape=(n, n))
+            n, len(f), np.ascontiguousarray(f, np.int64), weights, start, index, value, np.empty(3 * n + 1, np.int32)
+        )
+        matrix = sp.csr_matrix((value[:count].copy(), index[:count].copy(), start), shape=(n, n))
+        matrix.has_canonical_format = True
+        return matrix
     i, j = (np.concatenate([f[:, (k + s) % 3] for k in range(3)]) for s in (1, 2))
     half = sp.coo_matrix((weights.ravel(), (i, j)), shape=(n, n)).tocsr()
     weights = half + half.T
@@ -41,7 +54,11 @@ def stiffness(surface: Surface) -> sp.csr_matrix:
 
 def face_weights(surface: Surface) -> FloatArray:
     """(3, m) half the cotangent of each corner: what a face adds to the weight of the side opposite to it."""
-    weights = _corners(surface)[0] / 2
+    return _weights(surface, _corners(surface))
+
+
+def _weights(surface: Surface, corners: Corners) -> FloatArray:
+    weights = corners[0] / 2
     if len(surface.degenerate_faces):
         weights[:, surface.degenerate_faces] = DegenerateFaces.of(surface).weights()
     return weights
@@ -54,17 +71,22 @@ def vertex_areas(surface: Surface, kind: str = "voronoi") -> FloatArray:
     "voronoi": mixed Voronoi areas (Meyer et al. 2002), as the paper's text; "barycentric": a third of each face's
     area to each of its vertices, as its authors' program.  Raises ParameterError for any other word.
     """
+    return _areas(surface, kind, _corners(surface))
+
+
+def _areas(surface: Surface, kind: str, corners: Corners) -> FloatArray:
     if kind not in AREAS:
         raise ParameterError(f"There are no {kind!r} vertex areas; choose one of {', '.join(AREAS)}.")
-    cotangents, squares, area = _corners(surface)
+    cotangents, squares, area = corners
     if kind == "barycentric":
         share = np.broadcast_to(area / 3, (3, len(area)))
     else:
         # Of an acute triangle, corner k gets the part nearer to it than to the others.
         part = cotangents * squares
         share = (part.sum(axis=0) - part) / 8
-        obtuse = cotangents < 0
-        share = np.where(obtuse.any(axis=0), np.where(obtuse, area / 2, area / 4), share)
+        corner, face = np.nonzero(cotangents < 0)
+        share[:, face] = area[face] / 4
+        share[corner, face] = area[face] / 2
     flat, n = surface.degenerate_faces, len(surface.vertices)
     if not len(flat):
         return np.bincount(surface.faces.T.ravel(), share.ravel(), n).astype(float, copy=False)
@@ -95,8 +117,7 @@ def face_sides(surface: Surface, true: bool = False) -> list[FloatArray]:
     return side
 
 
-def _corners(surface: Surface) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """(3, m) cotangent of each corner, (3, m) squared length of the side opposite to it, (m,) face areas."""
+def _corners(surface: Surface) -> Corners:
     area, flat, m = surface.face_areas, surface.degenerate_faces, len(surface.faces)
     if lib := library():
         cotangents, squares = np.empty((2, 3, m))

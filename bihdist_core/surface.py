@@ -74,9 +74,11 @@ class Surface:
         Vertices that share a face are connected, also through a single vertex.
         """
         n, f = len(self.vertices), self.faces
+        label = connected(f.T.take([0, 1, 1, 2], axis=0).reshape(2, -1), n)
+        if not label.any():  # then there is but one, with every vertex
+            return label
         used = np.zeros(n, bool)
         used[f] = True
-        label = connected(np.concatenate([f[:, :2], f[:, 1:]]).T, n)
         count = np.bincount(label[used])
         rank = np.empty(len(count), np.int64)
         rank[np.argsort(-count, kind="stable")] = np.arange(len(count))
@@ -210,6 +212,10 @@ class Surface:
     @cached_property
     def _face_measures(self) -> tuple[FloatArray, FloatArray]:
         """(m,) areas and (m,) squares of the longest edges."""
+        if lib := library():
+            areas, longest = np.empty((2, len(self.faces)))
+            lib.bih_measures(len(self.faces), self.vertices, self.faces, areas, longest)
+            return areas, longest
         a, b, c = self.sides()
         normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
         longest = np.maximum(np.maximum(dots(a, a), dots(b, b)), dots(c, c))
@@ -286,8 +292,9 @@ def _checked_vertices(vertices: npt.ArrayLike, name: str) -> FloatArray:
         raise MeshError(f"{name}: the vertices are not an array of numbers ({error}).") from None
     if x.ndim != 2 or x.shape[1] != 3:
         raise MeshError(f"{name}: vertices must have shape (n, 3), not {x.shape}.")
-    bad = np.flatnonzero(~np.isfinite(x).all(axis=1))
-    if len(bad):
+    is_finite = np.isfinite(x)
+    if not is_finite.all():
+        bad = np.flatnonzero(~is_finite.all(axis=1))
         raise MeshError(f"{name}: vertex {bad[0]} has the coordinates {_row(x[bad[0]])}; all must be finite numbers.")
     return x
 

@@ -8,6 +8,8 @@ import sys
 
 import pytest
 
+from bihdist_core import SolverError
+
 SCREEN = "1600x1000x24"
 
 SERVE = """
@@ -66,3 +68,15 @@ def mesh_file(tmp_path):
         return str(path)
 
     return write
+
+
+@pytest.fixture
+def no_exact_geodesics(monkeypatch):
+    """Exact geodesic distances that cannot be made."""
+
+    def fails(self, surface):
+        raise SolverError(
+            "There is no room for windows: exact geodesic distances on this surface need more memory than there is."
+        )
+
+    monkeypatch.setattr("bihdist_core.distances.exact_geodesic.ExactGeodesic.__init__", fails)

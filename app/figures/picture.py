@@ -140,7 +140,7 @@ def figure(
     regions: the panels, numbered from 1, or "all", that show lines around what is nearest to each pin. selections: ids
     (k,) of vertices that stand out together, or words such as "12,40-77", a colour each. profile: True for the path
     through the pins, or the points it goes through: vertices, places in faces, "source" and "pin:1"; way: how it goes
-    from one to the next, "auto", "exact", "straightened" or "edges", or by a "section" whose plane holds the direction
+    from one to the next, "auto", "exact" or "edges", or by a "section" whose plane holds the direction
     `across`, "section-longer" or "section-whole". shading: "smooth", "creased" at more than `crease` degrees, or
     "flat"; "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own",
     "shared" (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or

@@ -21,7 +21,7 @@ MUCH_LONGER, AT_LEAST = 4.0, 0.2
 """In a drag, an answer that takes so many times as long as the one before, and so many seconds, gives way to the next:
 it waits for something that is made beside it, such as a longer flow of heat, and the others need not."""
 
-SMALL = 12_000
+SMALL = 300_000
 """Vertices up to which an exact answer takes no longer than making its stand-in."""
 
 
@@ -188,7 +188,7 @@ class Answering:
         if (
             quick != question
             and not at_hand
-            and self._is_quicker(id, request, quick)
+            and self._is_quicker(request, quick)
             and self._preview(id, request, quick, preparing, asking)
             and request.live
         ):
@@ -202,12 +202,11 @@ class Answering:
         else:
             self._took.pop(id, None)
 
-    def _is_quicker(self, id: int, request: _Request, quick: Question) -> bool:
-        """Whether stand-ins come before the answer: at first, on a small surface, not if they have to be made."""
+    def _is_quicker(self, request: _Request, quick: Question) -> bool:
+        """Whether stand-ins come before the answer: on a small surface, but for drags, only those that are made."""
         distances = request.loaded.distances(quick.areas)
         is_small = len(request.loaded.surface.vertices) <= SMALL
-        is_next = request.live or id in self.shown
-        return is_next or not is_small or all(distances.is_ready(spec) for spec in quick.specs)
+        return request.live or not is_small or all(distances.is_ready(spec) for spec in quick.specs)
 
     def _preview(self, id: int, request: _Request, question: Question, preparing: Progress, asking: Progress) -> bool:
         """Hand on what quick distances answer; whether they did: their failure must not cost the answer."""
@@ -218,8 +217,10 @@ class Answering:
                     request.loaded.distances(question.areas).get(spec, preparing)
             except (SolverError, MemoryError):
                 return False
-            answer = request.loaded.answer(question, asking)
-            self._kept.put(question, answer)
+            # How accurate a stand-in is nobody asks.
+            answer = request.loaded.answer(question, asking, at_once=lambda first: True)
+            if answer.is_final:
+                self._kept.put(question, answer)
         if not answer.failure:
             self._deliver(id, request, answer, is_preview=True)
         return not answer.failure

@@ -109,7 +109,7 @@ class LoadedMesh:
         self,
         question: Question,
         progress: Progress | None = None,
-        at_once: Callable[[Answer], None] | None = None,
+        at_once: Callable[[Answer], object] | None = None,
     ) -> Answer:
         """See `Question.answer`."""
         return question.answer(self, progress, at_once)

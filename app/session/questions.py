@@ -74,9 +74,10 @@ class Question(ABC):
 
     @abstractmethod
     def answer(
-        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
     ) -> Answer:
-        """The answer on a surface; `at_once` is called with a rougher one that is there at once, if there is one.
+        """The answer on a surface; `at_once` is called with a rougher one that is there at once, if there is one, and
+        returns True where that is enough.
 
         VertexError or ParameterError for a point that is not on the surface; Cancelled as `progress` raises it.
         """
@@ -123,7 +124,7 @@ class DistanceQuestion(ByDistance):
         return str(self.spec)
 
     def answer(
-        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
     ) -> Answer:
         source = source_at(self.at, loaded.surface)
         return loaded.distances(self.areas).answer(self.spec, source, progress, at_once)
@@ -145,7 +146,7 @@ class FieldQuestion(Question):
         return self.field.name
 
     def answer(
-        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
     ) -> Answer:
         field = loaded.own_field(self.field)
         is_signed = bool(np.nanmin(field, initial=0.0) < 0)
@@ -195,11 +196,18 @@ class DifferenceQuestion(Question):
         return f"{self.minuend} - {self.subtrahend}"
 
     def answer(
-        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
     ) -> Answer:
-        first = self.minuend.answer(loaded, part(progress, 0, 0.5))
-        second = self.subtrahend.answer(loaded, part(progress, 0.5, 1))
-        return difference_of(first, second, self.raw)
+        def answered(at_once: Callable[[Answer], object] | None) -> Answer:
+            first = self.minuend.answer(loaded, part(progress, 0, 0.5), at_once)
+            second = self.subtrahend.answer(loaded, part(progress, 0.5, 1), at_once)
+            return difference_of(first, second, self.raw)
+
+        if at_once is not None:
+            rough = answered(lambda half: True)
+            if rough.is_final or at_once(rough) is True:
+                return rough
+        return answered(None)
 
     def start(self, field: FloatArray, surface: Surface) -> Source | None:
         """All that the distances start from that it is made of."""

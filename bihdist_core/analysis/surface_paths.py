@@ -8,15 +8,14 @@ import numpy as np
 import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
-from ..errors import ParameterError, SolverError
+from ..distances.exact_geodesic import FacePath
+from ..errors import ParameterError
 from ..sources.splitting import Split
 from ..surface import Surface
 from .places import Places, weighted
 
-OFF = 1e-4
-"""Points of a path may be so far from the mesh's edges, in mean edge lengths, before they are put there."""
-CORNER = 1e-9
-"""Closer than this share of an edge to its end, a point is that vertex."""
+NO_WAY = 1e-13
+"""Pieces of a path that are shorter than this, in mean edge lengths, are left out."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,6 +114,25 @@ def _weights(surface: Surface, part: Crossings, which: slice) -> FloatArray:
     return np.where(is_vertex, 1.0, np.where(corners == ends[:, :1], 1 - t, np.where(corners == ends[:, 1:], t, 0)))
 
 
+def in_faces(surface: Surface, parts: Sequence[FacePath], method: str, label: str) -> SurfacePath:
+    """The path of several parts, each begun where the last ended."""
+    x, moving = surface.vertices, []
+    for part in parts:
+        corners = surface.faces[part.faces]
+        way = weighted(x, corners, part.ends) - weighted(x, corners, part.begins)
+        moves = np.linalg.norm(way, axis=1) > NO_WAY * surface.mean_edge_length
+        moves[0] |= not moves.any()
+        moving.append(moves)
+    faces, begins, ends = (
+        np.concatenate([getattr(part, name)[moves] for part, moves in zip(parts, moving, strict=True)])
+        for name in ("faces", "begins", "ends")
+    )
+    corners = surface.faces[faces]
+    points = np.append(weighted(x, corners, begins), weighted(x, corners[-1:], ends[-1:]), axis=0)
+    knots = np.append(0, np.cumsum([moves.sum() for moves in moving]))
+    return SurfacePath(points, faces, corners, begins, ends, knots, method, label)
+
+
 class Stars:
     """The faces around each vertex."""
 
@@ -137,70 +155,3 @@ class Stars:
                 raise ParameterError(f"Vertices {sorted({*a, *b})} are in no common face.")
             faces.append(min(shared))
         return np.array(faces, np.int64)
-
-    def followed(self, polyline: FloatArray, start: int, stop: int) -> Crossings:
-        """The crossings of a polyline (k, 3) of points near edges, two in a row in one face, between two vertices.
-
-        SolverError where the polyline leaves the surface.
-        """
-        x, triangles = self.surface.vertices, self.surface.faces
-        tolerance = OFF * self.surface.mean_edge_length
-        # Beside degenerate faces the ends may be reached through a side in the same place.
-        q, around, faces = np.concatenate([polyline[:1], polyline, polyline[-1:]]), self[start], []
-        for k in range(len(q) - 1):
-            if k == len(q) - 2:
-                around = np.intersect1d(around, self[stop])
-                if not len(around):
-                    raise SolverError(f"A path from vertex {start} to {stop} left the surface {self.surface.name}.")
-            corners = triangles[around]
-            a, b = x[corners], x[corners[:, [1, 2, 0]]]
-            off = _apart(a, b, q[k : k + 2])
-            both = off.min(axis=1).max(axis=1)
-            best = int(both.argmin())
-            if not both[best] <= tolerance:
-                raise SolverError(f"A path from vertex {start} to {stop} left the surface {self.surface.name}.")
-            faces.append(int(around[best]))
-            side = int(off[best, :, 1].argmin())
-            around = np.concatenate([self[int(corners[best, (side + end) % 3])] for end in (0, 1)])
-        found = self._crossings(q, np.array(faces, np.int64), start, stop, tolerance)
-        length, expected = (float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum()) for line in (found.points(x), q))
-        if not abs(length - expected) <= OFF * expected:
-            raise SolverError(f"A path from vertex {start} to {stop} was not found again on {self.surface.name}.")
-        return found
-
-    def _crossings(self, q: FloatArray, faces: IntArray, start: int, stop: int, tolerance: float) -> Crossings:
-        x, triangles = self.surface.vertices, self.surface.faces
-        at, parameters = [(start, start)], [0.0]
-        for k in range(1, len(q) - 1):
-            before, after = triangles[faces[k - 1]], triangles[faces[k]]
-            shared = before[np.isin(before, after)]
-            sides = [(shared[i - 1], shared[i]) for i in range(len(shared))][: 3 if len(shared) == 3 else 1]
-            a, b = (x[[side[end] for side in sides]][None] for end in (0, 1))
-            best = int(_apart(a, b, q[k : k + 1])[0, :, 0].argmin())
-            i, j = (int(v) for v in sides[best])
-            share = float(_foot(x[i], x[j], q[k]))
-            i, j, share = (i, i, 0.0) if share < CORNER else (j, j, 0.0) if share > 1 - CORNER else (i, j, share)
-            if not np.linalg.norm((1 - share) * x[i] + share * x[j] - q[k]) <= tolerance:
-                raise SolverError(f"A path from vertex {start} to {stop} left the surface {self.surface.name}.")
-            at.append((i, j))
-            parameters.append(share)
-        ends, t = np.array([*at, (stop, stop)]), np.array([*parameters, 0.0])
-        moves = (ends[1:] != ends[:-1]).any(axis=1) | (t[1:] != t[:-1])
-        distinct = np.append(True, moves)
-        return Crossings(ends[distinct], t[distinct], faces[moves])
-
-
-def _foot(a: FloatArray, b: FloatArray, q: FloatArray) -> FloatArray:
-    """Parameter, 0 to 1, of the point of the segments ab nearest to q; along the last axis."""
-    side = b - a
-    square = (side * side).sum(axis=-1)
-    parameter: FloatArray = np.clip(((q - a) * side).sum(axis=-1) / np.where(square > 0, square, 1), 0, 1)
-    return parameter
-
-
-def _apart(a: FloatArray, b: FloatArray, q: FloatArray) -> FloatArray:
-    """(f, s, p) distances of points q (p, 3) from segments a, b (f, s, 3)."""
-    a, b = a[:, :, None], b[:, :, None]
-    t = _foot(a, b, q)[..., None]
-    distance: FloatArray = np.linalg.norm((1 - t) * a + t * b - q, axis=-1)
-    return distance

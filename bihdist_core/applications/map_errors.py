@@ -24,7 +24,7 @@ BLOCK = 32
 LIMIT = 0.25
 """Where curves end, and the area under them."""
 
-EXACT_WORK = 5_000_000
+EXACT_WORK = 40_000_000
 """Vertices times right answers up to which errors are exact geodesic distances: some minutes at most."""
 
 
@@ -40,7 +40,7 @@ def error_distance(
 
 def error_method(surface: Surface, count: int) -> str:
     """What "auto" is."""
-    return "exact" if surface.is_manifold and count * len(surface.vertices) <= EXACT_WORK else "heat"
+    return "exact" if count * len(surface.vertices) <= EXACT_WORK else "heat"
 
 
 def sampled_vertices(count: int, samples: int | None) -> IntArray:

@@ -51,12 +51,13 @@ BLOCK = 8192
 class ErrorEstimate:
     """An accuracy in words, empty where there is none, and whether it is so poor that a user should be warned.
 
-    share: the accuracy, as a fraction of the maximum.
+    share: the accuracy, as a fraction of the maximum.  short: what a label adds, where it is no exact distance.
     """
 
     text: str = ""
     is_poor: bool = False
     share: float | None = None
+    short: str = ""
 
     @classmethod
     def of(cls, accuracy: float, text: str = "") -> "ErrorEstimate":

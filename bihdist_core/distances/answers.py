@@ -219,13 +219,13 @@ class Distances:
         spec: Spec,
         source: Source,
         progress: Progress | None = None,
-        at_once: Callable[[Answer], None] | None = None,
+        at_once: Callable[[Answer], object] | None = None,
     ) -> Answer:
         """The field from a source, with its certificate on the components that this has a part in.
 
         What cannot be done becomes an answer that says so; Cancelled is raised, and VertexError or ParameterError for a
         source that is not on this surface.  at_once: gets the answer without its certificate where that has still to be
-        made.
+        made; where it returns True, that is all.
         """
         pieces: Pieces | None = None
         components, what = [], "vertices"
@@ -250,10 +250,13 @@ class Distances:
             field.flags.writeable = False
             answer = Answer(label=label, unit=distance.unit, field=field, is_distance=True)
             if at_once is not None and not all(map(distance.is_judged, components)):
-                at_once(answer)
+                if at_once(answer) is True:
+                    return answer
                 # Whoever has a newer question need not wait for the certificate of this one.
                 (progress or silent)(1.0, distance.label)
-            return replace(answer, error_estimate=distance.error_estimate(components))
+            estimate = distance.error_estimate(components)
+            label = f"{answer.label}, {estimate.short}" if estimate.short else answer.label
+            return replace(answer, label=label, error_estimate=estimate)
         except (Cancelled, VertexError):
             raise
         except BihdistError as error:

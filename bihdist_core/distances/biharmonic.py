@@ -49,7 +49,7 @@ class BiharmonicDistance(Distance):
 
         def finish(rows: AnyArray, columns: slice, values: FloatArray) -> None:
             values *= -2
-            values += diagonal[rows, None]
+            values += diagonal[rows][:, None]
             values += diagonal[index[columns]]
             distances[rows, columns] = root(values, largest)
 

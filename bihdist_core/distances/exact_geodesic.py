@@ -1,117 +1,310 @@
-"""Exact geodesic distance on a mesh (Mitchell, Mount, Papadimitriou 1987; the program is pygeodesic's).
+"""Exact geodesic distance on any surface, by windows that unfold from face to face (`kernel/geodesic.h`)."""
 
-pygeodesic holds the interpreter lock for seconds to minutes and can crash, so it runs in a process of its own,
-which can be killed (see `child_process`).
-"""
-
-import importlib.util
-import sys
-import threading
-import time
-from collections import deque
-from collections.abc import Iterator
-from contextlib import contextmanager
-from pathlib import Path
-from queue import Empty
+import ctypes
+from collections.abc import Callable
+from dataclasses import dataclass
+from queue import Empty, SimpleQueue
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import FloatArray
-from ..child_process import ChildProcess, mesh_message
+from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
-from ..progress import REPORT_EVERY, Progress, silent
+from ..kernel import library as kernel
+from ..progress import Progress
+from ..solver.worker_threads import Job
+from ..sources.pieces import Pieces
 from ..surface import Surface
+from .place_pairs import by_start
+from .unfolding_mesh import UnfoldingMesh
 
-CHILD = Path(__file__).with_name("_exact_geodesic_child.py")
-UNREACHED = 1e50
-"""pygeodesic gives vertices it did not reach a huge finite distance."""
+MOST_PER_VERTEX, MOST_AT_LEAST = 5_000, 100_000_000
+"""Windows that a run may take: usually there are 20 to 150 for a vertex, and 5 to 8 million a second."""
+
+USUAL_PER_VERTEX = 40
+"""Windows for a vertex that progress expects before the first run."""
+
+FIRST_ROOM = 4_096
+"""Windows for which there is room at first; it doubles when they are more."""
+
+
+@dataclass(frozen=True, eq=False)
+class FacePath:
+    """A path in p pieces, each straight in its face, from the place it was asked for back to the source.
+
+    faces: (p,); begins, ends: (p, 3) the weights of both ends of each piece at the corners of its face.
+    """
+
+    faces: IntArray
+    begins: FloatArray
+    ends: FloatArray
+
+    def reversed(self) -> "FacePath":
+        """The same path from the source."""
+        return FacePath(self.faces[::-1], self.ends[::-1], self.begins[::-1])
+
+
+class GeodesicField:
+    """Exact geodesic distances from one source, and the ways they take.
+
+    distances (n,): of all vertices; at_places (k,): of the places asked for.  In the mesh's length unit; NaN where no
+    way leads, inf beyond the radius.  windows: how many windows crossed a face.
+    """
+
+    def __init__(self, mesh: UnfoldingMesh, run: kernel.Run, kept: list[Any], distances: FloatArray) -> None:
+        n = len(mesh.number)
+        self._mesh, self._run, self._kept = mesh, run, kept
+        self.windows = run.crossed
+        self.distances, self.at_places = distances[:n], distances[n:]
+
+    def path(self, vertex: int) -> FacePath:
+        """The shortest path from a vertex back to the source; without pieces at the source itself.
+
+        Raises VertexError for a bad vertex, ParameterError where the source does not reach.
+        """
+        vertex = self._mesh.surface.check_vertex(vertex)
+        return self._path(int(self._mesh.number[vertex]), f"vertex {vertex}")
+
+    def path_to_place(self, number: int) -> FacePath:
+        """The shortest path from the place with this number among those asked for."""
+        if not 0 <= number < len(self.at_places):
+            raise ParameterError(f"There is no place {number}; {len(self.at_places)} were asked for.")
+        return self._path(self._mesh.vertices + number, f"place {number}")
+
+    def _path(self, target: int, words: str) -> FacePath:
+        lib, room = kernel.library(), 64
+        while True:
+            faces, begins, ends = np.empty(room, np.int32), np.empty((room, 3)), np.empty((room, 3))
+            count = lib.bih_geodesic_path(ctypes.byref(self._run), target, room, faces, begins, ends)
+            if count != kernel.NO_ROOM:
+                break
+            room *= 4
+        if count == kernel.OUTSIDE:
+            raise ParameterError(f"No way from the source to {words} of {self._mesh.surface.name} is known.")
+        if count < 0:
+            raise SolverError(f"The way to {words} of {self._mesh.surface.name} was lost.")
+        return FacePath(*self._mesh.outside(faces[:count], begins[:count], ends[:count]))
 
 
 class ExactGeodesic:
-    """Exact geodesic distances on one connected, manifold surface without unreferenced vertices.
+    """Exact geodesic distances on one surface of any kind; paths lead through vertices and edges that faces share.
 
-    The first call starts the process and sends it the mesh; it then serves every later source and ends with this
-    object.  Usable from several threads, one source at a time.  The process takes some 3 kB a vertex.
-
-    Raises ParameterError if the surface is not manifold, not connected or has unreferenced vertices; SolverError if
-    there is no pygeodesic or no Python interpreter to run it.
+    Made once and used by any number of threads.  It takes some 0.3 kB a vertex, and a run 0.3 kB more.  Edges shorter
+    than 1e-12 of the longest in their face count as points.  Raises SolverError without the compiled kernel.
     """
 
     def __init__(self, surface: Surface) -> None:
-        if surface.component_count != 1 or surface.unreferenced_count:
-            raise ParameterError(f"{surface.name} is not one connected piece; ask for exact distances on a component.")
-        if not surface.is_manifold:
-            raise ParameterError(
-                f"{surface.name} is not manifold, where exact geodesic distance is not computed; use the heat method."
-            )
-        if importlib.util.find_spec("pygeodesic") is None:
-            raise SolverError(
-                "Exact geodesic distance needs the package pygeodesic; install it or use the heat method."
-            )
-        if not sys.executable or getattr(sys, "frozen", False):
-            raise SolverError("There is no Python interpreter for exact geodesic distance; use the heat method.")
+        if kernel.library() is None:
+            raise SolverError("Exact geodesic distance needs the compiled kernel; use the heat method.")
         self.surface = surface
-        # pygeodesic has absolute tolerances, so it gets edges near length 1; a power of two changes no digit.
-        self._unit = 2.0 ** np.round(np.log2(surface.mean_edge_length or 1.0))
-        # 0.6 s for 16,000 vertices and 31 s for 112,000: about the square.  Replaced by what the last source took.
-        self._expected_seconds = 0.3 + (len(surface.vertices) / 20_000) ** 2
-        self._child: ChildProcess | None = None
-        self._changed, self._waiting = threading.Condition(), deque[object]()
+        self._mesh = UnfoldingMesh(surface)
+        self._free: SimpleQueue[_Workspace] = SimpleQueue()
+        self._usual = float(USUAL_PER_VERTEX * len(surface.vertices))
 
-    def distances(self, sources: npt.ArrayLike, progress: Progress | None = None) -> FloatArray:
-        """(n,) distances from one vertex, or the nearest of several (k,), in the mesh's length unit; NaN where none was
-        found.
+    def distances(
+        self,
+        sources: npt.ArrayLike | Pieces,
+        progress: Progress | None = None,
+        *,
+        radius: float = np.inf,
+        offsets: npt.ArrayLike | None = None,
+    ) -> FloatArray:
+        """(n,) distances from a vertex, the nearest of several (k,), or of pieces of faces, in the mesh's length unit.
 
-        `progress` is called from this thread every 0.1 s with an estimated share; what it raises kills the process,
-        and the next call starts another.  Raises VertexError for a bad id, SolverError if the process fails.
+        NaN where no way leads, inf beyond the radius; see `field` for the rest.
         """
-        ids = self.surface.check_vertices(sources)
-        report = progress or silent
-        with self._my_turn(report):
-            start = time.perf_counter()
-            try:
-                if self._child is None:
-                    message = mesh_message(self.surface.vertices / self._unit, self.surface.faces)
-                    self._child = ChildProcess(CHILD, message)
-                answers = self._child.ask(np.append(len(ids), ids).astype(np.int64).tobytes())
-                while True:
-                    try:
-                        answer = answers.get(timeout=REPORT_EVERY)
-                        break
-                    except Empty:
-                        seconds = time.perf_counter() - start
-                        report(min(seconds / self._expected_seconds, 0.95), f"exact geodesic, {seconds:.0f} s")
-                if isinstance(answer, str):
-                    raise SolverError(f"Exact geodesic distance on {self.surface.name} failed: {answer}.")
-            except BaseException:
-                # Also KeyboardInterrupt: a process whose answer nobody reads would answer the next question wrongly.
-                self.close()
-                raise
-            self._expected_seconds = time.perf_counter() - start
-        lengths = np.frombuffer(answer, np.float64)
-        return np.where(lengths < UNREACHED, lengths, np.nan) * self._unit
+        return self.field(sources, None, progress, radius=radius, offsets=offsets).distances
 
-    def close(self) -> None:
-        """End the process now rather than with this object; a later call starts another."""
-        child, self._child = self._child, None
-        if child is not None:
-            child.end()
+    def places(
+        self,
+        sources: npt.ArrayLike | Pieces,
+        places: Pieces,
+        progress: Progress | None = None,
+        *,
+        radius: float = np.inf,
+        offsets: npt.ArrayLike | None = None,
+    ) -> FloatArray:
+        """(k,) distances of places in faces; see `field`."""
+        return self.field(sources, places, progress, radius=radius, offsets=offsets).at_places
 
-    @contextmanager
-    def _my_turn(self, report: Progress) -> Iterator[None]:
-        """In the order of asking: who asks for one source after another is in nobody's way for longer than one."""
-        me = object()
-        with self._changed:
-            self._waiting.append(me)
+    def between(self, u: Pieces, v: Pieces, progress: Progress | None = None) -> FloatArray:
+        """(k,) distances of k pairs of points, NaN where no way leads; several sources at a time."""
+        rows = [list(by_start(each)) for each in (u, v)]
+        here, there = (u, v) if len(rows[0]) <= len(rows[1]) else (v, u)
+        groups = rows[here is v]
+        found = np.empty(len(u))
+
+        def one(number: int, watch: kernel.Watch) -> None:
+            start, mine = groups[number]
+            goals = self._mesh.at_pieces(there.some(mine))[:2]
+            found[mine] = self._field(self._mesh.at_pieces(start), goals, watch, targets_only=True).at_places
+
+        self._in_workers(one, len(groups), progress)
+        return found
+
+    def path(self, start: Pieces, stop: Pieces, progress: Progress | None = None) -> FacePath:
+        """The shortest path between two points, one piece each; see `field` for errors."""
+        starts, goals = self._mesh.at_pieces(stop), self._mesh.at_pieces(start)[:2]
+        fields: list[GeodesicField] = []
+
+        def one(_: int, watch: kernel.Watch) -> None:
+            fields.append(self._field(starts, goals, watch, targets_only=True))
+
+        self._in_workers(one, 1, progress)
+        return fields[0].path_to_place(0)
+
+    def columns(self, vertices: npt.ArrayLike, progress: Progress | None = None) -> FloatArray:
+        """(n, k) distances from each of k vertices, several at a time."""
+        ids = self.surface.check_vertices(vertices)
+        found = np.empty((len(self.surface.vertices), len(ids)))
+
+        def one(column: int, watch: kernel.Watch) -> None:
+            found[:, column] = self._field(self._mesh.at_vertices(ids[column : column + 1]), None, watch).distances
+
+        self._in_workers(one, len(ids), progress)
+        return found
+
+    def field(
+        self,
+        sources: npt.ArrayLike | Pieces,
+        places: Pieces | None = None,
+        progress: Progress | None = None,
+        *,
+        radius: float = np.inf,
+        offsets: npt.ArrayLike | None = None,
+        everything: bool = False,
+    ) -> GeodesicField:
+        """Distances from vertices or pieces of faces, also at places in faces, and the paths to all of them.
+
+        sources: a vertex, vertices (k,), or k pieces, points or straight: the distance is that from the nearest, and
+        exact also from all along a piece.  places: points whose distances are wanted.  radius: how far to go, in the
+        mesh's length unit.  offsets (k,): what distances begin with at each source.  everything: leave nothing out that
+        cannot be shorter (slow, for tests; small meshes only).
+
+        Raises VertexError for a bad id; ParameterError for a radius or offsets that are no numbers; SolverError where
+        more windows than 5,000 a vertex would be needed; Cancelled if the progress raises it, within 0.1 s.
+        """
+        if not radius >= 0:
+            raise ParameterError(f"A radius is a length of at least 0, not {radius}.")
+        if isinstance(sources, Pieces):
+            starts = self._mesh.at_pieces(sources)
+        else:
+            starts = self._mesh.at_vertices(self.surface.check_vertices(sources))
+        zero = np.zeros(len(starts[0]))
+        shifts = zero if offsets is None else np.ascontiguousarray(offsets, np.float64)
+        if shifts.shape != zero.shape or not np.isfinite(shifts).all():
+            raise ParameterError(f"Offsets are {len(zero)} finite numbers, one for each source.")
+        goals = None if places is None else self._mesh.at_pieces(places)[:2]
+        fields: list[GeodesicField] = []
+
+        def one(_: int, watch: kernel.Watch) -> None:
+            fields.append(self._field(starts, goals, watch, shifts, radius, everything))
+
+        self._in_workers(one, 1, progress)
+        return fields[0]
+
+    def _in_workers(self, one: Callable[[int, kernel.Watch], None], count: int, progress: Progress | None) -> None:
+        job = Job(progress, "exact geodesic", self._usual * count)
+        job.run(lambda number: one(number, job.watch), range(count))
+        job.finish()
+
+    def _field(
+        self,
+        starts: tuple[AnyArray, FloatArray, FloatArray],
+        goals: tuple[AnyArray, FloatArray] | None,
+        watch: kernel.Watch,
+        offsets: FloatArray | None = None,
+        radius: float = np.inf,
+        everything: bool = False,
+        targets_only: bool = False,
+    ) -> GeodesicField:
+        mesh, unit = self._mesh, self._mesh.unit
+        shifts = np.zeros(len(starts[0])) if offsets is None else offsets / unit
+        kept: list[Any] = [starts, goals, shifts, mesh.arrays]
+        run = kernel.Run(mesh=ctypes.pointer(mesh.structure), offset=kernel.at(shifts), radius=radius / unit)
+        run.source = kernel.Places(len(starts[0]), *map(kernel.at, starts))
+        run.most_crossed = MOST_PER_VERTEX * mesh.vertices + MOST_AT_LEAST
+        run.everything, run.targets_only = 3 * everything, targets_only
+        count = 0
+        if goals is not None:
+            count = len(goals[0])
+            lists = _lists(goals[0], mesh.faces)
+            kept.append(lists)
+            run.target = kernel.Places(count, kernel.at(goals[0]), kernel.at(goals[1]), kernel.at(goals[1]))
+            run.first_target, run.next_target = map(kernel.at, lists)
+        reached = np.empty(mesh.vertices + count, kernel.REACHED)
+        run.reached = kernel.at(reached)
         try:
-            while True:
-                with self._changed:
-                    if self._changed.wait_for(lambda: self._waiting[0] is me, REPORT_EVERY):
-                        break
-                report(0.0, "exact geodesic, waiting for another source")
-            yield
+            work = self._free.get_nowait()
+        except Empty:
+            work = _Workspace(mesh)
+        try:
+            kept += [reached, work.complete(run, watch, self.surface.name)]
         finally:
-            with self._changed:
-                self._waiting.remove(me)
-                self._changed.notify_all()
+            self._free.put(work)
+        if not targets_only:
+            self._usual = max(float(run.crossed), 1.0)
+        lengths = reached["distance"]
+        found = np.concatenate([lengths[mesh.same_number], lengths[mesh.vertices :]])
+        found[found > run.radius] = np.inf
+        if radius == np.inf:
+            found[np.isinf(found)] = np.nan
+        return GeodesicField(mesh, run, kept, found * unit)
+
+
+class _Workspace:
+    """What a run writes on, again and again."""
+
+    def __init__(self, mesh: UnfoldingMesh) -> None:
+        self._queue = np.empty((3 * mesh.faces, kernel.QUEUE), np.uint8)
+        self._heap = np.empty((3 * mesh.faces + mesh.vertices, kernel.WAITING), np.uint8)
+        self._resize(FIRST_ROOM)
+
+    def _resize(self, room: int) -> None:
+        if room >= 2**31:
+            raise SolverError(f"{room:,} windows at a time are more than exact geodesic distance can hold.")
+        self._window = np.empty((room, kernel.WINDOW), np.uint8)
+        self._order, self._spare = np.empty((2, room), np.int32)
+
+    def complete(self, run: kernel.Run, watch: kernel.Watch, name: str) -> AnyArray:
+        """Let a run reach all there is; returns its crossings of edges with three or more faces, which paths need."""
+        lib, crossing = kernel.library(), np.empty((0, kernel.CROSSING), np.uint8)
+        has_begun = False
+        run.queue, run.heap = kernel.at(self._queue), kernel.at(self._heap)
+        while True:
+            run.window, run.windows = kernel.at(self._window), len(self._window)
+            run.order, run.spare = kernel.at(self._order), kernel.at(self._spare)
+            run.crossing, run.crossings = kernel.at(crossing), len(crossing)
+            status = lib.bih_geodesic_begin(ctypes.byref(run)) if not has_begun else kernel.DONE
+            if status == kernel.DONE:
+                has_begun = True
+                status = lib.bih_geodesic_run(ctypes.byref(run), ctypes.byref(watch))
+            if status != kernel.NO_ROOM:
+                break
+            if run.needed > run.windows - run.live:
+                before = self._window
+                self._resize(max(2 * len(before), run.live + run.needed))
+                self._window[: len(before)] = before
+            if run.crossings_needed > run.crossings - run.crossings_used:
+                more = np.empty((2 * (run.crossings_used + run.crossings_needed), kernel.CROSSING), np.uint8)
+                more[: len(crossing)] = crossing
+                crossing = more
+        run.window = run.order = run.spare = run.queue = run.heap = None
+        kernel.check_stopped(status)
+        if status == kernel.TOO_MUCH:
+            raise SolverError(
+                f"Exact geodesic distance on {name} was given up after {run.crossed:,} windows; use the heat method."
+            )
+        return crossing
+
+
+def _lists(faces: AnyArray, count: int) -> tuple[AnyArray, AnyArray]:
+    """(count,) the first place in each face, or -1, and (k,) the next after each place in its face."""
+    first, following = np.full(count, -1, np.int32), np.full(len(faces), -1, np.int32)
+    order = np.argsort(faces, kind="stable")
+    ranked = faces[order]
+    begins = np.append(True, ranked[1:] != ranked[:-1])[: len(faces)]
+    first[ranked[begins]] = order[begins]
+    following[order[:-1][~begins[1:]]] = order[1:][~begins[1:]]
+    return first, following

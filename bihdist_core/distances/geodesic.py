@@ -1,40 +1,42 @@
-"""Geodesic distance: exact (MMP), by the heat method, or along edges (Dijkstra).  The label says which."""
+"""Geodesic distance: exact, by the heat method, or along edges (Dijkstra).  The label says which."""
 
+import threading
 from collections.abc import Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
+from ..kernel import library as kernel
 from ..laplacian import Component, Laplacian
 from ..progress import Progress, part
 from ..sources.pieces import Pieces
-from ..sources.splitting import along, split_at
 from ..surface import Surface
 from .accuracy import ErrorEstimate
 from .distance import Distance
 from .edge_geodesic import EdgeGeodesic
 from .exact_geodesic import ExactGeodesic
+from .heat_accuracy import HeatErrors, below_straight_line, heat_errors
 from .heat_times import HeatTimes
 from .place_pairs import by_start, straight
 
 METHODS = ("auto", "exact", "heat", "dijkstra")
-EXACT_UP_TO = 20_000
-"""Vertices up to which `auto` takes the exact method, which is then below a second."""
-
-FINENESS = 4
-"""Along a line, the exact method starts from points a quarter of an edge length apart: no farther from the line than an
-eighth of an edge, and at a distance of d edges 1 / 128 d of one too long."""
+EXACT_UP_TO = 300_000
+"""Vertices up to which `auto` takes the exact method: one source then takes some 5 s where the surface is smooth, and
+less than 2 s where it is scanned."""
 
 TINY = 1e-9
 """The share of an edge length that a part of a line counts as at least, where all of it is in one place."""
 
 TYPICALLY = {
-    "heat": "accurate to 4 % of the maximum typically, and worse on coarse meshes and thin faces",
-    "dijkstra": "accurate to 10 % of the maximum typically, and worse on thin faces, however fine the mesh",
+    "heat": ErrorEstimate("accurate to 4 % of the maximum typically, and worse on coarse meshes and thin faces", True),
+    "dijkstra": ErrorEstimate(
+        "accurate to 10 % of the maximum typically, and worse on thin faces, however fine the mesh", True
+    ),
+    "exact": ErrorEstimate(),
 }
-"""How accurate methods are that are not exact, as measured; nothing is proven of a single mesh."""
+"""How accurate methods are typically; what the heat method does on a mesh is measured where that can be done."""
 
 LABELS = {"exact": "geodesic, exact", "heat": "geodesic, heat method", "dijkstra": "geodesic, Dijkstra along edges"}
 
@@ -42,10 +44,10 @@ LABELS = {"exact": "geodesic, exact", "heat": "geodesic, heat method", "dijkstra
 class GeodesicDistance(Distance):
     """Length of the shortest path; unit length.
 
-    method: "exact" (manifold components only; runs in a process of its own), "heat" (1 to 3 % off in the mean on most
-    samples), "dijkstra" (along edges: 4 to 6 % too long in the mean on most samples), or "auto": exact on manifold
-    surfaces of up to 20,000 vertices, else heat.  On long, thin faces, such as those of the sample `part`, the means
-    are 5 and 13 %.  Raises ParameterError for any other word, and for "exact" on a component that is not manifold.
+    method: "exact" (any surface; from lines, too), "heat" (1 to 3 % off in the mean on most samples), "dijkstra" (along
+    edges: 4 to 6 % too long in the mean on most samples), or "auto": exact up to 300,000 vertices, else heat.  On long,
+    thin faces, such as those of the sample `part`, the means are 5 and 13 %.  Raises ParameterError for any other word,
+    and SolverError for "exact" without the compiled kernel, where "auto" is heat.
     """
 
     length_power = 1.0
@@ -55,12 +57,15 @@ class GeodesicDistance(Distance):
             raise ParameterError(f"There is no geodesic method {method!r}; choose one of {', '.join(METHODS)}.")
         super().__init__(laplacian)
         if method == "auto":
-            exact = len(self.surface.vertices) <= EXACT_UP_TO and self.surface.is_manifold
+            exact = len(self.surface.vertices) <= EXACT_UP_TO and kernel.library() is not None
             method = "exact" if exact else "heat"
         self.method = method
         self.label = LABELS[method]
         self.is_symmetric = method != "heat"
         self._solvers: dict[int, ExactGeodesic | HeatTimes | EdgeGeodesic] = {}
+        self._errors: dict[int, HeatErrors | None] = {}
+        self._judging = threading.Lock()
+        self._below = 0.0
         self.prepare(self.laplacian.components[0], progress)
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
@@ -74,42 +79,50 @@ class GeodesicDistance(Distance):
                 self._solvers[component.index] = EdgeGeodesic(component.surface)
 
     def error_estimate(self, components: Sequence[int] | None = None) -> ErrorEstimate:
-        """What is typical of the method, with a warning; nothing for the exact one."""
-        return ErrorEstimate(TYPICALLY[self.method], True) if self.method in TYPICALLY else ErrorEstimate()
+        """How far the method is off, with a warning; nothing for the exact one.
+
+        The heat method is compared with exact distances on each component once; by less than it is known to have fallen
+        below a straight line it is not off.
+        """
+        if self.method == "heat":
+            with self._judging:
+                found = [self._errors_on(self.laplacian.components[index]) for index in self._those(components)]
+            measured = [errors for errors in found if errors is not None]
+            if len(measured) == len(found):
+                return max(measured, key=lambda errors: errors.largest).estimate(self._below)
+        return TYPICALLY[self.method]
+
+    def _errors_on(self, component: Component) -> HeatErrors | None:
+        if component.index not in self._errors:
+            self.prepare(component)
+            solver = self._solvers[component.index]
+            assert isinstance(solver, HeatTimes)
+            self._errors[component.index] = heat_errors(component.surface, solver)
+        return self._errors[component.index]
 
     def is_judged(self, component: int) -> bool:
-        """True: nothing is estimated."""
-        return True
-
-    def label_from(self, pieces: Pieces) -> str:
-        """`label`, and that an exact distance from a line is taken from points along it."""
-        points = ", from points along the line" if self.method == "exact" and pieces.along.any() else ""
-        return self.label + points
+        """Whether the heat method's errors on a component are known."""
+        return self.method != "heat" or component in self._errors
 
     def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
         solver = self._solvers[component.index]
         if isinstance(solver, EdgeGeodesic):
             return solver.distances(index)
-        share = 1 / len(index)
-        return np.stack(
-            [solver.distances(int(i), part(progress, k * share, (k + 1) * share)) for k, i in enumerate(index)], 1
-        )
+        if isinstance(solver, ExactGeodesic):
+            return solver.columns(index, progress)
+        share, fields = 1 / len(index), []
+        for k, source in enumerate(index.tolist()):
+            field = solver.distances(source, part(progress, k * share, (k + 1) * share))
+            self._below = max(self._below, below_straight_line(component.surface, source, field))
+            fields.append(field)
+        return np.stack(fields, 1)
 
     def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
         solver, surface, vertices = self._solvers[component.index], component.surface, pieces.vertices
         if isinstance(solver, ExactGeodesic):
             if vertices is not None:
                 return solver.distances(component.local(vertices), progress)
-            own = np.flatnonzero(self.surface.component_of_vertex[self.surface.faces[:, 0]] == component.index)
-            mine = np.searchsorted(own, pieces.faces)
-            local = replace(pieces, faces=mine, corners=component.local(pieces.corners))
-            points = along(local, surface.mean_edge_length / FINENESS, surface)
-            split = split_at(surface, points.faces, points.start)
-            divider = ExactGeodesic(split.surface)
-            try:
-                return divider.distances(np.unique(split.vertices), progress)[: len(component.vertices)]
-            finally:
-                divider.close()
+            return solver.distances(self._local(component, pieces), progress)
         loads, offsets = _spread(pieces, self.surface)
         corners = component.local(pieces.corners)
         if isinstance(solver, EdgeGeodesic):
@@ -146,26 +159,15 @@ class GeodesicDistance(Distance):
         return np.where(np.isfinite(lengths), lengths, found)
 
     def _exactly(self, component: Component, u: Pieces, v: Pieces) -> FloatArray:
-        """(k,) on the component divided at all points."""
-        faces, ends = self._local_faces(component, u, v)
-        split = split_at(component.surface, faces, ends.start)
-        starts, stops = split.vertices[: len(u)], split.vertices[len(u) :]
-        if len(np.unique(stops)) < len(np.unique(starts)):
-            starts, stops = stops, starts
-        solver, found = ExactGeodesic(split.surface), np.empty(len(u))
-        try:
-            for start in np.unique(starts):
-                mine = starts == start
-                found[mine] = solver.distances(start)[stops[mine]]
-        finally:
-            solver.close()
-        return found
+        """(k,) of the windows that reach one of both."""
+        solver = self._solvers[component.index]
+        assert isinstance(solver, ExactGeodesic)
+        return solver.between(self._local(component, u), self._local(component, v))
 
-    def _local_faces(self, component: Component, u: Pieces, v: Pieces) -> tuple[IntArray, Pieces]:
-        """(2 k,) the component's numbers of the faces of both, and these as one."""
-        ends = Pieces(*(np.concatenate([getattr(each, f.name) for each in (u, v)]) for f in fields(Pieces)))
+    def _local(self, component: Component, pieces: Pieces) -> Pieces:
+        """Pieces in the component's numbers."""
         own = np.flatnonzero(self.surface.component_of_vertex[self.surface.faces[:, 0]] == component.index)
-        return np.searchsorted(own, ends.faces), ends
+        return replace(pieces, faces=np.searchsorted(own, pieces.faces), corners=component.local(pieces.corners))
 
     def _along_edges(self, component: Component, u: Pieces, v: Pieces) -> FloatArray:
         """(k,) from corner to corner, and straight to both."""

@@ -161,11 +161,7 @@ def _patch(surface: Surface, source: int, radius: float) -> tuple[Surface, IntAr
     here = int(np.searchsorted(of_component, start))
     if not np.isfinite(EdgeGeodesic(patch).distances(here)).all():
         raise ParameterError(f"{surface.name} is not connected around vertex {source}.")
-    exact = ExactGeodesic(patch)
-    try:
-        return patch, ids[of_component], exact.distances(here)
-    finally:
-        exact.close()
+    return patch, ids[of_component], ExactGeodesic(patch).distances(here)
 
 
 def _around(surface: Surface, vertex: int, chosen: BoolArray) -> tuple[Surface, IntArray]:

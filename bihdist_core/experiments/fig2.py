@@ -96,9 +96,8 @@ def _under_refinement(
     radius = small_radius(surface)
     finer = refined(surface)
     laplacian = Laplacian(finer)
-    method = "exact" if finer.is_manifold else "heat"
     there = {
-        "geodesic": distance(laplacian, f"geodesic method = {method}"),
+        "geodesic": distance(laplacian, "geodesic method = exact"),
         "biharmonic": distance(laplacian, "biharmonic"),
     }
     smooth, kinked = STATEMENTS["fig2-3"].names

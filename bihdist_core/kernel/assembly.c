@@ -1,64 +1,86 @@
 /* From triangles to a sparse matrix. */
 #include "kernel.h"
 
-static void sort(i32 *index, double *value, i64 count) { /* Shell's: rows are short, or those of a few hubs */
-  i64 gap = 1;
-  while (gap < count / 3) gap = 3 * gap + 1;
-  for (; gap; gap /= 3)
-    for (i64 i = gap, j; i < count; i++) {
-      i32 u = index[i];
-      double w = value[i];
-      for (j = i; j >= gap && index[j - gap] > u; j -= gap) index[j] = index[j - gap], value[j] = value[j - gap];
-      index[j] = u, value[j] = w;
-    }
-}
-
 /* The stiffness matrix by rows: entry (i, j) is minus the weight of edge ij, the sum over its faces of weight (3, m), at
  * the corner opposite to it; the diagonal makes rows sum to zero.  start (n + 1,), index and value with room for
- * n + 6 m entries; cursor (n,).  Returns how many entries there are. */
+ * n + 9 m entries; work (3 n + 1,).  Returns how many entries there are. */
 API i64 bih_stiffness(i64 n, i64 m, const i64 *faces, const double *weight, i32 *start, i32 *index, double *value,
-                      i32 *cursor) {
-  i64 put = 0;
-  for (i64 v = 0; v <= n; v++) start[v] = 0;
-  for (i64 k = 0; k < 3 * m; k++) start[faces[k] + 1] += 2;
-  for (i64 v = 0; v < n; v++) {
-    start[v + 1] += 1 + start[v]; /* room for the diagonal, too */
-    index[start[v]] = (i32)v, value[start[v]] = 0, cursor[v] = start[v] + 1;
-  }
+                      i32 *work) {
+  i32 *first = work, *end = first + n + 1, *below = end + n; /* what is above the diagonal lies behind all rows */
+  i32 *above = index + n + 6 * m;
+  double *weights = value + n + 6 * m;
+  zero(work, 4 * (3 * n + 1)), zero(start, 4 * (n + 1));
   for (i64 f = 0; f < m; f++)
     for (int k = 0; k < 3; k++) {
-      i64 i = faces[3 * f + (k + 1) % 3], j = faces[3 * f + (k + 2) % 3];
-      double w = weight[k * m + f];
-      index[cursor[i]] = (i32)j, value[cursor[i]++] = -w;
-      index[cursor[j]] = (i32)i, value[cursor[j]++] = -w;
+      i64 i = faces[3 * f + k], j = faces[3 * f + (k + 1) % 3];
+      first[least(i, j) + 1]++, below[most(i, j)]++;
     }
-  for (i64 v = 0, lo = 0; v < n; v++) { /* sort each row, put what comes twice together */
-    i64 hi = start[v + 1], begin = put;
-    double whole = 0;
-    sort(index + lo, value + lo, hi - lo);
-    for (i64 e = lo; e < hi && hi > lo + 1; e++) {
-      whole -= value[e];
-      if (put > begin && index[put - 1] == index[e]) value[put - 1] += value[e];
-      else index[put] = index[e], value[put++] = value[e];
-    }
-    for (i64 e = begin; e < put; e++)
-      if (index[e] == v) value[e] = whole;
-    start[v] = (i32)begin, lo = hi;
+  for (i64 v = 0, put = 0; v < n; v++) {
+    i32 count = below[v];
+    first[v + 1] += first[v], end[v] = first[v], below[v] = (i32)put, put += count;
   }
-  start[n] = (i32)put;
-  return put;
+  for (i64 f = 0; f < m; f++) /* by columns, and from there into rows: then rows ascend */
+    for (int k = 0; k < 3; k++) {
+      i64 i = faces[3 * f + (k + 1) % 3], j = faces[3 * f + (k + 2) % 3], e = below[most(i, j)]++;
+      index[e] = (i32)least(i, j), value[e] = weight[k * m + f];
+    }
+  for (i64 v = 0, e = 0; v < n; v++)
+    for (; e < below[v]; e++) {
+      i64 to = end[index[e]]++;
+      above[to] = (i32)v, weights[to] = value[e];
+    }
+  for (i64 v = 0; v < n; v++) { /* put what comes twice together */
+    i64 put = first[v];
+    for (i64 e = put; e < first[v + 1]; e++)
+      if (put > first[v] && above[put - 1] == above[e]) weights[put - 1] += weights[e];
+      else start[above[e] + 1]++, above[put] = above[e], weights[put++] = weights[e];
+    start[v + 1] += (i32)(put - first[v]), end[v] = (i32)put;
+  }
+  for (i64 v = 0; v < n; v++) start[v + 1] += start[v] + (start[v + 1] > 0), below[v] = start[v];
+  for (i64 v = 0; v < n; v++) { /* what is below the diagonal comes from the rows before, in their order */
+    i64 diagonal = below[v], put = diagonal;
+    double whole = 0;
+    if (start[v] == start[v + 1]) continue;
+    for (i64 e = start[v]; e < diagonal; e++) whole -= value[e];
+    for (i64 e = first[v]; e < end[v]; e++) {
+      i64 mirror = below[above[e]]++;
+      index[++put] = above[e], index[mirror] = (i32)v;
+      value[put] = value[mirror] = -weights[e], whole += weights[e];
+    }
+    index[diagonal] = (i32)v, value[diagonal] = whole;
+  }
+  return start[n];
 }
 
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* The sides opposite to the corners of a face. */
+static void sides(const double *x, const i64 *face, double side[3][3]) {
+  for (int k = 0; k < 3; k++)
+    for (int a = 0; a < 3; a++) side[k][a] = x[3 * face[(k + 2) % 3] + a] - x[3 * face[(k + 1) % 3] + a];
+}
+
+/* Of each face (m, 3) its area and the square of its longest side, (m,) each; x (n, 3). */
+API void bih_measures(i64 m, const double *x, const i64 *faces, double *area, double *longest) {
+  for (i64 f = 0; f < m; f++) {
+    double s[3][3], normal[3];
+    sides(x, faces + 3 * f, s);
+    for (int a = 0; a < 3; a++)
+      normal[a] = s[0][(a + 1) % 3] * s[1][(a + 2) % 3] - s[0][(a + 2) % 3] * s[1][(a + 1) % 3];
+    area[f] = __builtin_sqrt(dot(normal, normal)) / 2, longest[f] = 0;
+    for (int k = 0; k < 3; k++) {
+      double square = dot(s[k], s[k]);
+      if (square > longest[f]) longest[f] = square;
+    }
+  }
+}
 
 /* Of each face (m, 3) the cotangents of its corners (3, m) and the squared lengths of the sides opposite to them (3, m);
  * x (n, 3), area (m,). */
 API void bih_corners(i64 m, const double *x, const i64 *faces, const double *area, double *cotangent, double *square) {
   for (i64 f = 0; f < m; f++) {
     double side[3][3];
-    for (int k = 0; k < 3; k++)
-      for (int a = 0; a < 3; a++)
-        side[k][a] = x[3 * faces[3 * f + (k + 2) % 3] + a] - x[3 * faces[3 * f + (k + 1) % 3] + a];
+    sides(x, faces + 3 * f, side);
     for (int k = 0; k < 3; k++) {
       square[k * m + f] = dot(side[k], side[k]);
       cotangent[k * m + f] = -dot(side[(k + 1) % 3], side[(k + 2) % 3]) / (2 * area[f]);

@@ -8,14 +8,14 @@ typedef struct {
   const Factor *factor;
   const Rows *matrix;  /* on and above the diagonal and below it, equal */
   const double *areas; /* (n,), or NULL */
-  double *stack, *shared;
+  double *stack, *const *blocks;
   double *F, *F1, *work;
   i64 row, column; /* an entry outside the pattern */
 } Elimination;
 
 static double *schur_of(const Elimination *e, i64 q) {
   const Tree *t = e->factor->tree;
-  return (t->shared[q] ? e->shared : e->stack) + (1 + e->factor->dual) * t->stack[q];
+  return e->blocks[q] ? e->blocks[q] : e->stack + (1 + e->factor->dual) * t->stack[q];
 }
 
 static i64 work_of(Front f, int dual) {
@@ -24,12 +24,12 @@ static i64 work_of(Front f, int dual) {
 }
 
 /* What eliminating the fronts first to last needs, in doubles: room[0] for the stack, room[1] for the largest front,
- * room[2] in all. */
+ * room[2] in all.  The last one's Schur complement is handed on as a block of (1 + dual, m, mp). */
 API void bih_elimination_room(const Tree *t, i32 dual, i64 first, i64 last, i64 *room) {
   i64 stack = 0, front = 0, work = 0;
   for (i64 q = first; q <= last; q++) {
     Front f = front_of(t, q);
-    if (!t->shared[q]) stack = most(stack, (1 + dual) * (t->stack[q] + f.m * f.mp));
+    if (q < last) stack = most(stack, (1 + dual) * (t->stack[q] + f.m * f.mp));
     front = most(front, f.s * f.sp), work = most(work, work_of(f, dual));
   }
   room[0] = padded(stack), room[1] = front + PAD, room[2] = room[0] + (1 + dual) * room[1] + work;
@@ -194,14 +194,15 @@ static i32 eliminate(Elimination *e, i64 q) {
   return DONE;
 }
 
-/* Eliminate the fronts first to last, one task.  work: as much as bih_elimination_room says; where (2,): the entry if
- * one is OUTSIDE. */
-API i32 bih_eliminate(const Factor *factor, const Rows *matrix, const double *areas, i64 first, i64 last, double *shared,
-                      double *work, i64 *where, Watch *watch) {
+/* Eliminate the fronts first to last, one task.  blocks (fronts,): where Schur complements lie that tasks hand on, the
+ * last one's and, of a top front, its children's; NULL for others.  work: as much as bih_elimination_room says;
+ * where (2,): the entry if one is OUTSIDE. */
+API i32 bih_eliminate(const Factor *factor, const Rows *matrix, const double *areas, i64 first, i64 last,
+                      double *const *blocks, double *work, i64 *where, Watch *watch) {
   i64 room[3];
   bih_elimination_room(factor->tree, factor->dual, first, last, room);
   double *F = work + room[0];
-  Elimination e = {factor, matrix, areas, work, shared, F, F + room[1], F + (1 + factor->dual) * room[1], 0, 0};
+  Elimination e = {factor, matrix, areas, work, blocks, F, F + room[1], F + (1 + factor->dual) * room[1], 0, 0};
   for (i64 q = first; q <= last; q++) {
     if (stopped(watch)) return STOPPED;
     i32 status = eliminate(&e, q);

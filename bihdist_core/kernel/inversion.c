@@ -24,17 +24,17 @@ static void transpose(i64 rows, i64 columns, const double *A, i64 lda, double *B
     for (i64 j = 0; j < columns; j++) B[j * ldb + i] = A[i * lda + j];
 }
 
-static void invert(const Factor *factor, i64 q, double *shared, double *stack, double *work, double *diagonal,
+static void invert(const Factor *factor, i64 q, double *const *blocks, double *stack, double *work, double *diagonal,
                    double *sandwich) {
   const Tree *t = factor->tree;
   Front f = front_of(t, q);
   i64 c = f.c, m = f.m, ld = f.sp, cp = f.cp, mp = f.mp, ln = 2 * mp, parent = t->parent[q];
   const double *K = block_K(factor, q), *K1 = K + c * cp, *N = block_N(factor, q), *N1 = N + mp;
-  double *Z = (t->top[q] ? shared : stack) + t->inverse[q], *Z1 = Z + f.s * ld;
+  double *Z = blocks[q] ? blocks[q] : stack + t->inverse[q], *Z1 = Z + f.s * ld;
   double *Y = work, *Y1 = Y + c * mp, *Nt = Y1 + c * mp, *Nt1 = Nt + m * cp;
   if (parent >= 0) {
     Front p = front_of(t, parent);
-    const double *Zp = (t->top[parent] ? shared : stack) + t->inverse[parent], *Zp1 = Zp + p.s * p.sp;
+    const double *Zp = blocks[parent] ? blocks[parent] : stack + t->inverse[parent], *Zp1 = Zp + p.s * p.sp;
     for (i64 i = 0; i < m; i++) {
       const double *from = Zp + f.up[i] * p.sp, *from1 = Zp1 + f.up[i] * p.sp;
       double *to = Z + (c + i) * ld + c, *to1 = Z1 + (c + i) * ld + c;
@@ -71,14 +71,15 @@ static void invert(const Factor *factor, i64 q, double *shared, double *stack, d
   }
 }
 
-/* The diagonals (n,) at the pivots of the fronts last to first, one task.  work: as much as bih_inversion_room says. */
-API i32 bih_invert(const Factor *factor, i64 first, i64 last, double *shared, double *work, double *diagonal,
+/* The diagonals (n,) at the pivots of the fronts last to first, one task.  blocks (fronts,): of top fronts, where their
+ * blocks of the inverse lie, (2, s, sp); NULL for others.  work: as much as bih_inversion_room says. */
+API i32 bih_invert(const Factor *factor, i64 first, i64 last, double *const *blocks, double *work, double *diagonal,
                    double *sandwich, Watch *watch) {
   i64 room[2];
   bih_inversion_room(factor->tree, first, last, room);
   for (i64 q = last; q >= first; q--) {
     if (stopped(watch)) return STOPPED;
-    invert(factor, q, shared, work, work + room[0], diagonal, sandwich);
+    invert(factor, q, blocks, work, work + room[0], diagonal, sandwich);
     Front f = front_of(factor->tree, q);
     advance(watch, f.c * f.s * f.s);
   }

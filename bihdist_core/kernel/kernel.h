@@ -80,10 +80,9 @@ typedef struct {
   const i32 *up;         /* where each of these is in the parent's front */
   const i64 *pivot_block; /* (fronts,) where each front's K begins, in doubles of a factor without derivatives */
   const i64 *row_block;   /* (fronts,) the same of N */
-  const i64 *stack;      /* (fronts,) where its Schur complement lies while eliminating, in its area */
-  const i64 *inverse;    /* (fronts,) where its block of the inverse lies while inverting, in its area */
-  const unsigned char *shared; /* (fronts,) whether its Schur complement lies in the area all tasks share */
-  const unsigned char *top;    /* (fronts,) whether the front is a task of its own; its inverse is shared */
+  const i64 *stack;      /* (fronts,) where its Schur complement lies on the stack while eliminating */
+  const i64 *inverse;    /* (fronts,) where its block of the inverse lies on the stack while inverting */
+  const unsigned char *top; /* (fronts,) whether the front is a task of its own */
   const i32 *rank; /* (n,) of a place among the pivots of top fronts */
 } Tree;
 

@@ -7,7 +7,7 @@ interpreter lock while a function runs.
 import ctypes
 import os
 import sys
-from ctypes import POINTER, Structure, c_int32, c_int64, c_uint64, c_void_p
+from ctypes import POINTER, Structure, c_double, c_int32, c_int64, c_uint64, c_void_p
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -17,8 +17,8 @@ import numpy as np
 from ..arrays import AnyArray
 from ..errors import Cancelled
 
-DONE, STOPPED, NOT_POSITIVE, OUTSIDE, ASYMMETRIC, NO_ROOM = 0, -1, -2, -3, -4, -5
-"""What functions return; `kernel.h` says it."""
+DONE, STOPPED, NOT_POSITIVE, OUTSIDE, ASYMMETRIC, NO_ROOM, TOO_MUCH, LOST = 0, -1, -2, -3, -4, -5, -6, -7
+"""What functions return; `kernel.h` and `geodesic.h` say it."""
 
 FOLDER = Path(__file__).parent
 SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
@@ -77,7 +77,6 @@ TREE_ARRAYS = {
     "row_block": np.int64,
     "stack": np.int64,
     "inverse": np.int64,
-    "shared": np.uint8,
     "top": np.uint8,
     "rank": np.int32,
 }
@@ -96,14 +95,79 @@ class Factor(Structure):
     _fields_ = (("tree", POINTER(Tree)), ("dual", c_int32), ("pivots", c_void_p), ("boundaries", c_void_p))
 
 
+class Mesh(Structure):
+    """The mesh on which windows unfold."""
+
+    _fields_ = (
+        ("vertices", c_int64),
+        ("faces", c_int64),
+        *((name, c_void_p) for name in ("side", "first", "corner", "same", "kind")),
+    )
+
+    faces: int
+    vertices: int
+
+
+class Places(Structure):
+    """Points, or straight pieces, of faces."""
+
+    _fields_ = (("count", c_int64), *((name, c_void_p) for name in ("face", "begin", "end")))
+
+
+RUN_ARRAYS = (
+    "offset", "first_target", "next_target", "reached", "queue", "heap", "window", "order", "spare", "crossing"
+)  # fmt: skip
+"""The arrays of `Run`, in their order."""
+
+SIDE, QUEUE, WAITING, WINDOW, CROSSING = 32, 8, 16, 56, 8
+"""Bytes of its structures."""
+
+REACHED = np.dtype([*((name, float) for name in ("distance", "px", "py")), ("rest", np.int32, 4)])
+"""How a vertex or a place was reached."""
+
+
+class Run(Structure):
+    """A run of windows from sources over a mesh."""
+
+    _fields_ = (
+        ("mesh", POINTER(Mesh)),
+        ("source", Places),
+        ("target", Places),
+        *((name, c_void_p) for name in RUN_ARRAYS),
+        *((name, c_int64) for name in ("windows", "crossings", "live", "used", "waiting", "crossings_used")),
+        *((name, c_int64) for name in ("needed", "crossings_needed", "crossed", "most_crossed")),
+        ("radius", c_double),
+        ("free", c_int32),
+        ("everything", c_int32),
+        ("targets_only", c_int32),
+    )
+
+    source: Places
+    target: Places
+    windows: int
+    crossings: int
+    live: int
+    used: int
+    crossings_used: int
+    needed: int
+    crossings_needed: int
+    crossed: int
+    most_crossed: int
+    radius: float
+    everything: int
+    targets_only: int
+
+
+_FIRST: Any = ctypes.c_char
+"""The first byte of an array."""
+
+
 class _Array:
     """An argument: a contiguous array, or None; the call keeps it while the function runs."""
 
     @classmethod
     def from_param(cls, array: AnyArray | None) -> Any:
-        if array is not None and not array.flags.c_contiguous:
-            raise TypeError("The kernel takes contiguous arrays only.")
-        return array if array is None else c_void_p(array.ctypes.data)
+        return None if array is None else c_void_p(at(array))
 
 
 _P, _A, _I = c_void_p, _Array, c_int64
@@ -127,10 +191,15 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "send_units": (None, (_P, _A, _A, _I, _I, _A, _A, _A)),
     "sweep_down_both": (c_int32, (_P, _I, _I, _I, _A, _A, _A, _P)),
     "connected": (None, (_I, _I, _A, _A, _A)),
+    "measures": (None, (_I, _A, _A, _A, _A)),
     "corners": (None, (_I, _A, _A, _A, _A, _A)),
     "stiffness": (c_int64, (_I, _I, _A, _A, _A, _A, _A, _A)),
     "check_faces": (c_int32, (_I, _I, _A, _I, _A)),
     "merge_points": (c_int64, (_I, _A, _I, _A, _A, _A)),
+    "geodesic_mesh": (None, (_P, _A, _A, _A, _A, _A)),
+    "geodesic_begin": (c_int32, (_P,)),
+    "geodesic_run": (c_int32, (_P, _P)),
+    "geodesic_path": (c_int64, (_P, _I, _I, _A, _A, _A)),
     "read_lists": (c_int32, (_P, _I, _I, _I, c_int32)),
     "read_obj": (c_int32, (_P, _A, _I)),
     "read_stl": (c_int32, (_P, _A, c_uint64, c_uint64)),
@@ -169,10 +238,13 @@ def _loaded(name: str) -> Any:
 
 
 def at(array: AnyArray | None) -> int | None:
-    """The address of a contiguous array, for a structure; the array must outlive it."""
+    """The address of a contiguous array, for a structure; the array must outlive it.  TypeError if it has gaps."""
     if array is None:
         return None
-    assert array.flags.c_contiguous
+    if not array.flags.c_contiguous:
+        raise TypeError("The kernel takes contiguous arrays only.")
+    if array.flags.writeable and array.size:
+        return ctypes.addressof(_FIRST.from_buffer(array))  # in a quarter of the time
     return array.ctypes.data
 
 

@@ -116,6 +116,7 @@ static void covariance(const Dissection *D, i64 lo, i64 hi, const float *chart, 
 static void halve(Dissection *D, Region r) {
   i64 m = r.hi - r.lo, n = D->graph.n;
   const i32 *vertices = D->vertices + r.lo;
+  i64 bins = least(BINS, 2 * m);
   double best = 1e300;
   for (i64 t = 0; t < m; t++) D->side[vertices[t]] = t >= m / 2;
   for (int by_hops = 0; by_hops < (m > SMALL ? 2 : 1); by_hops++) {
@@ -124,7 +125,8 @@ static void halve(Dissection *D, Region r) {
     double C[4][4] = {{0}}, axis[4];
     covariance(D, r.lo, r.hi, chart, d, C);
     for (int tried = 0; tried <= by_hops; tried++) {
-      i32 here[BINS] = {0}, cut[BINS] = {0};
+      i32 here[BINS], cut[BINS];
+      zero(here, 4 * bins), zero(cut, 4 * bins);
       principal_axis(C, d, axis);
       float low = 3e38f, high = -3e38f;
       for (i64 t = 0; t < m; t++) {
@@ -133,7 +135,7 @@ static void halve(Dissection *D, Region r) {
         for (int k = 0; k < d; k++) key += (float)axis[k] * chart[k * n + v];
         D->key[v] = key, low = key < low ? key : low, high = key > high ? key : high;
       }
-      float scale = high > low ? (BINS - 1) / (high - low) : 0;
+      float scale = high > low ? (float)(bins - 1) / (high - low) : 0;
       for (i64 t = 0; t < m; t++) {
         i32 v = vertices[t];
         here[D->bin[v] = (i32)((D->key[v] - low) * scale)]++;
@@ -143,7 +145,7 @@ static void halve(Dissection *D, Region r) {
         cut[p < q ? p : q]++, cut[p < q ? q : p]--;
       }
       i64 run = 0, across = 0, at = -1;
-      for (i64 b = 0; b < BINS - 1; b++) {
+      for (i64 b = 0; b < bins - 1; b++) {
         run += here[b], across += cut[b];
         double off = (double)run / (double)m - 0.5, far = off < 0 ? -off : off;
         double cost = (double)(across + 1) * (1 + 2 * far);

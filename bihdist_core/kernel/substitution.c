@@ -11,6 +11,10 @@
 #define LANES 2
 #endif
 typedef double vec __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
+enum { AHEAD = 256, LINE = 8 }; /* so many doubles are fetched before they are used; a line of the cache has so many */
+static inline void fetch_ahead(const double *N, i64 length) {
+  for (i64 j = 0; j < length; j += LINE) __builtin_prefetch(N + AHEAD + j);
+}
 
 static double sum(vec v) {
   double s = 0;
@@ -73,6 +77,7 @@ API i32 bih_sweep_down(const Factor *factor, i64 first, i64 last, i64 w, double 
       for (i64 j = 0; j < f.cp; j++) p[j] = j < f.c ? pivots[j] : 0;
       for (i64 i = 0; i < f.c; i++) {
         vec v = {0};
+        fetch_ahead(N + i * ln, ln);
         for (i64 j = 0; j < f.cp; j += LANES) v += *(const vec *)(K + i * f.cp + j) * *(const vec *)(p + j);
         for (i64 j = 0; j < f.mp; j += LANES) v += *(const vec *)(N + i * ln + j) * *(const vec *)(b + j);
         pivots[i] = sum(v);
@@ -121,6 +126,7 @@ API void bih_send_units(const Factor *factor, const i32 *fronts, const i32 *plac
     zero(work, 16 * f.mp);
     for (i64 i = 0; i < f.c; i++, N += 2 * f.mp) {
       double x = pivots[i * 2 * w + column], y = pivots[i * 2 * w + w + column];
+      fetch_ahead(N, 2 * f.mp);
       if (x == 0 && y == 0) continue;
       for (i64 j = 0; j < f.mp; j++) a[j] += N[j] * x, b[j] += N[j] * y + N[f.mp + j] * x;
     }
@@ -131,27 +137,30 @@ API void bih_send_units(const Factor *factor, const i32 *fronts, const i32 *plac
   }
 }
 
+/* Add the products of one row of N and of N1, or of K and of K1: x += N bx, y += N by, y1 += N1 bx. */
+typedef struct {
+  vec x, y, y1;
+} Both;
+static inline void add_row(Both *to, i64 length, const double *N, const double *N1, const double *bx, const double *by) {
+  for (i64 j = 0; j < length; j += LANES) {
+    vec n = *(const vec *)(N + j), b = *(const vec *)(bx + j);
+    to->x += n * b, to->y += n * *(const vec *)(by + j), to->y1 += *(const vec *)(N1 + j) * b;
+  }
+}
+
 /* The pivots of one front, of a single column. */
 static void down_one(const Factor *factor, Front f, i64 q, int sent, double *xy, double *work) {
   i64 c = f.c, cp = f.cp, mp = f.mp;
   const double *K = block_K(factor, q), *K1 = K + c * cp, *N = block_N(factor, q);
-  double *pivots = xy + 2 * f.first, *bx = work, *by = bx + mp, *p = by + mp;
-  for (i64 j = 0; j < f.m; j++) bx[j] = xy[2 * f.rows[j]], by[j] = xy[2 * f.rows[j] + 1];
-  for (i64 j = f.m; j < mp; j++) bx[j] = by[j] = 0;
-  zero(p, 16 * c);
-  if (sent)
-    for (i64 i = 0; i < c; i++)
-      for (i64 j = 0; j < c; j++) {
-        double x = pivots[2 * j], y = pivots[2 * j + 1];
-        p[2 * i] += K[i * cp + j] * x, p[2 * i + 1] += K[i * cp + j] * y + K1[i * cp + j] * x;
-      }
+  double *pivots = xy + 2 * f.first, *bx = work, *by = bx + mp, *px = by + mp, *py = px + cp;
+  for (i64 j = 0; j < mp; j++) bx[j] = j < f.m ? xy[2 * f.rows[j]] : 0, by[j] = j < f.m ? xy[2 * f.rows[j] + 1] : 0;
+  for (i64 j = 0; j < cp && sent; j++) px[j] = j < c ? pivots[2 * j] : 0, py[j] = j < c ? pivots[2 * j + 1] : 0;
   for (i64 i = 0; i < c; i++, N += 2 * mp) {
-    vec x = {0}, y = {0}, y1 = {0};
-    for (i64 j = 0; j < mp; j += LANES) {
-      vec n = *(const vec *)(N + j), b = *(const vec *)(bx + j);
-      x += n * b, y += n * *(const vec *)(by + j), y1 += *(const vec *)(N + mp + j) * b;
-    }
-    pivots[2 * i] = p[2 * i] + sum(x), pivots[2 * i + 1] = p[2 * i + 1] + sum(y + y1);
+    Both p = {{0}, {0}, {0}};
+    fetch_ahead(N, 2 * mp);
+    if (sent) add_row(&p, cp, K + i * cp, K1 + i * cp, px, py);
+    add_row(&p, mp, N, N + mp, bx, by);
+    pivots[2 * i] = sum(p.x), pivots[2 * i + 1] = sum(p.y + p.y1);
   }
 }
 

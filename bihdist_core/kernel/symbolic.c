@@ -53,14 +53,14 @@ API void bih_places_in_parents(const Tree *t, i32 *up, i32 *position) {
 }
 
 /* Where Schur complements lie while a subtree is eliminated (stack: a front's replaces its children's), and blocks of
- * the inverse while it is inverted (inverse: each on top of its parent's).  Tasks begin at 0; offsets of what they
- * share are there already, and stay. */
+ * the inverse while it is inverted (inverse: each on top of its parent's).  Tasks begin at 0, as what is there already
+ * says; what they hand to each other lies elsewhere. */
 API void bih_stack(const Tree *t, i64 *stack, i64 *inverse) {
   for (i64 q = t->fronts; q-- > 0;) {
     i64 left = t->children[2 * q], right = t->children[2 * q + 1];
     if (left < 0 || t->top[q]) continue;
     Front f = front_of(t, q), l = front_of(t, left);
-    stack[left] = t->shared[q] ? 0 : stack[q];
+    stack[left] = stack[q];
     stack[right] = stack[left] + l.m * l.mp;
     inverse[left] = inverse[right] = inverse[q] + 2 * f.s * f.sp;
   }

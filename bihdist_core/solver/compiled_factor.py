@@ -12,14 +12,39 @@ from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..kernel.library import at, check_stopped, library, rows_of
-from .compiled_tree import PAD, CompiledTree
-from .worker_threads import Job, Run, Workspaces
+from .compiled_tree import PAD, CompiledTree, padded
+from .worker_threads import WORKERS, Arena, Job, Run, Workspaces
 
 PADDING = 8
 """Numbers after the end of an array that the kernel may read."""
 
 NEVER = ctypes.byref(kernel.Watch())
 """The watch of short work, which nobody stops."""
+
+
+class Blocks:
+    """Blocks of fronts that tasks hand to each other, each kept until it is released as often as it is used.
+
+    address: (fronts,) where the block of a front lies, 0 where there is none.
+    """
+
+    def __init__(self, fronts: int, arena: Arena) -> None:
+        self.address = np.zeros(fronts, np.uintp)
+        self._arena = arena
+        self._held: dict[int, tuple[FloatArray, list[None]]] = {}
+
+    def take(self, front: int, size: int, uses: int) -> None:
+        """Room for the block of a front, of `size` numbers."""
+        part = self._arena.take(size + PADDING)
+        self.address[front] = part.ctypes.data
+        self._held[front] = part, [None] * uses
+
+    def release(self, front: int) -> None:
+        """One of its uses is over."""
+        part, uses = self._held[front]
+        uses.pop()  # at once, whatever other threads do
+        if not uses:
+            self._arena.release(part)
 
 
 class CompiledFactor:
@@ -34,10 +59,11 @@ class CompiledFactor:
         parts = 1 + self._dual
         self._pivots = np.empty(parts * tree.factor_size[0] + PADDING)
         self._boundaries = np.empty(parts * tree.factor_size[1] + PADDING)
-        self._shared = np.empty(tree.shared_room + PADDING)
+        rooms = [(self._elimination_room(task), self._dual and self._inversion_room(task)) for task in tree.tasks]
+        self._arena: Arena | None = Arena(tree.blocks_room + min(WORKERS, len(rooms)) * max(map(max, rooms)))
         self._eliminate(matrix, areas, job)
         if not self._dual:
-            self._shared = np.empty(0)
+            self._arena = None
 
     @property
     def nbytes(self) -> int:
@@ -51,39 +77,60 @@ class CompiledFactor:
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in self.__dict__.items() if name != "_struct"}
 
+    def _elimination_room(self, task: tuple[int, int]) -> int:
+        room = np.empty(3, np.int64)
+        library().bih_elimination_room(ctypes.byref(self.tree.struct), int(self._dual), *task, room)
+        return int(room[2])
+
+    def _inversion_room(self, task: tuple[int, int]) -> int:
+        room = np.empty(2, np.int64)
+        library().bih_inversion_room(ctypes.byref(self.tree.struct), *task, room)
+        return int(room[1])
+
     def _eliminate(self, matrix: sp.csr_matrix, areas: FloatArray | None, job: Job) -> None:
-        lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
+        lib, tree, factor, arena = library(), self.tree, ctypes.byref(self._struct), self._arena
+        assert arena is not None
         rows = rows_of(matrix.indptr, matrix.indices, matrix.data)
-        workspaces = Workspaces()
+        schur = Blocks(len(tree.parent), arena)
 
         def eliminate(task: tuple[int, int]) -> None:
-            room, where = np.zeros(3, np.int64), np.zeros(2, np.int64)
-            lib.bih_elimination_room(ctypes.byref(tree.struct), int(self._dual), *task, room)
-            with workspaces.of(room[2]) as work:
+            where, q = np.zeros(2, np.int64), task[1]
+            m = int(tree.bound[q + 1] - tree.bound[q])
+            schur.take(q, (1 + self._dual) * m * padded(m), 1)
+            with arena.of(self._elimination_room(task)) as work:
                 status = lib.bih_eliminate(
-                    factor, ctypes.byref(rows), areas, *task, self._shared, work, where, ctypes.byref(job.watch)
+                    factor, ctypes.byref(rows), areas, *task, schur.address, work, where, ctypes.byref(job.watch)
                 )
             if status == kernel.NOT_POSITIVE:
                 raise SolverError("The matrix is not positive definite to working accuracy, so it cannot be factored.")
             if status == kernel.OUTSIDE:
                 raise ParameterError(f"The entry ({where[0]}, {where[1]}) is outside the pattern of the tree.")
             check_stopped(status)
+            if tree.top[q]:
+                for child in tree.children[q]:
+                    schur.release(child)
 
         job.run(eliminate, tree.tasks, tree.after)
 
     def diagonals(self, job: Job) -> tuple[FloatArray, FloatArray]:
         """(n,) diag(G) and (n,) diag(G A G); to be called once, after the elimination."""
-        lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
-        diagonals, workspaces = np.empty((2, tree.n)), Workspaces()
+        lib, tree, factor, arena = library(), self.tree, ctypes.byref(self._struct), self._arena
+        assert arena is not None
+        diagonals, inverse = np.empty((2, tree.n)), Blocks(len(tree.parent), arena)
 
         def invert(task: tuple[int, int]) -> None:
-            room = np.zeros(2, np.int64)
-            lib.bih_inversion_room(ctypes.byref(tree.struct), *task, room)
-            with workspaces.of(room[1]) as work:
-                check_stopped(lib.bih_invert(factor, *task, self._shared, work, *diagonals, ctypes.byref(job.watch)))
+            q = task[1]
+            if tree.top[q]:
+                s = int(tree.first[q + 1] - tree.first[q] + tree.bound[q + 1] - tree.bound[q])
+                inverse.take(q, 2 * s * padded(s), 2)
+            with arena.of(self._inversion_room(task)) as work:
+                watch = ctypes.byref(job.watch)
+                check_stopped(lib.bih_invert(factor, *task, inverse.address, work, *diagonals, watch))
+            if tree.parent[q] >= 0:
+                inverse.release(tree.parent[q])
 
         job.run(invert, tree.tasks, tree.before)
-        self._shared = np.empty(0)
+        self._arena = None
         return diagonals[0], diagonals[1]
 
     def solve(self, b: FloatArray, run: Run, workspaces: Workspaces) -> FloatArray:
@@ -92,9 +139,9 @@ class CompiledFactor:
         result = np.empty(b.shape)
         with workspaces.of(tree.n * width) as x:
             x = x.reshape(tree.n, width)
-            x[:, : b.shape[1]], x[:, b.shape[1] :] = b[tree.vertices], 0
+            x[:, : b.shape[1]], x[:, b.shape[1] :] = b[tree.order], 0
             self._solve_in_place(x, run)
-            result[tree.vertices] = x[:, : b.shape[1]]
+            result[tree.order] = x[:, : b.shape[1]]
         return result
 
     def _solve_in_place(self, x: FloatArray, run: Run) -> None:
@@ -134,17 +181,22 @@ class CompiledFactor:
         everything = self._workspace((0, len(tree.parent) - 1), 2 * width)
         lib.bih_send_units(factor, front, places, len(index), width, xy, count, everything)
 
-        def down(task: tuple[int, int]) -> FloatArray:
+        def down(task: tuple[int, int]) -> None:
             lib.bih_sweep_down_both(factor, *task, width, xy, count, self._workspace(task, 2 * width), NEVER)
-            piece: FloatArray = xy[tree.first[task[0]] : tree.first[task[1] + 1], width : width + len(index)]
-            return piece
 
-        def finish(task: tuple[int, int], piece: FloatArray) -> None:
-            receive(tree.vertices[tree.first[task[0]] : tree.first[task[1] + 1]], piece)
+        def finish(task: tuple[int, int]) -> None:
+            down(task)
+            places = slice(tree.first[task[0]], tree.first[task[1] + 1])
+            values = xy[places, width : width + len(index)]
+            # One column is taken from between those of G, among which arithmetic is slow.
+            receive(tree.order[places], values.copy() if width == 1 else values)
 
         for q in reversed(tree.tops):
-            finish((q, q), down((q, q)).copy())  # those below need it as it is
-        run(lambda task: finish(task, down(task)), tree.branches)
+            down((q, q))
+        if len(tree.top_places):
+            # A copy: those below need it as it is.
+            receive(tree.order[tree.top_places], xy[tree.top_places, width : width + len(index)])
+        run(finish, tree.branches)
 
     def _workspace(self, task: tuple[int, int], width: int) -> FloatArray:
         return np.empty(library().bih_sweep_room(ctypes.byref(self.tree.struct), *task, width))

@@ -42,7 +42,8 @@ class EliminationTree:
 
 def canonical(matrix: sp.spmatrix) -> sp.csr_matrix:
     """A float64 matrix by rows with int32 indices, ascending and each once; the argument stays as it is."""
-    rows = sp.csr_matrix(matrix, dtype=np.float64)
+    is_one = isinstance(matrix, sp.csr_matrix) and matrix.dtype == np.float64
+    rows = matrix if is_one else sp.csr_matrix(matrix, dtype=np.float64)
     if not rows.has_canonical_format:
         rows = rows.copy()
         rows.sum_duplicates()

@@ -27,6 +27,9 @@ MEMORY = 2e9
 """Bytes the basis may fill before it is restarted, unless the pairs asked for need more."""
 PATIENCE = 8
 """Stop, whatever the errors are, after this many times the columns usually needed; the caller checks the result."""
+EPS = float(np.finfo(float).eps)
+LOSS = 1e-11
+"""A basis that is orthonormal up to so much is good enough: the pairs are made orthonormal afterwards."""
 CROWD = 1.01
 """Eigenvalues within this ratio may hide further ones: a block sees at most as many equal ones as it has columns."""
 
@@ -106,6 +109,10 @@ class _Space:
         self.h = np.zeros((room, room))
         self.h[: self.size, : self.size] = np.diag(values)
         self.block = np.empty((n, 0))
+        self._error = EPS
+        """About how far the formula is from true, as a fraction of T."""
+        self._left = EPS, EPS
+        """About the largest products of columns of V with the last ones of V, and with the block."""
         self.couple = np.zeros((0, self.size))
 
     def inject(self, columns: FloatArray) -> None:
@@ -123,24 +130,34 @@ class _Space:
         old, new = self.size, self.size + self.block.shape[1]
         v = self.basis[:, :new]
         put(v, old, self.block)
-        # First what is known to be in the image, which is large.  What rounding left is removed by one pass over all
-        # columns, from the normalized rest: the pass must not be followed by a division by something small.
-        touched = np.flatnonzero(self.couple.any(axis=0))
-        if len(touched):
-            subtract(image, v[:, touched[0] : old], self.couple[:, touched[0] :].T)
-        inside = gram(self.block, image, self.weights)
-        subtract(image, self.block, inside)
+        touched = np.append(np.flatnonzero(self.couple.any(axis=0)), old)
+        near = v[:, touched[0] :]
+        inside = gram(near, image, self.weights)
+        subtract(image, near, inside)
+        inside = inside[old - new :]
         q, r = self._orthonormal(image, smallest=1e-14 * max(self.h.max(), inside.max()))
-        rest = gram(v, q, self.weights)
-        subtract(q, v, rest)
-        centre(q, self.weights)
         self.h[old:new, :old] = self.couple
         self.h[:old, old:new] = self.couple.T
         self.h[old:new, old:new] = inside
-        self.h[:new, old:new] += rest @ r
-        self.h[old:new, :old] += (rest[:old] @ r).T
-        self.block, again = self._orthonormal(q)
-        self.size, self.couple = new, np.hstack([np.zeros((again.shape[0], old)), again @ r])
+        large, least = np.linalg.svd(r, compute_uv=False)[[0, -1]] if r.size else (0.0, np.inf)
+        orthonormal, scale = EPS * (large / least) ** 2, self.h.max()
+        # What is left of the other columns: rounding, and what was left of this block and of the one before.
+        before, this = self._left
+        left = ((self._error + this) * scale + before * np.linalg.norm(self.couple)) / least
+        if left > LOSS:
+            rest = gram(v, q, self.weights)
+            subtract(q, v, rest)
+            centre(q, self.weights)
+            self.h[:new, old:new] += rest @ r
+            self.h[old:new, :old] += (rest[:old] @ r).T
+            left = EPS
+            orthonormal += np.square(rest).sum()
+        if orthonormal > LOSS:
+            q, again = self._orthonormal(q)
+            left /= np.linalg.svd(again, compute_uv=False).min(initial=1)
+            r = again @ r
+        self._left = this, left
+        self.block, self.size, self.couple = q, new, np.hstack([np.zeros((len(r), old)), r])
 
     def ritz(self, count: int) -> tuple[FloatArray, FloatArray]:
         """The `count` largest eigenvalues of H, descending, and its eigenvectors (size, count)."""
@@ -160,6 +177,8 @@ class _Space:
         self.h[:] = 0
         self.h[:keep, :keep] = np.diag(mu)
         self.couple, self.size = self.couple @ y, keep
+        # H is symmetric, which products of columns of V are only that far.
+        self._error = LOSS
         short = keep + 2 * self.block.shape[1] - room
         if short > 0:
             # Only after several injections into a space at its limit of memory.

@@ -15,7 +15,7 @@ from .worker_threads import side_by_side
 
 Result = TypeVar("Result")
 
-ROWS = 8192
+ROWS = 2048
 """Rows multiplied at a time: enough to keep a core busy, few enough to stay in its cache."""
 
 

@@ -28,6 +28,8 @@ Result = TypeVar("Result")
 WORKERS = min(16, len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1)
 """As many as there are cores for this process."""
 REPORT_SECONDS = 0.1
+CACHE_LINE = 8
+"""How many numbers a line of the cache has."""
 
 
 _alone: ContextVar[bool] = ContextVar("alone", default=False)
@@ -180,6 +182,45 @@ class Job:
                     future.cancel()
                 wait(pending)
         return [results[k] for k in range(len(items))]
+
+
+class Arena:
+    """Room for `size` numbers, of which tasks that run at the same time take parts, the lowest first.
+
+    So little of it is touched as goes: memory that is touched first costs more than most work in it.
+    """
+
+    def __init__(self, size: int) -> None:
+        self._numbers = np.empty(size)
+        self._taken: dict[int, int] = {}  # where each part begins and ends
+        self._lock = threading.Lock()
+
+    def take(self, size: int) -> FloatArray:
+        """(size,) numbers, of any value, until they are released."""
+        with self._lock:
+            start = 0
+            for begin, end in sorted(self._taken.items()):
+                if begin - start >= size:
+                    break
+                start = end
+            if start + size > len(self._numbers):
+                return np.empty(size)  # what is free lies in pieces
+            self._taken[start] = start + -(-size // CACHE_LINE) * CACHE_LINE
+        return self._numbers[start : start + size]
+
+    def release(self, part: FloatArray) -> None:
+        """Let others have it."""
+        with self._lock:
+            self._taken.pop((part.ctypes.data - self._numbers.ctypes.data) // part.itemsize, None)
+
+    @contextmanager
+    def of(self, size: int) -> Iterator[FloatArray]:
+        """(size,) numbers within it."""
+        part = self.take(size)
+        try:
+            yield part
+        finally:
+            self.release(part)
 
 
 class Workspaces:

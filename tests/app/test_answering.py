@@ -1,6 +1,5 @@
 """Answers on their way: what is slow is worked on beside the rest, what is old is dropped, drags follow."""
 
-import subprocess
 import threading
 import time
 from dataclasses import dataclass
@@ -17,6 +16,7 @@ from app.session import loaded_mesh
 from app.session.answer_cache import AnswerCache
 from app.session.questions import DistanceQuestion
 from bihdist_core import BiharmonicDistance, Cancelled
+from bihdist_core.distances import kinds
 from bihdist_core.distances.answers import Answer
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.formats.mesh_io import surface_in
@@ -322,11 +322,9 @@ def test_in_a_drag_what_gets_stuck_gives_way_to_the_next(desk, mesh_file, monkey
 
 
 def test_in_a_drag_geodesic_panels_show_the_heat_method_until_release(desk, mesh_file, monkeypatch):
+    monkeypatch.setattr(kinds, "FRAME", 0)  # as on a large mesh
     d = desk([Spec.of("geodesic", method="exact")])
     session = d.loaded(mesh_file(bumpy(200)), source=0)
-    started = []
-    popen = subprocess.Popen
-    monkeypatch.setattr(subprocess, "Popen", lambda *a, **k: started.append(a) or popen(*a, **k))
     for vertex in (5, 6, 7):
         d.click(vertex, key="drag", live=True)
         d.until(lambda vertex=vertex: d.sources_shown == [vertex])
@@ -335,7 +333,15 @@ def test_in_a_drag_geodesic_panels_show_the_heat_method_until_release(desk, mesh
     session.show(session.document)
     d.complete()
     assert d.answers[0].label == "geodesic, exact"
-    assert not started  # the process that computed the first field goes on
+
+
+def test_in_a_drag_small_meshes_show_exact_geodesics(desk, mesh_file):
+    d = desk([Spec.of("geodesic")])
+    session = d.loaded(mesh_file(bumpy(200)), source=0)
+    d.click(5, key="drag", live=True)
+    d.until(lambda: d.sources_shown == [5])
+    assert d.answers[0].label == "geodesic, exact"
+    assert not session.shown[0].is_preview
 
 
 def test_a_drag_that_comes_back_shows_the_field_it_began_with(desk, mesh_file):

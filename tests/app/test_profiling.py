@@ -1,6 +1,7 @@
-"""The path of a profile, computed in the background: it follows its places, and is exact once they rest."""
+"""The path of a profile, computed in the background: it follows its places."""
 
 import queue
+import threading
 
 import pytest
 
@@ -32,28 +33,38 @@ def until(worker, wanted, method):
     return seen
 
 
-def test_paths_follow_their_places_and_are_exact_at_rest(worker, surface, monkeypatch):
-    first = PathWanted(surface, (3, 200), "auto")
-    worker.ask(first)
-    assert [found.method for _, found in until(worker, first, "exact")] == ["exact"]
-    monkeypatch.setattr(paths, "REST", 60.0)  # longer than this test: nothing rests but the last
+def test_paths_follow_their_places_and_are_exact(worker, surface):
     for vertex in (201, 202, 203):
         moved = PathWanted(surface, (3, vertex), "auto")
         worker.ask(moved)
-        ((_, found),) = until(worker, moved, "straightened")
+        ((_, found),) = until(worker, moved, "exact")
         assert found.points[-1] == pytest.approx(surface.vertices[vertex])
-    monkeypatch.setattr(paths, "REST", 0.01)
-    last = PathWanted(surface, (3, 204), "auto")
+    assert found.length == pytest.approx(GeodesicPaths(surface).path([3, 203], "exact").length, rel=1e-12)
+
+
+def test_a_path_that_takes_long_is_given_up_for_the_next(worker, surface, monkeypatch):
+    begun, make = threading.Event(), worker._maker.path
+
+    def slow(wanted, progress):
+        while wanted.places[1] == 200:
+            begun.set()
+            progress(0.5, "path")
+        return make(wanted, progress)
+
+    monkeypatch.setattr(paths, "SLOW", 0.0)
+    monkeypatch.setattr(worker._maker, "path", slow)
+    worker.ask(PathWanted(surface, (3, 200), "exact"))
+    assert begun.wait(60)
+    last = PathWanted(surface, (3, 201), "exact")
     worker.ask(last)
-    *_, (_, found) = until(worker, last, "exact")
-    assert found.length == pytest.approx(GeodesicPaths(surface).path([3, 204], "exact").length, rel=1e-12)
+    assert [wanted for wanted, _ in until(worker, last, "exact")] == [last]
 
 
 def test_a_newer_place_does_not_keep_paths_from_being_told(worker, surface):
     for k in range(20):
-        last = PathWanted(surface, (3, 100 + k), "straightened")
+        last = PathWanted(surface, (3, 100 + k), "exact")
         worker.ask(last)
-    seen = until(worker, last, "straightened")
+    seen = until(worker, last, "exact")
     # In their order, and none of another way.
     ends = [wanted.places[1] for wanted, _ in seen]
     assert ends == sorted(ends)

@@ -135,12 +135,10 @@ def test_fields_from_words(flat, tmp_path, capsys):
     assert "biharmonic, exact, 63 vertices, 5 sources" in capsys.readouterr().out
 
 
-def test_the_exact_geodesic_says_where_a_line_is_points(flat, tmp_path, capsys):
+def test_the_exact_geodesic_is_exact_from_a_line_too(flat, tmp_path, capsys):
     words = ["field", flat, "--distance", "geodesic(method=exact)", "-o", str(tmp_path / "d.npy"), "--source"]
     assert main([*words, "loop:0"]) == 0
-    assert "geodesic, exact, from points along the line, 63 vertices" in capsys.readouterr().out
-    assert main([*words, "5", "loop:0"]) == 0
-    assert "geodesic, exact or geodesic, exact, from points along the line" in capsys.readouterr().out
+    assert "geodesic, exact, 63 vertices" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("command", ["field", "figure", "movie", "view"])

@@ -19,6 +19,7 @@ from . import (
     before,
     drag_row,
     exact_rows,
+    geodesic_rows,
     growth_rows,
     live_row,
     machine,
@@ -59,6 +60,7 @@ ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
     23: exact_rows.small_meshes,
     24: reading_row.reading,
     25: exact_rows.cholesky,
+    27: geodesic_rows.exact_geodesics,
 }
 
 

@@ -1,5 +1,6 @@
 """Work in a process of its own, so that its peak memory is its own."""
 
+import ctypes
 import resource
 import sys
 from collections.abc import Callable
@@ -11,6 +12,7 @@ from typing import Any
 
 from .size import Size
 
+C = ctypes.CDLL(None) if sys.platform == "linux" else None
 STATUS, FORGET = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 
 
@@ -38,6 +40,9 @@ _common = cache(_process)
 def forget_peak() -> None:
     """Let `peak_memory` count from now, where the system can do that."""
     if FORGET.exists():
+        # What was freed would hide what is asked for next.
+        if hasattr(C, "malloc_trim"):
+            C.malloc_trim(0)
         FORGET.write_text("5")
 
 

@@ -20,7 +20,13 @@ def versions() -> str:
     return ", ".join(f"{name} {metadata.version(name)}" for name in names)
 
 
-OPTIONAL = {"meshio": "meshio", "trimesh": "trimesh", "libigl": "igl", "cholespy": "cholespy"}
+OPTIONAL = {
+    "meshio": "meshio",
+    "trimesh": "trimesh",
+    "libigl": "igl",
+    "cholespy": "cholespy",
+    "pygeodesic": "pygeodesic",
+}
 """What takes part where it is installed, and the modules' names."""
 
 
@@ -34,6 +40,14 @@ def heat_solver(vertices: np.ndarray, faces: np.ndarray):
     import potpourri3d
 
     return potpourri3d.MeshHeatMethodDistanceSolver(vertices, faces)
+
+
+def exact_geodesic(mesh: tuple[np.ndarray, np.ndarray], sources: list[int]) -> list[np.ndarray]:
+    """(n,) from each source, by pygeodesic, its set-up included."""
+    from pygeodesic.geodesic import PyGeodesicAlgorithmExact
+
+    solver = PyGeodesicAlgorithmExact(*mesh)
+    return [solver.geodesicDistances(np.array([source]), None)[0] for source in sources]
 
 
 def edge_graph(surface: Surface) -> sp.csr_matrix:

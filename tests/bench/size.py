@@ -11,7 +11,8 @@ from .meshes import bumpy_sphere
 class Size:
     """main: vertices of rows 1 to 6, 9 to 11, 25; pairs: of row 4; growth: of row 7, row 8 takes the last; window: of
     rows 13 and 14; drag: of row 15; moving: of row 16; scatter: of row 18; live: of row 19; meshes: how many of row 21;
-    cortex and parcels: of row 22; small: how many meshes of row 23; read: vertices of row 24; moves: of the source in
+    cortex and parcels: of row 22; small: how many meshes of row 23; geodesic and
+    geodesic_growth: of row 27; read: vertices of row 24; moves: of the source in
     row 15; seconds: of a drag in row 19; pointed: places in row 13; file: a mesh that takes the place of the bumpy
     sphere of `main` vertices."""
 
@@ -19,6 +20,8 @@ class Size:
     pairs: int = 16_000
     growth: tuple[int, ...] = (16_000, 56_000, 112_000, 500_000, 1_000_000)
     sources: int = 400
+    geodesic: tuple[int, int] = (15_000, 50_000)
+    geodesic_growth: tuple[int, ...] = (16_000, 100_000, 500_000)
     eigenpairs: tuple[int, ...] = (50, 200)
     window: tuple[int, int] = (100_000, 500_000)
     drag: tuple[int, int] = (164_000, 16_000)
@@ -57,6 +60,8 @@ QUICK = Size(
     pairs=1000,
     growth=(1000, 2000, 4000),
     sources=40,
+    geodesic=(500, 1000),
+    geodesic_growth=(500, 1000),
     eigenpairs=(10, 20),
     window=(4000, 8000),
     drag=(4000, 1000),

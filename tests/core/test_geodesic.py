@@ -9,22 +9,25 @@ import pytest
 import bihdist_core.distances.geodesic as geodesic
 import bihdist_core.distances.heat_geodesic as heat_geodesic
 import bihdist_core.distances.heat_times as heat_times
-from bihdist_core import Cancelled, GeodesicDistance, ParameterError, SolverError, Surface, read_surface
-from tests.shapes import bumpy, fin
+from bihdist_core import Cancelled, GeodesicDistance, SolverError, Surface, read_surface
+from bihdist_core.kernel import library
+from tests.shapes import bumpy, fin, two_pieces
 
 MESHES = Path(__file__).parents[2].parent / "shared" / "meshes"
 
 
-def test_auto_is_exact_on_small_manifold_surfaces_only(monkeypatch):
-    assert GeodesicDistance(bumpy(100)).label == "geodesic, exact"
-    assert GeodesicDistance(fin()).label == "geodesic, heat method"
+def test_auto_is_exact_up_to_a_size_on_any_surface(monkeypatch):
+    for surface in (bumpy(100), fin(), two_pieces()):
+        assert GeodesicDistance(surface).label == "geodesic, exact"
     monkeypatch.setattr(geodesic, "EXACT_UP_TO", 99)
     assert GeodesicDistance(bumpy(100)).label == "geodesic, heat method"
 
 
-def test_exact_refuses_what_is_not_manifold_and_says_what_to_do():
-    with pytest.raises(ParameterError, match="heat"):
-        GeodesicDistance(fin(), "exact")
+def test_without_the_compiled_kernel_auto_is_heat_and_exact_says_why_not(monkeypatch):
+    monkeypatch.setattr(library, "library", lambda: None)
+    assert GeodesicDistance(bumpy(100)).label == "geodesic, heat method"
+    with pytest.raises(SolverError, match="needs the compiled kernel; use the heat method"):
+        GeodesicDistance(bumpy(100), "exact")
 
 
 def needles():

@@ -15,7 +15,7 @@ from bihdist_core import (
     VertexError,
     eigenpairs,
 )
-from bihdist_core.operators import stiffness
+from bihdist_core.operators import operators
 from bihdist_core.progress import part
 from bihdist_core.solver.blas import one_blas_thread
 from tests import dense_reference as dense
@@ -143,12 +143,12 @@ def test_what_cannot_be_computed_names_the_mesh_and_what_would_help():
 def test_what_is_computed_once_is_so_for_several_threads(monkeypatch):
     calls, start = [], threading.Barrier(4)
 
-    def slow(surface):
-        calls.append(surface)
+    def slow(*of):
+        calls.append(of)
         time.sleep(0.05)
-        return stiffness(surface)
+        return operators(*of)
 
-    monkeypatch.setattr("bihdist_core.laplacian.stiffness", slow)
+    monkeypatch.setattr("bihdist_core.laplacian.operators", slow)
     laplacian, found = Laplacian(bumpy(60)), []
 
     def ask():

@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
+import scipy.sparse as sp
 
 from bihdist_core import BiharmonicDistance, ParameterError, Surface
-from bihdist_core.operators import AREAS, stiffness, vertex_areas
+from bihdist_core.operators import AREAS, operators, stiffness, vertex_areas
 from tests.shapes import bumpy, fin, grid, slivers, tetrahedron, two_pieces
 
 SURFACES = [bumpy(200), grid(4, 3), tetrahedron(), fin(), slivers(), two_pieces()]
@@ -74,3 +75,23 @@ def test_all_points_in_one_place_still_give_a_proper_operator():
 def test_unknown_areas_are_refused():
     with pytest.raises(ParameterError, match="no 'mixed' vertex areas; choose one of voronoi, barycentric"):
         vertex_areas(tetrahedron(), "mixed")
+
+
+@pytest.mark.parametrize("kind", AREAS)
+@pytest.mark.parametrize("surface", SURFACES, ids=lambda s: s.name)
+def test_operators_are_as_without_the_kernel(surface, kind, monkeypatch):
+    # Vertices of no face before, between and behind the others; a face alone has no edge in common with another.
+    lone = len(surface.vertices)
+    x = np.concatenate([[[9.0, 9, 9]], surface.vertices, np.eye(3) + 7, [[8.0, 9, 9]]])
+    faces = np.concatenate([surface.faces + 1, [[lone + 3, lone + 1, lone + 2]]])
+    with_kernel = Surface(x, faces)
+    matrix, areas = operators(with_kernel, kind)
+    for module in ("operators", "surface"):
+        monkeypatch.setattr(f"bihdist_core.{module}.library", lambda: None)
+    plain = Surface(x, faces)
+    expected, expected_areas = operators(plain, kind)
+    assert np.array_equal(with_kernel.component_of_vertex, plain.component_of_vertex)
+    assert sp.csr_matrix((matrix.data, matrix.indices, matrix.indptr)).has_canonical_format
+    assert abs(matrix - expected).max() <= 1e-12 * abs(expected).max()
+    assert np.abs(areas - expected_areas).max() <= 1e-12 * expected_areas.max()
+    assert np.abs(with_kernel.face_heights - plain.face_heights).max() <= 1e-12

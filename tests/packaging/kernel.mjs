@@ -41,11 +41,12 @@ const [charts, key] = [array(Float32Array, 7 * n), array(Float32Array, n)];
 kernel.bih_number_graph(matrix, at(doubles(given.x)), at(numbers), at(bin), at(edges), at(ends), at(charts), at(band),
   at(reached), at(key));
 const ordered = ints(n);
-const dissection = structure(n, 0, at(edges), at(ends), 0, 0, at(charts), at(ordered), at(region), at(bin), at(band),
-  at(reached), at(ints(8 * n)), at(key), at(array(Uint8Array, n)), 0);
-kernel.bih_begin_dissection(dissection);
+const [pairs, spare] = [ints(index.length), ints(index.length)];
+const dissection = structure(n, 0, at(edges), at(ends), 0, 0, at(charts), at(ordered), at(pairs), at(spare), at(region),
+  at(bin), at(band), at(reached), at(ints(8 * n)), at(key), at(array(Uint8Array, n)), 0);
+const whole = longs([0n, N, 0n, kernel.bih_begin_dissection(dissection)]);
 const [last, subtrees] = [ints(2 * n + 1), ints(4 * n + 2)];
-const fronts = done(kernel.bih_dissect(dissection, 0n, N, 0n, at(last), at(subtrees), watch));
+const fronts = done(kernel.bih_dissect(dissection, at(whole), 0n, at(last), at(subtrees), watch));
 
 // The elimination tree, as one task.
 const vertices = ints(Array.from(ordered, (v) => numbers[v]));
@@ -61,10 +62,9 @@ for (let q = 0; q < fronts; q++)
 const [bound, pivotBlock, rowBlock, stack, inverse] = Array.from({ length: 5 }, () => longs(fronts + 1));
 const room = 64 * n;
 const [rows, up, rank] = [ints(room), ints(room), ints(n)];
-const [shared, top] = [array(Uint8Array, fronts), array(Uint8Array, fronts)];
-shared[fronts - 1] = 1;
+const top = array(Uint8Array, fronts);
 const tree = structure(n, 0, fronts, 0, ...[vertices, place, first, children, parent, bound, rows, up, pivotBlock,
-  rowBlock, stack, inverse, shared, top, rank].map(at), 0);
+  rowBlock, stack, inverse, top, rank].map(at), 0);
 done(kernel.bih_boundaries(matrix, tree, at(bound), at(rows), BigInt(room), at(ints(n))));
 let [pivots, boundaries] = [0, 0];
 for (let q = fronts - 1; q >= 0; q--) {
@@ -79,15 +79,15 @@ kernel.bih_places_in_parents(tree, at(up), at(ints(n)));
 const root = BigInt(fronts - 1);
 const factor = structure(tree, 1, at(doubles(2 * pivots + 8)), at(doubles(2 * boundaries + 8)));
 const areas = doubles(given.areas);
-const common = doubles(8);
+const blocks = ints(fronts); // one task hands nothing on
 const sizes = longs(3);
 kernel.bih_elimination_room(tree, 1, 0n, root, at(sizes));
-done(kernel.bih_eliminate(factor, matrix, at(areas), 0n, root, at(common), at(doubles(Number(sizes[2]))), at(longs(2)),
+done(kernel.bih_eliminate(factor, matrix, at(areas), 0n, root, at(blocks), at(doubles(Number(sizes[2]))), at(longs(2)),
   watch));
 const [diagonal, sandwich] = [doubles(n), doubles(n)];
 kernel.bih_inversion_room(tree, 0n, root, at(sizes));
 const inverted = at(doubles(Number(sizes[1])));
-done(kernel.bih_invert(factor, 0n, root, at(common), inverted, at(diagonal), at(sandwich), watch));
+done(kernel.bih_invert(factor, 0n, root, at(blocks), inverted, at(diagonal), at(sandwich), watch));
 
 // Solves.
 const work = at(doubles(done(kernel.bih_sweep_room(tree, 0n, root, 2n))));
@@ -96,9 +96,9 @@ done(kernel.bih_sweep_up(factor, 0n, root, N, 1n, at(mean), 0, work, watch));
 done(kernel.bih_sweep_down(factor, 0n, root, 1n, at(mean), work, watch));
 const unit = place[given.column];
 const front = ints([first.findIndex((p) => p > unit) - 1]);
-const [x, y, on] = [doubles(n), doubles(n), array(Uint8Array, fronts)];
-kernel.bih_send_units(factor, at(front), at(ints([unit])), 1n, at(x), at(y), at(on));
-done(kernel.bih_sweep_down_both(factor, 0n, root, 1n, at(x), at(y), at(on), work, watch));
+const [xy, count] = [doubles(2 * n), ints(fronts)];
+kernel.bih_send_units(factor, at(front), at(ints([unit])), 1n, 1n, at(xy), at(count), work);
+done(kernel.bih_sweep_down_both(factor, 0n, root, 1n, at(xy), at(count), work, watch));
 
 const inOrder = (a) => Array.from(place, (p) => a[p]);
-console.log(JSON.stringify({ sandwich: [...sandwich], column: inOrder(y), mean: inOrder(mean) }));
+console.log(JSON.stringify({ sandwich: [...sandwich], column: inOrder(xy.filter((_, k) => k % 2)), mean: inOrder(mean) }));

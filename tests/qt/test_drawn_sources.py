@@ -56,7 +56,7 @@ def test_the_boundary_under_the_pointer_becomes_the_source(sheet, tmp_path):
     inside = where(s, corner) + (where(s, 84) - where(s, corner)) / 40
     choose(s, inside, "This boundary as source")
     assert s.source == BoundaryLoop(0)
-    assert s.answers[1].label == "geodesic, exact, from points along the line"
+    assert s.answers[1].label == "geodesic, exact"
     assert s.panels[1].head.controls[0].text() == "auto: exact"
     check_fields(s, "loop:0", tmp_path)
     choose(s, where(s, 84), "Add to the source")

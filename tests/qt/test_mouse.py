@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from app.document.edits import move_source
+from bihdist_core.distances import kinds
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
@@ -69,7 +70,8 @@ def test_click_selects_and_drag_only_rotates_all_panels(loaded):
         assert all((a != b).mean() > 0.01 for a, b in zip(before, s.pictures(), strict=True))
 
 
-def test_dragging_the_mark_moves_the_source_and_not_the_view(loaded):
+def test_dragging_the_mark_moves_the_source_and_not_the_view(loaded, monkeypatch):
+    monkeypatch.setattr(kinds, "FRAME", 0)  # as on a large mesh
     s, panel = loaded, loaded.panels[0]
     front = int(s.session.surface.vertices[:, 2].argmax())
     s.session.show(move_source(s.document, 0, front))

@@ -39,7 +39,7 @@ class PositionQuestion(Question):
         return str(MapColours())
 
     def answer(
-        self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+        self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
     ) -> Answer:
         colours = position_colours(loaded.surface)
         colours.flags.writeable = False
@@ -79,7 +79,7 @@ class MapQuestion(Question):
         return str(MapColours(self.by.path if isinstance(self.by, MapFile) else self.by))
 
     def answer(
-        self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+        self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
     ) -> Answer:
         """Each vertex in the colour of the one that it is mapped to."""
         other = loaded.standing_beside(self.other)

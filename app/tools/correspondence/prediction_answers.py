@@ -98,7 +98,7 @@ class PredictionQuestion(ByDistance):
         return f"{PREDICTION}{self.spec}"
 
     def answer(
-        self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+        self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
     ) -> Answer:
         """The misfit of every vertex to the point; neither field nor failure where none waits, or no pair is known."""
         other = loaded.standing_beside(self.other)

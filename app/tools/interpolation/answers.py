@@ -75,7 +75,7 @@ class InterpolantQuestion(ByDistance):
         return str(Interpolant(self.spec, self.total))
 
     def answer(
-        self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+        self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
     ) -> Answer:
         """The field; what is known of the last interpolant by this distance is used again."""
         if not self.anchors:

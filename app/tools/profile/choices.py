@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 WAYS = {
     "auto": "shortest geodesic",
     "exact": "shortest geodesic, exact",
-    "straightened": "geodesic, straightened",
     "edges": "shortest path along edges",
     **{way: PARTS[part] for way, part in SECTIONS.items()},
 }

@@ -12,8 +12,7 @@ from .part import SECTIONS, WAYS, Profile, profile_words, shows_path, with_profi
 
 WAY = Option(
     "way",
-    "from point to point by auto, exact, straightened or edges; or by a section, section-longer, section-whole "
-    "(default: auto)",
+    "from point to point by auto, exact or edges; or by a section, section-longer, section-whole (default: auto)",
     "auto",
     metavar="NAME",
     choices=WAYS,

@@ -17,7 +17,7 @@ from ...document.shared_parts.pins import Pins
 SECTIONS = {"section": "shorter", "section-longer": "longer", "section-whole": "whole"}
 """Ways of a profile by a plane through two points and a direction, and the part of the section that each takes."""
 
-WAYS = ("auto", "exact", "straightened", "edges", *SECTIONS)
+WAYS = ("auto", "exact", "edges", *SECTIONS)
 """How a profile goes from point to point: `GeodesicPaths`' methods, or by planes."""
 
 _ONE = re.compile(r"f[0-9]+:[^,\s]+,[^,\s]+|[^,\s]+")
@@ -41,6 +41,8 @@ class Profile(Part):
     shares: bool = True
 
     def __post_init__(self) -> None:
+        if self.way == "straightened":  # in files of before: paths that were nearly the shortest
+            object.__setattr__(self, "way", "auto")
         one_of(self.way, WAYS, "way")
         if len(self.points) == 1:
             raise ParameterError("A profile goes through two points or more.")

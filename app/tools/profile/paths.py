@@ -2,8 +2,7 @@
 
 import time
 from collections.abc import Callable, Mapping
-from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from weakref import WeakKeyDictionary
 
@@ -12,8 +11,7 @@ from bihdist_core.analysis.places import Places
 from bihdist_core.analysis.plane_sections import plane_section
 from bihdist_core.analysis.surface_paths import SurfacePath
 from bihdist_core.distances.answers import failure_in_words
-from bihdist_core.distances.geodesic import EXACT_UP_TO
-from bihdist_core.errors import ParameterError, SolverError
+from bihdist_core.errors import ParameterError
 from bihdist_core.progress import Progress, silent
 from bihdist_core.sources.source import Source, SurfacePoint
 from bihdist_core.sources.words import words_of
@@ -25,10 +23,10 @@ from ...session.latest_request_worker import LatestRequestWorker
 from ...session.loaded_mesh import LoadedMesh
 from .part import SECTIONS, Profile, points_along
 
-FEW = "A profile goes from point to point: pin two points, or choose its ends above."
+SLOW = 0.5
+"""Seconds after which a path gives way to the next one, where its places have moved meanwhile."""
 
-REST = 0.25
-"""Seconds without a move after which the places of a path rest."""
+FEW = "A profile goes from point to point: pin two points, or choose its ends above."
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,8 +129,6 @@ class PathMaker:
                 raise ParameterError("A section needs a direction that lies in its plane; none is given.")
             return plane_section(wanted.surface, wanted.places, wanted.across, SECTIONS[wanted.way])
         if self._paths is None or self._paths.surface is not wanted.surface:
-            if self._paths is not None:
-                self._paths.close()
             self._paths = GeodesicPaths(wanted.surface)
         return self._paths.path(wanted.places, wanted.way, progress)
 
@@ -146,8 +142,7 @@ class PathWorker:
     found: called by way of `post` with what was wanted and a `SurfacePath`, or a sentence that says why there is none;
     what is no longer wanted is dropped.  going: called the same way with what a path that takes long is at.
 
-    Where places move, paths follow them as fast as they are found, straightened ones where exact ones would take long;
-    these come once the places rest.
+    Where places move, paths follow them as fast as they are found; one that takes long is given up for the next.
     """
 
     def __init__(
@@ -159,7 +154,6 @@ class PathWorker:
         self._post, self._found, self._going = post, found, going
         self._wanted: PathWanted | None = None
         self._maker = PathMaker()
-        self._before: PathWanted | None = None  # on the lane's thread
         self._worker: LatestRequestWorker[PathWanted] | None = None
 
     def ask(self, wanted: PathWanted | None) -> None:
@@ -178,23 +172,12 @@ class PathWorker:
 
     # ------------------------------------------------------------------ on the lane's thread
     def _work(self, wanted: PathWanted, worker: LatestRequestWorker[PathWanted]) -> None:
-        is_moving, self._before = wanted.is_alike(self._before), wanted
-        is_quick = wanted.way != "exact" and (wanted.way != "auto" or len(wanted.surface.vertices) > EXACT_UP_TO)
-        if is_quick:
-            self._make(wanted, worker.progress(wanted.is_alike))
-            return
-        if is_moving and wanted.way == "auto":
-            with suppress(ParameterError, SolverError):
-                self._make(wanted, worker.progress(wanted.is_alike), "straightened")
-        end = time.monotonic() + (REST if is_moving else 0)
-        while time.monotonic() < end and self._wanted is wanted:
-            time.sleep(0.02)
-        # To give an exact path up, its process is ended: the next would wait for another.
-        if self._wanted is wanted:
-            self._make(wanted, worker.progress(lambda latest: latest is wanted))
+        begun = time.monotonic()
 
-    def _make(self, wanted: PathWanted, progress: Progress, way: str = "") -> None:
-        path = self._maker.path(replace(wanted, way=way or wanted.way), progress)
+        def is_wanted(latest: PathWanted) -> bool:
+            return latest is wanted or (wanted.is_alike(latest) and time.monotonic() - begun < SLOW)
+
+        path = self._maker.path(wanted, worker.progress(is_wanted))
         self._post(lambda: self._tell(wanted, path))
 
     def _failed(self, wanted: PathWanted, error: Exception) -> None:

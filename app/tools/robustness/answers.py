@@ -44,7 +44,7 @@ class ChangeQuestion(ByDistance):
         return str(ChangeOf(self.spec))
 
     def answer(
-        self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], None] | None = None
+        self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
     ) -> Answer:
         """At the vertices that both surfaces have, each distance as a fraction of its maximum there; NaN elsewhere."""
         if loaded.origin is None:

@@ -1,0 +1,79 @@
+"""What the heat method is off by on a mesh, measured against exact fields."""
+
+import numpy as np
+import pytest
+
+from bihdist_core import GeodesicDistance, Laplacian, Surface
+from bihdist_core.distances import heat_accuracy
+from bihdist_core.distances.answers import Distances
+from bihdist_core.distances.heat_accuracy import below_straight_line
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.kernel.library import library
+from tests.shapes import bumpy
+
+pytestmark = pytest.mark.skipif(library() is None, reason="exact geodesics need the compiled kernel")
+
+
+@pytest.fixture(scope="module")
+def laplacian():
+    return Laplacian(bumpy(600))
+
+
+def test_errors_are_those_against_exact_fields(laplacian):
+    heat, exact = GeodesicDistance(laplacian, "heat"), GeodesicDistance(laplacian, "exact")
+    assert not heat.is_judged(0)
+    estimate = heat.error_estimate()
+    assert heat.is_judged(0)
+    everywhere = np.arange(len(laplacian.surface.vertices))
+    true, found = exact.from_sources(everywhere), heat.from_sources(everywhere)
+    off = np.abs(found - true) / true.max(axis=0)
+    assert estimate.is_poor
+    # From four vertices as far apart as can be: not the worst of all, and no less than half of it.
+    assert 0.5 * off.max() <= estimate.share <= off.max() + 1e-12
+    assert f"{100 * estimate.share:.2g} % at the worst, measured from 4 vertices" in estimate.text
+    mean = float(estimate.short.partition(" %")[0]) / 100
+    assert 0.5 * off.mean() < mean < 2 * off.mean()
+
+
+def test_what_falls_below_the_straight_line_is_said(laplacian):
+    surface = laplacian.surface
+    exact = GeodesicDistance(laplacian, "exact").from_source(3)
+    assert below_straight_line(surface, 3, exact) == 0
+    assert below_straight_line(surface, 3, 0.5 * exact) > 0.1
+    heat = GeodesicDistance(laplacian, "heat")
+    before = heat.error_estimate()
+    heat._solvers[0].distances = lambda source, progress: 0.25 * exact  # as a flow that is led astray
+    heat.from_source(3)
+    after = heat.error_estimate()
+    assert after.share > max(0.3, before.share)
+    assert "falls below the straight line" in after.text
+
+
+def test_a_large_mesh_has_fewer_sources_and_a_larger_one_what_is_typical(laplacian, monkeypatch):
+    count = len(laplacian.surface.vertices)
+    monkeypatch.setattr(heat_accuracy, "MOST_WORK", count)
+    assert "measured from one vertex" in GeodesicDistance(laplacian, "heat").error_estimate().text
+    monkeypatch.setattr(heat_accuracy, "MOST_WORK", count - 1)
+    assert "typically" in GeodesicDistance(laplacian, "heat").error_estimate().text
+
+
+def test_the_worst_of_the_components_counts(laplacian):
+    x, f = laplacian.surface.vertices, laplacian.surface.faces
+    flat = x * [1, 1, 0.02] + [9, 0, 0]
+    both = GeodesicDistance(Surface(np.concatenate([x, flat]), np.concatenate([f, f + len(x)])), "heat")
+    one, other = both.error_estimate([0]), both.error_estimate([1])
+    assert one.share != other.share
+    assert both.error_estimate([0, 1]).share == max(one.share, other.share)
+
+
+def test_answers_say_it_unless_nobody_waits(laplacian):
+    spec, distances, first = Spec.of("geodesic", method="heat"), Distances(laplacian), []
+    rough = distances.answer(spec, 3, at_once=lambda answer: True)
+    assert rough.label == "geodesic, heat method"
+    assert not rough.is_final
+    answer = distances.answer(spec, 3, at_once=first.append)
+    assert [each.label for each in first] == [rough.label]
+    assert answer.is_final
+    assert answer.label.startswith("geodesic, heat method, ")
+    assert answer.label.endswith(" % off in the mean")
+    assert distances.answer(Spec.of("geodesic", method="exact"), 3).label == "geodesic, exact"
