@@ -1,4 +1,4 @@
-"""`python -m tests.bench [--quick] [--only 1,2] [--before REF] [--json FILE]`: the speed of everything, in one table.
+"""`python -m tests.bench [--quick] [--only 1,2] [--before REF] [--json FILE] [--chart FILE]`: the speed of everything, in one table.
 
 What is judged are ratios of times measured in turn in the same run; the times themselves are only told.
 """
@@ -17,6 +17,7 @@ from . import (
     anchor_row,
     batch_rows,
     before,
+    chart,
     drag_row,
     exact_rows,
     geodesic_rows,
@@ -32,7 +33,7 @@ from . import (
     window_rows,
 )
 from .size import FULL, QUICK, Size
-from .table import Line, as_json, render
+from .table import Line, as_json, from_json, render
 
 ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
     1: exact_rows.set_up,
@@ -69,6 +70,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     size = QUICK if options.quick else FULL
     if options.mesh:
         size = replace(size, file=options.mesh)
+    if options.source:
+        with open(options.source, encoding="utf-8") as file:
+            _draw(options.chart, from_json(json.load(file)["lines"]))
+        return 0
     lines: list[Line] = []
     with ExitStack() as stack:
         measure = _row_here
@@ -95,7 +100,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
             json.dump(facts | {"quick": options.quick, "lines": as_json(lines)}, file, indent=1, default=float)
+    _draw(options.chart, lines)
     return 0
+
+
+def _draw(path: str | None, lines: list[Line]) -> None:
+    if path:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(chart.chart(lines))
 
 
 def _row_here(row: int, size: Size) -> Iterator[Line]:
@@ -108,6 +120,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--only", type=_numbers, metavar="1,2", help="these rows only")
     parser.add_argument("--before", metavar="REF", help="the rows of that commit beside this tree's")
     parser.add_argument("--json", metavar="FILE", help="write the table there as well")
+    parser.add_argument("--chart", metavar="FILE", help="draw the ratios to other programs there, as SVG")
+    parser.add_argument("--from", dest="source", metavar="FILE", help="draw from what --json wrote; measure nothing")
     mesh = "a mesh in place of the generated sphere in rows 1 to 6, 10, 11 and 25"
     parser.add_argument("--mesh", metavar="FILE", help=mesh)
     return parser

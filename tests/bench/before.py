@@ -8,11 +8,11 @@ import tarfile
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import fields, replace
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 
-from .table import Line
+from .table import Line, from_json
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -41,9 +41,8 @@ def lines_of(tree: Path, row: int, arguments: Sequence[str]) -> list[Line]:
         run = subprocess.run(words, cwd=tree, env=os.environ | {"PYTHONPATH": str(tree)}, capture_output=True)
         if run.returncode or not path.exists():
             return []
-        known = {field.name for field in fields(Line)}
         written = json.loads(path.read_text(encoding="utf-8"))["lines"]
-    return [Line(**{name: value for name, value in line.items() if name in known}) for line in written]
+    return from_json(written)
 
 
 def beside(tree: Path, row: int, arguments: Sequence[str]) -> list[Line]:

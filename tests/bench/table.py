@@ -1,6 +1,6 @@
 """The lines of the benchmark and how they are printed."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from .timing import Comparison
@@ -75,6 +75,12 @@ def render(lines: list[Line]) -> str:
 
 def as_json(lines: list[Line]) -> list[dict]:
     return [asdict(line) | {"holds": line.holds, "is_accurate": line.is_accurate} for line in lines]
+
+
+def from_json(written: list[dict]) -> list[Line]:
+    """The lines that `as_json` wrote, perhaps that of an older benchmark."""
+    known = {field.name for field in fields(Line)}
+    return [Line(**{name: value for name, value in line.items() if name in known}) for line in written]
 
 
 def _cells(line: Line) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from bihdist_core import Surface
-from tests.bench import before, machine
+from tests.bench import before, chart, machine
 from tests.bench.__main__ import ROWS
 from tests.bench.meshes import MAKERS, along_curve, bumpy_sphere
 from tests.bench.table import COLUMNS, Line, render
@@ -117,3 +117,13 @@ def test_a_commit_that_is_not_there_is_named():
 def test_a_line_without_an_earlier_one_shows_a_dash():
     assert render([Line(1, "work", ours=1.0)]).count("–") == 2
     assert "0.5" in render([Line(1, "work", ours=1.0, before=2.0)])
+
+
+def test_the_chart_shows_what_is_a_ratio_to_another_program():
+    peer = Line(2, "one field", 1.0, 2.0, 0.5, bound=0.4, note="peer: SciPy")
+    own = Line(1, "accuracy of it", 1.0, 2.0, 0.5, note="peer: our set-up")
+    drawn = chart.chart([peer, own])
+    assert "one field" in drawn
+    assert chart.OVER in drawn
+    assert "accuracy" not in drawn
+    assert drawn == chart.chart([peer, own])
