@@ -1,4 +1,4 @@
-"""`python -m tests.bench [--quick] [--only 1,2] [--before REF] [--json FILE] [--chart FILE]`: the speed of everything, in one table.
+"""`python -m tests.bench [--quick] [--only 1,2] [--before REF] [--mesh FILE] [--json FILE] [--chart FILE]`: all speeds.
 
 What is judged are ratios of times measured in turn in the same run; the times themselves are only told.
 """
@@ -30,6 +30,7 @@ from . import (
     reading_row,
     region_row,
     scatter_row,
+    thread_row,
     window_rows,
 )
 from .size import FULL, QUICK, Size
@@ -61,6 +62,7 @@ ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
     23: exact_rows.small_meshes,
     24: reading_row.reading,
     25: exact_rows.cholesky,
+    26: thread_row.threads,
     27: geodesic_rows.exact_geodesics,
 }
 
@@ -84,7 +86,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 print(error, file=sys.stderr)
                 return 2
             passed = ["--quick"] * options.quick + (["--mesh", os.path.abspath(options.mesh)] if options.mesh else [])
-            measure = lambda row, size: iter(before.beside(tree, row, passed))  # noqa: E731
+
+            def measure(row: int, size: Size) -> Iterator[Line]:
+                return iter(before.beside(tree, row, passed))
+
         for row in options.only or ROWS:
             for line in measure(row, size):
                 lines.append(line)
