@@ -34,21 +34,23 @@ def checked_out(ref: str) -> Iterator[Path]:
 
 
 def lines_of(tree: Path, row: int, arguments: Sequence[str]) -> list[Line]:
-    """The lines of one row as that tree measures them; none if it has no such row."""
+    """The lines of one row as that tree measures them; RuntimeError with its last line of stderr if it cannot."""
     with tempfile.TemporaryDirectory() as place:
         path = Path(place, "row.json")
         words = [sys.executable, "-m", "tests.bench", "--only", str(row), "--json", str(path), *arguments]
         run = subprocess.run(words, cwd=tree, env=os.environ | {"PYTHONPATH": str(tree)}, capture_output=True)
         if run.returncode or not path.exists():
-            return []
+            said = run.stderr.decode(errors="replace").strip().splitlines()
+            raise RuntimeError(said[-1] if said else f"it ended with {run.returncode}")
         written = json.loads(path.read_text(encoding="utf-8"))["lines"]
     return from_json(written)
 
 
 def beside(tree: Path, row: int, arguments: Sequence[str]) -> list[Line]:
     """This tree's lines of a row, with the seconds of the earlier tree's lines of the same words."""
-    earlier = {line.work: line.ours for line in lines_of(tree, row, arguments)}
     lines = lines_of(ROOT, row, arguments)
-    if not lines:
-        raise RuntimeError(f"Row {row} could not be measured in this tree.")
+    try:
+        earlier = {line.work: line.ours for line in lines_of(tree, row, arguments)}
+    except RuntimeError as error:
+        return [replace(line, note="; ".join(filter(None, (line.note, f"before: {error}")))) for line in lines]
     return [replace(line, before=earlier.get(line.work)) for line in lines]
