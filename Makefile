@@ -65,4 +65,4 @@ test:
 
 bench:
 	@.ci/set-up bench
-	$(PYTHON_HERE) -m tests.bench $(ARGS)
+	$(PYTHON_HERE) -m tests.bench $(if $(BEFORE),--before $(BEFORE)) $(ARGS)

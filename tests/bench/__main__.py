@@ -1,19 +1,23 @@
-"""`python -m tests.bench [--quick] [--only 1,2] [--json FILE] [--mesh FILE]`: the speed of everything, in one table.
+"""`python -m tests.bench [--quick] [--only 1,2] [--before REF] [--mesh FILE] [--json FILE] [--chart FILE]`: all speeds.
 
 What is judged are ratios of times measured in turn in the same run; the times themselves are only told.
 """
 
 import argparse
 import json
+import os
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
 from dataclasses import replace
 from datetime import date
 
 from . import (
     anchor_row,
     batch_rows,
+    before,
+    chart,
     drag_row,
     exact_rows,
     geodesic_rows,
@@ -26,10 +30,11 @@ from . import (
     reading_row,
     region_row,
     scatter_row,
+    thread_row,
     window_rows,
 )
 from .size import FULL, QUICK, Size
-from .table import Line, as_json, render
+from .table import Line, as_json, from_json, render
 
 ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
     1: exact_rows.set_up,
@@ -57,6 +62,7 @@ ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
     23: exact_rows.small_meshes,
     24: reading_row.reading,
     25: exact_rows.cholesky,
+    26: thread_row.threads,
     27: geodesic_rows.exact_geodesics,
 }
 
@@ -66,11 +72,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
     size = QUICK if options.quick else FULL
     if options.mesh:
         size = replace(size, file=options.mesh)
+    if options.source:
+        with open(options.source, encoding="utf-8") as file:
+            _draw(options.chart, from_json(json.load(file)["lines"]))
+        return 0
     lines: list[Line] = []
-    for row in options.only or ROWS:
-        for line in ROWS[row](size):
-            lines.append(line)
-            print(render([line]).splitlines()[-1], file=sys.stderr, flush=True)
+    with ExitStack() as stack:
+        measure = _row_here
+        if options.before:
+            try:
+                tree = stack.enter_context(before.checked_out(options.before))
+            except ValueError as error:
+                print(error, file=sys.stderr)
+                return 2
+            passed = ["--quick"] * options.quick + (["--mesh", os.path.abspath(options.mesh)] if options.mesh else [])
+
+            def measure(row: int, size: Size) -> Iterator[Line]:
+                return iter(before.beside(tree, row, passed))
+
+        for row in options.only or ROWS:
+            for line in measure(row, size):
+                lines.append(line)
+                print(render([line]).splitlines()[-1], file=sys.stderr, flush=True)
     copied, multiplied = machine.limits()
     facts = {
         "date": date.today().isoformat(),
@@ -82,14 +105,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
             json.dump(facts | {"quick": options.quick, "lines": as_json(lines)}, file, indent=1, default=float)
+    _draw(options.chart, lines)
     return 0
+
+
+def _draw(path: str | None, lines: list[Line]) -> None:
+    if path:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(chart.chart(lines))
+
+
+def _row_here(row: int, size: Size) -> Iterator[Line]:
+    return ROWS[row](size)
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__.split("\n\n")[1])
     parser.add_argument("--quick", action="store_true", help="small meshes and one round: checks the form, not times")
     parser.add_argument("--only", type=_numbers, metavar="1,2", help="these rows only")
+    parser.add_argument("--before", metavar="REF", help="the rows of that commit beside this tree's")
     parser.add_argument("--json", metavar="FILE", help="write the table there as well")
+    parser.add_argument("--chart", metavar="FILE", help="draw the ratios to other programs there, as SVG")
+    parser.add_argument("--from", dest="source", metavar="FILE", help="draw from what --json wrote; measure nothing")
     mesh = "a mesh in place of the generated sphere in rows 1 to 6, 10, 11 and 25"
     parser.add_argument("--mesh", metavar="FILE", help=mesh)
     return parser

@@ -1,6 +1,6 @@
 """The lines of the benchmark and how they are printed."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from .timing import Comparison
@@ -13,7 +13,8 @@ class Line:
     value: what is judged, most often the ratio of the two times; effort: the ratio of the processors' times, told
     for machines that are busy; bound: what the value may be at most.  limit: the share of
     the machine's own limit that was reached; memory: peak bytes of a process that did only this; error: the largest
-    relative difference from the reference; tolerance: what that may be at most.
+    relative difference from the reference; tolerance: what that may be at most;
+    before: seconds of an earlier commit, in the same run.
     """
 
     row: int
@@ -27,6 +28,7 @@ class Line:
     memory: float | None = None
     error: float | None = None
     tolerance: float | None = None
+    before: float | None = None
     note: str = ""
 
     @property
@@ -44,7 +46,22 @@ def compared(row: int, work: str, result: Comparison, **told: Any) -> Line:
     return Line(row, work, result.our_time, result.peer_time, result.ratio, result.effort, **told)
 
 
-COLUMNS = ("row", "work", "ours", "peer", "value", "bound", "", "effort", "limit", "memory", "error", "note")
+COLUMNS = (
+    "row",
+    "work",
+    "ours",
+    "peer",
+    "value",
+    "bound",
+    "",
+    "effort",
+    "limit",
+    "memory",
+    "error",
+    "before",
+    "ratio",
+    "note",
+)
 
 
 def render(lines: list[Line]) -> str:
@@ -60,6 +77,12 @@ def as_json(lines: list[Line]) -> list[dict]:
     return [asdict(line) | {"holds": line.holds, "is_accurate": line.is_accurate} for line in lines]
 
 
+def from_json(written: list[dict]) -> list[Line]:
+    """The lines that `as_json` wrote, perhaps that of an older benchmark."""
+    known = {field.name for field in fields(Line)}
+    return [Line(**{name: value for name, value in line.items() if name in known}) for line in written]
+
+
 def _cells(line: Line) -> tuple[str, ...]:
     return (
         str(line.row),
@@ -73,6 +96,8 @@ def _cells(line: Line) -> tuple[str, ...]:
         "" if line.limit is None else f"{line.limit:.0%}",
         "" if line.memory is None else f"{line.memory / 1e6:,.0f} MB",
         "" if line.error is None else f"{line.error:.1e}" + ("" if line.is_accurate is not False else " BAD"),
+        _seconds(line.before) or "–",
+        "–" if not line.before or line.ours is None else f"{line.ours / line.before:.3g}",
         line.note,
     )
 

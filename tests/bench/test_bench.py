@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from bihdist_core import Surface
-from tests.bench import machine
+from tests.bench import before, chart, machine
 from tests.bench.__main__ import ROWS
 from tests.bench.meshes import MAKERS, along_curve, bumpy_sphere
 from tests.bench.table import COLUMNS, Line, render
@@ -37,7 +37,7 @@ def is_a_count(line):
 def test_every_row_is_there_with_its_bound(quick):
     printed, written = quick
     lines = written["lines"]
-    assert {line["row"] for line in lines} == set(ROWS) == set(range(1, 26))
+    assert {line["row"] for line in lines} == set(ROWS) == set(range(1, 28))
     assert all(
         line["bound"] is not None for line in lines if "folded" not in line["work"] and "needle" not in line["work"]
     )
@@ -107,3 +107,23 @@ def test_a_line_says_whether_it_holds():
 def test_the_machine_has_limits():
     assert machine.bandwidth(megabytes=4) > 1e8
     assert machine.matmul_rate(size=64) > 1e8
+
+
+def test_a_commit_that_is_not_there_is_named():
+    with pytest.raises(ValueError, match="no commit 'nonsense'"), before.checked_out("nonsense"):
+        pass
+
+
+def test_a_line_without_an_earlier_one_shows_a_dash():
+    assert render([Line(1, "work", ours=1.0)]).count("–") == 2
+    assert "0.5" in render([Line(1, "work", ours=1.0, before=2.0)])
+
+
+def test_the_chart_shows_what_is_a_ratio_to_another_program():
+    peer = Line(2, "one field", 1.0, 2.0, 0.5, bound=0.4, note="peer: SciPy")
+    own = Line(1, "accuracy of it", 1.0, 2.0, 0.5, note="peer: our set-up")
+    drawn = chart.chart([peer, own])
+    assert "one field" in drawn
+    assert chart.OVER in drawn
+    assert "accuracy" not in drawn
+    assert drawn == chart.chart([peer, own])
