@@ -86,6 +86,7 @@ def no_exact_geodesics(monkeypatch):
     monkeypatch.setattr("bihdist_core.distances.exact_geodesic.ExactGeodesic.__init__", fails)
 
 
+@pytest.fixture
 def unmeasured_fonts(monkeypatch):
     """EPS files without the box around all glyphs of their fonts, which takes matplotlib two seconds for each font.
 

@@ -19,7 +19,7 @@ from ..surface import Surface
 from .place_pairs import by_start
 from .unfolding_mesh import UnfoldingMesh
 
-MOST_PER_VERTEX, MOST_AT_LEAST = 5_000, 100_000_000
+MOST_PER_VERTEX, MOST_AT_LEAST = 5_000, 2_000_000
 """Windows that a run may take: usually there are 20 to 150 for a vertex, and 5 to 8 million a second."""
 
 USUAL_PER_VERTEX = 40
@@ -41,7 +41,7 @@ class FacePath:
     ends: FloatArray
 
     def reversed(self) -> "FacePath":
-        """The same path from the source."""
+        """The path from the source."""
         return FacePath(self.faces[::-1], self.ends[::-1], self.begins[::-1])
 
 

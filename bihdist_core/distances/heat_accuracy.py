@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import FloatArray
+from ..counts import counted
 from ..errors import SolverError
 from ..surface import Surface
 from .accuracy import ErrorEstimate
@@ -36,7 +37,7 @@ class HeatErrors:
         text = f"accurate to {mean} of the maximum in the mean and {largest} at the worst"
         if below > self.largest:
             text += ", where it falls below the straight line"
-        text += f", measured from {self.sources} vertices" if self.sources > 1 else ", measured from one vertex"
+        text += f", measured from {counted(self.sources, 'vertex', 'vertices')}"
         return ErrorEstimate(text, True, max(self.largest, below), f"{mean} off in the mean")
 
 

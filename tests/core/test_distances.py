@@ -246,7 +246,7 @@ def test_each_component_has_as_many_eigenpairs_as_it_can_give():
 
 def test_a_vertex_without_an_area_has_no_eigenpair():
     laplacian = Laplacian(two_pieces())
-    laplacian.areas = laplacian.areas * (np.arange(65) != 3)
+    laplacian.areas[3] = 0
     assert laplacian.eigenpair_counts.tolist() == [58, 3]
 
 
@@ -288,13 +288,11 @@ def test_a_field_with_squares_below_zero_is_refused(monkeypatch):
 @every_distance
 @every_surface
 def test_every_distance_tells_its_accuracy_or_that_it_has_none(make, surface):
-    if make is DISTANCES["exact"] and not surface.is_manifold:
-        pytest.skip("refused there; see test_geodesic")
     distance = make(surface)
     if isinstance(distance, GeodesicDistance):
         assert distance.accuracy is None
         assert distance.error_estimate().is_poor == (distance.method != "exact")
-        assert distance.error_estimate().share is None
+        assert (distance.error_estimate().share is None) == (distance.method != "heat")
     else:
         assert 0 < distance.accuracy < 1e-2  # a cut between equal eigenvalues of a symmetric shape leaves much open
 

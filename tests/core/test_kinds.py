@@ -97,7 +97,8 @@ def test_on_a_surface_k_is_bounded_by_the_eigenpairs_there_are():
     assert alpha.on(surface) is alpha
 
 
-def test_a_stand_in_is_asked_of_the_distance_itself():
+def test_a_stand_in_is_asked_of_the_distance_itself(monkeypatch):
+    monkeypatch.setattr("bihdist_core.distances.kinds.FRAME", 99)
     laplacian, auto = Laplacian(bumpy(100)), Spec.of("geodesic")
     assert auto.quick(auto.build(laplacian)) == Spec.of("geodesic", method="heat")
     heat = Spec.of("geodesic", method="heat")
