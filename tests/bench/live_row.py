@@ -8,7 +8,7 @@ import queue
 import time
 from collections.abc import Iterator
 
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.kinds import FRAME, Spec
 
 from .child import in_window_child
 from .drag_row import EVERY
@@ -61,7 +61,7 @@ def _live(count: int, in_faces: bool, wanted: float) -> tuple[int, float, float]
         while session.surface is None or not session.shown.keys() >= {0, 2}:
             view.posted.get(timeout=PATIENCE)()
     session.show(move_source(session.document, 0, 7), live=True)
-    while 1 not in session.shown or "heat" not in session.shown[1].answer.label:
+    while 1 not in session.shown or (count > FRAME and "heat" not in session.shown[1].answer.label):
         view.posted.get(timeout=PATIENCE)()  # the heat method is made ready
     shown: list[int] = []
     view.answer_changed = shown.append  # type: ignore[method-assign]
