@@ -18,8 +18,6 @@ from typing import BinaryIO, cast
 
 import numpy as np
 
-from .arrays import FloatArray, IntArray
-
 LIMITS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS", "LP_NUM_THREADS")
 
 DIED = "the process that computes it died"
@@ -30,12 +28,6 @@ SERVED = Path(__file__).with_name("_served_child.py")
 
 ANSWER, WRONG, REPORT = 0, 1, 2
 """What a process sends: an answer, what is wrong instead of one, and before either any number of reports."""
-
-
-def mesh_message(vertices: FloatArray, faces: IntArray) -> bytes:
-    """int64 n and m, float64 (n, 3) vertices, int32 (m, 3) faces."""
-    arrays = (np.array([len(vertices), len(faces)], np.int64), vertices.astype(np.float64), faces.astype(np.int32))
-    return b"".join(array.tobytes() for array in arrays)
 
 
 def framed(content: bytes | memoryview) -> bytes:

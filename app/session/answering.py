@@ -10,6 +10,7 @@ from typing import Protocol
 
 from bihdist_core import SolverError
 from bihdist_core.distances.answers import Answer, failed
+from bihdist_core.distances.geodesic import EXACT_UP_TO
 from bihdist_core.progress import Progress, part
 
 from .answer_cache import AnswerCache
@@ -20,9 +21,6 @@ from .questions import Question, are_about_the_same
 MUCH_LONGER, AT_LEAST = 4.0, 0.2
 """In a drag, an answer that takes so many times as long as the one before, and so many seconds, gives way to the next:
 it waits for something that is made beside it, such as a longer flow of heat, and the others need not."""
-
-SMALL = 300_000
-"""Vertices up to which an exact answer takes no longer than making its stand-in."""
 
 
 class AnswerView(Protocol):
@@ -203,9 +201,9 @@ class Answering:
             self._took.pop(id, None)
 
     def _is_quicker(self, request: _Request, quick: Question) -> bool:
-        """Whether stand-ins come before the answer: on a small surface, but for drags, only those that are made."""
+        """Whether stand-ins come before the answer: but for drags, on small meshes only those that are made."""
         distances = request.loaded.distances(quick.areas)
-        is_small = len(request.loaded.surface.vertices) <= SMALL
+        is_small = len(request.loaded.surface.vertices) <= EXACT_UP_TO
         return request.live or not is_small or all(distances.is_ready(spec) for spec in quick.specs)
 
     def _preview(self, id: int, request: _Request, question: Question, preparing: Progress, asking: Progress) -> bool:

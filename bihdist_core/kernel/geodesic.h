@@ -91,7 +91,7 @@ typedef struct {
   i64 windows, crossings;   /* room */
   i64 live, used, waiting, crossings_used; /* windows that there are, and that there were; of the heap; of crossings */
   i64 needed, crossings_needed;            /* NO_ROOM: how many more must there be room for */
-  i64 crossed, most_crossed; /* windows that crossed a face, and how many may */
+  i64 taken, most_taken; /* windows taken up at sides, again where they stay there, and how many may be */
   double radius;
   i32 free, everything; /* the first window of those that are free again; what is not left out */
   i32 targets_only;     /* whether to end once the targets are reached */

@@ -169,7 +169,7 @@ static void start(Run *run, i32 source) {
 API i32 bih_geodesic_begin(Run *run) {
   const Mesh *mesh = run->mesh;
   i64 windows = 0, crossings = 0;
-  run->live = run->used = run->waiting = run->crossings_used = run->crossed = 0, run->free = NONE;
+  run->live = run->used = run->waiting = run->crossings_used = run->taken = 0, run->free = NONE;
   for (i64 i = 0; i < run->source.count; i++)
     for (i32 h = 3 * run->source.face[i], k = 0; k < 3; k++) add_room(mesh, h + k, 3, &windows, &crossings);
   if (!has_room(run, windows, crossings)) return NO_ROOM;
@@ -200,17 +200,17 @@ static double reach_from_corners(Run *run) {
 /* Go on until all within the radius is reached: DONE, STOPPED, TOO_MUCH, or NO_ROOM, after which it can go on.  The
  * watch counts windows. */
 API i32 bih_geodesic_run(Run *run, Watch *watch) {
-  i64 sides = 3 * run->mesh->faces, told = run->crossed;
+  i64 sides = 3 * run->mesh->faces, told = run->taken;
   enum { OFTEN = 1024 };
   while (run->waiting && run->heap[0].distance <= run->radius) {
     i32 id = run->heap[0].id;
     if (!has_room_for(run, id)) return NO_ROOM;
-    if (run->crossed - told >= OFTEN) {
-      advance(watch, run->crossed - told), told = run->crossed;
+    if (run->taken - told >= OFTEN) {
+      advance(watch, run->taken - told), told = run->taken;
       if (run->targets_only && reach_from_corners(run) <= run->heap[0].distance) break;
     }
     if (stopped(watch)) return STOPPED;
-    if (run->crossed > run->most_crossed) return TOO_MUCH;
+    if (run->taken > run->most_taken) return TOO_MUCH;
     pop(run);
     if (id < sides) cross_all(run, id);
     else bend(run, (i32)(id - sides));

@@ -145,7 +145,6 @@ static void cross(Run *run, i32 h, const Window *entering) {
     here.px = clamp(w->px, w->b0, w->b1);
     here.s += __builtin_fabs(here.px - entering->px);
   }
-  run->crossed++;
   if (run->target.count)
     for (i32 t = run->first_target[h / 3]; t >= 0; t = run->next_target[t]) {
       double x, y;
@@ -240,6 +239,7 @@ void cross_all(Run *run, i32 h) {
   int keep = !(run->everything & ALL_WINDOWS) && is_thin(run->mesh, h);
   for (i32 i = head; i >= 0; i = run->window[i].next) run->order[count++] = i;
   run->queue[h].head = NONE;
+  run->taken += count;
   sort_by_begin(run, count);
   i64 left = run->everything & ALL_WINDOWS ? count : prune(run, h, count);
   /* Downwards, so that the next lists are nearly in order. */

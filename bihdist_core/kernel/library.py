@@ -135,7 +135,7 @@ class Run(Structure):
         ("target", Places),
         *((name, c_void_p) for name in RUN_ARRAYS),
         *((name, c_int64) for name in ("windows", "crossings", "live", "used", "waiting", "crossings_used")),
-        *((name, c_int64) for name in ("needed", "crossings_needed", "crossed", "most_crossed")),
+        *((name, c_int64) for name in ("needed", "crossings_needed", "taken", "most_taken")),
         ("radius", c_double),
         ("free", c_int32),
         ("everything", c_int32),
@@ -151,8 +151,8 @@ class Run(Structure):
     crossings_used: int
     needed: int
     crossings_needed: int
-    crossed: int
-    most_crossed: int
+    taken: int
+    most_taken: int
     radius: float
     everything: int
     targets_only: int

@@ -7,7 +7,6 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..surface import Surface
 from .edge_faces import EdgeFaces
-from .pieces import Pieces
 
 SNAP = 1e-6
 """A weight below this is 0: the place belongs to the edge or the corner opposite, as thinner faces help nobody."""
@@ -107,21 +106,3 @@ class _Division:
                 divided.append((moved, there))
         self._parts[face] = divided
         return None
-
-
-def along(pieces: Pieces, spacing: float, surface: Surface) -> Pieces:
-    """Points of the pieces, both ends and others between them that are at most so far apart.
-
-    The ends of all come first, see `split_at`.
-    """
-    start, stop = pieces.positions(surface.vertices)
-    counts = np.maximum(np.ceil(np.linalg.norm(stop - start, axis=1) / spacing), 1).astype(int)
-    which = np.repeat(np.arange(len(pieces)), counts - 1)
-    number = np.arange(len(which)) - np.repeat(np.cumsum(counts - 1) - (counts - 1), counts - 1) + 1
-    share = (number / counts[which])[:, None]
-    between = pieces.start[which] + share * (pieces.stop[which] - pieces.start[which])
-    ends = pieces.ends
-    weights = np.concatenate([ends.start, between])
-    faces = np.concatenate([ends.faces, pieces.faces[which]])
-    corners = np.concatenate([ends.corners, pieces.corners[which]])
-    return Pieces(faces, corners, weights, weights, np.zeros(len(faces), bool))

@@ -68,7 +68,10 @@ ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    options = _parser().parse_args(arguments)
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    if options.source and not options.chart:
+        parser.error("--from draws a chart; name its file with --chart")
     size = QUICK if options.quick else FULL
     if options.mesh:
         size = replace(size, file=options.mesh)

@@ -63,11 +63,16 @@ COLUMNS = (
     "note",
 )
 
+BEFORE = ("before", "ratio")
+"""Those of another commit, which stand only where that was measured."""
+
 
 def render(lines: list[Line]) -> str:
     """The table as text; it is Markdown too."""
     rows = [COLUMNS, *map(_cells, lines)]
-    widths = [max(len(row[k]) for row in rows) for k in range(len(COLUMNS))]
+    if all(line.before is None for line in lines):
+        rows = [tuple(cell for name, cell in zip(COLUMNS, row, strict=True) if name not in BEFORE) for row in rows]
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     padded = [[cell.ljust(width) for cell, width in zip(row, widths, strict=True)] for row in rows]
     texts = ["| " + " | ".join(row) + " |" for row in padded]
     return "\n".join([texts[0], "|" + "|".join("-" * (width + 2) for width in widths) + "|", *texts[1:]])

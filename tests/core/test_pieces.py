@@ -7,7 +7,7 @@ from hypothesis import given, settings, strategies as st
 from bihdist_core import BoundaryLoop, Curve, ParameterError, SourceSet, Surface, SurfacePoint, VertexError
 from bihdist_core.sources.boundary import boundary_loops
 from bihdist_core.sources.pieces import pieces_of
-from bihdist_core.sources.splitting import along, split_at
+from bihdist_core.sources.splitting import split_at
 from tests.shapes import MESHES, bumpy, fin, grid, needs_meshes, torus, two_pieces
 
 ROUNDING = 1e-12
@@ -146,18 +146,3 @@ def test_a_divided_surface_has_the_same_shape_with_vertices_at_the_places(rows):
     assert np.array_equal(divided.vertices[:9], g.vertices)
     apart = np.linalg.norm(divided.vertices[:, None] - divided.vertices, axis=2) + np.eye(len(divided.vertices))
     assert apart.min() > 1e-3  # no place twice
-
-
-def test_a_divided_line_consists_of_edges():
-    g = grid(5, 4)
-    pieces = pieces_of(Curve((SurfacePoint.of(0, 0.4, 0.3), SurfacePoint.of(33, 0.2, 0.4))), g)
-    points = along(pieces, 0.2, g)
-    split = split_at(g, points.faces, points.start)
-    divided, ids = split.surface, split.vertices
-    start, stop = pieces.positions(g.vertices)
-    line = (stop[-1] - start[0]) / np.linalg.norm(stop[-1] - start[0])
-    order = ids[np.argsort((divided.vertices[ids] - start[0]) @ line)]
-    edges = {tuple(sorted(e)) for e in divided.edges.tolist()}
-    steps = [tuple(sorted(e)) for e in zip(order[:-1].tolist(), order[1:].tolist(), strict=True) if e[0] != e[1]]
-    assert set(steps) <= edges
-    assert max(np.linalg.norm(divided.vertices[i] - divided.vertices[j]) for i, j in steps) <= 0.2 + ROUNDING

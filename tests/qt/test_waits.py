@@ -214,7 +214,7 @@ def test_what_was_stopped_says_what_is_shown(screen, mesh_file, gate):
 
 def test_a_quick_look_stays_when_the_exact_answer_is_stopped(screen, mesh_file, monkeypatch):
     monkeypatch.setattr(kinds, "FRAME", 0)  # as on a large mesh
-    monkeypatch.setattr(answering, "SMALL", 0)
+    monkeypatch.setattr(answering, "EXACT_UP_TO", 0)
     gate, answer = threading.Event(), LoadedMesh.answer
 
     def held(loaded, question, progress=None, at_once=None):
