@@ -114,9 +114,12 @@ def test_a_commit_that_is_not_there_is_named():
         pass
 
 
-def test_a_line_without_an_earlier_one_shows_a_dash():
-    assert render([Line(1, "work", ours=1.0)]).count("–") == 2
-    assert "0.5" in render([Line(1, "work", ours=1.0, before=2.0)])
+def test_a_line_without_an_earlier_one_shows_a_dash_beside_those_that_have_one():
+    lines = [Line(1, "work", ours=1.0, before=2.0), Line(2, "new work", ours=1.0)]
+    known, new = ([cell.strip() for cell in row.split("|")] for row in render(lines).splitlines()[-2:])
+    assert known[-4:-2] == ["2.00 s", "0.5"]
+    assert new[-4:-2] == ["–", "–"]
+    assert "before" not in render(lines[1:])
 
 
 def test_the_chart_shows_what_is_a_ratio_to_another_program():
