@@ -256,7 +256,7 @@ class Distance(ABC):
             i, j = np.triu_indices(len(points), 1)
             among = points_on(self.surface, points)
             found = np.zeros((len(points), len(points)))
-            found[i, j] = found[j, i] = self._of_points(among.some(i), among.some(j))
+            found[i, j] = found[j, i] = self._of_points(among.some(i), among.some(j), progress)
             return found
         ids = self.surface.check_vertices(np.asarray(vertices))
         distances = np.full((len(ids), len(ids)), np.nan)
@@ -273,7 +273,8 @@ class Distance(ABC):
         faces if this distance knows vertices only.
         """
         if are_of_places(pairs):
-            return self._of_points(*(points_on(self.surface, [pair[side] for pair in pairs]) for side in (0, 1)))
+            u, v = (points_on(self.surface, [pair[side] for pair in pairs]) for side in (0, 1))
+            return self._of_points(u, v, progress)
         table = np.asarray(pairs)
         if table.ndim != 2 or table.shape[1] != 2:
             raise ParameterError(f"Pairs of vertices must have shape (k, 2), not {table.shape}.")
@@ -289,23 +290,25 @@ class Distance(ABC):
         distances[i == j] = 0
         return distances
 
-    def _of_points(self, u: Pieces, v: Pieces) -> FloatArray:
+    def _of_points(self, u: Pieces, v: Pieces, progress: Progress | None) -> FloatArray:
         """(k,) distances of pairs of vertices and places in faces."""
         distances = np.zeros(len(u))
         are_vertices = (u.start.max(axis=1) == 1) & (v.start.max(axis=1) == 1)
-        if are_vertices.any():
-            one, other = (each.some(are_vertices) for each in (u, v))
-            distances[are_vertices] = self.of_pairs(np.column_stack([e.corners[e.start == 1] for e in (one, other)]))
         others = np.flatnonzero(~are_vertices & ~are_same(u, v))
+        share = float(are_vertices.mean()) if len(others) else 1.0
+        if are_vertices.any():
+            ends = (each.some(are_vertices) for each in (u, v))
+            pairs = np.column_stack([each.corners[each.start == 1] for each in ends])
+            distances[are_vertices] = self.of_pairs(pairs, part(progress, 0, share))
         if len(others):
-            distances[others] = self._of_places(u.some(others), v.some(others))
+            distances[others] = self._of_places(u.some(others), v.some(others), part(progress, share, 1))
         return distances
 
-    def _of_places(self, u: Pieces, v: Pieces) -> FloatArray:
+    def _of_places(self, u: Pieces, v: Pieces, progress: Progress) -> FloatArray:
         """(k,) the same of pairs that are apart, and of which one is no vertex."""
         if not self.is_quadratic:
             raise ParameterError(f"{self.label} is known between vertices only, not at places in faces.")
-        squares = squares_of_pairs(u, v, self.of_pairs)
+        squares = squares_of_pairs(u, v, lambda pairs: self.of_pairs(pairs, progress))
         return np.sqrt(np.maximum(squares, 0))
 
     def _of_pairs(self, component: Component, i: IntArray, j: IntArray, progress: Progress | None = None) -> FloatArray:

@@ -131,8 +131,13 @@ class ExactGeodesic:
         """(k,) distances of places in faces; see `field`."""
         return self.field(sources, places, progress, radius=radius, offsets=offsets).at_places
 
-    def between(self, u: Pieces, v: Pieces, progress: Progress | None = None) -> FloatArray:
-        """(k,) distances of k pairs of points, NaN where no way leads; several sources at a time."""
+    def between(self, u: Pieces, v: Pieces, progress: Progress | None = None, *, radius: float = np.inf) -> FloatArray:
+        """(k,) distances of k pairs of points, several sources at a time; NaN where no way leads.
+
+        Beyond the radius they are inf.  Raises ParameterError for a radius that is no length; Cancelled if the progress
+        raises it, within 0.1 s.
+        """
+        check_radius(radius)
         rows = [list(by_start(each)) for each in (u, v)]
         here, there = (u, v) if len(rows[0]) <= len(rows[1]) else (v, u)
         groups = rows[here is v]
@@ -141,7 +146,9 @@ class ExactGeodesic:
         def one(number: int, watch: kernel.Watch) -> None:
             start, mine = groups[number]
             goals = self._mesh.at_pieces(there.some(mine))[:2]
-            found[mine] = self._field(self._mesh.at_pieces(start), goals, watch, targets_only=True).at_places
+            found[mine] = self._field(
+                self._mesh.at_pieces(start), goals, watch, radius=radius, targets_only=True
+            ).at_places
 
         self._in_workers(one, len(groups), progress)
         return found
@@ -157,13 +164,17 @@ class ExactGeodesic:
         self._in_workers(one, 1, progress)
         return fields[0].path_to_place(0)
 
-    def columns(self, vertices: npt.ArrayLike, progress: Progress | None = None) -> FloatArray:
-        """(n, k) distances from each of k vertices, several at a time."""
+    def columns(
+        self, vertices: npt.ArrayLike, progress: Progress | None = None, *, radius: float = np.inf
+    ) -> FloatArray:
+        """(n, k) distances from each of k vertices, several at a time; see `field` for the radius and errors."""
+        check_radius(radius)
         ids = self.surface.check_vertices(vertices)
         found = np.empty((len(self.surface.vertices), len(ids)))
 
         def one(column: int, watch: kernel.Watch) -> None:
-            found[:, column] = self._field(self._mesh.at_vertices(ids[column : column + 1]), None, watch).distances
+            start = self._mesh.at_vertices(ids[column : column + 1])
+            found[:, column] = self._field(start, None, watch, radius=radius).distances
 
         self._in_workers(one, len(ids), progress)
         return found
@@ -188,8 +199,7 @@ class ExactGeodesic:
         Raises VertexError for a bad id; ParameterError for a radius or offsets that are no numbers; SolverError where
         more windows than 2,000 a vertex and 200,000 would be needed; Cancelled if the progress raises it, within 0.1 s.
         """
-        if not radius >= 0:
-            raise ParameterError(f"A radius is a length of at least 0, not {radius}.")
+        check_radius(radius)
         if isinstance(sources, Pieces):
             starts = self._mesh.at_pieces(sources)
         else:
@@ -300,6 +310,11 @@ class _Workspace:
                 f"Exact geodesic distance on {name} was given up after {run.taken:,} windows; use the heat method."
             )
         return crossing
+
+
+def check_radius(radius: float) -> None:
+    if not radius >= 0:
+        raise ParameterError(f"A radius is a length of at least 0, not {radius}.")
 
 
 def _lists(faces: AnyArray, count: int) -> tuple[AnyArray, AnyArray]:

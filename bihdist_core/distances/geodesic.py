@@ -16,7 +16,7 @@ from ..surface import Surface
 from .accuracy import ErrorEstimate
 from .distance import Distance
 from .edge_geodesic import EdgeGeodesic
-from .exact_geodesic import ExactGeodesic
+from .exact_geodesic import ExactGeodesic, check_radius
 from .heat_accuracy import HeatErrors, below_straight_line, heat_errors
 from .heat_times import HeatTimes
 from .place_pairs import by_start, straight
@@ -46,20 +46,34 @@ class GeodesicDistance(Distance):
 
     method: "exact" (any surface; from lines, too), "heat" (1 to 3 % off in the mean on most samples), "dijkstra" (along
     edges: 4 to 6 % too long in the mean on most samples), or "auto": exact up to 300,000 vertices, else heat.  On long,
-    thin faces, such as those of the sample `part`, the means are 5 and 13 %.  Raises ParameterError for any other word,
-    and SolverError for "exact" without the compiled kernel, where "auto" is heat.
+    thin faces, such as those of the sample `part`, the means are 5 and 13 %.  radius: how far the exact method goes, in
+    the mesh's length unit; distances beyond are inf.  With one "auto" is exact, however large the surface.
+
+    Raises ParameterError for any other word, a radius that is no length, and one for another method; SolverError for
+    "exact" without the compiled kernel, where "auto" is heat.
     """
 
     length_power = 1.0
 
-    def __init__(self, laplacian: Laplacian | Surface, method: str = "auto", progress: Progress | None = None) -> None:
+    def __init__(
+        self,
+        laplacian: Laplacian | Surface,
+        method: str = "auto",
+        progress: Progress | None = None,
+        *,
+        radius: float = np.inf,
+    ) -> None:
         if method not in METHODS:
             raise ParameterError(f"There is no geodesic method {method!r}; choose one of {', '.join(METHODS)}.")
         super().__init__(laplacian)
         if method == "auto":
-            exact = len(self.surface.vertices) <= EXACT_UP_TO and kernel.library() is not None
-            method = "exact" if exact else "heat"
+            is_short = radius < np.inf or len(self.surface.vertices) <= EXACT_UP_TO
+            method = "exact" if is_short and kernel.library() is not None else "heat"
+        check_radius(radius)
+        if radius < np.inf and method != "exact":
+            raise ParameterError(f"Only the exact method has a radius, not {method}.")
         self.method = method
+        self.radius = radius
         self.label = LABELS[method]
         self.is_symmetric = method != "heat"
         self._solvers: dict[int, ExactGeodesic | HeatTimes | EdgeGeodesic] = {}
@@ -109,7 +123,7 @@ class GeodesicDistance(Distance):
         if isinstance(solver, EdgeGeodesic):
             return solver.distances(index)
         if isinstance(solver, ExactGeodesic):
-            return solver.columns(index, progress)
+            return solver.columns(index, progress, radius=self.radius)
         share, fields = 1 / len(index), []
         for k, source in enumerate(index.tolist()):
             field = solver.distances(source, part(progress, k * share, (k + 1) * share))
@@ -120,9 +134,8 @@ class GeodesicDistance(Distance):
     def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
         solver, vertices = self._solvers[component.index], pieces.vertices
         if isinstance(solver, ExactGeodesic):
-            if vertices is not None:
-                return solver.distances(component.local(vertices), progress)
-            return solver.distances(self._local(component, pieces), progress)
+            sources = self._local(component, pieces) if vertices is None else component.local(vertices)
+            return solver.distances(sources, progress, radius=self.radius)
         loads, offsets = _spread(pieces, self.surface)
         corners = component.local(pieces.corners)
         if isinstance(solver, EdgeGeodesic):
@@ -140,40 +153,47 @@ class GeodesicDistance(Distance):
             np.minimum(least, found, out=least)
         return least
 
-    def _of_places(self, u: Pieces, v: Pieces) -> FloatArray:
+    def _of_places(self, u: Pieces, v: Pieces, progress: Progress) -> FloatArray:
         labels = self.surface.component_of_vertex
         found = np.full(len(u), np.nan)
+        done = 0
         for component, mine in self._by_component(u.corners[:, 0]):
+            step = part(progress, done / len(u), (done + len(mine)) / len(u))
+            done += len(mine)
             mine = mine[labels[v.corners[mine, 0]] == component.index]
             if len(mine):
-                self.prepare(component)
+                self.prepare(component, step)
                 one, other = u.some(mine), v.some(mine)
                 if self.method == "exact":
-                    found[mine] = self._exactly(component, one, other)
+                    found[mine] = self._exactly(component, one, other, step)
                 elif self.method == "dijkstra":
-                    found[mine] = self._along_edges(component, one, other)
+                    found[mine] = self._along_edges(component, one, other, step)
                 else:
-                    found[mine] = (self._by_heat(one, other) + self._by_heat(other, one)) / 2
+                    there = self._by_heat(one, other, part(step, 0, 0.5))
+                    found[mine] = (there + self._by_heat(other, one, part(step, 0.5, 1))) / 2
         # Within a face nothing is shorter.
         lengths = straight(u, v, self.surface)
-        return np.where(np.isfinite(lengths), lengths, found)
+        return np.where(np.isfinite(lengths) & (lengths <= self.radius), lengths, found)
 
-    def _exactly(self, component: Component, u: Pieces, v: Pieces) -> FloatArray:
+    def _exactly(self, component: Component, u: Pieces, v: Pieces, progress: Progress) -> FloatArray:
         """(k,) of the windows that reach one of both."""
         solver = self._solvers[component.index]
         assert isinstance(solver, ExactGeodesic)
-        return solver.between(self._local(component, u), self._local(component, v))
+        ends = self._local(component, u), self._local(component, v)
+        return solver.between(*ends, progress, radius=self.radius)
 
     def _local(self, component: Component, pieces: Pieces) -> Pieces:
         """Pieces in the component's numbers."""
         own = np.flatnonzero(self.surface.component_of_vertex[self.surface.faces[:, 0]] == component.index)
         return replace(pieces, faces=np.searchsorted(own, pieces.faces), corners=component.local(pieces.corners))
 
-    def _along_edges(self, component: Component, u: Pieces, v: Pieces) -> FloatArray:
+    def _along_edges(self, component: Component, u: Pieces, v: Pieces, progress: Progress) -> FloatArray:
         """(k,) from corner to corner, and straight to both."""
         solver, found = self._solvers[component.index], np.empty(len(u))
         assert isinstance(solver, EdgeGeodesic)
-        for start, mine in by_start(u):
+        starts = list(by_start(u))
+        for number, (start, mine) in enumerate(starts):
+            progress(number / len(starts), self.label)
             used = start.start[0] > 0
             offsets = _spread(start, self.surface)[1][0]
             lengths = solver.distances_with(component.local(start.corners[0][used]), offsets[used])
@@ -182,11 +202,13 @@ class GeodesicDistance(Distance):
             found[mine] = np.where(some.start > 0, ways, np.inf).min(axis=1)
         return found
 
-    def _by_heat(self, u: Pieces, v: Pieces) -> FloatArray:
+    def _by_heat(self, u: Pieces, v: Pieces, progress: Progress) -> FloatArray:
         """(k,) of fields from u what they are at v, linear in faces."""
         found = np.empty(len(u))
-        for start, mine in by_start(u):
-            field = self.from_pieces(start)
+        starts = list(by_start(u))
+        for number, (start, mine) in enumerate(starts):
+            progress(number / len(starts), self.label)
+            field = self.from_pieces(start, part(progress, number / len(starts), (number + 1) / len(starts)))
             found[mine] = (v.start[mine] * field[v.corners[mine]]).sum(axis=1)
         return found
 

@@ -13,8 +13,7 @@ from ..analysis.diagnostics import isotropy_ratio
 from ..analysis.isoline_tracing import isolines
 from ..applications.local_refinement import refined_around
 from ..arrays import BoolArray, FloatArray, IntArray
-from ..distances.edge_geodesic import EdgeGeodesic
-from ..distances.exact_geodesic import ExactGeodesic
+from ..distances.geodesic import GeodesicDistance
 from ..errors import ParameterError
 from ..laplacian import Laplacian
 from ..progress import Progress, part
@@ -83,29 +82,31 @@ def circles(
 ) -> Circles:
     """The isotropy ratios of several kinds of distance on circles around each of the sources (s,).
 
-    The mesh is refined around the sources, and geodesic distance is exact, on the part around each.
+    The mesh is refined around the sources, and geodesic distance is exact, as far as the circles reach.
     """
     ids = np.asarray(sources, int)
     unit = float(np.sqrt(surface.face_areas[surface.component_of_vertex[surface.faces[:, 0]] == 0].sum()))
     part(progress, 0, 1)(0.0, "refining around the sources")
-    fine = refined_around(surface, ids, RADII[-1] * unit, BEYOND * RADII[0] * unit, EDGES)
+    reach = BEYOND * RADII[0] * unit
+    fine = refined_around(surface, ids, RADII[-1] * unit, reach, EDGES)
     laplacian = Laplacian(fine)
     fields = {}
     for k, kind in enumerate(kinds):
         made = distance(laplacian, kind, part(progress, 0.1 + 0.4 * k / len(kinds), 0.1 + 0.4 * (k + 1) / len(kinds)))
         fields[kind] = made.from_sources(ids)
+    geodesic = GeodesicDistance(laplacian, "exact", radius=reach).from_sources(ids, part(progress, 0.5, 0.8))
     ratios = {kind: np.full((len(ids), len(RADII)), np.nan) for kind in kinds}
     are_local = np.zeros(len(ids), bool)
     failure = ""
     for q, source in enumerate(ids.tolist()):
-        part(progress, 0.5, 1)(q / len(ids), f"circles around vertex {source}")
+        part(progress, 0.8, 1)(q / len(ids), f"circles around vertex {source}")
+        lengths = geodesic[:, q]
+        widest = isolines(fine, lengths, [RADII[0] * unit])
+        are_local[q] = len(widest) == 1 and widest[0].closed
         try:
-            around, of_patch, geodesic = _patch(fine, source, BEYOND * RADII[0] * unit)
-            widest = isolines(around, geodesic, [RADII[0] * unit])
-            are_local[q] = len(widest) == 1 and widest[0].closed
             for kind in kinds:
-                field = fields[kind][of_patch, q]
-                ratios[kind][q] = [isotropy_ratio(around, field, geodesic, float(r)) for r in RADII * unit]
+                field = fields[kind][:, q]
+                ratios[kind][q] = [isotropy_ratio(fine, field, lengths, float(r)) for r in RADII * unit]
         except ParameterError as error:
             failure = str(error)
     return Circles(ids, ratios, are_local, failure)
@@ -141,35 +142,6 @@ def gather_circles(found: Gathered, circled: Circles, pictured: int, first_rando
                 found.add(TREND.name, trend[k], k == pictured)
             for part_of, values in ((ROUNDER, relative), (CIRCLE, own), (LONG, long)):
                 found.add(part_of.name, values[k], k == pictured)
-
-
-def _patch(surface: Surface, source: int, radius: float) -> tuple[Surface, IntArray, FloatArray]:
-    """The part of a surface around a source, the ids (k,) of its vertices, and exact geodesic distances (k,) on it.
-
-    Lengths along edges are longer than geodesics, by up to about a sixth: the part is a good deal larger.
-    """
-    component, ids = surface.component(int(surface.component_of_vertex[source]))
-    start = int(np.searchsorted(ids, source))
-    near = np.linalg.norm(component.vertices - component.vertices[start], axis=1) <= 1.2 * radius
-    patch, of_component = _around(component, start, near[component.faces].all(axis=1))
-    away = np.linalg.norm(patch.vertices - component.vertices[start], axis=1)
-    while len(loose := patch.nonmanifold_vertices[away[patch.nonmanifold_vertices] > radius]):
-        # At the rim faces may hang together by a vertex alone.
-        near[of_component[loose]] = False
-        patch, of_component = _around(component, start, near[component.faces].all(axis=1))
-        away = np.linalg.norm(patch.vertices - component.vertices[start], axis=1)
-    here = int(np.searchsorted(of_component, start))
-    if not np.isfinite(EdgeGeodesic(patch).distances(here)).all():
-        raise ParameterError(f"{surface.name} is not connected around vertex {source}.")
-    return patch, ids[of_component], ExactGeodesic(patch).distances(here)
-
-
-def _around(surface: Surface, vertex: int, chosen: BoolArray) -> tuple[Surface, IntArray]:
-    """Of the faces that are chosen (m,) bool those that hang together with a vertex, and (k,) its vertices' ids."""
-    used, compact = np.unique(surface.faces[chosen], return_inverse=True)
-    piece = Surface(surface.vertices[used], compact.reshape(-1, 3), surface.name)
-    part_of_it, ids = piece.component(int(piece.component_of_vertex[np.searchsorted(used, vertex)]))
-    return part_of_it, used[ids]
 
 
 def _over(numerator: FloatArray, denominator: FloatArray) -> list[float]:

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from bihdist_core import Surface
-from bihdist_core.experiments.circles import RADII, _patch, circles
+from bihdist_core.experiments.circles import RADII, circles
 from bihdist_core.experiments.gathered import Gathered
 from bihdist_core.experiments.verdicts import BySource
-from tests.shapes import bumpy, grid
+from tests.shapes import bumpy, grid, two_pieces
 
 KINDS = ("biharmonic", "diffusion t = 1")
 
@@ -47,25 +47,33 @@ def test_circles_that_a_boundary_cuts_say_nothing_of_the_trend(strip):
     assert np.isfinite(found.ratios["biharmonic"]).all()
 
 
-def test_faces_that_hang_by_a_vertex_at_the_rim_are_left_out():
-    """Two triangles that meet the disc in a corner each, just within the reach of the part that is cut out."""
-    flat = grid(30, 30)
-    x = flat.vertices - flat.vertices.mean(axis=0)
-    middle = int(np.linalg.norm(x, axis=1).argmin())
-    whole = np.linalg.norm(x, axis=1) <= 5
-    faces = flat.faces[whole[flat.faces].all(axis=1)]
-    corner = int(faces[np.linalg.norm(x[faces].mean(axis=1), axis=1).argmax()][0])
-    out = x[corner] / np.linalg.norm(x[corner])
-    beside = [len(x), len(x) + 1]
-    points = np.concatenate([x, x[corner] + 0.3 * out + 0.1 * np.array([[-out[1], out[0], 0], [out[1], -out[0], 0]])])
-    surface = Surface(points, np.concatenate([faces, [[corner, *beside]]]), "disc")
+def test_what_hangs_by_a_vertex_beyond_the_largest_circle_changes_little(strip):
+    """Not the circles, though the surface is not manifold any more, and the field by less than a hundredth."""
+    x = strip.vertices
+    middle = int(np.linalg.norm(x - [2, 0.5, 0], axis=1).argmin())
+    hangs = [x[middle + 2] + out for out in ([0.05, 0.02, 0.3], [0.05, -0.02, 0.3])]
+    faces = np.concatenate([strip.faces, [[middle + 2, len(x), len(x) + 1]]])
+    surface = Surface(np.concatenate([x, hangs]), faces, "strip")
     assert not surface.is_manifold
-    patch, ids, lengths = _patch(surface, middle, 4.5)
-    assert patch.is_manifold
-    assert not np.isin(beside, ids).any()
-    assert np.isfinite(lengths).all()
-    within = np.linalg.norm(points[ids], axis=1) < 4
-    np.testing.assert_allclose(lengths[within], np.linalg.norm(points[ids[within]] - points[middle], axis=1), atol=1e-9)
+    sound, other = (circles(each, [middle], ("biharmonic",)) for each in (strip, surface))
+    assert other.are_local[0]
+    np.testing.assert_allclose(other.ratios["biharmonic"], sound.ratios["biharmonic"], rtol=0.01)
+
+
+def test_a_piece_smaller_than_its_circles_has_none():
+    surface = two_pieces()
+    found = circles(
+        Surface(
+            np.where(surface.vertices > 4, 5 + (surface.vertices - 5) / 100, surface.vertices),
+            surface.faces,
+            "two pieces",
+        ),
+        [3, 61],
+        ("diffusion t = 1",),
+    )
+    assert np.isfinite(found.ratios["diffusion t = 1"][0]).all()
+    assert np.isnan(found.ratios["diffusion t = 1"][1]).all()
+    assert "There is no geodesic circle of radius" in found.failure
 
 
 def test_charts_have_a_curve_for_each_distance():

@@ -9,7 +9,15 @@ import pytest
 import bihdist_core.distances.geodesic as geodesic
 import bihdist_core.distances.heat_geodesic as heat_geodesic
 import bihdist_core.distances.heat_times as heat_times
-from bihdist_core import Cancelled, GeodesicDistance, SolverError, Surface, read_surface
+from bihdist_core import (
+    Cancelled,
+    GeodesicDistance,
+    ParameterError,
+    SolverError,
+    Surface,
+    SurfacePoint,
+    read_surface,
+)
 from bihdist_core.kernel import library
 from tests.shapes import bumpy, fin, two_pieces
 
@@ -28,6 +36,32 @@ def test_without_the_compiled_kernel_auto_is_heat_and_exact_says_why_not(monkeyp
     assert GeodesicDistance(bumpy(100)).label == "geodesic, heat method"
     with pytest.raises(SolverError, match="needs the compiled kernel; use the heat method"):
         GeodesicDistance(bumpy(100), "exact")
+
+
+def test_a_radius_ends_what_the_exact_method_does(monkeypatch):
+    surface, place = two_pieces(), SurfacePoint.of(30, 0.2, 0.5)
+    whole, near = GeodesicDistance(surface), GeodesicDistance(surface, radius=1.0)
+
+    def check(found, full):
+        assert np.array_equal(found, np.where(full > 1, np.inf, full), equal_nan=True)
+
+    check(near.from_sources([0, 30]), whole.from_sources([0, 30]))
+    check(near.from_source(place), whole.from_source(place))
+    check(near.from_source("3+40"), whole.from_source("3+40"))
+    check(near.pairwise([0, 7, 62]), whole.pairwise([0, 7, 62]))
+    places = [0, place, SurfacePoint.of(30, 0.4, 0.1), SurfacePoint.of(90, 0.2, 0.2), SurfacePoint.of(1, 0.3, 0.3)]
+    full = whole.pairwise(places)
+    assert (full[0] > 1).any()
+    check(near.pairwise(places), full)
+    assert np.isinf(GeodesicDistance(surface, radius=1e-3).pairwise(places[1:3])[0, 1])
+    monkeypatch.setattr(geodesic, "EXACT_UP_TO", 9)
+    assert GeodesicDistance(surface, radius=1.0).method == "exact"
+    for method in ("heat", "dijkstra"):
+        with pytest.raises(ParameterError, match=f"Only the exact method has a radius, not {method}"):
+            GeodesicDistance(surface, method, radius=1.0)
+    for radius in (-1, np.nan):
+        with pytest.raises(ParameterError, match=f"A radius is a length of at least 0, not {radius}"):
+            GeodesicDistance(surface, radius=radius)
 
 
 def needles():

@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 
-from bihdist_core import BiharmonicDistance, GeodesicDistance, ParameterError, PowerDistance, SurfacePoint, VertexError
+from bihdist_core import (
+    BiharmonicDistance,
+    Cancelled,
+    GeodesicDistance,
+    ParameterError,
+    PowerDistance,
+    SurfacePoint,
+    VertexError,
+)
 from bihdist_core.distances.distance import Distance
 from bihdist_core.sources.pieces import pieces_of
 from bihdist_core.sources.splitting import split_at
@@ -57,6 +65,22 @@ def test_exact_geodesics_are_those_of_the_divided_surface():
     found = distance.pairwise(places)
     assert np.abs(found - expected).max() <= 1e-9 * expected.max()
     assert (found <= GeodesicDistance(BUMPY, "dijkstra").pairwise(places) * (1 + 1e-9)).all()
+
+
+@every_geodesic
+def test_progress_is_told_and_may_stop(make):
+    distance, told = make(BUMPY), []
+    distance.pairwise(AT, lambda share, text: told.append(share))
+    assert len(told) > 1
+    assert told == sorted(told)
+    assert 0 <= told[0] < told[-1] <= 1
+
+    def stop(share, text):
+        raise Cancelled("enough")
+
+    for ask in (distance.pairwise, lambda places, progress: distance.of_pairs([places[1:3]], progress)):
+        with pytest.raises(Cancelled, match="enough"):
+            ask(AT, stop)
 
 
 @every_geodesic

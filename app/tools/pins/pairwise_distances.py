@@ -142,13 +142,18 @@ def distances_among(
         matrix[np.ix_(old, old)] = known.matrix[np.ix_(rows[old], rows[old])]
     new = np.flatnonzero(rows < 0)
     for start in range(0, len(new), AT_ONCE):
-        progress(start / len(new), f"{distance.label} among pins")
         some = new[start : start + AT_ONCE]
+        step = part(progress, start / len(new), (start + len(some)) / len(new))
+
+        def tell(share: float, _: str, step: Progress = step) -> None:
+            step(share, f"{distance.label} among pins")
+
+        tell(0, "")
         # Each with all that are known, and with the new ones up to itself.
         pairs = [(i, j) for i in some for j in range(count) if rows[j] >= 0 or j < i]
         if pairs:
             i, j = np.array(pairs).T
-            matrix[i, j] = matrix[j, i] = distance.of_pairs([(places[a], places[b]) for a, b in pairs])
+            matrix[i, j] = matrix[j, i] = distance.of_pairs([(places[a], places[b]) for a, b in pairs], tell)
     np.fill_diagonal(matrix, 0.0)
     return matrix
 
