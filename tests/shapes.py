@@ -138,6 +138,29 @@ def _over(x: np.ndarray, a: int, b: int, c: int, at: float, height: float) -> np
     return x[a] + at * along + height * np.linalg.norm(along) * across / np.linalg.norm(across)
 
 
+def glued(keys: np.ndarray, x: np.ndarray, name: str = "glued") -> Surface:
+    """Faces (m,) with their corners at x (m, 3, 3), which are one vertex where their keys (m, 3, k) are equal."""
+    _, first, inverse = np.unique(keys.reshape(-1, keys.shape[2]), axis=0, return_index=True, return_inverse=True)
+    return Surface(x.reshape(-1, 3)[first], inverse.reshape(-1, 3), name)
+
+
+def divided(vertices: np.ndarray, faces: np.ndarray, k: int) -> tuple[Surface, np.ndarray]:
+    """Each face (m, 3) cut into k x k, one after the other, and the new corners (k k m, 3, 3) as k times their weights
+    in the face."""
+    i, j = np.array([(i, j) for i in range(k) for j in range(k - i)]).T
+    inner = i + j < k - 1
+    up = np.stack([i, j], 1)[:, None] + [[0, 0], [1, 0], [0, 1]]
+    down = np.stack([i[inner], j[inner]], 1)[:, None] + [[1, 0], [1, 1], [0, 1]]
+    ij = np.concatenate([up, down])
+    weights = np.tile(np.concatenate([k - ij.sum(axis=2, keepdims=True), ij], axis=2), (len(faces), 1, 1))
+    old = np.repeat(faces, k * k, axis=0)
+    # A new vertex is known by the old ones that it lies between, and its weights there.
+    between = np.where(weights > 0, old[:, None], -1)
+    order = between.argsort(axis=2)
+    keys = np.concatenate([np.take_along_axis(each, order, axis=2) for each in (between, weights)], axis=2)
+    return glued(keys, np.einsum("qcw,qwx->qcx", weights, vertices[old]) / k, "divided"), weights
+
+
 def spike(n: int, length: float) -> Surface:
     """A bumpy sphere with one vertex, 7, far away."""
     s = bumpy(n)

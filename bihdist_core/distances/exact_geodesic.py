@@ -313,6 +313,7 @@ class _Workspace:
 
 
 def check_radius(radius: float) -> None:
+    """Raises ParameterError for a radius that is no length, 0 or more, in any unit."""
     if not radius >= 0:
         raise ParameterError(f"A radius is a length of at least 0, not {radius}.")
 

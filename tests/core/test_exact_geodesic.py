@@ -14,15 +14,11 @@ from bihdist_core.surface import Surface
 from tests.core.geodesic_reference import FacePoint, FaceSegment, GeodesicReference
 from tests.core.nasty_meshes import nasty_mesh, random_origin
 from tests.shapes import (
-    ORACLE,
-    ORACLE_NAMES,
     bumpy,
     caps,
     fin,
     grid,
     needles,
-    needs_oracle,
-    oracle_surface,
     torus,
     two_pieces,
 )
@@ -59,22 +55,6 @@ def book(pages, k=3):
 
 
 # ---------------------------------------------------------------------- known shapes
-@pytest.mark.parametrize("source", [0, 84, 90])
-def test_on_a_plane_it_is_euclidean(source):
-    surface = grid(12, 12)
-    straight = np.linalg.norm(surface.vertices - surface.vertices[source], axis=1)
-    assert error(ExactGeodesic(surface).distances(source), straight) < ROUNDING
-
-
-def test_from_a_segment_in_a_face_of_a_plane():
-    surface = grid(6, 5)
-    line = pieces(surface, 20, [0.7, 0.2, 0.1], [0.1, 0.3, 0.6])
-    (a,), (b,) = line.positions(surface.vertices)
-    share = np.clip((surface.vertices - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)
-    straight = np.linalg.norm(surface.vertices - a - share[:, None] * (b - a), axis=1)
-    assert error(ExactGeodesic(surface).distances(line), straight) < ROUNDING
-
-
 @pytest.mark.parametrize("pages", [3, 5])
 def test_books_have_flat_pairs_of_pages(pages):
     surface, page, flat = book(pages)
@@ -94,15 +74,6 @@ def length_of(surface, path):
     begins, ends = (np.einsum("kc,kcx->kx", w, corners) for w in (path.begins, path.ends))
     assert np.abs(begins[1:] - ends[:-1]).max(initial=0) < 1e-12
     return np.linalg.norm(ends - begins, axis=1).sum()
-
-
-@needs_oracle
-@pytest.mark.parametrize("name", ORACLE_NAMES)
-def test_reference_values(name):
-    solver = ExactGeodesic(oracle_surface(name))
-    expected = np.load(ORACLE / f"{name}_exactgeo_pygeodesic.npy")
-    for column, source in enumerate(np.loadtxt(ORACLE / f"{name}_sources0.txt", dtype=int)[:3]):
-        assert error(solver.distances(source), expected[:, column]) < 1e-8  # pygeodesic drops windows below 1e-10 edges
 
 
 # ---------------------------------------------------------------------- the slow reference
@@ -217,39 +188,6 @@ def test_nothing_is_left_out_on_damaged_meshes(seed, monkeypatch):
 
 
 # ---------------------------------------------------------------------- laws
-def test_symmetric_and_scales_like_length():
-    surface = bumpy(300)
-    solver, ids = ExactGeodesic(surface), np.arange(0, 300, 23)
-    columns = solver.columns(ids)
-    d = columns[ids]
-    assert np.abs(d - d.T).max() < ROUNDING * d.max()
-    for column, source in enumerate(ids):
-        assert np.array_equal(columns[:, column], solver.distances(source))
-    assert np.array_equal(
-        ExactGeodesic(Surface(surface.vertices * 2.0**-40, surface.faces)).columns(ids), columns * 2.0**-40
-    )
-    for scale in (1e-8, 1e8):
-        assert (
-            error(ExactGeodesic(Surface(surface.vertices * scale, surface.faces)).columns(ids), columns * scale)
-            < ROUNDING
-        )
-
-
-def test_neither_motion_nor_numbers_change_it(monkeypatch):
-    surface, rng = bumpy(200), np.random.default_rng(3)
-    expected = ExactGeodesic(surface).distances(7)
-    turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
-    assert error(ExactGeodesic(Surface(surface.vertices @ turn, surface.faces)).distances(7), expected) < ROUNDING
-    order = rng.permutation(200)
-    number = np.argsort(order)
-    renumbered = Surface(surface.vertices[order], number[surface.faces][rng.permutation(len(surface.faces))])
-    assert error(ExactGeodesic(renumbered).distances(number[7])[number], expected) < ROUNDING
-    monkeypatch.setattr("bihdist_core.distances.unfolding_mesh.RENUMBERED_FROM", 1)
-    solver, place = ExactGeodesic(surface), pieces(surface, 50, [0.2, 0.3, 0.5])
-    assert error(solver.distances(7), expected) < ROUNDING
-    assert solver.places(place, place).max() < ROUNDING
-
-
 def test_places_are_vertices_of_a_divided_face():
     surface, weights = torus(), np.array([0.2, 0.5, 0.3])
     a, b, c = surface.faces[9]

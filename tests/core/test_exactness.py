@@ -139,7 +139,9 @@ class TestAgainstIndependentPrograms:
 
     def test_geodesic(self, case):
         laplacian, sources, oracle = case
-        assert error(GeodesicDistance(laplacian, "exact").from_sources(sources), oracle("exactgeo_pygeodesic")) < 1e-8
+        found = GeodesicDistance(laplacian, "exact").from_sources(sources)
+        assert error(found, oracle("exactgeo_pygeodesic")) < 1e-12  # some hundred roundings along a path
+        assert (found <= oracle("exactgeo_igl") + 1e-12 * found.max()).all()  # libigl is up to 1e-9 too long
         assert error(GeodesicDistance(laplacian, "dijkstra").from_sources(sources), oracle("dijkstra_scipy")) < 1e-12
         heat = GeodesicDistance(laplacian, "heat").from_sources(sources)
         exact = oracle("exactgeo_igl")
