@@ -2,31 +2,10 @@
 //
 // Of a symmetric matrix by rows (start, index, value), positions (n, 3) within [-1, 1] and areas (n,), with G its
 // inverse: the diagonal and one column of G A G, and G A 1.
-import { readFileSync } from "node:fs";
+import { array, at, done, doubles, given, ints, kernel, longs } from "./wasm.mjs";
 
-const { instance } = await WebAssembly.instantiate(readFileSync(process.argv[2]));
-const kernel = instance.exports;
-const given = JSON.parse(readFileSync(0, "utf8"));
-kernel.memory.grow(1024);
-
-let end = kernel.__heap_base.value;
-function array(Type, content) {
-  const count = typeof content === "number" ? content : content.length;
-  const made = new Type(kernel.memory.buffer, (end + 15) & ~15, count);
-  end = made.byteOffset + made.byteLength;
-  if (typeof content !== "number") made.set(content);
-  return made;
-}
-const ints = (content) => array(Int32Array, content);
-const longs = (content) => array(BigInt64Array, content);
-const doubles = (content) => array(Float64Array, content);
-const at = (a) => a.byteOffset;
 const structure = (...words) => at(ints(words));
 const padded = (k) => (k + 3) & ~3;
-function done(status) {
-  if (status < 0) throw new Error(`status ${status}`);
-  return Number(status);
-}
 
 // The matrix, and the order of elimination.
 const n = given.start.length - 1;
