@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from bihdist_core.distances.exact_geodesic import ExactGeodesic
+from bihdist_core.errors import SolverError
 from bihdist_core.sources.pieces import Pieces
 from bihdist_core.surface import Surface
 from tests.core.edge_ways import from_segment
@@ -254,6 +255,8 @@ SOLIDS = {
     "Moebius strip": lambda: strip(False, True, True, RNG(3)),
     "torus": lambda: strip(True, False, True, RNG(4)),
     "Klein bottle": lambda: strip(True, True, True, RNG(5)),
+    "thin torus": lambda: strip(True, False, True, RNG(1), (1, 1e-3)),
+    "torus as thin as a hair": lambda: strip(True, False, True, RNG(1), (1, 1e-5)),
     "frame": lambda: frame(RNG(6)),
     "cube": lambda: box((1, 1, 1), (4, 4, 4), RNG(7)),
     "the spider's room": lambda: box((30, 12, 12), (5, 3, 4), RNG(8)),
@@ -263,7 +266,16 @@ SOLIDS = {
 }
 
 
-@pytest.mark.parametrize("make", SOLIDS.values(), ids=SOLIDS)
+FAULTS = {"torus as thin as a hair": "windows wind around it too often, and it is given up"}
+"""What is not right yet."""
+
+
+def case(name):
+    marks = [pytest.mark.xfail(reason=FAULTS[name], raises=SolverError, strict=True)] if name in FAULTS else []
+    return pytest.param(SOLIDS[name], id=name, marks=marks)
+
+
+@pytest.mark.parametrize("make", [case(name) for name in SOLIDS])
 def test_distances_and_paths_are_those_of_the_plane(make):
     solid, rng = make(), np.random.default_rng(9)
     surface, solver = solid.surface, ExactGeodesic(solid.surface)

@@ -143,7 +143,7 @@ def main(folder: str, name: str, count: str = str(MUTATED)) -> None:
     number = int(count)
     meshes = [mutated(sound[rng.integers(len(sound) - 1)], rng) for _ in range(number)]
     still = sum(map(measure, meshes))
-    meshes += [Surface(*nasty_mesh(seed, HARD_FACES)) for seed in range(number // 6)]
+    meshes = meshes[::2] + [Surface(*nasty_mesh(seed, HARD_FACES)) for seed in range(number // 6)]
     gone = sum(go_over(surface, rng) for surface in meshes)
     factored = sum(factor(int(rng.integers(1, 200)), rng) for _ in range(MATRICES))
     print(f"{still} of {number} mutated meshes have distances, {factored} of {MATRICES} matrices a factor")
