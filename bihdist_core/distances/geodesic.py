@@ -142,6 +142,14 @@ class GeodesicDistance(Distance):
             fields.append(field)
         return np.stack(fields, 1)
 
+    def _one_way(
+        self, component: Component, sources: IntArray, targets: IntArray, progress: Progress | None
+    ) -> FloatArray:
+        solver = self._solvers[component.index]
+        if isinstance(solver, ExactGeodesic):
+            return solver.of_pairs(sources, targets, progress)
+        return super()._one_way(component, sources, targets, progress)
+
     def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
         solver, vertices = self._solvers[component.index], pieces.vertices
         if isinstance(solver, ExactGeodesic):

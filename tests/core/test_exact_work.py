@@ -5,10 +5,10 @@ import pytest
 
 from bihdist_core import Cancelled, GeodesicDistance, Surface
 from bihdist_core.distances import geodesic
-from bihdist_core.distances.exact_geodesic import ExactGeodesic
+from bihdist_core.distances.exact_geodesic import FEW, ExactGeodesic
 from bihdist_core.distances.exact_work import TRIED, expected_windows
 from bihdist_core.kernel.library import library
-from tests.shapes import sphere
+from tests.shapes import sphere, two_pieces
 
 pytestmark = pytest.mark.skipif(library() is None, reason="exact geodesics need the compiled kernel")
 
@@ -50,6 +50,17 @@ def test_the_trial_can_be_cancelled(smooth):
 
     with pytest.raises(Cancelled):
         expected_windows(ExactGeodesic(smooth), cancel)
+
+
+def test_pairs_are_of_fields_whether_a_source_has_few_targets_or_many():
+    surface = two_pieces()
+    distance = GeodesicDistance(surface, "exact")
+    used = np.flatnonzero(surface.component_of_vertex >= 0)
+    pairs = np.array([(used[0], v) for v in used] + [(u, used[5]) for u in used[1:9]] + [(used[3], used[3])])
+    sources, place = np.unique(pairs[:, 0], return_inverse=True)
+    assert np.bincount(place).max() > FEW >= np.bincount(place).min()
+    fields = distance.from_sources(sources)
+    np.testing.assert_allclose(distance.of_pairs(pairs), fields[pairs[:, 1], place], rtol=1e-12, atol=1e-14)
 
 
 def test_small_surfaces_are_not_tried():
