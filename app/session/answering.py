@@ -10,7 +10,6 @@ from typing import Protocol
 
 from bihdist_core import SolverError
 from bihdist_core.distances.answers import Answer, failed
-from bihdist_core.distances.geodesic import EXACT_UP_TO
 from bihdist_core.progress import Progress, part
 
 from .answer_cache import AnswerCache
@@ -186,7 +185,7 @@ class Answering:
         if (
             quick != question
             and not at_hand
-            and self._is_quicker(request, quick)
+            and self._is_quicker(request, quick, preparing)
             and self._preview(id, request, quick, preparing, asking)
             and request.live
         ):
@@ -200,11 +199,12 @@ class Answering:
         else:
             self._took.pop(id, None)
 
-    def _is_quicker(self, request: _Request, quick: Question) -> bool:
-        """Whether stand-ins come before the answer: but for drags, on small meshes only those that are made."""
+    def _is_quicker(self, request: _Request, quick: Question, preparing: Progress) -> bool:
+        """Whether stand-ins come before the answer: but for drags, those that are made, and all where it takes long."""
         distances = request.loaded.distances(quick.areas)
-        is_small = len(request.loaded.surface.vertices) <= EXACT_UP_TO
-        return request.live or not is_small or all(distances.is_ready(spec) for spec in quick.specs)
+        if request.live or all(distances.is_ready(spec) for spec in quick.specs):
+            return True
+        return any(distances.get(spec).takes_long(preparing) for spec in request.question.specs)
 
     def _preview(self, id: int, request: _Request, question: Question, preparing: Progress, asking: Progress) -> bool:
         """Hand on what quick distances answer; whether they did: their failure must not cost the answer."""

@@ -19,7 +19,7 @@ from ..surface import Surface
 from .correspondence import NOWHERE
 
 BLOCK = 32
-"""So many right answers at a time, from which distances are computed."""
+"""So many right answers at a time, from which fields are computed where a distance is not symmetric."""
 
 LIMIT = 0.25
 """Where curves end, and the area under them."""
@@ -105,6 +105,12 @@ def _errors(distance: Distance, to: IntArray, right: IntArray, progress: Progres
     referenced = surface.component_of_vertex >= 0
     rows = np.flatnonzero((right != NOWHERE) & referenced[right])
     errors[rows] = np.inf
+    if distance.is_symmetric:
+        every, truth = to.reshape(len(to), -1), right[:, None]
+        row, column = np.nonzero((every != NOWHERE) & referenced[every] & (truth != NOWHERE) & referenced[truth])
+        away = distance.of_pairs(np.column_stack([right[row], every[row, column]]), progress)
+        errors.reshape(every.shape)[row, column] = np.where(np.isfinite(away), away / unit, np.inf)
+        return errors
     rows = rows[np.argsort(right[rows], kind="stable")]
     answers, first = np.unique(right[rows], return_index=True)
     for start in range(0, len(answers), BLOCK):

@@ -79,6 +79,10 @@ class Distance(ABC):
         known = [self._accuracy_on(self.laplacian.components[index]) for index in components]
         return None if None in known else max(a for a in known if a is not None)
 
+    def takes_long(self, progress: Progress | None = None) -> bool:
+        """Whether a source takes more than some 5 s, so that something quicker is worth showing meanwhile."""
+        return False
+
     def error_estimate(self, components: Sequence[int] | None = None) -> ErrorEstimate:
         """The accuracy in words, on components with these numbers, or on those that were asked about.
 

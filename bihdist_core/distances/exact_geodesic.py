@@ -25,6 +25,9 @@ MOST_PER_VERTEX, MOST_AT_LEAST = 2_000, 200_000
 USUAL_PER_VERTEX = 40
 """Windows for a vertex that progress expects before the first run."""
 
+FEW = 20
+"""Targets of a source up to which windows go only as far as these; more of them cost more than the whole field."""
+
 FIRST_ROOM = 4_096
 """Windows for which there is room at first; it doubles when they are more."""
 
@@ -151,6 +154,27 @@ class ExactGeodesic:
             ).at_places
 
         self._in_workers(one, len(groups), progress)
+        return found
+
+    def of_pairs(self, sources: IntArray, targets: IntArray, progress: Progress | None = None) -> FloatArray:
+        """(k,) distances from vertices (k,) to vertices (k,), NaN where no way leads; several sources at a time.
+
+        Windows go only as far as the targets of a source, where these are few: near ones take little time.
+        """
+        among, place = np.unique(sources, return_inverse=True)
+        groups = np.split(np.argsort(place, kind="stable"), np.cumsum(np.bincount(place))[:-1])
+        found = np.empty(len(sources))
+
+        def one(number: int, watch: kernel.Watch) -> None:
+            start = self._mesh.at_vertices(among[number : number + 1])
+            there = targets[groups[number]]
+            if len(there) > FEW:
+                found[groups[number]] = self._field(start, None, watch).distances[there]
+            else:
+                goals = self._mesh.at_vertices(there)[:2]
+                found[groups[number]] = self._field(start, goals, watch, targets_only=True).at_places
+
+        self._in_workers(one, len(among), progress)
         return found
 
     def path(self, start: Pieces, stop: Pieces, progress: Progress | None = None) -> FacePath:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..errors import ParameterError
+from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..laplacian import Component, Laplacian
 from ..progress import Progress, part
@@ -17,14 +17,15 @@ from .accuracy import ErrorEstimate
 from .distance import Distance
 from .edge_geodesic import EdgeGeodesic
 from .exact_geodesic import ExactGeodesic, check_radius
+from .exact_work import expected_windows
 from .heat_accuracy import HeatErrors, below_straight_line, heat_errors
 from .heat_times import HeatTimes
 from .place_pairs import by_start, straight
 
 METHODS = ("auto", "exact", "heat", "dijkstra")
-EXACT_UP_TO = 300_000
-"""Vertices up to which `auto` takes the exact method: one source then takes some 5 s where the surface is smooth, and
-less than 2 s where it is scanned."""
+MOST_WINDOWS = 30_000_000
+"""The work, as is expected for a source, up to which `auto` takes the exact method: some 4 s, which smooth surfaces of
+120,000 vertices take, and scanned ones of 300,000 and more."""
 
 TINY = 1e-9
 """The share of an edge length that a part of a line counts as at least, where all of it is in one place."""
@@ -45,9 +46,10 @@ class GeodesicDistance(Distance):
     """Length of the shortest path; unit length.
 
     method: "exact" (any surface; from lines, too), "heat" (1 to 3 % off in the mean on most samples), "dijkstra" (along
-    edges: 4 to 6 % too long in the mean on most samples), or "auto": exact up to 300,000 vertices, else heat.  On long,
-    thin faces, such as those of the sample `part`, the means are 5 and 13 %.  radius: how far the exact method goes, in
-    the mesh's length unit; distances beyond are inf.  With one "auto" is exact, however large the surface.
+    edges: 4 to 6 % too long in the mean on most samples), or "auto": exact where a source is expected to take 5 s at
+    most, else heat.  On long, thin faces, such as those of the sample `part`, the means are 5 and 13 %.  radius: how
+    far the exact method goes, in the mesh's length unit; distances beyond are inf.  With one "auto" is exact, however
+    large the surface.
 
     Raises ParameterError for any other word, a radius that is no length, and one for another method; SolverError for
     "exact" without the compiled kernel, where "auto" is heat.
@@ -66,9 +68,11 @@ class GeodesicDistance(Distance):
         if method not in METHODS:
             raise ParameterError(f"There is no geodesic method {method!r}; choose one of {', '.join(METHODS)}.")
         super().__init__(laplacian)
+        self._solvers: dict[int, ExactGeodesic | HeatTimes | EdgeGeodesic] = {}
+        self._takes_long: bool | None = None
         if method == "auto":
-            is_short = radius < np.inf or len(self.surface.vertices) <= EXACT_UP_TO
-            method = "exact" if is_short and kernel.library() is not None else "heat"
+            is_short = radius < np.inf and kernel.library() is not None
+            method = "exact" if is_short or self._is_exact_soon(part(progress, 0, 0.3)) else "heat"
         check_radius(radius)
         if radius < np.inf and method != "exact":
             raise ParameterError(f"Only the exact method has a radius, not {method}.")
@@ -76,11 +80,34 @@ class GeodesicDistance(Distance):
         self.radius = radius
         self.label = LABELS[method]
         self.is_symmetric = method != "heat"
-        self._solvers: dict[int, ExactGeodesic | HeatTimes | EdgeGeodesic] = {}
         self._errors: dict[int, HeatErrors | None] = {}
         self._judging = threading.Lock()
         self._below = 0.0
-        self.prepare(self.laplacian.components[0], progress)
+        self.prepare(self.laplacian.components[0], part(progress, 0.3, 1))
+
+    def _is_exact_soon(self, progress: Progress) -> bool:
+        """Whether the exact method can be had, and answers within some seconds."""
+        if kernel.library() is None:
+            return False
+        component = self.laplacian.components[0]
+        try:
+            exact = ExactGeodesic(component.surface)
+            self._takes_long = takes_long(exact, progress)
+        except SolverError:
+            return False
+        if not self._takes_long:
+            self._solvers[component.index] = exact
+        return not self._takes_long
+
+    def takes_long(self, progress: Progress | None = None) -> bool:
+        """Whether a source is expected to take more than some 5 s, from a trial where the surface is large."""
+        if self.method != "exact":
+            return False
+        if self._takes_long is None:
+            solver = self._solvers[0]
+            assert isinstance(solver, ExactGeodesic)
+            self._takes_long = takes_long(solver, progress)
+        return self._takes_long
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
         """Make the solver of a component, if that is not done."""
@@ -130,6 +157,14 @@ class GeodesicDistance(Distance):
             self._below = max(self._below, below_straight_line(component.surface, source, field))
             fields.append(field)
         return np.stack(fields, 1)
+
+    def _one_way(
+        self, component: Component, sources: IntArray, targets: IntArray, progress: Progress | None
+    ) -> FloatArray:
+        solver = self._solvers[component.index]
+        if isinstance(solver, ExactGeodesic):
+            return solver.of_pairs(sources, targets, progress)
+        return super()._one_way(component, sources, targets, progress)
 
     def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
         solver, vertices = self._solvers[component.index], pieces.vertices
@@ -211,6 +246,14 @@ class GeodesicDistance(Distance):
             field = self.from_pieces(start, part(progress, number / len(starts), (number + 1) / len(starts)))
             found[mine] = (v.start[mine] * field[v.corners[mine]]).sum(axis=1)
         return found
+
+
+def takes_long(exact: ExactGeodesic, progress: Progress | None = None) -> bool:
+    """Whether a field is expected to take more than MOST_WINDOWS."""
+    # More than on any but long tubes: no trial is needed.
+    if len(exact.surface.vertices) ** 1.5 <= MOST_WINDOWS:
+        return False
+    return expected_windows(exact, progress) > MOST_WINDOWS
 
 
 def _spread(pieces: Pieces, surface: Surface) -> tuple[FloatArray, FloatArray]:

@@ -334,7 +334,7 @@ OURS = (
             Parameter(
                 "method",
                 "auto",
-                "how it is computed; auto: exactly up to 300,000 vertices, else by the heat method",
+                "how it is computed; auto: exactly where that takes 5 s at most, else by the heat method",
                 choices=("auto", "exact", "heat", "dijkstra"),
             ),
         ),

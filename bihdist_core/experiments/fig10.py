@@ -77,9 +77,9 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         f"it; {len(seeds)} starts, vertex 0 (pictured) and random ones. {int((~on_head).sum())} random targets; far "
         "are those farther from all known points than the median target is. On the head, the highest eighth of the "
         f"figure, {int(on_head.sum())} more. The candidate is the vertex of the least prediction; its error, in roots "
-        "of the area, is the geodesic distance (heat method) on the second pose from the right vertex or from that of "
-        "its mirror image, whichever is nearer, as a distance cannot tell left from right. Prediction vectors are "
-        "divided by their maximum. Differences of the starts' median errors are paired.",
+        "of the area, is the geodesic distance on the second pose from the right vertex or from that of its mirror "
+        "image, whichever is nearer, as a distance cannot tell left from right. Prediction vectors are divided by "
+        "their maximum. Differences of the starts' median errors are paired.",
         {"figure": one, "figure_pose2": two},
         tuple(_pictures(one, known["spread", "vertex 0"], *pictured)),
         tables=(means, table),
@@ -99,7 +99,7 @@ def _targets(surface: Surface, quick: bool) -> tuple[IntArray, BoolArray]:
 def _from_the_right(shapes: Shapes, targets: IntArray, progress: Progress) -> tuple[FloatArray, FloatArray]:
     """(n, k) distances on the second pose from the targets, and from these or their mirror images; root of area."""
     unit = float(np.sqrt(shapes["figure_pose2"].face_areas.sum()))
-    truth = distance(shapes.laplacian("figure_pose2"), "geodesic method = heat")
+    truth = distance(shapes.laplacian("figure_pose2"), "geodesic")
     off = truth.from_sources(targets, part(progress, 0, 0.5)) / unit
     mirrored = truth.from_sources(_mirror(shapes["figure"])[targets], part(progress, 0.5, 1)) / unit
     return off, np.minimum(off, mirrored)

@@ -27,8 +27,6 @@ SHORT, LONG = "diffusion t = 1/15", "diffusion t = 1"
 KINDS = (LONG, "diffusion t = 1/5", SHORT, "geodesic", "biharmonic")
 RANDOM, QUICK = 24, 4
 """Random sources."""
-REFINED, QUICK_REFINED = 4, 1
-"""Those of them for which geodesic distance is computed on the refined mesh too, which takes seconds each."""
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
@@ -55,8 +53,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         found.add(MINIMA.name, depth, not k)
     circled = circles(surface, sources, ("biharmonic", LONG), part(progress, 0.4, 0.6))
     gather_circles(found, circled, 0, 1)
-    some = sources[: 1 + (QUICK_REFINED if quick else REFINED)]
-    kinks = _under_refinement(surface, some, distances, found, part(progress, 0.6, 1))
+    kinks = _under_refinement(surface, sources, distances, found, part(progress, 0.6, 1))
     columns = ("source", "vertex", f"extrema, {SHORT}", "extrema, biharmonic", "deepest other minimum, biharmonic, %")
     style = "height" if flat else "surface"
     return Result(
@@ -67,8 +64,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         "field's range, those counted and marked over 1 %; the source is not counted. The jump of the gradient across "
         "an edge is taken over the gradient's length there, or its median if that is more, away from the source and "
         "the boundary; of a kink it stays as the mesh is refined to four times as many faces, of a smooth field it "
-        f"halves. Jumps under refinement are taken from the pictured source and the first {len(some) - 1} random "
-        "sources only. " + PROTOCOL,
+        "halves. " + PROTOCOL,
         {name: surface},
         (
             Panel("the domain", name, None, "fields", (Mark(source, "source"),)),

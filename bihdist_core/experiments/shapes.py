@@ -153,7 +153,7 @@ DISTANCES = ("biharmonic", "geodesic", "diffusion t = 1")
 def distance(laplacian: Laplacian, kind: str, progress: Progress | None = None) -> Distance:
     """A distance by the words of the experiments: "biharmonic", "diffusion t = 1/4" stands for "diffusion(t=1/4)".
 
-    Geodesic is exact on surfaces of up to some 300,000 vertices, else by the heat method; the label says which.
+    Geodesic is exact where a field takes 5 s at most, else by the heat method; the label says which.
     SolverError if it cannot be had, or not accurately.
     """
     word, _, parameters = kind.partition(" ")

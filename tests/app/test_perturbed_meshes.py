@@ -90,7 +90,7 @@ def test_the_three_panels_are_before_after_and_the_difference_in_percentage_poin
 
 def test_both_sides_are_computed_by_one_method(mesh, monkeypatch):
     """Where one side is exact and the other too large for that, the difference is none of methods."""
-    monkeypatch.setattr("bihdist_core.distances.geodesic.EXACT_UP_TO", 299)
+    monkeypatch.setattr("bihdist_core.distances.geodesic.MOST_WINDOWS", 299**1.5)
     document = with_changed(comparison(mesh, (Spec.of("geodesic"),), (5,)), Perturbation(simplify=250))
     _, surfaces, answers = loaded(document)
     before, after, change = answers

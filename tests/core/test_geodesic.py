@@ -24,10 +24,10 @@ from tests.shapes import bumpy, fin, two_pieces
 MESHES = Path(__file__).parents[2].parent / "shared" / "meshes"
 
 
-def test_auto_is_exact_up_to_a_size_on_any_surface(monkeypatch):
+def test_auto_is_exact_up_to_some_work_on_any_surface(monkeypatch):
     for surface in (bumpy(100), fin(), two_pieces()):
         assert GeodesicDistance(surface).label == "geodesic, exact"
-    monkeypatch.setattr(geodesic, "EXACT_UP_TO", 99)
+    monkeypatch.setattr(geodesic, "MOST_WINDOWS", 99**1.5)
     assert GeodesicDistance(bumpy(100)).label == "geodesic, heat method"
 
 

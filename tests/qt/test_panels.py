@@ -309,7 +309,7 @@ def test_a_first_mesh_that_fails_leaves_the_page_to_start_from_which_says_why(sc
 
 
 def test_the_head_says_which_method_auto_has_taken(screen, mesh_file, monkeypatch):
-    monkeypatch.setattr("bihdist_core.distances.geodesic.EXACT_UP_TO", 500)
+    monkeypatch.setattr("bihdist_core.distances.geodesic.MOST_WINDOWS", 500**1.5)
     s = screen((Spec.of("geodesic"), Spec.of("biharmonic")))
     for count, said in ((300, "auto: exact"), (800, "auto: heat")):
         s.open(mesh_file(bumpy(count), f"{count}.off"), 5)

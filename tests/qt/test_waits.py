@@ -7,10 +7,9 @@ import pytest
 
 from app.document.edits import move_source
 from app.document.quantities import DistanceFrom
-from app.session import answering
 from app.session.latest_request_worker import LatestRequestWorker
 from app.session.loaded_mesh import LoadedMesh, open_mesh
-from bihdist_core.distances import kinds
+from bihdist_core.distances import geodesic, kinds
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
 
@@ -214,7 +213,7 @@ def test_what_was_stopped_says_what_is_shown(screen, mesh_file, gate):
 
 def test_a_quick_look_stays_when_the_exact_answer_is_stopped(screen, mesh_file, monkeypatch):
     monkeypatch.setattr(kinds, "FRAME", 0)  # as on a large mesh
-    monkeypatch.setattr(answering, "EXACT_UP_TO", 0)
+    monkeypatch.setattr(geodesic, "MOST_WINDOWS", 0)
     gate, answer = threading.Event(), LoadedMesh.answer
 
     def held(loaded, question, progress=None, at_once=None):
