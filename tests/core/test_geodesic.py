@@ -54,7 +54,8 @@ def test_a_radius_ends_what_the_exact_method_does(monkeypatch):
     assert (full[0] > 1).any()
     check(near.pairwise(places), full)
     assert np.isinf(GeodesicDistance(surface, radius=1e-3).pairwise(places[1:3])[0, 1])
-    monkeypatch.setattr(geodesic, "EXACT_UP_TO", 9)
+    monkeypatch.setattr(geodesic, "takes_long", lambda *_: True)
+    assert GeodesicDistance(surface).method == "heat"
     assert GeodesicDistance(surface, radius=1.0).method == "exact"
     for method in ("heat", "dijkstra"):
         with pytest.raises(ParameterError, match=f"Only the exact method has a radius, not {method}"):
