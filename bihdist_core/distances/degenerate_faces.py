@@ -2,8 +2,8 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -31,14 +31,15 @@ class Cell:
     """What a face, or a part of it, has become: a triangle, an edge or a point, by its k corners.
 
     face: which it was.  edges: from each corner to the next, from the last to the first only of a triangle.  inward
-    (3, k): weights in that face times this are those in the cell.  outward (k, 3): the weights of the cell's corners in
-    that face.
+    (3, k): weights in that face times this are those in the cell; within (3, c): times this they are not negative in
+    the cell, either.  outward (k, 3): the weights of the cell's corners in that face.
     """
 
     corners: list[int]
     edges: list[Edge]
     face: int
     inward: FloatArray
+    within: FloatArray
     outward: FloatArray
 
     def reduced(self) -> "Cell":
@@ -51,7 +52,9 @@ class Cell:
             inward[:, corners.index(corner)] += self.inward[:, k]
         ends = zip(self.corners, self.corners[1:] + self.corners[:1], strict=True)
         edges = [edge for edge, (p, q) in zip(self.edges, ends, strict=False) if p != q]
-        return Cell(corners, edges, self.face, inward, self.outward[[self.corners.index(v) for v in corners]])
+        within = np.hstack([self.within, self.inward])
+        outward = self.outward[[self.corners.index(v) for v in corners]]
+        return Cell(corners, edges, self.face, inward, within, outward)
 
     def halves(self, edge: Edge, share: float, c: int, near: dict[int, Edge], chord: Edge) -> "Iterator[Cell]":
         """Both parts of a cell that is divided by vertex c, at this share of an edge.
@@ -71,7 +74,19 @@ class Cell:
             corners[goes], edges[i] = c, near[self.corners[stays]]
             if len(corners) == 3:
                 edges[j if goes == j else i - 1] = chord
-            yield Cell(corners, edges, self.face, inward, outward).reduced()
+            yield Cell(corners, edges, self.face, inward, self.within, outward).reduced()
+
+
+class Part(NamedTuple):
+    """A face that holds a part of another.
+
+    inward (3, 3): weights in the other face times this are those in the part's; within (3, c): times this they are not
+    negative in the part.
+    """
+
+    face: int
+    inward: FloatArray
+    within: FloatArray
 
 
 class ProperFaces:
@@ -81,13 +96,12 @@ class ProperFaces:
     is taken out, and all other faces at that edge are divided at the apex.  points (n + p, 3), faces (m + q, 3): those
     that are added come last; a face that is gone names one vertex three times.  labels (m + q, 3): sides of faces that
     have the same ends are the same edge only with the same label.  same (n + p,): the vertex that stands for each.
-    parts: of each face that is not there as it was, the faces it became, with the matrices (3, 3) that take weights
-    there.  whole: of each of the others that are added, the face it is in, with the matrix (3, 3) back.
+    parts: what became of each face that is not there as it was.  whole: of each of the others that are added, the face it is in, with the matrix (3, 3) back.
     """
 
     def __init__(self, points: FloatArray, faces: AnyArray, degenerate: IntArray) -> None:
         self.points, self.faces = points, faces
-        self.parts: dict[int, list[tuple[int, FloatArray]]] = {}
+        self.parts: dict[int, list[Part]] = {}
         self.whole: dict[int, tuple[int, FloatArray]] = {}
         self._stands: dict[int | Edge, int | Edge] = {}
         self._order = np.argsort(faces, axis=None, kind="stable")
@@ -120,7 +134,7 @@ class ProperFaces:
         if number not in self._cells:
             i, j, k = self.faces[number].tolist()
             edges = [(min(p, q), max(p, q)) for p, q in ((i, j), (j, k), (k, i))]
-            self._cells[number] = Cell([i, j, k], edges, number, np.eye(3), np.eye(3))
+            self._cells[number] = Cell([i, j, k], edges, number, np.eye(3), np.empty((3, 0)), np.eye(3))
         cell = self._cells[number]
         cell.edges = list(map(self._root, cell.edges))
         return cell
@@ -172,7 +186,7 @@ class ProperFaces:
         for number in list(self._at(b)):
             cell = self._cell(number)
             corners = [a if v == b else v for v in cell.corners]
-            self._replace(number, Cell(corners, cell.edges, cell.face, cell.inward, cell.outward).reduced())
+            self._replace(number, replace(cell, corners=corners).reduced())
 
     # ------------------------------------------------------------------ the result
     def _complete(self) -> None:
@@ -199,7 +213,7 @@ class ProperFaces:
                 numbers[number] = own + len(added)
                 added.append(corners)
                 more_labels.append(its_labels)
-            self.parts.setdefault(cell.face, []).append((numbers[number], cell.inward))
+            self.parts.setdefault(cell.face, []).append(Part(numbers[number], cell.inward, cell.inward))
             self.whole[numbers[number]] = cell.face, cell.outward
         flaps, more = dict[int | Edge, int](), list[FloatArray]()
         for cell in lower:
@@ -215,7 +229,7 @@ class ProperFaces:
                 self.whole[flaps[edge]] = cell.face, np.pad(cell.outward, ((0, len(new)), (0, 0)))
             target = flaps[edge] if found is None else found
             columns = _columns(added[target - own] if target >= own else faces[target].tolist(), cell)
-            self.parts.setdefault(cell.face, []).append((target, columns))
+            self.parts.setdefault(cell.face, []).append(Part(target, columns, np.hstack([cell.within, cell.inward])))
         self.faces = np.concatenate([faces, np.array(added, np.int32).reshape(-1, 3)])
         self.labels = np.concatenate([labels, np.array(more_labels, np.int32).reshape(-1, 3)])
         self.points = np.concatenate([self.points, np.reshape(more, (-1, 3))])
@@ -238,33 +252,31 @@ def _columns(corners: list[int], cell: Cell) -> FloatArray:
     return inward
 
 
-def in_parts(
-    parts: list[tuple[int, FloatArray]], begin: FloatArray, end: FloatArray
-) -> list[tuple[int, FloatArray, FloatArray]]:
+def in_parts(parts: list[Part], begin: FloatArray, end: FloatArray) -> list[tuple[int, FloatArray, FloatArray]]:
     """A straight piece of a face, by the weights (3,) of its ends, as pieces of the face's parts: one for a point."""
     if np.array_equal(begin, end):
-        face, inward = max(parts, key=lambda part: float((begin @ part[1] / _sizes(part[1])).min()))
+        face, inward, _ = max(parts, key=lambda part: float((begin @ part.within / _sizes(part.within)).min()))
         weights = _clipped(begin @ inward)
         return [(face, weights, weights)]
     found = []
-    for face, inward in parts:
-        here, way = begin @ inward, (end - begin) @ inward
+    for face, inward, within in parts:
+        room, way = begin @ within + ROUNDING * _sizes(within), (end - begin) @ within
         lo, hi = 0.0, 1.0
-        for weight, change in zip((here + ROUNDING * _sizes(inward)).tolist(), way.tolist(), strict=True):
+        for least, change in zip(room.tolist(), way.tolist(), strict=True):
             if change > 0:
-                lo = max(lo, -weight / change)
+                lo = max(lo, -least / change)
             elif change < 0:
-                hi = min(hi, -weight / change)
-            elif weight < 0:
+                hi = min(hi, -least / change)
+            elif least < 0:
                 hi = -1.0
         if lo < hi:
-            found.append((face, _clipped(here + lo * way), _clipped(here + hi * way)))
+            found.append((face, *(_clipped((begin + t * (end - begin)) @ inward) for t in (lo, hi))))
     return found or in_parts(parts, begin, begin) + in_parts(parts, end, end)
 
 
-def _sizes(inward: FloatArray) -> FloatArray:
-    """(3,) how large numbers are that add up to weights in a part."""
-    return np.maximum(np.abs(inward).max(axis=0), 1)
+def _sizes(within: FloatArray) -> FloatArray:
+    """(c,) how large numbers are that add up to those that are not negative in a part."""
+    return np.maximum(np.abs(within).max(axis=0), 1)
 
 
 def _clipped(weights: FloatArray) -> FloatArray:

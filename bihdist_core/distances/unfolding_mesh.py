@@ -10,7 +10,7 @@ from ..errors import SolverError
 from ..kernel import library as kernel
 from ..sources.pieces import Pieces
 from ..surface import Surface
-from .degenerate_faces import NO_HEIGHT, ProperFaces, in_parts
+from .degenerate_faces import NO_HEIGHT, Part, ProperFaces, in_parts
 
 MOST_FACES = (2**31 - 1) // 6
 """Numbers of sides are below 2^31, twice."""
@@ -52,7 +52,7 @@ class UnfoldingMesh:
         self._face_number[self._face_order] = np.arange(len(surface.faces), dtype=np.int32)
         points = np.ascontiguousarray(x[vertex_order] / self.unit)
         corners = np.ascontiguousarray(number[surface.faces[self._face_order]])
-        self._parts: dict[int, list[tuple[int, FloatArray]]] = {}
+        self._parts: dict[int, list[Part]] = {}
         self._whole: dict[int, tuple[int, FloatArray]] = {}
         self.number = number
         if self._build(points, corners):
