@@ -109,7 +109,7 @@ class ProperFaces:
         self._cells: dict[int, Cell] = {}
         self._around: dict[int, set[int]] = {}
         self._count = len(faces)  # the highest number of a cell, or more
-        self._chords = 0
+        self._divided: dict[Edge, tuple[int, int]] = {}  # by each chord the ends of the edge that was divided
         self._waiting = degenerate.tolist()
         for _ in range(MOST_STEPS * len(degenerate)):
             if not self._waiting:
@@ -175,11 +175,14 @@ class ProperFaces:
             return
         a, b, c = cell.corners[k], cell.corners[k - 2], cell.corners[k - 1]
         share = min(max(sum(p * q for p, q in zip(edge, way, strict=True)) / longest**2, NO_HEIGHT), 1 - NO_HEIGHT)
+        if c in self._divided.get(cell.edges[k], ()):
+            return  # that would undo it
         divided, near = cell.edges[k], {a: cell.edges[k - 1], b: cell.edges[k - 2]}
         for other in self._at(a) & self._at(b):
             if divided in self._cell(other).edges:
-                self._chords += 1
-                self._replace(other, *self._cell(other).halves(divided, share, c, near, (-1, self._chords)))
+                chord = -1, len(self._divided)
+                self._divided[chord] = a, b
+                self._replace(other, *self._cell(other).halves(divided, share, c, near, chord))
 
     def _join(self, a: int, b: int) -> None:
         self._stands[b] = a

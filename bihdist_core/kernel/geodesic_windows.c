@@ -164,14 +164,14 @@ static void cross(Run *run, i32 h, const Window *entering) {
 }
 
 /* Whether a is nowhere farther than b on [x0, x1].  Their difference has one extremum at most, where rays are parallel. */
-static int beats(const Window *a, const Window *b, double x0, double x1) {
-  double ratio = 1 - NEARER * (a->crossed - b->crossed), x;
-  if (distance_at(a, x0) * ratio > distance_at(b, x0) || distance_at(a, x1) * ratio > distance_at(b, x1)) return 0;
+static int beats(const Window *a, const Window *b, double x0, double x1, double length) {
+  double ratio = 1 - NEARER * (a->crossed - b->crossed), slack = length * 1e-14 * (a->crossed - b->crossed), x;
+  if (distance_at(a, x0) * ratio - slack > distance_at(b, x0) || distance_at(a, x1) * ratio - slack > distance_at(b, x1)) return 0;
   if (a->parallel && b->parallel) return 1;
   if (a->parallel) x = b->px + b->py * (a->px / a->py);
   else if (b->parallel) x = a->px + a->py * (b->px / b->py);
   else x = (a->px * b->py - b->px * a->py) / (b->py - a->py);
-  return !(x > x0 && x < x1) || distance_at(a, x) * ratio <= distance_at(b, x);
+  return !(x > x0 && x < x1) || distance_at(a, x) * ratio - slack <= distance_at(b, x);
 }
 
 static void sort_by_begin(Run *run, i64 count) {
@@ -207,12 +207,12 @@ static i64 prune(Run *run, i32 h, i64 count) {
       Window *top = &run->window[order[left - 1]];
       double end = top->b1 < w->b1 ? top->b1 : w->b1;
       if (end - w->b0 <= narrow) break;
-      if (beats(top, w, w->b0, end)) {
+      if (beats(top, w, w->b0, end, run->mesh->side[h].length)) {
         w->b0 = end - narrow / 4;
         keep = w->b1 - w->b0 > narrow;
         break;
       }
-      if (!beats(w, top, w->b0, end)) break;
+      if (!beats(w, top, w->b0, end, run->mesh->side[h].length)) break;
       if (top->b1 > w->b1) {
         if (top->b0 >= w->b0) top->b0 = end - narrow / 4;
         break;
