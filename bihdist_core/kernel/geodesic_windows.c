@@ -225,6 +225,26 @@ static i64 prune(Run *run, i32 h, i64 count) {
   return left;
 }
 
+/* Of windows, those that come after others crossed lose what one of these beats, at either end of them; returns how many
+ * are left. */
+static i64 forget_known(Run *run, i32 h, i64 count) {
+  double length = run->mesh->side[h].length, narrow = NARROW * length;
+  i64 left = 0;
+  for (i64 i = 0; i < count; i++) {
+    Window *w = &run->window[run->order[i]];
+    for (i64 j = 0; j < count && !w->crossed && w->b1 - w->b0 > narrow; j++) {
+      const Window *known = &run->window[run->order[j]];
+      if (!known->crossed || known->b1 < w->b0 || known->b0 > w->b1) continue;
+      double b0 = known->b0 > w->b0 ? known->b0 : w->b0, b1 = known->b1 < w->b1 ? known->b1 : w->b1;
+      if ((b0 > w->b0 + narrow && b1 < w->b1 - narrow) || !beats(known, w, b0, b1, length)) continue;
+      if (b0 <= w->b0 + narrow) w->b0 = b1;
+      else w->b1 = b0;
+    }
+    if (w->crossed || w->b1 - w->b0 > narrow) run->order[left++] = run->order[i];
+  }
+  return left;
+}
+
 static int is_thin(const Mesh *mesh, i32 h) {
   double longest = 0;
   for (i32 k = h / 3 * 3; k < h / 3 * 3 + 3; k++)
@@ -240,6 +260,7 @@ void cross_all(Run *run, i32 h) {
   for (i32 i = head; i >= 0; i = run->window[i].next) run->order[count++] = i;
   run->queue[h].head = NONE;
   run->taken += count;
+  if (keep) count = forget_known(run, h, count);
   sort_by_begin(run, count);
   i64 left = run->everything & ALL_WINDOWS ? count : prune(run, h, count);
   /* Downwards, so that the next lists are nearly in order. */
