@@ -139,8 +139,8 @@ static void cross(Run *run, i32 h, const Window *entering) {
   double tolerance = CRACK * (longest > side->length ? longest : side->length);
   Window here = *entering;
   const Window *w = &here;
-  int all = !w->parallel && w->py <= SOURCE_ON_EDGE * side->length && w->px >= w->b0 - tolerance &&
-            w->px <= w->b1 + tolerance;
+  double near = SOURCE_ON_EDGE * side->length;
+  int all = !w->parallel && w->py <= near && w->px >= w->b0 - near && w->px <= w->b1 + near;
   if (all) { /* from a point of the window, if need be by a detour along the edge */
     here.px = clamp(w->px, w->b0, w->b1);
     here.s += __builtin_fabs(here.px - entering->px);
