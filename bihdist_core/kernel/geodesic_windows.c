@@ -6,7 +6,7 @@
 
 #define SOURCE_ON_EDGE 1e-13 /* of an edge: a source this near to it sees the whole face behind it */
 #define NARROW 4e-12         /* of an edge: windows overlap less only by rounding */
-#define THIN 1e-6            /* of the longest edge: the height of a face below which it has none */
+#define THIN 1e-2            /* of the longest edge: the height of a face below which it has none */
 #define NEARER 1e-13         /* ratio by which a window is nearer that comes after another one crossed */
 
 static double distance_at(const Window *w, double x) {
