@@ -259,7 +259,7 @@ def in_parts(parts: list[Part], begin: FloatArray, end: FloatArray) -> list[tupl
     """A straight piece of a face, by the weights (3,) of its ends, as pieces of the face's parts: one for a point."""
     if np.array_equal(begin, end):
         face, inward, _ = max(parts, key=lambda part: float((begin @ part.within / _sizes(part.within)).min()))
-        weights = _clipped(begin @ inward)
+        weights = _inside(begin @ inward, inward)
         return [(face, weights, weights)]
     found = []
     for face, inward, within in parts:
@@ -273,7 +273,8 @@ def in_parts(parts: list[Part], begin: FloatArray, end: FloatArray) -> list[tupl
             elif least < 0:
                 hi = -1.0
         if lo < hi:
-            found.append((face, *(_clipped((begin + t * (end - begin)) @ inward) for t in (lo, hi))))
+            here, there = (_inside((begin + t * (end - begin)) @ inward, inward) for t in (lo, hi))
+            found.append((face, here, there))
     return found or in_parts(parts, begin, begin) + in_parts(parts, end, end)
 
 
@@ -282,6 +283,12 @@ def _sizes(within: FloatArray) -> FloatArray:
     return np.maximum(np.abs(within).max(axis=0), 1)
 
 
-def _clipped(weights: FloatArray) -> FloatArray:
+def _inside(weights: FloatArray, inward: FloatArray) -> FloatArray:
+    """Weights in a part without negative ones, which are taken from those that large numbers add up to, too."""
     inside: FloatArray = np.maximum(weights, 0)
-    return inside / float(inside.sum())
+    excess = float(inside.sum()) - 1
+    for k in np.argsort(-np.abs(inward).max(axis=0)):
+        less = min(float(inside[k]), max(excess, 0.0))
+        inside[k] -= less
+        excess -= less
+    return inside
