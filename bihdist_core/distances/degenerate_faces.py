@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import AnyArray, FloatArray, IntArray
 
-NO_HEIGHT = 1e-14
+NO_HEIGHT = 2e-13
 """Of a face's longest edge: with less height, and so with a shorter edge, it is degenerate (`geodesic_mesh.c`)."""
 
 ASIDE = 1e-10
@@ -281,7 +281,8 @@ def in_parts(parts: list[Part], begin: FloatArray, end: FloatArray) -> list[tupl
 
 def _sizes(within: FloatArray) -> FloatArray:
     """(c,) how large numbers are that add up to those that are not negative in a part."""
-    return np.maximum(np.abs(within).max(axis=0), 1)
+    sizes: FloatArray = np.maximum(np.abs(within).max(axis=0), 1)
+    return sizes
 
 
 def _inside(weights: FloatArray, inward: FloatArray) -> FloatArray:
@@ -292,4 +293,4 @@ def _inside(weights: FloatArray, inward: FloatArray) -> FloatArray:
         less = min(inside[k], max(excess, 0.0))
         inside[k] -= less
         excess -= less
-    return np.array(inside)
+    return np.array(inside, np.float64)

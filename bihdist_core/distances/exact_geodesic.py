@@ -91,8 +91,8 @@ class ExactGeodesic:
     """Exact geodesic distances on one surface of any kind; paths lead through vertices and edges that faces share.
 
     Made once and used by any number of threads.  It takes some 0.3 kB a vertex, and a run 0.3 kB more.  Edges and
-    heights shorter than 1e-14 of the longest edge of their face count as 0.  Held to a reference in 70 digits: right to
-    1e-13 of the maximum, also on needles, caps and edges of several faces.
+    heights shorter than 2e-13 of the longest edge of their face count as 0.  Held to a reference in 70 digits: right to
+    rounding, and to 1e-12 of the maximum where there are such faces.
 
     Raises SolverError without the compiled kernel.
     """

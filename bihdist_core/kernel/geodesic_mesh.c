@@ -1,7 +1,7 @@
 /* The mesh on which windows unfold: frames of its sides, rings of sides at edges, and where paths bend. */
 #include "geodesic.h"
 
-#define NO_HEIGHT 1e-14  /* of a face's longest edge: with less, and with a shorter edge, a face is degenerate */
+#define NO_HEIGHT 2e-13  /* of a face's longest edge: with less, and with a shorter edge, a face is degenerate */
 #define FLAT 1e-6        /* a corner whose sine is less is one of a flat face */
 #define FULL_TURN 1e-10  /* radians by which a saddle's angle is more than 2 pi */
 

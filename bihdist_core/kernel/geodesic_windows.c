@@ -1,13 +1,14 @@
 /* Windows: how they leave a face, what they lose to others, and how they cross the next.
  *
- * Where faces have no height, windows could come round to the same side at no cost, for ever.  At the sides of such faces
- * those that crossed stay in the list, and win where a later one is no nearer. */
+ * Between thin faces windows come round to the same side again and again at hardly any cost.  At the sides of such faces
+ * those that crossed stay in the list, and win where a later one is not nearer by more than rounding. */
 #include "geodesic.h"
 
 #define SOURCE_ON_EDGE 1e-13 /* of an edge: a source this near to it sees the whole face behind it */
 #define NARROW 4e-12         /* of an edge: windows overlap less only by rounding */
-#define THIN 1e-2            /* of the longest edge: the height of a face below which it has none */
-#define NEARER 1e-13         /* ratio by which a window is nearer that comes after another one crossed */
+#define THIN 1e-2            /* of the longest edge: the height of a face below which it is thin */
+#define NEARER 1e-13         /* ratio by which a window is nearer that comes after another one crossed, */
+#define NEARER_BY 1e-14      /* and of the edge */
 
 static double distance_at(const Window *w, double x) {
   return w->parallel ? w->s + x * w->px : w->s + length_of(x - w->px, w->py);
@@ -163,9 +164,9 @@ static void cross(Run *run, i32 h, const Window *entering) {
   if (right) leave_right(run, h, w, all, left);
 }
 
-/* Whether a is nowhere farther than b on [x0, x1].  Their difference has one extremum at most, where rays are parallel. */
+/* Whether a is nowhere farther than b on [x0, x1] of an edge of this length.  Their difference has one extremum at most, where rays are parallel. */
 static int beats(const Window *a, const Window *b, double x0, double x1, double length) {
-  double ratio = 1 - NEARER * (a->crossed - b->crossed), slack = length * 1e-14 * (a->crossed - b->crossed), x;
+  double ratio = 1 - NEARER * (a->crossed - b->crossed), slack = NEARER_BY * length * (a->crossed - b->crossed), x;
   if (distance_at(a, x0) * ratio - slack > distance_at(b, x0) || distance_at(a, x1) * ratio - slack > distance_at(b, x1)) return 0;
   if (a->parallel && b->parallel) return 1;
   if (a->parallel) x = b->px + b->py * (a->px / a->py);
