@@ -200,12 +200,9 @@ def test_nothing_is_left_out_on_damaged_meshes(seed, monkeypatch):
     reached = np.flatnonzero(np.isfinite(d))
     assert set(surface.component_of_vertex[reached]) == {surface.component_of_vertex[surface.faces[face, 0]]}
     for target in rng.choice(reached, 5):
-        assert length_of(surface, field.path(int(target))) == pytest.approx(d[target], abs=1e-11 * size)
+        assert length_of(surface, field.path(int(target))) == pytest.approx(d[target], abs=2e-12 * size)
     monkeypatch.setattr(exact_geodesic, "MOST_AT_LEAST", 100_000)
-    try:
-        everything = solver.field(source, radius=np.nanmax(d) * (1 + 1e-9), everything=True).distances
-    except SolverError:
-        return  # Without a rule that drops windows they go round flat faces for ever.
+    everything = solver.field(source, radius=np.nanmax(d) * (1 + 1e-9), everything=True).distances
     assert np.abs(everything - d)[reached].max() < 1e-12 * size
 
 
