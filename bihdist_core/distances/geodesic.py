@@ -1,13 +1,13 @@
 """Geodesic distance: exact, by the heat method, or along edges (Dijkstra).  The label says which."""
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..errors import ParameterError
+from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..laplacian import Component, Laplacian
 from ..progress import Progress, part
@@ -45,9 +45,10 @@ class GeodesicDistance(Distance):
     """Length of the shortest path; unit length.
 
     method: "exact" (any surface; from lines, too), "heat" (1 to 3 % off in the mean on most samples), "dijkstra" (along
-    edges: 4 to 6 % too long in the mean on most samples), or "auto": exact up to 300,000 vertices, else heat.  On long,
-    thin faces, such as those of the sample `part`, the means are 5 and 13 %.  Raises ParameterError for any other word,
-    and SolverError for "exact" without the compiled kernel, where "auto" is heat.
+    edges: 4 to 6 % too long in the mean on most samples), or "auto": exact up to 300,000 vertices, else heat; heat also
+    from the first source on for which the exact method gives up, as `label` then says.  On long, thin faces, such as
+    those of the sample `part`, the means are 5 and 13 %.  Raises ParameterError for any other word, and SolverError for
+    "exact" without the compiled kernel or where it gives up; "auto" is heat there.
     """
 
     length_power = 1.0
@@ -56,6 +57,7 @@ class GeodesicDistance(Distance):
         if method not in METHODS:
             raise ParameterError(f"There is no geodesic method {method!r}; choose one of {', '.join(METHODS)}.")
         super().__init__(laplacian)
+        self._is_auto = method == "auto"
         if method == "auto":
             exact = len(self.surface.vertices) <= EXACT_UP_TO and kernel.library() is not None
             method = "exact" if exact else "heat"
@@ -64,7 +66,7 @@ class GeodesicDistance(Distance):
         self.is_symmetric = method != "heat"
         self._solvers: dict[int, ExactGeodesic | HeatTimes | EdgeGeodesic] = {}
         self._errors: dict[int, HeatErrors | None] = {}
-        self._judging = threading.Lock()
+        self._judging, self._changing = threading.Lock(), threading.Lock()
         self._below = 0.0
         self.prepare(self.laplacian.components[0], progress)
 
@@ -104,7 +106,30 @@ class GeodesicDistance(Distance):
         """Whether the heat method's errors on a component are known."""
         return self.method != "heat" or component in self._errors
 
+    def _or_by_heat(self, found: Callable[[], FloatArray], progress: Progress | None) -> FloatArray:
+        """What is found, by the heat method from now on where the exact method of "auto" gives up."""
+        try:
+            return found()
+        except SolverError:
+            if not self._is_auto:
+                raise
+        with self._changing:
+            if self.method == "exact":
+                solvers = {index: HeatTimes(self.laplacian.components[index], progress) for index in self._solvers}
+                self.method, self.label, self.is_symmetric = "heat", LABELS["heat"], False
+                self._solvers = {**solvers}
+        return found()
+
     def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
+        return self._or_by_heat(lambda: self._columns_now(component, index, progress), progress)
+
+    def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
+        return self._or_by_heat(lambda: self._from_pieces_now(component, pieces, progress), progress)
+
+    def _of_places(self, u: Pieces, v: Pieces) -> FloatArray:
+        return self._or_by_heat(lambda: self._of_places_now(u, v), None)
+
+    def _columns_now(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
         solver = self._solvers[component.index]
         if isinstance(solver, EdgeGeodesic):
             return solver.distances(index)
@@ -117,7 +142,7 @@ class GeodesicDistance(Distance):
             fields.append(field)
         return np.stack(fields, 1)
 
-    def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
+    def _from_pieces_now(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
         solver, vertices = self._solvers[component.index], pieces.vertices
         if isinstance(solver, ExactGeodesic):
             if vertices is not None:
@@ -140,7 +165,7 @@ class GeodesicDistance(Distance):
             np.minimum(least, found, out=least)
         return least
 
-    def _of_places(self, u: Pieces, v: Pieces) -> FloatArray:
+    def _of_places_now(self, u: Pieces, v: Pieces) -> FloatArray:
         labels = self.surface.component_of_vertex
         found = np.full(len(u), np.nan)
         for component, mine in self._by_component(u.corners[:, 0]):
