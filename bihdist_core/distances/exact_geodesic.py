@@ -17,7 +17,7 @@ from ..solver.worker_threads import Job
 from ..sources.pieces import Pieces
 from ..surface import Surface
 from .place_pairs import by_start
-from .unfolding_mesh import UnfoldingMesh
+from .unfolding_mesh import Places, UnfoldingMesh
 
 MOST_PER_VERTEX, MOST_AT_LEAST = 2_000, 200_000
 """Windows that a run may take: usually there are 20 to 200 for a vertex, and 5 to 8 million a second."""
@@ -93,9 +93,9 @@ class GeodesicField:
 class ExactGeodesic:
     """Exact geodesic distances on one surface of any kind; paths lead through vertices and edges that faces share.
 
-    Made once and used by any number of threads.  It takes some 0.3 kB a vertex, and a run 0.3 kB more.  Edges shorter
-    than 1e-12 of the longest in their face count as points.  Held to a reference in 70 digits: right to rounding, but
-    on some meshes with edges or heights near 1e-13 of a face off by 1e-10 of the maximum.
+    Made once and used by any number of threads.  It takes some 0.3 kB a vertex, and a run 0.3 kB more.  Edges and
+    heights shorter than 2e-13 of the longest edge of their face count as 0.  Held to a reference in 70 digits: right to
+    rounding, and to 1e-12 of the maximum where there are such faces.
 
     Raises SolverError without the compiled kernel.
     """
@@ -148,7 +148,7 @@ class ExactGeodesic:
 
         def one(number: int, watch: kernel.Watch) -> None:
             start, mine = groups[number]
-            goals = self._mesh.at_pieces(there.some(mine))[:2]
+            goals = self._mesh.at_pieces(there.some(mine))
             found[mine] = self._field(
                 self._mesh.at_pieces(start), goals, watch, radius=radius, targets_only=True
             ).at_places
@@ -171,7 +171,7 @@ class ExactGeodesic:
             if len(there) > FEW:
                 found[groups[number]] = self._field(start, None, watch).distances[there]
             else:
-                goals = self._mesh.at_vertices(there)[:2]
+                goals = self._mesh.at_vertices(there)
                 found[groups[number]] = self._field(start, goals, watch, targets_only=True).at_places
 
         self._in_workers(one, len(among), progress)
@@ -179,7 +179,7 @@ class ExactGeodesic:
 
     def path(self, start: Pieces, stop: Pieces, progress: Progress | None = None) -> FacePath:
         """The shortest path between two points, one piece each; see `field` for errors."""
-        starts, goals = self._mesh.at_pieces(stop), self._mesh.at_pieces(start)[:2]
+        starts, goals = self._mesh.at_pieces(stop), self._mesh.at_pieces(start)
         fields: list[GeodesicField] = []
 
         def one(_: int, watch: kernel.Watch) -> None:
@@ -225,14 +225,15 @@ class ExactGeodesic:
         """
         check_radius(radius)
         if isinstance(sources, Pieces):
-            starts = self._mesh.at_pieces(sources)
+            count, starts = len(sources), self._mesh.at_pieces(sources)
         else:
-            starts = self._mesh.at_vertices(self.surface.check_vertices(sources))
-        zero = np.zeros(len(starts[0]))
-        shifts = zero if offsets is None else np.ascontiguousarray(offsets, np.float64)
-        if shifts.shape != zero.shape or not np.isfinite(shifts).all():
-            raise ParameterError(f"Offsets are {len(zero)} finite numbers, one for each source.")
-        goals = None if places is None else self._mesh.at_pieces(places)[:2]
+            ids = self.surface.check_vertices(sources)
+            count, starts = len(ids), self._mesh.at_vertices(ids)
+        shifts = np.zeros(count) if offsets is None else np.asarray(offsets, np.float64)
+        if shifts.shape != (count,) or not np.isfinite(shifts).all():
+            raise ParameterError(f"Offsets are {count} finite numbers, one for each source.")
+        shifts = shifts[starts.rows]
+        goals = None if places is None else self._mesh.at_pieces(places)
         fields: list[GeodesicField] = []
 
         def one(_: int, watch: kernel.Watch) -> None:
@@ -248,8 +249,8 @@ class ExactGeodesic:
 
     def _field(
         self,
-        starts: tuple[AnyArray, FloatArray, FloatArray],
-        goals: tuple[AnyArray, FloatArray] | None,
+        starts: Places,
+        goals: Places | None,
         watch: kernel.Watch,
         offsets: FloatArray | None = None,
         radius: float = np.inf,
@@ -257,18 +258,18 @@ class ExactGeodesic:
         targets_only: bool = False,
     ) -> GeodesicField:
         mesh, unit = self._mesh, self._mesh.unit
-        shifts = np.zeros(len(starts[0])) if offsets is None else offsets / unit
+        shifts = np.zeros(len(starts.rows)) if offsets is None else offsets / unit
         kept: list[Any] = [starts, goals, shifts, mesh.arrays]
         run = kernel.Run(mesh=ctypes.pointer(mesh.structure), offset=kernel.at(shifts), radius=radius / unit)
-        run.source = kernel.Places(len(starts[0]), *map(kernel.at, starts))
+        run.source = kernel.Places(len(starts.rows), *map(kernel.at, starts[1:]))
         run.most_taken = MOST_PER_VERTEX * mesh.vertices + MOST_AT_LEAST
         run.everything, run.targets_only = 3 * everything, targets_only
         count = 0
         if goals is not None:
-            count = len(goals[0])
-            lists = _lists(goals[0], mesh.faces)
+            count = len(goals.rows)
+            lists = _lists(goals.faces, mesh.faces)
             kept.append(lists)
-            run.target = kernel.Places(count, kernel.at(goals[0]), kernel.at(goals[1]), kernel.at(goals[1]))
+            run.target = kernel.Places(count, *map(kernel.at, goals[1:]))
             run.first_target, run.next_target = map(kernel.at, lists)
         reached = np.empty(mesh.vertices + count, kernel.REACHED)
         run.reached = kernel.at(reached)
@@ -283,7 +284,7 @@ class ExactGeodesic:
         if not targets_only:
             self._usual = max(float(run.taken), 1.0)
         lengths = reached["distance"]
-        found = np.concatenate([lengths[mesh.same_number], lengths[mesh.vertices :]])
+        found = np.concatenate([lengths[mesh.number], lengths[mesh.vertices :]])
         found[found > run.radius] = np.inf
         if radius == np.inf:
             found[np.isinf(found)] = np.nan

@@ -1,7 +1,7 @@
 """Geodesic distance: exact, by the heat method, or along edges (Dijkstra).  The label says which."""
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -47,12 +47,12 @@ class GeodesicDistance(Distance):
 
     method: "exact" (any surface; from lines, too), "heat" (1 to 3 % off in the mean on most samples), "dijkstra" (along
     edges: 4 to 6 % too long in the mean on most samples), or "auto": exact where a source is expected to take 5 s at
-    most, else heat.  On long, thin faces, such as those of the sample `part`, the means are 5 and 13 %.  radius: how
-    far the exact method goes, in the mesh's length unit; distances beyond are inf.  With one "auto" is exact, however
-    large the surface.
+    most, else heat; heat also from the first source on for which the exact method gives up, as `label` then says.  On
+    long, thin faces, such as those of the sample `part`, the means are 5 and 13 %.  radius: how far the exact method
+    goes, in the mesh's length unit; distances beyond are inf.  With one "auto" is exact, however large the surface.
 
     Raises ParameterError for any other word, a radius that is no length, and one for another method; SolverError for
-    "exact" without the compiled kernel, where "auto" is heat.
+    "exact" without the compiled kernel, or where it gives up; "auto" is heat there.
     """
 
     length_power = 1.0
@@ -70,6 +70,7 @@ class GeodesicDistance(Distance):
         super().__init__(laplacian)
         self._solvers: dict[int, ExactGeodesic | HeatTimes | EdgeGeodesic] = {}
         self._takes_long: bool | None = None
+        self._is_auto = method == "auto" and radius == np.inf
         if method == "auto":
             is_short = radius < np.inf and kernel.library() is not None
             method = "exact" if is_short or self._is_exact_soon(part(progress, 0, 0.3)) else "heat"
@@ -81,7 +82,7 @@ class GeodesicDistance(Distance):
         self.label = LABELS[method]
         self.is_symmetric = method != "heat"
         self._errors: dict[int, HeatErrors | None] = {}
-        self._judging = threading.Lock()
+        self._judging, self._changing = threading.Lock(), threading.Lock()
         self._below = 0.0
         self.prepare(self.laplacian.components[0], part(progress, 0.3, 1))
 
@@ -145,7 +146,30 @@ class GeodesicDistance(Distance):
         """Whether the heat method's errors on a component are known."""
         return self.method != "heat" or component in self._errors
 
+    def _or_by_heat(self, found: Callable[[], FloatArray], progress: Progress | None) -> FloatArray:
+        """What is found, by the heat method from now on where the exact method of "auto" gives up."""
+        try:
+            return found()
+        except SolverError:
+            if not self._is_auto:
+                raise
+        with self._changing:
+            if self.method == "exact":
+                solvers = {index: HeatTimes(self.laplacian.components[index], progress) for index in self._solvers}
+                self.method, self.label, self.is_symmetric = "heat", LABELS["heat"], False
+                self._solvers = {**solvers}
+        return found()
+
     def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
+        return self._or_by_heat(lambda: self._columns_now(component, index, progress), progress)
+
+    def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
+        return self._or_by_heat(lambda: self._from_pieces_now(component, pieces, progress), progress)
+
+    def _of_places(self, u: Pieces, v: Pieces, progress: Progress) -> FloatArray:
+        return self._or_by_heat(lambda: self._of_places_now(u, v, progress), progress)
+
+    def _columns_now(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
         solver = self._solvers[component.index]
         if isinstance(solver, EdgeGeodesic):
             return solver.distances(index)
@@ -161,12 +185,15 @@ class GeodesicDistance(Distance):
     def _one_way(
         self, component: Component, sources: IntArray, targets: IntArray, progress: Progress | None
     ) -> FloatArray:
-        solver = self._solvers[component.index]
-        if isinstance(solver, ExactGeodesic):
-            return solver.of_pairs(sources, targets, progress)
-        return super()._one_way(component, sources, targets, progress)
+        def found() -> FloatArray:
+            solver = self._solvers[component.index]
+            if isinstance(solver, ExactGeodesic):
+                return solver.of_pairs(sources, targets, progress)
+            return super(GeodesicDistance, self)._one_way(component, sources, targets, progress)
 
-    def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
+        return self._or_by_heat(found, progress)
+
+    def _from_pieces_now(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
         solver, vertices = self._solvers[component.index], pieces.vertices
         if isinstance(solver, ExactGeodesic):
             sources = self._local(component, pieces) if vertices is None else component.local(vertices)
@@ -188,7 +215,7 @@ class GeodesicDistance(Distance):
             np.minimum(least, found, out=least)
         return least
 
-    def _of_places(self, u: Pieces, v: Pieces, progress: Progress) -> FloatArray:
+    def _of_places_now(self, u: Pieces, v: Pieces, progress: Progress) -> FloatArray:
         labels = self.surface.component_of_vertex
         found = np.full(len(u), np.nan)
         done = 0

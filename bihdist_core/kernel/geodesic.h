@@ -36,7 +36,6 @@ typedef struct {
   i64 vertices, faces;
   Side *side;          /* (3 faces,) */
   i32 *first, *corner; /* (vertices + 1,), (3 faces,): corners at each vertex, as the sides that begin there */
-  i32 *same;           /* (vertices,) the vertex that stands for those in the same place */
   unsigned char *kind; /* (vertices,) whether paths bend there */
 } Mesh;
 

@@ -1,39 +1,13 @@
 /* The mesh on which windows unfold: frames of its sides, rings of sides at edges, and where paths bend. */
 #include "geodesic.h"
 
-#define POINT 1e-12      /* of a face's longest edge: a shorter one is a point, and its ends are one vertex */
+#define NO_HEIGHT 2e-13  /* of a face's longest edge: with less, and with a shorter edge, a face is degenerate */
 #define FLAT 1e-6        /* a corner whose sine is less is one of a flat face */
 #define FULL_TURN 1e-10  /* radians by which a saddle's angle is more than 2 pi */
-
-static i32 root_of(i32 *same, i32 v) {
-  while (same[v] != v) v = same[v] = same[same[v]];
-  return v;
-}
 
 static double apart(const double *p, const double *q) {
   double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
   return __builtin_sqrt(x * x + y * y + z * z);
-}
-
-/* Vertices at the ends of edges that are points become one. */
-static void join(const Mesh *mesh, const double *X, const i32 *faces) {
-  i32 *same = mesh->same;
-  for (i32 v = 0; v < mesh->vertices; v++) same[v] = v;
-  for (i64 f = 0; f < mesh->faces; f++) {
-    const i32 *v = faces + 3 * f;
-    double length[3], longest = 0;
-    for (int k = 0; k < 3; k++) {
-      length[k] = apart(X + 3 * (i64)v[k], X + 3 * (i64)v[(k + 1) % 3]);
-      if (length[k] > longest) longest = length[k];
-    }
-    for (int k = 0; k < 3; k++)
-      if (length[k] <= POINT * longest) {
-        i32 p = root_of(same, v[k]), q = root_of(same, v[(k + 1) % 3]);
-        if (p < q) same[q] = p;
-        else same[p] = q;
-      }
-  }
-  for (i32 v = 0; v < mesh->vertices; v++) same[v] = root_of(same, v);
 }
 
 static void frame(Side *side, const double *p, const double *q, const double *r) {
@@ -42,6 +16,14 @@ static void frame(Side *side, const double *p, const double *q, const double *r)
   double cx = e[1] * w[2] - e[2] * w[1], cy = e[2] * w[0] - e[0] * w[2], cz = e[0] * w[1] - e[1] * w[0];
   side->length = apart(p, q);
   side->x = dot / side->length, side->y = __builtin_sqrt(cx * cx + cy * cy + cz * cz) / side->length;
+}
+
+/* Whether a face has no height that arithmetic can tell from none. */
+static int is_degenerate(const Side *side) {
+  double longest = 0;
+  for (int k = 0; k < 3; k++)
+    if (side[k].length > longest) longest = side[k].length;
+  return !(side->y * side->length > NO_HEIGHT * longest * longest);
 }
 
 static i32 end_of(const Side *side, i32 h, int high) {
@@ -59,6 +41,15 @@ static void sort_by_end(const Mesh *mesh, i64 count, const i32 *from, i32 *to, i
   for (i64 i = 0; i < count; i++) put[end_of(mesh->side, from[i], high) + 1]++;
   for (i64 v = 0; v < mesh->vertices; v++) put[v + 1] += put[v];
   for (i64 i = 0; i < count; i++) to[put[end_of(mesh->side, from[i], high)]++] = from[i];
+}
+
+/* Sides with the same ends in the order of their labels. */
+static void sort_by_label(const Side *side, i64 count, i32 *a, const i32 *label) {
+  for (i64 i = 1, j; i < count; i++) {
+    i32 h = a[i];
+    for (j = i; j > 0 && label[a[j - 1]] > label[h] && meet(side, a[j - 1], h); j--) a[j] = a[j - 1];
+    a[j] = h;
+  }
 }
 
 /* Whether the angle of a fan of corners is more than 2 pi: unit vectors turn, and half turns are counted. */
@@ -98,15 +89,16 @@ static unsigned char kind_of(const Mesh *mesh, i32 v, int on_boundary) {
   return turn.half > 2 || (turn.half == 2 && (turn.s > FULL_TURN || turn.c < 0)) ? SADDLE : CONVEX;
 }
 
-/* X (vertices, 3), finite; faces (faces, 3), in range; a, b (3 faces,) and put (vertices + 1,): workspace. */
-API void bih_geodesic_mesh(const Mesh *mesh, const double *X, const i32 *faces, i32 *a, i32 *b, i32 *put) {
+/* X (vertices, 3), finite; faces (faces, 3), in range; one that names a vertex twice is none; label (3 faces,): sides
+ * with the same ends but other labels are not joined, NULL if there are none such.  a, b (3 faces,) and put
+ * (vertices + 1,): workspace.  Returns how many faces are degenerate: windows do not unfold there. */
+API i64 bih_geodesic_mesh(const Mesh *mesh, const double *X, const i32 *faces, const i32 *label, i32 *a, i32 *b,
+                           i32 *put) {
   i32 *first = mesh->first;
-  i64 n = mesh->vertices, count = 0;
-  join(mesh, X, faces);
+  i64 n = mesh->vertices, count = 0, degenerate = 0;
   zero(first, 4 * (n + 1)), zero(mesh->kind, n);
   for (i64 f = 0; f < mesh->faces; f++) {
-    i32 v[3];
-    for (int k = 0; k < 3; k++) v[k] = mesh->same[faces[3 * f + k]];
+    const i32 *v = faces + 3 * f;
     int is_face = v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
     for (int k = 0; k < 3; k++) {
       i32 h = (i32)(3 * f) + k;
@@ -115,14 +107,16 @@ API void bih_geodesic_mesh(const Mesh *mesh, const double *X, const i32 *faces, 
       frame(&mesh->side[h], X + 3 * (i64)v[k], X + 3 * (i64)v[(k + 1) % 3], X + 3 * (i64)v[(k + 2) % 3]);
       first[v[k] + 1]++, a[count++] = h;
     }
+    degenerate += is_face && is_degenerate(&mesh->side[3 * f]);
   }
   for (i64 v = 0; v < n; v++) first[v + 1] += first[v];
   copy(put, first, 4 * (n + 1));
   for (i64 i = 0; i < count; i++) mesh->corner[put[mesh->side[a[i]].vertex]++] = a[i];
   sort_by_end(mesh, count, a, b, put, 1), sort_by_end(mesh, count, b, a, put, 0);
+  if (label) sort_by_label(mesh->side, count, a, label);
   enum { ALONE = 1, MANY = 2 };
   for (i64 i = 0, j; i < count; i = j) { /* the ring of sides at an edge */
-    for (j = i + 1; j < count && meet(mesh->side, a[i], a[j]);) j++;
+    for (j = i + 1; j < count && meet(mesh->side, a[i], a[j]) && !(label && label[a[i]] != label[a[j]]);) j++;
     for (int high = 0; high < 2 && j - i != 2; high++)
       mesh->kind[end_of(mesh->side, a[i], high)] |= j - i > 2 ? MANY : ALONE;
     for (i64 k = i; k < j && j - i > 1; k++) {
@@ -135,4 +129,5 @@ API void bih_geodesic_mesh(const Mesh *mesh, const double *X, const i32 *faces, 
     if (first[v] == first[v + 1]) mesh->kind[v] = CONVEX;
     else mesh->kind[v] = edges & MANY ? ANYWHERE : kind_of(mesh, v, edges & ALONE);
   }
+  return degenerate;
 }

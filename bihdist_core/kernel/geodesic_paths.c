@@ -113,7 +113,6 @@ static i32 straight_part(const Run *run, i64 id, Pieces *out) {
  * many; NO_ROOM, or LOST if it does not come back, or OUTSIDE if it was not reached. */
 API i64 bih_geodesic_path(const Run *run, i64 id, i64 room, i32 *face, double *begin, double *end) {
   Pieces out = {room, 0, face, begin, end};
-  if (id < run->mesh->vertices) id = run->mesh->same[id];
   if (!(run->reached[id].distance <= run->radius)) return OUTSIDE;
   while (id >= 0 && run->reached[id].from >= 0) {
     i32 before = straight_part(run, id, &out);

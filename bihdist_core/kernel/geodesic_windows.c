@@ -1,13 +1,14 @@
 /* Windows: how they leave a face, what they lose to others, and how they cross the next.
  *
- * Where faces have no height, windows could come round to the same side at no cost, for ever.  At the sides of such faces
- * those that crossed stay in the list, and win where a later one is no nearer. */
+ * Between thin faces windows come round to the same side again and again at hardly any cost.  At the sides of such faces
+ * those that crossed stay in the list, and win where a later one is not nearer by more than rounding. */
 #include "geodesic.h"
 
 #define SOURCE_ON_EDGE 1e-13 /* of an edge: a source this near to it sees the whole face behind it */
 #define NARROW 4e-12         /* of an edge: windows overlap less only by rounding */
-#define THIN 1e-6            /* of the longest edge: the height of a face below which it has none */
-#define NEARER 1e-13         /* ratio by which a window is nearer that comes after another one crossed */
+#define THIN 1e-2            /* of the longest edge: the height of a face below which it is thin */
+#define NEARER 1e-13         /* ratio by which a window is nearer that comes after another one crossed, */
+#define NEARER_BY 1e-14      /* and of the edge */
 
 static double distance_at(const Window *w, double x) {
   return w->parallel ? w->s + x * w->px : w->s + length_of(x - w->px, w->py);
@@ -139,8 +140,8 @@ static void cross(Run *run, i32 h, const Window *entering) {
   double tolerance = CRACK * (longest > side->length ? longest : side->length);
   Window here = *entering;
   const Window *w = &here;
-  int all = !w->parallel && w->py <= SOURCE_ON_EDGE * side->length && w->px >= w->b0 - tolerance &&
-            w->px <= w->b1 + tolerance;
+  double near = SOURCE_ON_EDGE * side->length;
+  int all = !w->parallel && w->py <= near && w->px >= w->b0 - near && w->px <= w->b1 + near;
   if (all) { /* from a point of the window, if need be by a detour along the edge */
     here.px = clamp(w->px, w->b0, w->b1);
     here.s += __builtin_fabs(here.px - entering->px);
@@ -163,15 +164,15 @@ static void cross(Run *run, i32 h, const Window *entering) {
   if (right) leave_right(run, h, w, all, left);
 }
 
-/* Whether a is nowhere farther than b on [x0, x1].  Their difference has one extremum at most, where rays are parallel. */
-static int beats(const Window *a, const Window *b, double x0, double x1) {
-  double ratio = 1 - NEARER * (a->crossed - b->crossed), x;
-  if (distance_at(a, x0) * ratio > distance_at(b, x0) || distance_at(a, x1) * ratio > distance_at(b, x1)) return 0;
+/* Whether a is nowhere farther than b on [x0, x1] of an edge of this length.  Their difference has one extremum at most, where rays are parallel. */
+static int beats(const Window *a, const Window *b, double x0, double x1, double length) {
+  double ratio = 1 - NEARER * (a->crossed - b->crossed), slack = NEARER_BY * length * (a->crossed - b->crossed), x;
+  if (distance_at(a, x0) * ratio - slack > distance_at(b, x0) || distance_at(a, x1) * ratio - slack > distance_at(b, x1)) return 0;
   if (a->parallel && b->parallel) return 1;
   if (a->parallel) x = b->px + b->py * (a->px / a->py);
   else if (b->parallel) x = a->px + a->py * (b->px / b->py);
   else x = (a->px * b->py - b->px * a->py) / (b->py - a->py);
-  return !(x > x0 && x < x1) || distance_at(a, x) * ratio <= distance_at(b, x);
+  return !(x > x0 && x < x1) || distance_at(a, x) * ratio - slack <= distance_at(b, x);
 }
 
 static void sort_by_begin(Run *run, i64 count) {
@@ -207,12 +208,12 @@ static i64 prune(Run *run, i32 h, i64 count) {
       Window *top = &run->window[order[left - 1]];
       double end = top->b1 < w->b1 ? top->b1 : w->b1;
       if (end - w->b0 <= narrow) break;
-      if (beats(top, w, w->b0, end)) {
+      if (beats(top, w, w->b0, end, run->mesh->side[h].length)) {
         w->b0 = end - narrow / 4;
         keep = w->b1 - w->b0 > narrow;
         break;
       }
-      if (!beats(w, top, w->b0, end)) break;
+      if (!beats(w, top, w->b0, end, run->mesh->side[h].length)) break;
       if (top->b1 > w->b1) {
         if (top->b0 >= w->b0) top->b0 = end - narrow / 4;
         break;
@@ -221,6 +222,26 @@ static i64 prune(Run *run, i32 h, i64 count) {
       if (top->b1 - top->b0 > narrow) break;
     }
     if (keep) order[left++] = order[i];
+  }
+  return left;
+}
+
+/* Of windows, those that come after others crossed lose what one of these beats, at either end of them; returns how many
+ * are left. */
+static i64 forget_known(Run *run, i32 h, i64 count) {
+  double length = run->mesh->side[h].length, narrow = NARROW * length;
+  i64 left = 0;
+  for (i64 i = 0; i < count; i++) {
+    Window *w = &run->window[run->order[i]];
+    for (i64 j = 0; j < count && !w->crossed && w->b1 - w->b0 > narrow; j++) {
+      const Window *known = &run->window[run->order[j]];
+      if (!known->crossed || known->b1 < w->b0 || known->b0 > w->b1) continue;
+      double b0 = known->b0 > w->b0 ? known->b0 : w->b0, b1 = known->b1 < w->b1 ? known->b1 : w->b1;
+      if ((b0 > w->b0 + narrow && b1 < w->b1 - narrow) || !beats(known, w, b0, b1, length)) continue;
+      if (b0 <= w->b0 + narrow) w->b0 = b1;
+      else w->b1 = b0;
+    }
+    if (w->crossed || w->b1 - w->b0 > narrow) run->order[left++] = run->order[i];
   }
   return left;
 }
@@ -240,6 +261,7 @@ void cross_all(Run *run, i32 h) {
   for (i32 i = head; i >= 0; i = run->window[i].next) run->order[count++] = i;
   run->queue[h].head = NONE;
   run->taken += count;
+  if (keep) count = forget_known(run, h, count);
   sort_by_begin(run, count);
   i64 left = run->everything & ALL_WINDOWS ? count : prune(run, h, count);
   /* Downwards, so that the next lists are nearly in order. */

@@ -101,7 +101,7 @@ class Mesh(Structure):
     _fields_ = (
         ("vertices", c_int64),
         ("faces", c_int64),
-        *((name, c_void_p) for name in ("side", "first", "corner", "same", "kind")),
+        *((name, c_void_p) for name in ("side", "first", "corner", "kind")),
     )
 
     faces: int
@@ -196,7 +196,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "stiffness": (c_int64, (_I, _I, _A, _A, _A, _A, _A, _A)),
     "check_faces": (c_int32, (_I, _I, _A, _I, _A)),
     "merge_points": (c_int64, (_I, _A, _I, _A, _A, _A)),
-    "geodesic_mesh": (None, (_P, _A, _A, _A, _A, _A)),
+    "geodesic_mesh": (c_int64, (_P, _A, _A, _P, _A, _A, _A)),
     "geodesic_begin": (c_int32, (_P,)),
     "geodesic_run": (c_int32, (_P, _P)),
     "geodesic_path": (c_int64, (_P, _I, _I, _A, _A, _A)),

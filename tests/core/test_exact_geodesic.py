@@ -98,14 +98,7 @@ def test_it_is_what_seventy_digits_give(surface):
         assert error(solver.distances(source), expected) < ROUNDING
 
 
-FAULTS = {9: "windows go on for ever", 18: "off by 1e-10 of the maximum", 19: "windows go on for ever"}
-"""Seeds of hard meshes, with edges and heights down to 1e-13 of a face and to 0, where it is not right yet."""
-
-
-@pytest.mark.parametrize(
-    "seed",
-    [pytest.param(k, marks=pytest.mark.xfail(reason=FAULTS[k], strict=True)) if k in FAULTS else k for k in range(24)],
-)
+@pytest.mark.parametrize("seed", range(40))
 def test_on_hard_meshes_too(seed):
     surface = Surface(*nasty_mesh(seed, 40))
     reference, solver = GeodesicReference(surface.vertices, surface.faces), ExactGeodesic(surface)
@@ -178,12 +171,9 @@ def test_nothing_is_left_out_on_damaged_meshes(seed, monkeypatch):
     reached = np.flatnonzero(np.isfinite(d))
     assert set(surface.component_of_vertex[reached]) == {surface.component_of_vertex[surface.faces[face, 0]]}
     for target in rng.choice(reached, 5):
-        assert length_of(surface, field.path(int(target))) == pytest.approx(d[target], abs=1e-11 * size)
+        assert length_of(surface, field.path(int(target))) == pytest.approx(d[target], abs=2e-12 * size)
     monkeypatch.setattr(exact_geodesic, "MOST_AT_LEAST", 100_000)
-    try:
-        everything = solver.field(source, radius=np.nanmax(d) * (1 + 1e-9), everything=True).distances
-    except SolverError:
-        return  # Without a rule that drops windows they go round flat faces for ever.
+    everything = solver.field(source, radius=np.nanmax(d) * (1 + 1e-9), everything=True).distances
     assert np.abs(everything - d)[reached].max() < 1e-12 * size
 
 

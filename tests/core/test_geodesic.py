@@ -166,3 +166,16 @@ def test_heat_holds_on_real_slivers(mesh, sources):
     edges = GeodesicDistance(surface, "dijkstra").from_sources(sources)
     heat = GeodesicDistance(surface, "heat").from_sources(sources)
     assert (np.abs(heat - edges).max(axis=0) < 0.15 * edges.max(axis=0)).all()
+
+
+def test_auto_changes_to_heat_where_the_exact_method_gives_up(monkeypatch):
+    monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_AT_LEAST", 0)
+    monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_PER_VERTEX", 0)
+    surface = bumpy(300)
+    auto, heat = GeodesicDistance(surface), GeodesicDistance(surface, "heat")
+    assert auto.label == "geodesic, exact"
+    assert np.array_equal(auto.from_source(5), heat.from_source(5))
+    assert (auto.method, auto.label, auto.is_symmetric) == ("heat", heat.label, False)
+    assert auto.error_estimate().text
+    with pytest.raises(SolverError, match="was given up after"):
+        GeodesicDistance(surface, "exact").from_source(5)
