@@ -17,7 +17,7 @@ from ..errors import ParameterError, SolverError
 from ..progress import Progress, part, silent
 from .blas import one_blas_thread
 from .krylov import largest_eigenpairs, usual_columns
-from .tall import centre, gram, multiply, over_rows, sparse_rows
+from .tall import centre, multiply, over_rows, own_gram, sparse_rows
 
 Solve = Callable[[FloatArray], FloatArray]
 
@@ -187,7 +187,7 @@ def _refined(stiffness: sp.csr_matrix, areas: FloatArray, vectors: FloatArray, p
     """Rayleigh-Ritz in the span of the (n, k) vectors with the stiffness matrix itself, and the residuals."""
     scale = 1 / np.sqrt(np.einsum("ij,i,ij->j", vectors, areas, vectors))
     progress(0.1, "eigenpairs: combining")
-    mass = gram(vectors, vectors, areas) * scale * scale[:, None]
+    mass = own_gram(vectors, areas) * scale * scale[:, None]
     energies = over_rows(lambda rows: vectors[rows].T @ (sparse_rows(stiffness, rows) @ vectors), len(areas))
     energy = sum(energies) * scale * scale[:, None]
     progress(0.4, "eigenpairs: combining")
@@ -196,7 +196,7 @@ def _refined(stiffness: sp.csr_matrix, areas: FloatArray, vectors: FloatArray, p
     energy = turn.T @ energy @ turn
     values, mix = np.linalg.eigh((energy + energy.T) / 2)
     mix = turn @ mix
-    vectors = multiply(vectors, scale[:, None] * mix)
+    vectors = multiply([vectors], scale[:, None] * mix)
     progress(0.8, "eigenpairs: checking")
 
     def squares(rows: slice) -> FloatArray:
