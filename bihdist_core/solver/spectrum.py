@@ -17,7 +17,7 @@ from ..errors import ParameterError, SolverError
 from ..progress import Progress, part, silent
 from .blas import one_blas_thread
 from .krylov import largest_eigenpairs, usual_columns
-from .tall import centre, multiply, over_rows, own_gram, sparse_rows
+from .tall import centre, over_rows, own_gram, recombine, sparse_rows
 
 Solve = Callable[[FloatArray], FloatArray]
 
@@ -76,7 +76,9 @@ def smallest_eigenpairs(
             return Spectrum(start.eigenvalues[:count], start.eigenvectors[:, :count], start.residuals[:count])
 
     def apply(x: FloatArray) -> FloatArray:
-        y = solve(areas[:, None] * x)
+        y = np.empty(x.shape)
+        over_rows(lambda rows: np.multiply(areas[rows, None], x[rows], out=y[rows]), len(x))
+        y = solve(y)
         centre(y, areas)
         return y
 
@@ -184,23 +186,31 @@ def _centred(x: FloatArray, areas: FloatArray) -> FloatArray:
 
 
 def _refined(stiffness: sp.csr_matrix, areas: FloatArray, vectors: FloatArray, progress: Progress) -> Spectrum:
-    """Rayleigh-Ritz in the span of the (n, k) vectors with the stiffness matrix itself, and the residuals."""
+    """Rayleigh-Ritz in the span of the (n, k) vectors with the stiffness matrix itself, and the residuals.  The vectors
+    are overwritten.
+    """
     scale = 1 / np.sqrt(np.einsum("ij,i,ij->j", vectors, areas, vectors))
     progress(0.1, "eigenpairs: combining")
     mass = own_gram(vectors, areas) * scale * scale[:, None]
-    energies = over_rows(lambda rows: vectors[rows].T @ (sparse_rows(stiffness, rows) @ vectors), len(areas))
-    energy = sum(energies) * scale * scale[:, None]
+    images = np.empty(vectors.shape)
+
+    def energies(rows: slice) -> FloatArray:
+        images[rows] = sparse_rows(stiffness, rows) @ vectors
+        product: FloatArray = np.dot(vectors[rows].T, images[rows])
+        return product
+
+    energy = sum(over_rows(energies, len(areas))) * scale * scale[:, None]
     progress(0.4, "eigenpairs: combining")
     # The small generalized eigenproblem, in steps for which other Python threads need not stand still.
     turn = np.linalg.inv(np.linalg.cholesky(mass)).T
     energy = turn.T @ energy @ turn
     values, mix = np.linalg.eigh((energy + energy.T) / 2)
-    mix = turn @ mix
-    vectors = multiply([vectors], scale[:, None] * mix)
+    mix = scale[:, None] * (turn @ mix)
+    (vectors,) = recombine([vectors], mix)
     progress(0.8, "eigenpairs: checking")
 
     def squares(rows: slice) -> FloatArray:
-        r = sparse_rows(stiffness, rows) @ vectors - areas[rows, None] * vectors[rows] * values
+        r = images[rows] @ mix - areas[rows, None] * vectors[rows] * values
         return _over_areas(r * r, areas[rows])
 
     return Spectrum(values, vectors, np.sqrt(sum(over_rows(squares, len(areas)))) / values)

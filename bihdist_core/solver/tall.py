@@ -50,10 +50,7 @@ def multiply(blocks: Blocks, c: FloatArray) -> FloatArray:
     """(n, k) product of x (n, j), in blocks of columns, and c (j, k)."""
     out = np.empty((len(blocks[0]), c.shape[1]))
 
-    def one(rows: slice) -> None:
-        _product(blocks, c, rows, out[rows])
-
-    over_rows(one, len(out))
+    over_rows(lambda rows: np.matmul(_joined(blocks, rows), c, out=out[rows]), len(out))
     return out
 
 
@@ -84,7 +81,7 @@ def recombine(blocks: list[FloatArray], c: FloatArray) -> list[FloatArray]:
     kept = [x for x, each in _with_rows(blocks, np.arange(sum(x.shape[1] for x in blocks))) if each[0] < k]
 
     def one(rows: slice) -> None:
-        mixed = _product(blocks, c, rows, np.empty((rows.stop - rows.start, k)))
+        mixed = _joined(blocks, rows) @ c
         first = 0
         for x in kept:
             some = mixed[:, first : first + x.shape[1]]
@@ -96,14 +93,9 @@ def recombine(blocks: list[FloatArray], c: FloatArray) -> list[FloatArray]:
     return [*kept[:-1], np.ascontiguousarray(kept[-1][:, :left])]
 
 
-def _product(blocks: Blocks, c: FloatArray, rows: slice, out: FloatArray) -> FloatArray:
-    """Some rows of x c."""
-    for k, (x, each) in enumerate(_with_rows(blocks, c)):
-        if k:
-            out += np.matmul(x[rows], each)
-        else:
-            np.matmul(x[rows], each, out=out)
-    return out
+def _joined(blocks: Blocks, rows: slice) -> FloatArray:
+    """Some rows of x."""
+    return blocks[0][rows] if len(blocks) == 1 else np.concatenate([x[rows] for x in blocks], axis=1)
 
 
 def _with_rows(blocks: Blocks, c: FloatArray) -> Iterator[tuple[FloatArray, FloatArray]]:
