@@ -1,4 +1,4 @@
-/* From triangles to a sparse matrix. */
+/* From triangles to a sparse matrix, and to a divergence. */
 #include "kernel.h"
 
 /* The stiffness matrix by rows: entry (i, j) is minus the weight of edge ij, the sum over its faces of weight (3, m), at
@@ -84,6 +84,41 @@ API void bih_corners(i64 m, const double *x, const i64 *faces, const double *are
     for (int k = 0; k < 3; k++) {
       square[k * m + f] = dot(side[k], side[k]);
       cotangent[k * m + f] = -dot(side[(k + 1) % 3], side[(k + 2) % 3]) / (2 * area[f]);
+    }
+  }
+}
+
+/* Add to divergence (n,) the integrals of grad(hat) . X, X = -grad u / |grad u|, over the faces some (count,), or over the
+ * first count if it is NULL; a face where u is constant has X = 0.  corner (3, m); side: four arrays (3, m), the sides
+ * from corner 0 to corners 1 and 2 by which u is turned into a direction, and those along which it is integrated. */
+API void bih_divergence(i64 m, const i64 *corner, const double *const *side, i64 count, const i64 *some, const double *u,
+                        double *divergence) {
+  enum { MANY = 64 }; /* faces between what is gathered and what is scattered, in registers side by side */
+  double e[4][3][MANY], to1[MANY], to2[MANY], d1[MANY], d2[MANY];
+  for (i64 start = 0; start < count; start += MANY) {
+    i64 many = least(MANY, count - start), face[MANY];
+    for (i64 i = 0; i < many; i++) {
+      i64 f = face[i] = some ? some[start + i] : start + i;
+      double base = u[corner[f]];
+      d1[i] = u[corner[m + f]] - base, d2[i] = u[corner[2 * m + f]] - base;
+    }
+    for (int s = 0; s < 4; s++)
+      for (int a = 0; a < 3; a++)
+        for (i64 i = 0; i < many; i++) e[s][a][i] = side[s][a * m + face[i]];
+    for (i64 i = 0; i < many; i++) {
+      double a = __builtin_fabs(d1[i]), b = __builtin_fabs(d2[i]), size = a > b ? a : b;
+      size += size == 0; /* squares of 1e-200 are 0, so each face is brought to size 1 first */
+      a = d1[i] / size, b = d2[i] / size;
+      double x = a * e[1][0][i] - b * e[0][0][i], y = a * e[1][1][i] - b * e[0][1][i],
+             z = a * e[1][2][i] - b * e[0][2][i], length = __builtin_sqrt(x * x + y * y + z * z);
+      double half = 0.5 / (length + (length == 0));
+      to1[i] = -half * (e[3][0][i] * x + e[3][1][i] * y + e[3][2][i] * z);
+      to2[i] = half * (e[2][0][i] * x + e[2][1][i] * y + e[2][2][i] * z);
+    }
+    for (i64 i = 0; i < many; i++) {
+      i64 f = face[i];
+      divergence[corner[f]] -= to1[i] + to2[i], divergence[corner[m + f]] += to1[i];
+      divergence[corner[2 * m + f]] += to2[i];
     }
   }
 }
