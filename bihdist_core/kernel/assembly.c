@@ -52,6 +52,34 @@ API i64 bih_stiffness(i64 n, i64 m, const i64 *faces, const double *weight, i32 
   return start[n];
 }
 
+/* The lesser or greater end of side k of face f, numbered 3 f + k: from its corner k to the next. */
+static i64 end_of(const i64 *faces, i64 side, int greater) {
+  i64 a = faces[side], b = faces[side % 3 == 2 ? side - 2 : side + 1];
+  return (a < b) == greater ? b : a;
+}
+
+/* The edges of faces (m, 3) of n vertices: edge (3 m, 2), lesser end first, ascending, each once; of_side (3, m): the edge
+ * of each face's sides.  work (n + 1 + 6 m,).  Returns how many there are. */
+API i64 bih_edges(i64 n, i64 m, const i64 *faces, i64 *edge, i64 *of_side, i32 *work) {
+  i32 *place = work, *by_greater = place + n + 1, *sorted = by_greater + 3 * m;
+  for (int greater = 1; greater >= 0; greater--) { /* sorted by one end, and that stably by the other */
+    zero(place, 4 * (n + 1));
+    for (i64 s = 0; s < 3 * m; s++) place[end_of(faces, s, greater) + 1]++;
+    for (i64 v = 0; v < n; v++) place[v + 1] += place[v];
+    for (i64 i = 0; i < 3 * m; i++) {
+      i64 s = greater ? i : by_greater[i];
+      (greater ? by_greater : sorted)[place[end_of(faces, s, greater)]++] = (i32)s;
+    }
+  }
+  i64 count = 0;
+  for (i64 i = 0; i < 3 * m; i++) {
+    i64 s = sorted[i], a = end_of(faces, s, 0), b = end_of(faces, s, 1);
+    if (!count || edge[2 * count - 2] != a || edge[2 * count - 1] != b) edge[2 * count] = a, edge[2 * count++ + 1] = b;
+    of_side[s % 3 * m + s / 3] = count - 1;
+  }
+  return count;
+}
+
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* The sides opposite to the corners of a face. */
