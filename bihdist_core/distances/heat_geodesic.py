@@ -25,6 +25,7 @@ from ..errors import ParameterError, SolverError
 from ..kernel.library import at, library
 from ..operators import face_sides
 from ..progress import Progress, silent
+from ..solver.worker_threads import side_by_side
 from ..surface import Surface, dots
 
 Solve = Callable[[FloatArray], FloatArray]
@@ -179,11 +180,17 @@ class _FaceFlow:
         lib = library()
         if lib is None:
             return self._plain_divergence(u, faces)
-        divergence, m = np.zeros(self._n), self._corners.shape[1]
+        m, u = self._corners.shape[1], np.ascontiguousarray(u)
         sides = (c_void_p * 4)(*(at(side) for side in (self._e1, self._e2, self._true1, self._true2)))
         count = m if faces is None else len(faces)
-        lib.bih_divergence(m, self._corners, sides, count, faces, np.ascontiguousarray(u), divergence)
-        return divergence
+        half = max(1, -(-count // 2))
+
+        def one(first: int) -> FloatArray:
+            part = np.zeros(self._n)
+            lib.bih_divergence(m, self._corners, sides, first, min(first + half, count), faces, u, part)
+            return part
+
+        return sum(side_by_side(one, range(0, count, half)), np.zeros(self._n))
 
     def _plain_divergence(self, u: FloatArray, faces: IntArray | None) -> FloatArray:
         """Without the compiled kernel."""

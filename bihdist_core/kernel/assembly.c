@@ -116,15 +116,15 @@ API void bih_corners(i64 m, const double *x, const i64 *faces, const double *are
   }
 }
 
-/* Add to divergence (n,) the integrals of grad(hat) . X, X = -grad u / |grad u|, over the faces some (count,), or over the
- * first count if it is NULL; a face where u is constant has X = 0.  corner (3, m); side: four arrays (3, m), the sides
+/* Add to divergence (n,) the integrals of grad(hat) . X, X = -grad u / |grad u|, over the faces some[first] to
+ * some[end - 1], or first to end - 1 if it is NULL; a face where u is constant has X = 0.  corner (3, m); side: four arrays (3, m), the sides
  * from corner 0 to corners 1 and 2 by which u is turned into a direction, and those along which it is integrated. */
-API void bih_divergence(i64 m, const i64 *corner, const double *const *side, i64 count, const i64 *some, const double *u,
-                        double *divergence) {
+API void bih_divergence(i64 m, const i64 *corner, const double *const *side, i64 first, i64 end, const i64 *some,
+                        const double *u, double *divergence) {
   enum { MANY = 64 }; /* faces between what is gathered and what is scattered, in registers side by side */
   double e[4][3][MANY], to1[MANY], to2[MANY], d1[MANY], d2[MANY];
-  for (i64 start = 0; start < count; start += MANY) {
-    i64 many = least(MANY, count - start), face[MANY];
+  for (i64 start = first; start < end; start += MANY) {
+    i64 many = least(MANY, end - start), face[MANY];
     for (i64 i = 0; i < many; i++) {
       i64 f = face[i] = some ? some[start + i] : start + i;
       double base = u[corner[f]];

@@ -196,7 +196,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "measures": (None, (_I, _A, _A, _A, _A)),
     "corners": (None, (_I, _A, _A, _A, _A, _A)),
     "edges": (c_int64, (_I, _I, _A, _A, _A, _A)),
-    "divergence": (None, (_I, _A, _P, _I, _A, _A, _A)),
+    "divergence": (None, (_I, _A, _P, _I, _I, _A, _A, _A)),
     "stiffness": (c_int64, (_I, _I, _A, _A, _A, _A, _A, _A)),
     "check_faces": (c_int32, (_I, _I, _A, _I, _A)),
     "merge_points": (c_int64, (_I, _A, _I, _A, _A, _A)),

@@ -127,8 +127,8 @@ class _Space:
         """Take the block into the basis and make the next one of its image T Q (n, k), which is overwritten."""
         old, new = self.size, self.size + self.block.shape[1]
         touched = np.append(np.flatnonzero(self.couple.any(axis=0)), old)
-        before = np.cumsum([x.shape[1] for x in self.basis])
-        near = [*self.basis[np.searchsorted(before, touched[0], side="right") :], self.block]
+        ends = np.cumsum([x.shape[1] for x in self.basis])
+        near = [*self.basis[np.searchsorted(ends, touched[0], side="right") :], self.block]
         self.basis = [*self.basis, self.block] if self.block.shape[1] else self.basis
         inside = gram(near, image, self.weights)
         subtract(image, near, inside)

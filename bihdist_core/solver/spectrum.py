@@ -8,6 +8,7 @@ single ones and orthogonalizing by blocks is matrix multiplication.  See `krylov
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -194,10 +195,9 @@ def _refined(stiffness: sp.csr_matrix, areas: FloatArray, vectors: FloatArray, p
     mass = own_gram(vectors, areas) * scale * scale[:, None]
     images = np.empty(vectors.shape)
 
-    def energies(rows: slice) -> FloatArray:
+    def energies(rows: slice) -> Any:
         images[rows] = sparse_rows(stiffness, rows) @ vectors
-        product: FloatArray = np.dot(vectors[rows].T, images[rows])
-        return product
+        return np.dot(vectors[rows].T, images[rows])
 
     energy = sum(over_rows(energies, len(areas))) * scale * scale[:, None]
     progress(0.4, "eigenpairs: combining")

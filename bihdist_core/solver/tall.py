@@ -5,7 +5,7 @@ Where a product has few results it is np.dot's: np.matmul would keep the interpr
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 import scipy.sparse as sp
@@ -25,7 +25,7 @@ ROWS = 1024
 def gram(blocks: Blocks, y: FloatArray, weights: FloatArray) -> FloatArray:
     """(j, k) products x^T diag(weights) y of x (n, j), in blocks of columns, and y (n, k)."""
 
-    def one(rows: slice) -> FloatArray:
+    def one(rows: slice) -> Any:
         weighted = weights[rows, None] * y[rows]
         return np.concatenate([np.dot(x[rows].T, weighted) for x in blocks])
 
@@ -37,10 +37,9 @@ def own_gram(x: FloatArray, weights: FloatArray) -> FloatArray:
     """(k, k) products x^T diag(weights) x of x (n, k), weights of at least 0: half the work."""
     root = np.sqrt(weights)
 
-    def one(rows: slice) -> FloatArray:
+    def one(rows: slice) -> Any:
         weighted = root[rows, None] * x[rows]
-        product: FloatArray = np.dot(weighted.T, weighted)
-        return product
+        return np.dot(weighted.T, weighted)
 
     product: FloatArray = sum(over_rows(one, len(x)))
     return product
