@@ -113,6 +113,10 @@ class Surface:
     def _sides(self) -> tuple[IntArray, IntArray]:
         """(e, 2) edges, ascending, and (3m,) the edge of each face's sides 01, 12, 20 (all 01 first)."""
         f, n = self.faces, len(self.vertices)
+        if lib := library():
+            edges, of_side = np.empty((f.size, 2), np.int64), np.empty(f.size, np.int64)
+            count = lib.bih_edges(n, len(f), f, edges, of_side, np.empty(n + 1 + 2 * f.size, np.int32))
+            return edges[:count].copy(), of_side
         tail, head = f.T.ravel(), f[:, [1, 2, 0]].T.ravel()
         key = np.minimum(tail, head) * n + np.maximum(tail, head)
         # Not by np.unique: where that counts, other Python threads stand still.

@@ -66,7 +66,8 @@ def heat_errors(surface: Surface, heat: HeatTimes) -> HeatErrors | None:
 
 def below_straight_line(surface: Surface, source: int, field: FloatArray) -> float:
     """By how much of its maximum a field (n,) from a vertex falls below straight lines at most; 0 where it does not."""
-    straight = np.linalg.norm(surface.vertices - surface.vertices[source], axis=1)
+    apart = surface.vertices - surface.vertices[source]
+    straight = np.sqrt(np.einsum("ij,ij->i", apart, apart))
     return float(max((straight - field).max(), 0.0) / max(straight.max(), field.max()))
 
 

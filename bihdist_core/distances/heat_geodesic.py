@@ -15,14 +15,17 @@ scaled up before the next solve with the same matrix.  Directions do not depend 
 """
 
 from collections.abc import Callable
+from ctypes import c_void_p
 
 import numpy as np
 import scipy.sparse as sp
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
+from ..kernel.library import at, library
 from ..operators import face_sides
 from ..progress import Progress, silent
+from ..solver.worker_threads import side_by_side
 from ..surface import Surface, dots
 
 Solve = Callable[[FloatArray], FloatArray]
@@ -174,6 +177,23 @@ class _FaceFlow:
 
     def divergence(self, u: FloatArray, faces: IntArray | None = None) -> FloatArray:
         """(n,) div X of -grad u / |grad u| on all or some (k,) faces; a face where u is constant has X = 0."""
+        lib = library()
+        if lib is None:
+            return self._plain_divergence(u, faces)
+        m, u = self._corners.shape[1], np.ascontiguousarray(u)
+        sides = (c_void_p * 4)(*(at(side) for side in (self._e1, self._e2, self._true1, self._true2)))
+        count = m if faces is None else len(faces)
+        half = max(1, -(-count // 2))
+
+        def one(first: int) -> FloatArray:
+            part = np.zeros(self._n)
+            lib.bih_divergence(m, self._corners, sides, first, min(first + half, count), faces, u, part)
+            return part
+
+        return sum(side_by_side(one, range(0, count, half)), np.zeros(self._n))
+
+    def _plain_divergence(self, u: FloatArray, faces: IntArray | None) -> FloatArray:
+        """Without the compiled kernel."""
         if faces is None:
             corners, e1, e2, true1, true2 = self._corners, self._e1, self._e2, self._true1, self._true2
         else:

@@ -1,4 +1,4 @@
-/* From triangles to a sparse matrix. */
+/* From triangles to a sparse matrix, and to a divergence. */
 #include "kernel.h"
 
 /* The stiffness matrix by rows: entry (i, j) is minus the weight of edge ij, the sum over its faces of weight (3, m), at
@@ -52,6 +52,34 @@ API i64 bih_stiffness(i64 n, i64 m, const i64 *faces, const double *weight, i32 
   return start[n];
 }
 
+/* The lesser or greater end of side k of face f, numbered 3 f + k: from its corner k to the next. */
+static i64 end_of(const i64 *faces, i64 side, int greater) {
+  i64 a = faces[side], b = faces[side % 3 == 2 ? side - 2 : side + 1];
+  return (a < b) == greater ? b : a;
+}
+
+/* The edges of faces (m, 3) of n vertices: edge (3 m, 2), lesser end first, ascending, each once; of_side (3, m): the edge
+ * of each face's sides.  work (n + 1 + 6 m,).  Returns how many there are. */
+API i64 bih_edges(i64 n, i64 m, const i64 *faces, i64 *edge, i64 *of_side, i32 *work) {
+  i32 *place = work, *by_greater = place + n + 1, *sorted = by_greater + 3 * m;
+  for (int greater = 1; greater >= 0; greater--) { /* sorted by one end, and that stably by the other */
+    zero(place, 4 * (n + 1));
+    for (i64 s = 0; s < 3 * m; s++) place[end_of(faces, s, greater) + 1]++;
+    for (i64 v = 0; v < n; v++) place[v + 1] += place[v];
+    for (i64 i = 0; i < 3 * m; i++) {
+      i64 s = greater ? i : by_greater[i];
+      (greater ? by_greater : sorted)[place[end_of(faces, s, greater)]++] = (i32)s;
+    }
+  }
+  i64 count = 0;
+  for (i64 i = 0; i < 3 * m; i++) {
+    i64 s = sorted[i], a = end_of(faces, s, 0), b = end_of(faces, s, 1);
+    if (!count || edge[2 * count - 2] != a || edge[2 * count - 1] != b) edge[2 * count] = a, edge[2 * count++ + 1] = b;
+    of_side[s % 3 * m + s / 3] = count - 1;
+  }
+  return count;
+}
+
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* The sides opposite to the corners of a face. */
@@ -84,6 +112,41 @@ API void bih_corners(i64 m, const double *x, const i64 *faces, const double *are
     for (int k = 0; k < 3; k++) {
       square[k * m + f] = dot(side[k], side[k]);
       cotangent[k * m + f] = -dot(side[(k + 1) % 3], side[(k + 2) % 3]) / (2 * area[f]);
+    }
+  }
+}
+
+/* Add to divergence (n,) the integrals of grad(hat) . X, X = -grad u / |grad u|, over the faces some[first] to
+ * some[end - 1], or first to end - 1 if it is NULL; a face where u is constant has X = 0.  corner (3, m); side: four arrays (3, m), the sides
+ * from corner 0 to corners 1 and 2 by which u is turned into a direction, and those along which it is integrated. */
+API void bih_divergence(i64 m, const i64 *corner, const double *const *side, i64 first, i64 end, const i64 *some,
+                        const double *u, double *divergence) {
+  enum { MANY = 64 }; /* faces between what is gathered and what is scattered, in registers side by side */
+  double e[4][3][MANY], to1[MANY], to2[MANY], d1[MANY], d2[MANY];
+  for (i64 start = first; start < end; start += MANY) {
+    i64 many = least(MANY, end - start), face[MANY];
+    for (i64 i = 0; i < many; i++) {
+      i64 f = face[i] = some ? some[start + i] : start + i;
+      double base = u[corner[f]];
+      d1[i] = u[corner[m + f]] - base, d2[i] = u[corner[2 * m + f]] - base;
+    }
+    for (int s = 0; s < 4; s++)
+      for (int a = 0; a < 3; a++)
+        for (i64 i = 0; i < many; i++) e[s][a][i] = side[s][a * m + face[i]];
+    for (i64 i = 0; i < many; i++) {
+      double a = __builtin_fabs(d1[i]), b = __builtin_fabs(d2[i]), size = a > b ? a : b;
+      size += size == 0; /* squares of 1e-200 are 0, so each face is brought to size 1 first */
+      a = d1[i] / size, b = d2[i] / size;
+      double x = a * e[1][0][i] - b * e[0][0][i], y = a * e[1][1][i] - b * e[0][1][i],
+             z = a * e[1][2][i] - b * e[0][2][i], length = __builtin_sqrt(x * x + y * y + z * z);
+      double half = 0.5 / (length + (length == 0));
+      to1[i] = -half * (e[3][0][i] * x + e[3][1][i] * y + e[3][2][i] * z);
+      to2[i] = half * (e[2][0][i] * x + e[2][1][i] * y + e[2][2][i] * z);
+    }
+    for (i64 i = 0; i < many; i++) {
+      i64 f = face[i];
+      divergence[corner[f]] -= to1[i] + to2[i], divergence[corner[m + f]] += to1[i];
+      divergence[corner[2 * m + f]] += to2[i];
     }
   }
 }

@@ -7,7 +7,8 @@
  * N1 x[boundary].  Then a vector is (n, 2 w), x and y beside each other, and one product with N serves both. */
 #include "kernel.h"
 
-enum { AHEAD = 256, LINE = 8 }; /* so many doubles are fetched before they are used; a line of the cache has so many */
+enum { AHEAD = 256, SOON = 16, LINE = 8 }; /* so many doubles, or rows, are fetched before they are used; a line of the
+                                               cache has so many */
 static inline void fetch_ahead(const double *N, i64 length) {
   for (i64 j = 0; j < length; j += LINE) __builtin_prefetch(N + AHEAD + j);
 }
@@ -22,6 +23,36 @@ static double sum(vec v) {
 static void gather(const i32 *rows, i64 m, i64 w, const double *x, double *to) {
   for (i64 j = 0; j < m; j++)
     for (i64 l = 0; l < w; l += LANES) *(vec *)(to + j * w + l) = *(const vec *)(x + rows[j] * w + l);
+}
+
+/* to (m,) += N^T x, N (c, ln) and x (c,); m is a multiple of PAD. */
+static void add_rows(i64 c, i64 m, const double *N, i64 ln, const double *x, double *to) {
+  i64 i = 0;
+  for (; i + 4 <= c; i += 4, N += 4 * ln) { /* row by row, each would wait for what the one before stores */
+    const double a = x[i], b = x[i + 1], c = x[i + 2], d = x[i + 3];
+    fetch_ahead(N, 4 * ln);
+    for (i64 j = 0; j < m; j += LANES)
+      *(vec *)(to + j) += (a * *(const vec *)(N + j) + b * *(const vec *)(N + ln + j)) +
+                          (c * *(const vec *)(N + 2 * ln + j) + d * *(const vec *)(N + 3 * ln + j));
+  }
+  for (; i < c; i++, N += ln) {
+    const double a = x[i];
+    for (i64 j = 0; j < m; j += LANES) *(vec *)(to + j) += a * *(const vec *)(N + j);
+  }
+}
+
+/* Rows of b, ldb doubles apart, to the places first to end - 1 of x (n, w): k columns, and zeros beside them. */
+API void bih_take_rows(const Tree *t, i64 first, i64 end, i64 k, i64 w, const double *b, i64 ldb, double *x) {
+  for (i64 p = first; p < end; p++) {
+    const double *next = b + t->vertices[least(p + SOON, end - 1)] * ldb, *from = b + t->vertices[p] * ldb;
+    for (i64 l = 0; l < k; l += LINE) __builtin_prefetch(next + l);
+    copy(x + p * w, from, 8 * k), zero(x + p * w + k, 8 * (w - k));
+  }
+}
+
+/* The other way round: k columns of the places first to end - 1 of x (n, w) to rows of b. */
+API void bih_put_rows(const Tree *t, i64 first, i64 end, i64 k, i64 w, const double *x, double *b, i64 ldb) {
+  for (i64 p = first; p < end; p++) copy(b + t->vertices[p] * ldb, x + p * w, 8 * k);
 }
 
 /* Doubles that a sweep of w columns along the fronts first to last needs to work. */
@@ -45,8 +76,7 @@ API i32 bih_sweep_up(const Factor *factor, i64 first, i64 last, i64 end, i64 w, 
     if (!filled) continue;
     zero(work, 8 * f.mp * w);
     if (w == 1)
-      for (i64 i = 0; i < f.c; i++)
-        for (i64 j = 0; j < f.mp; j++) work[j] += N[i * ln + j] * pivots[i];
+      add_rows(f.c, f.mp, N, ln, pivots, work);
     else add_product(f.m, w, f.c, 1, N, 1, ln, pivots, w, work, w);
     for (i64 j = 0; j < f.m; j++) {
       i64 r = f.rows[j];

@@ -133,36 +133,44 @@ class CompiledFactor:
         self._arena = None
         return diagonals[0], diagonals[1]
 
-    def solve(self, b: FloatArray, run: Run, workspaces: Workspaces) -> FloatArray:
-        """(n, k) matrix^-1 b, b (n, k): every task up to the top, the top up and down, and every task down."""
-        tree, width = self.tree, _width(b.shape[1])
-        result = np.empty(b.shape)
+    def solve(self, b: FloatArray, out: FloatArray, run: Run, workspaces: Workspaces) -> None:
+        """out (n, k) = matrix^-1 b, b (n, k): every task up to the top, the top up and down, and every task down.
+
+        Both may be columns of wider arrays by rows.
+        """
+        lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
+        columns, top = b.shape[1], tree.top_places
+        width, struct = _width(columns), ctypes.byref(tree.struct)
+
         with workspaces.of(tree.n * width) as x:
             x = x.reshape(tree.n, width)
-            x[:, : b.shape[1]], x[:, b.shape[1] :] = b[tree.order], 0
-            self._solve_in_place(x, run)
-            result[tree.order] = x[:, : b.shape[1]]
-        return result
 
-    def _solve_in_place(self, x: FloatArray, run: Run) -> None:
-        lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
-        width, top = x.shape[1], tree.top_places
+            def take(task: tuple[int, int]) -> None:
+                lib.bih_take_rows(struct, *self._places(task), columns, width, b.ctypes.data, b.strides[0] // 8, x)
 
-        def up(task: tuple[int, int]) -> FloatArray:
-            above, end = np.zeros((len(top), width)), int(tree.first[task[1] + 1])
-            lib.bih_sweep_up(factor, *task, end, width, x, above, self._workspace(task, width), NEVER)
-            return above
+            def up(task: tuple[int, int]) -> FloatArray:
+                above, end = np.zeros((len(top), width)), int(tree.first[task[1] + 1])
+                take(task)
+                lib.bih_sweep_up(factor, *task, end, width, x, above, self._workspace(task, width), NEVER)
+                return above
 
-        def down(task: tuple[int, int]) -> None:
-            lib.bih_sweep_down(factor, *task, width, x, self._workspace(task, width), NEVER)
+            def down(task: tuple[int, int]) -> None:
+                lib.bih_sweep_down(factor, *task, width, x, self._workspace(task, width), NEVER)
+                lib.bih_put_rows(struct, *self._places(task), columns, width, x, out.ctypes.data, out.strides[0] // 8)
 
-        for above in run(up, tree.branches):
-            x[top] += above
-        for q in tree.tops:
-            lib.bih_sweep_up(factor, q, q, tree.n, width, x, None, self._workspace((q, q), width), NEVER)
-        for q in reversed(tree.tops):
-            down((q, q))
-        run(down, tree.branches)
+            for q in tree.tops:
+                take((q, q))
+            for above in run(up, tree.branches):
+                x[top] += above
+            for q in tree.tops:
+                lib.bih_sweep_up(factor, q, q, tree.n, width, x, None, self._workspace((q, q), width), NEVER)
+            for q in reversed(tree.tops):
+                down((q, q))
+            run(down, tree.branches)
+
+    def _places(self, task: tuple[int, int]) -> tuple[int, int]:
+        """The first place of a task's pivots, and the first after them."""
+        return int(self.tree.first[task[0]]), int(self.tree.first[task[1] + 1])
 
     def each_sandwich_piece(
         self, index: IntArray, run: Run, receive: Callable[[AnyArray, FloatArray], None], workspaces: Workspaces

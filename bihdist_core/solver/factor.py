@@ -87,11 +87,11 @@ class Factor:
             raise ParameterError(f"A right-hand side of shape {b.shape} does not fit a matrix of shape ({n}, {n}).")
         if not np.isfinite(b).all():
             raise ParameterError("A right-hand side must have finite numbers only.")
-        columns = b[:, None] if b.ndim == 1 else b
+        columns = np.ascontiguousarray(b[:, None] if b.ndim == 1 else b)
         result, workspaces = np.empty(columns.shape), Workspaces()
 
         def solve(some: slice, run: Run) -> None:
-            result[:, some] = self._blocks.solve(columns[:, some], run, workspaces)
+            self._blocks.solve(columns[:, some], result[:, some], run, workspaces)
 
         self._in_slices(columns.shape[1], WIDE, solve)
         _check_result(result)

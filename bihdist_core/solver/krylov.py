@@ -15,7 +15,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..progress import Progress
-from .tall import centre, gram, multiply, put, recombine, subtract
+from .tall import centre, gram, multiply, own_gram, recombine, subtract
 
 WIDTHS = 8, 32
 """Fewest and most columns of a block.  Wide blocks are cheaper per column; narrow ones need fewer columns."""
@@ -80,9 +80,9 @@ def largest_eigenpairs(
         if space.make_room(count):
             check = 0.0
     progress(0.99, "eigenpairs: combining")
-    vectors = multiply(space.basis[:, : space.size], y)
+    vectors = multiply(space.basis, y)
     # This makes them T X M^-1 without applying T: smoother than X, and to be had for nothing.
-    subtract(vectors, space.block, -missed)
+    subtract(vectors, [space.block], -missed)
     return vectors
 
 
@@ -102,10 +102,8 @@ class _Space:
     def __init__(self, weights: FloatArray, room: int, values: FloatArray, vectors: FloatArray) -> None:
         n, self.size = vectors.shape
         self.weights = weights
+        self.basis: list[FloatArray] = [np.array(vectors, order="C")] if self.size else []
         room += self.size
-        # By columns: the part not filled yet then costs no memory.
-        self.basis = np.empty((n, room), order="F")
-        self.basis[:, : self.size] = vectors
         self.h = np.zeros((room, room))
         self.h[: self.size, : self.size] = np.diag(values)
         self.block = np.empty((n, 0))
@@ -119,8 +117,8 @@ class _Space:
         """Widen the block by columns (n, k) that need have nothing to do with V."""
         centre(columns, self.weights)
         for _ in range(2):
-            for old in (self.basis[:, : self.size], self.block):
-                subtract(columns, old, gram(old, columns, self.weights))
+            old = [*self.basis, self.block]
+            subtract(columns, old, gram(old, columns, self.weights))
             columns, _ = self._orthonormal(columns)
         self.block = np.hstack([self.block, columns])
         self.couple = np.vstack([self.couple, np.zeros((columns.shape[1], self.size))])
@@ -128,10 +126,10 @@ class _Space:
     def grow(self, image: FloatArray) -> None:
         """Take the block into the basis and make the next one of its image T Q (n, k), which is overwritten."""
         old, new = self.size, self.size + self.block.shape[1]
-        v = self.basis[:, :new]
-        put(v, old, self.block)
         touched = np.append(np.flatnonzero(self.couple.any(axis=0)), old)
-        near = v[:, touched[0] :]
+        ends = np.cumsum([x.shape[1] for x in self.basis])
+        near = [*self.basis[np.searchsorted(ends, touched[0], side="right") :], self.block]
+        self.basis = [*self.basis, self.block] if self.block.shape[1] else self.basis
         inside = gram(near, image, self.weights)
         subtract(image, near, inside)
         inside = inside[old - new :]
@@ -145,8 +143,8 @@ class _Space:
         before, this = self._left
         left = ((self._error + this) * scale + before * np.linalg.norm(self.couple)) / least
         if left > LOSS:
-            rest = gram(v, q, self.weights)
-            subtract(q, v, rest)
+            rest = gram(self.basis, q, self.weights)
+            subtract(q, self.basis, rest)
             centre(q, self.weights)
             self.h[:new, old:new] += rest @ r
             self.h[old:new, :old] += (rest[:old] @ r).T
@@ -168,12 +166,12 @@ class _Space:
 
     def make_room(self, count: int) -> bool:
         """If the block does not fit into the basis any more, keep only the best Ritz vectors; whether it was so."""
-        room = self.basis.shape[1]
+        room = len(self.h)
         if self.size + self.block.shape[1] <= room:
             return False
         keep = min(count + (room - count) // 3, self.size)
         mu, y = self.ritz(keep)
-        recombine(self.basis[:, : self.size], y)
+        self.basis = recombine(self.basis, y)
         self.h[:] = 0
         self.h[:keep, :keep] = np.diag(mu)
         self.couple, self.size = self.couple @ y, keep
@@ -182,16 +180,16 @@ class _Space:
         short = keep + 2 * self.block.shape[1] - room
         if short > 0:
             # Only after several injections into a space at its limit of memory.
-            self.basis = np.asfortranarray(np.pad(self.basis, ((0, 0), (0, short))))
             self.h = np.pad(self.h, (0, short))
         return True
 
     def _orthonormal(self, w: FloatArray, smallest: float = 0.0) -> tuple[FloatArray, FloatArray]:
-        """Q (n, j) and R (j, k) with W = Q R and Q A-orthonormal; what is only rounding in W (n, k) is left out.
+        """Q (n, j) and R (j, k) with W = Q R and Q A-orthonormal; what is only rounding in W (n, k) is left out.  W is
+        overwritten.
 
         Once leaves Q as far from orthonormal as the columns of W were from independent; twice makes it good.
         """
-        products = gram(w, w, self.weights)
+        products = own_gram(w, self.weights)
         size = np.sqrt(np.diag(products))
         live = np.flatnonzero(size > smallest)
         size = size[live]
@@ -200,4 +198,4 @@ class _Space:
         turn, r = np.zeros((w.shape[1], len(values))), np.zeros((len(values), w.shape[1]))
         turn[live] = u / np.sqrt(values) / size[:, None]
         r[:, live] = np.sqrt(values)[:, None] * u.T * size
-        return multiply(w, turn), r
+        return recombine([w], turn)[0], r

@@ -323,15 +323,15 @@ class PlainFactor:
 
     @one_blas_thread()
     @np.errstate(all="ignore")
-    def solve(self, b: FloatArray, _run: object, _workspaces: object) -> FloatArray:
-        """(n, k) matrix^-1 b, b (n, k): up from the leaves to the root, and down."""
+    def solve(self, b: FloatArray, out: FloatArray, _run: object, _workspaces: object) -> None:
+        """out (n, k) = matrix^-1 b, b (n, k): up from the leaves to the root, and down."""
         x = b[self.tree.vertices]
         fronts = list(zip(self.tree.fronts, self._blocks, strict=True))
         for front, (_, N, _, _) in fronts:
             x[front.boundary] += N.T @ x[front.pivots]
         for front, (K, N, _, _) in reversed(fronts):
             x[front.pivots] = K @ x[front.pivots] + N @ x[front.boundary]
-        return x[self.tree.place]
+        out[:] = x[self.tree.place]
 
     @one_blas_thread()
     @np.errstate(all="ignore")

@@ -8,6 +8,7 @@ single ones and orthogonalizing by blocks is matrix multiplication.  See `krylov
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -17,7 +18,7 @@ from ..errors import ParameterError, SolverError
 from ..progress import Progress, part, silent
 from .blas import one_blas_thread
 from .krylov import largest_eigenpairs, usual_columns
-from .tall import centre, gram, multiply, over_rows, sparse_rows
+from .tall import centre, over_rows, own_gram, recombine, sparse_rows
 
 Solve = Callable[[FloatArray], FloatArray]
 
@@ -75,8 +76,14 @@ def smallest_eigenpairs(
         if len(start.eigenvalues) >= count:
             return Spectrum(start.eigenvalues[:count], start.eigenvectors[:, :count], start.residuals[:count])
 
+    loads = np.empty((len(areas), 0))
+
     def apply(x: FloatArray) -> FloatArray:
-        y = solve(areas[:, None] * x)
+        nonlocal loads
+        if loads.shape != x.shape:
+            loads = np.empty(x.shape)  # used again: memory that is touched first costs more
+        over_rows(lambda rows: np.multiply(areas[rows, None], x[rows], out=loads[rows]), len(x))
+        y = solve(loads)
         centre(y, areas)
         return y
 
@@ -184,23 +191,30 @@ def _centred(x: FloatArray, areas: FloatArray) -> FloatArray:
 
 
 def _refined(stiffness: sp.csr_matrix, areas: FloatArray, vectors: FloatArray, progress: Progress) -> Spectrum:
-    """Rayleigh-Ritz in the span of the (n, k) vectors with the stiffness matrix itself, and the residuals."""
+    """Rayleigh-Ritz in the span of the (n, k) vectors with the stiffness matrix itself, and the residuals.  The vectors
+    are overwritten.
+    """
     scale = 1 / np.sqrt(np.einsum("ij,i,ij->j", vectors, areas, vectors))
     progress(0.1, "eigenpairs: combining")
-    mass = gram(vectors, vectors, areas) * scale * scale[:, None]
-    energies = over_rows(lambda rows: vectors[rows].T @ (sparse_rows(stiffness, rows) @ vectors), len(areas))
-    energy = sum(energies) * scale * scale[:, None]
+    mass = own_gram(vectors, areas) * scale * scale[:, None]
+    images = np.empty(vectors.shape)
+
+    def energies(rows: slice) -> Any:
+        images[rows] = sparse_rows(stiffness, rows) @ vectors
+        return np.dot(vectors[rows].T, images[rows])
+
+    energy = sum(over_rows(energies, len(areas))) * scale * scale[:, None]
     progress(0.4, "eigenpairs: combining")
     # The small generalized eigenproblem, in steps for which other Python threads need not stand still.
     turn = np.linalg.inv(np.linalg.cholesky(mass)).T
     energy = turn.T @ energy @ turn
     values, mix = np.linalg.eigh((energy + energy.T) / 2)
-    mix = turn @ mix
-    vectors = multiply(vectors, scale[:, None] * mix)
+    mix = scale[:, None] * (turn @ mix)
+    (vectors,) = recombine([vectors], mix)
     progress(0.8, "eigenpairs: checking")
 
     def squares(rows: slice) -> FloatArray:
-        r = sparse_rows(stiffness, rows) @ vectors - areas[rows, None] * vectors[rows] * values
+        r = images[rows] @ mix - areas[rows, None] * vectors[rows] * values
         return _over_areas(r * r, areas[rows])
 
     return Spectrum(values, vectors, np.sqrt(sum(over_rows(squares, len(areas)))) / values)

@@ -4,8 +4,8 @@
 Where a product has few results it is np.dot's: np.matmul would keep the interpreter lock meanwhile.
 """
 
-from collections.abc import Callable
-from typing import TypeVar
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 import scipy.sparse as sp
@@ -15,30 +15,53 @@ from .worker_threads import side_by_side
 
 Result = TypeVar("Result")
 
-ROWS = 2048
+Blocks = Sequence[FloatArray]
+"""Columns of a tall array, (n, k) each."""
+
+ROWS = 1024
 """Rows multiplied at a time: enough to keep a core busy, few enough to stay in its cache."""
 
 
-def gram(x: FloatArray, y: FloatArray, weights: FloatArray) -> FloatArray:
-    """(j, k) products x^T diag(weights) y of x (n, j) and y (n, k)."""
-    product: FloatArray = sum(over_rows(lambda rows: np.dot(x[rows].T, weights[rows, None] * y[rows]), len(x)))
+def gram(blocks: Blocks, y: FloatArray, weights: FloatArray) -> FloatArray:
+    """(j, k) products x^T diag(weights) y of x (n, j), in blocks of columns, and y (n, k)."""
+
+    def one(rows: slice) -> Any:
+        weighted = weights[rows, None] * y[rows]
+        return np.concatenate([np.dot(x[rows].T, weighted) for x in blocks])
+
+    product: FloatArray = sum(over_rows(one, len(y)))
     return product
 
 
-def multiply(x: FloatArray, c: FloatArray) -> FloatArray:
-    """(n, k) product of x (n, j) and c (j, k)."""
-    out = np.empty((len(x), c.shape[1]))
-    over_rows(lambda rows: np.matmul(x[rows], c, out=out[rows]), len(x))
+def own_gram(x: FloatArray, weights: FloatArray) -> FloatArray:
+    """(k, k) products x^T diag(weights) x of x (n, k), weights of at least 0: half the work."""
+    root = np.sqrt(weights)
+
+    def one(rows: slice) -> Any:
+        weighted = root[rows, None] * x[rows]
+        return np.dot(weighted.T, weighted)
+
+    product: FloatArray = sum(over_rows(one, len(x)))
+    return product
+
+
+def multiply(blocks: Blocks, c: FloatArray) -> FloatArray:
+    """(n, k) product of x (n, j), in blocks of columns, and c (j, k)."""
+    out = np.empty((len(blocks[0]), c.shape[1]))
+
+    over_rows(lambda rows: np.matmul(_joined(blocks, rows), c, out=out[rows]), len(out))
     return out
 
 
-def subtract(y: FloatArray, x: FloatArray, c: FloatArray) -> None:
-    """y -= x c, in place; y (n, k), x (n, j), c (j, k)."""
+def subtract(y: FloatArray, blocks: Blocks, c: FloatArray) -> None:
+    """y -= x c, in place; y (n, k), x (n, j) in blocks of columns, c (j, k)."""
 
     def one(rows: slice) -> None:
-        y[rows] -= x[rows] @ c
+        part = y[rows]
+        for x, each in _with_rows(blocks, c):
+            part -= x[rows] @ each
 
-    over_rows(one, len(x))
+    over_rows(one, len(y))
 
 
 def centre(x: FloatArray, weights: FloatArray) -> None:
@@ -51,22 +74,35 @@ def centre(x: FloatArray, weights: FloatArray) -> None:
     over_rows(one, len(x))
 
 
-def put(x: FloatArray, first: int, y: FloatArray) -> None:
-    """Overwrite columns of x, from `first` on, by y (n, k)."""
+def recombine(blocks: list[FloatArray], c: FloatArray) -> list[FloatArray]:
+    """Blocks of the columns of x c; x (n, j), in blocks of columns whose memory is used again, c (j, k), k <= j."""
+    k = c.shape[1]
+    kept = [x for x, each in _with_rows(blocks, np.arange(sum(x.shape[1] for x in blocks))) if each[0] < k]
 
     def one(rows: slice) -> None:
-        x[rows, first : first + y.shape[1]] = y[rows]
+        mixed = _joined(blocks, rows) @ c
+        first = 0
+        for x in kept:
+            some = mixed[:, first : first + x.shape[1]]
+            x[rows, : some.shape[1]] = some
+            first += x.shape[1]
 
-    over_rows(one, len(x))
+    over_rows(one, len(blocks[0]))
+    left = k - sum(x.shape[1] for x in kept[:-1])
+    return [*kept[:-1], np.ascontiguousarray(kept[-1][:, :left])]
 
 
-def recombine(x: FloatArray, c: FloatArray) -> None:
-    """Overwrite the first k columns of x (n, j) by x c, c (j, k), k <= j."""
+def _joined(blocks: Blocks, rows: slice) -> FloatArray:
+    """Some rows of x."""
+    return blocks[0][rows] if len(blocks) == 1 else np.concatenate([x[rows] for x in blocks], axis=1)
 
-    def one(rows: slice) -> None:
-        x[rows, : c.shape[1]] = x[rows] @ c
 
-    over_rows(one, len(x))
+def _with_rows(blocks: Blocks, c: FloatArray) -> Iterator[tuple[FloatArray, FloatArray]]:
+    """Each block with the rows of c (j, ...) that belong to its columns."""
+    first = 0
+    for x in blocks:
+        yield x, c[first : first + x.shape[1]]
+        first += x.shape[1]
 
 
 def point_distances(x: FloatArray, y: FloatArray) -> FloatArray:

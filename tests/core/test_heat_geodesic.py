@@ -7,9 +7,10 @@ from scipy.sparse.linalg import splu
 from bihdist_core.distances.geodesic import GeodesicDistance
 from bihdist_core.distances.heat_geodesic import HeatGeodesic, _FaceFlow, heat_matrix, heat_time
 from bihdist_core.errors import Cancelled, ParameterError, SolverError, VertexError
+from bihdist_core.kernel.library import library
 from bihdist_core.operators import stiffness, vertex_areas
 from bihdist_core.surface import Surface
-from tests.shapes import ORACLE, needs_oracle, oracle_surface
+from tests.shapes import ORACLE, bumpy, caps, needs_oracle, oracle_surface
 
 
 def heat_method(surface, factor=1.0):
@@ -197,3 +198,20 @@ def test_a_spread_source_is_shifted_by_how_far_its_vertices_are():
     # The load at 70 counts once, however it is told.
     locked_cached_property = method.distances_with(np.array([70, 71, 84]), np.array([0.5, 0.2, 0.1]), np.zeros(3))
     assert locked_cached_property == pytest.approx(near, rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.skipif(library() is None, reason="there is no compiled kernel")
+@pytest.mark.parametrize("height", [None, 1e-9, 0.0])
+def test_compiled_divergence_is_that_of_the_plain_one(height, monkeypatch):
+    surface = bumpy(300) if height is None else caps(bumpy(300), height, every=4)
+    assert (len(surface.degenerate_faces) > 0) == (height is not None)
+    flow = _FaceFlow(surface)
+    u = np.exp(-500 * np.random.default_rng(0).random(len(surface.vertices)))
+    u[surface.faces[3]] = 0.25
+    for faces in (None, np.arange(3, len(surface.faces), 2), np.arange(0)):
+        compiled = flow.divergence(u, faces)
+        with monkeypatch.context() as patch:
+            patch.setattr("bihdist_core.distances.heat_geodesic.library", lambda: None)
+            plain = flow.divergence(u, faces)
+        # A few terms are added up in another order.
+        np.testing.assert_allclose(compiled, plain, rtol=0, atol=1e-14 * np.abs(plain).max())

@@ -66,6 +66,17 @@ def test_components_are_numbered_by_size_and_cut_out_with_their_ids():
     assert np.array_equal(ids[small.faces], s.faces[-4:])
 
 
+@pytest.mark.parametrize("kernel", ["compiled", "plain"])
+@pytest.mark.parametrize("surface", [tetrahedron(), bumpy(300), grid(3, 2), fin(), two_pieces()])
+def test_each_edge_is_listed_once_and_known_to_its_sides(surface, kernel, monkeypatch):
+    if kernel == "plain":
+        monkeypatch.setattr("bihdist_core.surface.library", lambda: None)
+    s = Surface(surface.vertices, surface.faces)
+    ends = np.sort(np.concatenate([s.faces[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
+    assert np.array_equal(s.edges[s.edge_of_side], ends)
+    assert [tuple(edge) for edge in s.edges.tolist()] == sorted({tuple(edge) for edge in ends.tolist()})
+
+
 def test_faces_that_share_one_vertex_are_connected():
     assert fin().component_count == 1
 

@@ -17,14 +17,22 @@ def small_chunks(monkeypatch):
 
 
 def test_products():
-    assert np.allclose(tall.gram(X, Y, W), X.T @ np.diag(W) @ Y)
-    assert np.allclose(tall.multiply(X, C), X @ C)
+    blocks = [X[:, :3], X[:, 3:6], X[:, 6:]]
+    assert np.allclose(tall.gram(blocks, Y, W), X.T @ np.diag(W) @ Y)
+    assert np.allclose(tall.own_gram(X, abs(W)), X.T @ np.diag(abs(W)) @ X)
+    assert np.allclose(tall.multiply(blocks, C), X @ C)
     y = Y.copy()
-    tall.subtract(y, X, C)
+    tall.subtract(y, blocks, C)
     assert np.allclose(y, Y - X @ C)
-    x = X.copy()
-    tall.recombine(x, C)
-    assert np.allclose(x[:, :5], X @ C)
+
+
+@pytest.mark.parametrize("columns", [1, 3, 5])
+def test_recombined_blocks(columns):
+    blocks = [X[:, :3].copy(), X[:, 3:6].copy(), X[:, 6:].copy()]
+    mixed = tall.recombine(blocks, C[:, :columns])
+    assert np.allclose(np.hstack(mixed), X @ C[:, :columns])
+    assert all(x.flags.c_contiguous for x in mixed)
+    assert np.shares_memory(mixed[0], blocks[0]) == (columns >= 3)
 
 
 def test_rows_of_a_sparse_matrix():
