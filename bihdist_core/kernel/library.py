@@ -183,6 +183,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "connected": (None, (_I, _I, _A, _A, _A)),
     "measures": (None, (_I, _A, _A, _A, _A)),
     "corners": (None, (_I, _A, _A, _A, _A, _A)),
+    "voronoi_areas": (None, (_I, *(_A,) * 5)),
     "stiffness": (c_int64, (_I, _I, _A, _A, _A, _A, _A, _A)),
     "check_faces": (c_int32, (_I, _I, _A, _I, _A)),
     "merge_points": (c_int64, (_I, _A, _I, _A, _A, _A)),

@@ -114,7 +114,7 @@ class CompiledTree:
     @cached_property
     def top_places(self) -> IntArray:
         """(r,) the places of their pivots."""
-        return np.flatnonzero(np.repeat(self.top, self.sizes[0]))
+        return np.array([p for q in self.tops for p in range(self.first[q], self.first[q + 1])], np.int64)
 
     # ------------------------------------------------------------------ ordering
     def _dissect(self, matrix: Rows, entries: int, x: FloatArray, progress: Progress) -> tuple[AnyArray, AnyArray]:
