@@ -6,7 +6,7 @@
 #include "kernel.h"
 
 enum {
-  LEAF = 16,    /* most vertices of a region that is not cut */
+  LEAF = 24,    /* most vertices of a region that is not cut */
   SMALL = 150,  /* up to so many, regions are cut by positions alone */
   LARGE = 3000, /* from so many on, separators are made as small as can be */
   SAMPLE = 200, /* so many vertices of a region tell its principal axes */
