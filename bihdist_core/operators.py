@@ -78,6 +78,11 @@ def _areas(surface: Surface, kind: str, corners: Corners) -> FloatArray:
     if kind not in AREAS:
         raise ParameterError(f"There are no {kind!r} vertex areas; choose one of {', '.join(AREAS)}.")
     cotangents, squares, area = corners
+    flat, n = surface.degenerate_faces, len(surface.vertices)
+    if kind == "voronoi" and not len(flat) and (lib := library()):
+        areas = np.zeros(n)
+        lib.bih_voronoi_areas(len(area), surface.faces, cotangents, squares, area, areas)
+        return areas
     if kind == "barycentric":
         share = np.broadcast_to(area / 3, (3, len(area)))
     else:
@@ -88,7 +93,6 @@ def _areas(surface: Surface, kind: str, corners: Corners) -> FloatArray:
         face = obtuse % len(area)
         share[:, face] = area[face] / 4
         np.put(share, obtuse, area[face] / 2)
-    flat, n = surface.degenerate_faces, len(surface.vertices)
     if not len(flat):
         return np.bincount(surface.faces.T.ravel(), share.ravel(), n).astype(float, copy=False)
     share = share.copy()

@@ -286,20 +286,21 @@ def aimed(
     right /= np.linalg.norm(right)
     up = np.cross(back, right)
     frame = np.stack([right, up, back], 1)
-    local = points @ frame
+    # Each coordinate for itself: over contiguous memory every step is several times faster.
+    local = np.ascontiguousarray((points @ frame).T)
     slope = np.tan(np.radians(VIEW_ANGLE / 2))
     wide = slope * aspect * (1 - 2 * margins.side)
     high = slope * (1 - margins.top - margins.bottom)
-    centre = (local.min(axis=0) + local.max(axis=0)) / 2
-    half = np.ptp(local, axis=0) / 2
+    centre = (local.min(axis=1) + local.max(axis=1)) / 2
+    half = np.ptp(local, axis=1) / 2
     distance = max(half[0] / wide, half[1] / high, 1e-12)
     # With the camera at distance D before the centre, a point at (x, y, z) is seen at x / (D - z).  The nearest D
     # that keeps all points between the margins depends on the centre and the centre on D: a few rounds settle both.
     for _ in range(0 if is_parallel else 4):
-        x, y, z = (local - centre).T
+        x, y, z = local - centre[:, None]
         distance = max((np.abs(x) / wide + z).max(), (np.abs(y) / high + z).max(), 1e-12)
-        seen = (local - centre)[:, :2] / np.maximum(distance - z, 1e-12)[:, None]
-        centre[:2] += distance * (seen.min(axis=0) + seen.max(axis=0)) / 2
+        seen = np.stack([x, y]) / np.maximum(distance - z, 1e-12)
+        centre[:2] += distance * (seen.min(axis=1) + seen.max(axis=1)) / 2
     middle = frame @ centre
     return Camera(_vector(middle + distance * back), _vector(middle), _vector(up), _pair((wide, high)))
 

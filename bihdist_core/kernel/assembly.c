@@ -150,3 +150,18 @@ API void bih_divergence(i64 m, const i64 *corner, const double *const *side, i64
     }
   }
 }
+
+/* Mixed Voronoi areas of vertices (n,), 0 before, from what bih_corners has of each face and its area (m,). */
+API void bih_voronoi_areas(i64 m, const i64 *faces, const double *cotangent, const double *square, const double *area,
+                           double *areas) {
+  for (i64 f = 0; f < m; f++) {
+    double part[3], sum = 0;
+    int obtuse = -1;
+    for (int k = 0; k < 3; k++) {
+      sum += part[k] = cotangent[k * m + f] * square[k * m + f];
+      if (cotangent[k * m + f] < 0) obtuse = k;
+    }
+    for (int k = 0; k < 3; k++)
+      areas[faces[3 * f + k]] += obtuse < 0 ? (sum - part[k]) / 8 : k == obtuse ? area[f] / 2 : area[f] / 4;
+  }
+}

@@ -56,9 +56,10 @@ typedef struct {
   const double *value;
 } Rows;
 
-/* Nested dissection of a graph whose vertices are numbered breadth first (ordering.c). */
+/* Nested dissection of a graph whose vertices are numbered breadth first (ordering.c); its arrays lie behind it. */
 typedef struct {
   Rows graph;
+  i32 *numbers;        /* (n,) what the matrix calls each vertex */
   float *charts;       /* (7, n) positions, then edge counts to four landmarks */
   i32 *vertices;       /* (n,) in elimination order; each region is a stretch of it, in which they ascend */
   i32 *edges, *spare;  /* (e, 2) ends of the edges; each region has a stretch of those inside it */

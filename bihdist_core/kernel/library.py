@@ -43,18 +43,6 @@ class Rows(Structure):
     _fields_ = (("n", c_int64), ("start", c_void_p), ("index", c_void_p), ("value", c_void_p))
 
 
-DISSECTION_ARRAYS = (
-    "charts", "vertices", "edges", "spare", "region", "bin", "band", "at", "flow", "key", "side"
-)  # fmt: skip
-"""The arrays of `Dissection`, in their order."""
-
-
-class Dissection(Structure):
-    """A graph under nested dissection, and its workspace."""
-
-    _fields_ = (("graph", Rows), *((name, c_void_p) for name in DISSECTION_ARRAYS))
-
-
 class Region(Structure):
     """A stretch of a graph's vertices, and of its edges."""
 
@@ -158,29 +146,31 @@ class Run(Structure):
     targets_only: int
 
 
-_FIRST: Any = ctypes.c_char
-"""The first byte of an array."""
+_START: Any = ctypes.c_char * 0
+"""Where an array begins."""
 
 
 class _Array:
     """An argument: a contiguous array, or None; the call keeps it while the function runs."""
 
-    @classmethod
-    def from_param(cls, array: AnyArray | None) -> Any:
-        return None if array is None else c_void_p(at(array))
+    @staticmethod
+    def from_param(array: AnyArray | None) -> Any:
+        if array is None:
+            return None
+        return _START.from_buffer(array) if array.flags.writeable else c_void_p(at(array))
 
 
 _P, _A, _I = c_void_p, _Array, c_int64
 _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "has_avx2": (c_int32, ()),
-    "check_symmetric": (c_int32, (_P, _A)),
-    "number_graph": (None, (_P, *(_A,) * 9)),
-    "begin_dissection": (c_int64, (_P,)),
-    "cut": (c_int32, (_P, _P, _P)),
-    "dissect": (c_int64, (_P, _P, _I, _A, _A, _P)),
+    "dissection_room": (c_int64, (_I, _I)),
+    "begin_dissection": (c_int64, (_P, _A, _A)),
+    "cut": (c_int32, (_A, _P, _P)),
+    "dissect": (c_int64, (_A, _P, _I, _A, _A, _P)),
+    "end_dissection": (None, (_A, _A, _A)),
+    "link": (None, (_I, *(_A,) * 5)),
     "boundaries": (c_int64, (_P, _P, _A, _A, _I, _A)),
-    "places_in_parents": (None, (_P, _A, _A)),
-    "stack": (None, (_P, _A, _A)),
+    "lay_out": (None, (_P, _I, *(_A,) * 9)),
     "elimination_room": (None, (_P, c_int32, _I, _I, _A)),
     "eliminate": (c_int32, (_P, _P, _A, _I, _I, _A, _A, _A, _P)),
     "inversion_room": (None, (_P, _I, _I, _A)),
@@ -197,6 +187,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "corners": (None, (_I, _A, _A, _A, _A, _A)),
     "edges": (c_int64, (_I, _I, _A, _A, _A, _A)),
     "divergence": (None, (_I, _A, _P, _I, _I, _A, _A, _A)),
+    "voronoi_areas": (None, (_I, *(_A,) * 5)),
     "stiffness": (c_int64, (_I, _I, _A, _A, _A, _A, _A, _A)),
     "check_faces": (c_int32, (_I, _I, _A, _I, _A)),
     "merge_points": (c_int64, (_I, _A, _I, _A, _A, _A)),
@@ -245,10 +236,10 @@ def at(array: AnyArray | None) -> int | None:
     """The address of a contiguous array, for a structure; the array must outlive it.  TypeError if it has gaps."""
     if array is None:
         return None
+    if array.flags.writeable:
+        return ctypes.addressof(_START.from_buffer(array))  # in a fifth of the time
     if not array.flags.c_contiguous:
         raise TypeError("The kernel takes contiguous arrays only.")
-    if array.flags.writeable and array.size:
-        return ctypes.addressof(_FIRST.from_buffer(array))  # in a quarter of the time
     return array.ctypes.data
 
 

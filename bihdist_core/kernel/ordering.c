@@ -6,7 +6,7 @@
 #include "kernel.h"
 
 enum {
-  LEAF = 16,    /* most vertices of a region that is not cut */
+  LEAF = 24,    /* most vertices of a region that is not cut */
   SMALL = 150,  /* up to so many, regions are cut by positions alone */
   LARGE = 3000, /* from so many on, separators are made as small as can be */
   SAMPLE = 200, /* so many vertices of a region tell its principal axes */
@@ -37,7 +37,7 @@ static void breadth_first(const Rows *g, i64 from, i32 *hops, i32 *order) {
 }
 
 /* Whether each entry has its mirror image; rows ascend.  cursor: (n,). */
-API i32 bih_check_symmetric(const Rows *g, i32 *cursor) {
+static i32 check_symmetric(const Rows *g, i32 *cursor) {
   for (i64 v = 0; v < g->n; v++) cursor[v] = g->start[v];
   for (i64 v = 0; v < g->n; v++)
     for (i64 e = g->start[v]; e < g->start[v + 1]; e++) {
@@ -50,29 +50,28 @@ API i32 bih_check_symmetric(const Rows *g, i32 *cursor) {
   return DONE;
 }
 
-/* The graph of a matrix without its diagonal, numbered breadth first: vertices[k] is what k was.  start (n + 1,), index
- * (entries,); x (n, 3) within single precision's range -> charts (7, n); place, hops (n,). */
-API void bih_number_graph(const Rows *matrix, const double *x, i32 *vertices, i32 *place, i32 *start, i32 *index,
-                          float *charts, i32 *hops, i32 *order, float *far) {
+/* Fill in the graph of a matrix without its diagonal, numbered breadth first, and its charts; x (n, 3) within single
+ * precision's range.  bin, band, at and key are workspace. */
+static void number_graph(Dissection *D, const Rows *matrix, const double *x, i32 *start, i32 *index) {
   i64 n = matrix->n, put = 0;
-  if (!n) return;
-  breadth_first(matrix, 0, hops, vertices);
+  i32 *vertices = D->numbers, *place = D->bin;
+  float *far = D->key;
+  breadth_first(matrix, 0, D->band, vertices);
   for (i64 k = 0; k < n; k++) place[vertices[k]] = (i32)k;
   for (i64 k = 0; k < n; k++) {
     start[k] = (i32)put;
     for (i64 v = vertices[k], e = matrix->start[v]; e < matrix->start[v + 1]; e++)
       if (matrix->index[e] != v) index[put++] = place[matrix->index[e]];
-    for (int a = 0; a < POSITIONS; a++) charts[a * n + k] = (float)x[3 * (i64)vertices[k] + a];
+    for (int a = 0; a < POSITIONS; a++) D->charts[a * n + k] = (float)x[3 * (i64)vertices[k] + a];
   }
   start[n] = (i32)put;
-  Rows graph = {n, start, index, NULL};
   i64 from = n - 1; /* a far end to begin from */
   for (int a = 0; a < LANDMARKS; a++) {
-    float *chart = charts + (POSITIONS + a) * n;
-    breadth_first(&graph, from, hops, order);
+    float *chart = D->charts + (POSITIONS + a) * n;
+    breadth_first(&D->graph, from, D->band, D->at);
     from = 0;
     for (i64 v = 0; v < n; v++) {
-      chart[v] = (float)hops[v];
+      chart[v] = (float)D->band[v];
       far[v] = a && far[v] < chart[v] ? far[v] : chart[v];
       if (far[v] > far[from]) from = v;
     }
@@ -274,16 +273,34 @@ static int separate(Dissection *D, Region r, int reach) {
 
 /* ------------------------------------------------------------------ the recursion */
 
-/* All vertices in one region; returns how many edges it has. */
-API i64 bih_begin_dissection(Dissection *D) {
-  const Rows *g = &D->graph;
-  i64 count = 0;
-  for (i64 v = 0; v < g->n; v++) {
+/* Bytes of a dissection of a matrix with so many rows and entries. */
+API i64 bih_dissection_room(i64 n, i64 entries) { return (i64)sizeof(Dissection) + 4 * (23 * n + 1 + 3 * entries) + n; }
+
+/* Begin to dissect a symmetric matrix' graph, all of its vertices in one region; x (n, 3) within single precision's range.
+ * D: as many bytes as bih_dissection_room says.  Returns how many edges there are, ASYMMETRIC if entries have no mirror
+ * image. */
+API i64 bih_begin_dissection(const Rows *matrix, const double *x, Dissection *D) {
+  i64 n = matrix->n, entries = matrix->start[n], count = 0;
+  i32 *free = (i32 *)(D + 1);
+  i32 **const ints[] = {&D->numbers, &D->vertices, &D->region, &D->bin, &D->band, &D->at};
+  for (int k = 0; k < 6; k++) *ints[k] = free, free += n;
+  i32 *start = free, *index = start + n + 1;
+  D->edges = index + entries, D->spare = D->edges + entries, D->flow = D->spare + entries;
+  D->charts = (float *)(D->flow + 8 * n), D->key = D->charts + 7 * n, D->side = (unsigned char *)(D->key + n);
+  if (check_symmetric(matrix, D->at)) return ASYMMETRIC;
+  D->graph = (Rows){n, start, index, NULL};
+  if (n) number_graph(D, matrix, x, start, index);
+  for (i64 v = 0; v < n; v++) {
     D->vertices[v] = (i32)v, D->region[v] = 0, D->at[v] = -1;
-    for (i64 e = g->start[v]; e < g->start[v + 1]; e++)
-      if (g->index[e] < v) D->edges[2 * count] = g->index[e], D->edges[2 * count++ + 1] = (i32)v;
+    for (i64 e = start[v]; e < start[v + 1]; e++)
+      if (index[e] < v) D->edges[2 * count] = index[e], D->edges[2 * count++ + 1] = (i32)v;
   }
   return count;
+}
+
+/* The order of elimination: vertices (n,), as the matrix numbers them, and the place (n,) of each. */
+API void bih_end_dissection(const Dissection *D, i32 *vertices, i32 *place) {
+  for (i64 k = 0; k < D->graph.n; k++) vertices[k] = D->numbers[D->vertices[k]], place[vertices[k]] = (i32)k;
 }
 
 /* Cut a region in halves[0], halves[1] and the separator after both; 0 if it is not cut. */

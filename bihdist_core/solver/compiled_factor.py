@@ -59,8 +59,9 @@ class CompiledFactor:
         parts = 1 + self._dual
         self._pivots = np.empty(parts * tree.factor_size[0] + PADDING)
         self._boundaries = np.empty(parts * tree.factor_size[1] + PADDING)
-        rooms = [(self._elimination_room(task), self._dual and self._inversion_room(task)) for task in tree.tasks]
-        self._arena: Arena | None = Arena(tree.blocks_room + min(WORKERS, len(rooms)) * max(map(max, rooms)))
+        self._rooms = {task: (self._elimination_room(task), self._inversion_room(task)) for task in tree.tasks}
+        most = max(max(rooms) for rooms in self._rooms.values())
+        self._arena: Arena | None = Arena(tree.blocks_room + min(WORKERS, len(self._rooms)) * most)
         self._eliminate(matrix, areas, job)
         if not self._dual:
             self._arena = None
@@ -83,6 +84,8 @@ class CompiledFactor:
         return int(room[2])
 
     def _inversion_room(self, task: tuple[int, int]) -> int:
+        if not self._dual:
+            return 0
         room = np.empty(2, np.int64)
         library().bih_inversion_room(ctypes.byref(self.tree.struct), *task, room)
         return int(room[1])
@@ -97,7 +100,7 @@ class CompiledFactor:
             where, q = np.zeros(2, np.int64), task[1]
             m = int(tree.bound[q + 1] - tree.bound[q])
             schur.take(q, (1 + self._dual) * m * padded(m), 1)
-            with arena.of(self._elimination_room(task)) as work:
+            with arena.of(self._rooms[task][0]) as work:
                 status = lib.bih_eliminate(
                     factor, ctypes.byref(rows), areas, *task, schur.address, work, where, ctypes.byref(job.watch)
                 )
@@ -123,7 +126,7 @@ class CompiledFactor:
             if tree.top[q]:
                 s = int(tree.first[q + 1] - tree.first[q] + tree.bound[q + 1] - tree.bound[q])
                 inverse.take(q, 2 * s * padded(s), 2)
-            with arena.of(self._inversion_room(task)) as work:
+            with arena.of(self._rooms[task][1]) as work:
                 watch = ctypes.byref(job.watch)
                 check_stopped(lib.bih_invert(factor, *task, inverse.address, work, *diagonals, watch))
             if tree.parent[q] >= 0:

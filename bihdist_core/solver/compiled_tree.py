@@ -5,7 +5,7 @@ Fronts are numbered in postorder, so that a subtree is a range of them; `kernel/
 
 import ctypes
 from functools import cached_property
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +17,6 @@ from ..kernel.library import (
     ASYMMETRIC,
     NO_ROOM,
     TREE_ARRAYS,
-    Dissection,
     Region,
     Rows,
     Tree,
@@ -28,8 +27,6 @@ from ..kernel.library import (
 )
 from ..progress import Progress, part
 from .worker_threads import Job
-
-Count = TypeVar("Count", int, IntArray)
 
 PAD = 4
 """Rows of dense blocks are padded to so many numbers."""
@@ -62,14 +59,17 @@ class CompiledTree:
     top: npt.NDArray[np.uint8]
     rank: npt.NDArray[np.int32]
 
+    factor_size: list[int]
+    """Numbers of all K and of all N, without derivatives."""
+    work: int
+    """How long an elimination takes, in the unit of `Job.advance`."""
+    blocks_room: int
+    """Numbers of all that tasks hand to each other, with derivatives."""
+
     def __init__(self, pattern: sp.csr_matrix, x: FloatArray, progress: Progress | None = None) -> None:
         self.n = len(x)
         matrix = rows_of(pattern.indptr, pattern.indices)
-        if library().bih_check_symmetric(ctypes.byref(matrix), np.empty(self.n, np.int32)) == ASYMMETRIC:
-            raise ParameterError("The sparsity pattern of the matrix is not symmetric.")
-        last, subtrees = self._dissect(matrix, x, part(progress, 0, 0.8))
-        self._link(last, subtrees)
-        self._lay_out(matrix)
+        self._lay_out(matrix, *self._dissect(matrix, pattern.nnz, x, part(progress, 0, 0.8)))
         if progress is not None:
             progress(1.0, "Laying out the factor")
 
@@ -114,21 +114,17 @@ class CompiledTree:
     @cached_property
     def top_places(self) -> IntArray:
         """(r,) the places of their pivots."""
-        return np.flatnonzero(np.repeat(self.top, self.sizes[0]))
+        return np.array([p for q in self.tops for p in range(self.first[q], self.first[q + 1])], np.int64)
 
     # ------------------------------------------------------------------ ordering
-    def _dissect(self, matrix: Rows, x: FloatArray, progress: Progress) -> tuple[AnyArray, AnyArray]:
+    def _dissect(self, matrix: Rows, entries: int, x: FloatArray, progress: Progress) -> tuple[AnyArray, AnyArray]:
         """Fills in `vertices` and `place`; (fronts,) one past the last pivot of each front, and (fronts, 2) how many
         fronts its children's subtrees have."""
-        lib, n, entries = library(), self.n, _entries(matrix)
-        numbers, region, bins, band, reached = np.empty((5, n), np.int32)
-        charts, key = np.empty((7, n), np.float32), np.empty(n, np.float32)
-        start, index = np.zeros(n + 1, np.int32), np.empty(entries, np.int32)
-        lib.bih_number_graph(ctypes.byref(matrix), x, numbers, bins, start, index, charts, band, reached, key)
-        vertices, flow, side = np.empty(n, np.int32), np.empty(8 * n, np.int32), np.empty(n, np.uint8)
-        edges, spare = np.empty((2, entries), np.int32)
-        workspace = (charts, vertices, edges, spare, region, bins, band, reached, flow, key, side)
-        dissection = ctypes.byref(Dissection(rows_of(start, index), *(at(array) for array in workspace)))
+        lib, n = library(), self.n
+        dissection = np.empty(lib.bih_dissection_room(n, entries), np.uint8)
+        edges = lib.bih_begin_dissection(ctypes.byref(matrix), x, dissection)
+        if edges == ASYMMETRIC:
+            raise ParameterError("The sparsity pattern of the matrix is not symmetric.")
         job = Job(progress, "Ordering the vertices", n)
 
         def cut(region: Region) -> list[Region]:
@@ -144,7 +140,7 @@ class CompiledTree:
             return last[:count], subtrees[:count]
 
         # Cut a few times, level by level; then dissect what there is by then.
-        root = _Cut(Region(0, n, 0, lib.bih_begin_dissection(dissection)))
+        root = _Cut(Region(0, n, 0, edges))
         leaves = [root]
         for _ in range(CUTS if n > CUT_ALONE else 0):
             for leaf, halves in zip(leaves, job.run(lambda leaf: cut(leaf.region), leaves), strict=True):
@@ -152,60 +148,40 @@ class CompiledTree:
             leaves = [half for leaf in leaves for half in leaf.halves or [leaf]]
         for leaf, fronts in zip(leaves, job.run(lambda leaf: dissect(leaf.region), leaves), strict=True):
             leaf.fronts = fronts
-        self.vertices = numbers[vertices]
-        self.place = np.empty(n, np.int32)
-        self.place[self.vertices] = np.arange(n, dtype=np.int32)
+        self.vertices, self.place = np.empty((2, n), np.int32)
+        lib.bih_end_dissection(dissection, self.vertices, self.place)
         return root.all_fronts()
 
     # ------------------------------------------------------------------ layout
-    def _link(self, last: AnyArray, subtrees: AnyArray) -> None:
-        count = len(last)
-        self.first = np.concatenate([[0], last]).astype(np.int32)
-        self.children = np.full((count, 2), -1, np.int32)
-        self.parent = np.full(count, -1, np.int32)
-        inner = np.flatnonzero(subtrees[:, 0])
-        self.children[inner, 1] = inner - 1
-        self.children[inner, 0] = inner - 1 - subtrees[inner, 1]
-        self.parent[self.children[inner]] = inner[:, None]
-        self._begin = np.arange(count) - subtrees.sum(axis=1)
-
-    def _lay_out(self, matrix: Rows) -> None:
-        lib, n, count = library(), self.n, len(self.parent)
-        self.bound = np.zeros(count + 1, np.int64)
-        for name in ("pivot_block", "row_block", "stack", "inverse"):
-            setattr(self, name, np.zeros(count + 1, np.int64))
-        self.top, self.rank, scratch = np.zeros(count, np.uint8), np.zeros(n, np.int32), np.empty(n, np.int32)
-        room = 12 * n + 64
-        while True:
-            self.rows = self.up = np.empty(room, np.int32)
-            tree = Tree(n, count, *(at(getattr(self, name)) for name in TREE_ARRAYS))
-            found = lib.bih_boundaries(ctypes.byref(matrix), ctypes.byref(tree), self.bound, self.rows, room, scratch)
-            if found != NO_ROOM:
-                break
+    def _lay_out(self, matrix: Rows, last: AnyArray, subtrees: AnyArray) -> None:
+        lib, n, count = library(), self.n, len(last)
+        self.first, self.children, self.parent = (np.empty(k, np.int32) for k in (count + 1, (count, 2), count))
+        lib.bih_link(count, last, subtrees, self.first, self.children, self.parent)
+        self.bound, self.pivot_block, self.row_block, self.stack, self.inverse = np.empty((5, count + 1), np.int64)
+        self.top, self.rank, work = np.empty(count, np.uint8), np.empty(n, np.int32), np.empty(3 * n, np.int32)
+        room, found = 6 * n + 64, NO_ROOM
+        while found == NO_ROOM:
             room *= 2
-        self.rows, self.up = self.rows[:found].copy(), np.empty(found, np.int32)
-        c, m = self.sizes
-        cp, mp, sp_ = padded(c), padded(m), padded(c + m)
-        # The last front comes first, as in a sweep down.
-        self.pivot_block[:-1], self.row_block[:-1] = _from_the_end(c * cp), _from_the_end(c * mp)
-        self.factor_size = int((c * cp).sum()), int((c * mp).sum())
-        total = np.concatenate([[0], np.cumsum(c * (c + m) ** 2)])
-        self.work = float(total[-1])
-        inside = total[1:] - total[self._begin]
-        top = (self.children[:, 0] >= 0) & (inside * TASKS > total[-1]) & (self.n > CUT_ALONE // 4)
-        task = top | (self.parent < 0) | top[self.parent]
-        self.top = top.astype(np.uint8)
-        self.blocks_room = int(2 * max((m * mp)[task].sum(), ((c + m) * sp_)[top].sum()))
-        """Doubles of all that tasks hand to each other, with derivatives."""
-        self.rank[:] = np.cumsum(np.repeat(top, c)) - 1
-        tasks = np.flatnonzero(task)
-        self.tasks = [(int(q if top[q] else self._begin[q]), int(q)) for q in tasks]
-        number = {int(q): k for k, q in enumerate(tasks)}
-        self.after = [[number[int(d)] for d in self.children[q]] if top[q] else [] for q in tasks]
-        self.before = [[number[int(self.parent[q])]] if self.parent[q] >= 0 else [] for q in tasks]
-        struct = self.struct
-        lib.bih_stack(ctypes.byref(struct), self.stack, self.inverse)
-        lib.bih_places_in_parents(ctypes.byref(struct), self.up, scratch)
+            self.rows = self.up = np.empty(room, np.int32)
+            tree = ctypes.byref(self.struct)
+            found = lib.bih_boundaries(ctypes.byref(matrix), tree, self.bound, self.rows, room, work)
+        self.rows, self.up, totals = self.rows[:found].copy(), np.empty(found, np.int32), np.empty(4, np.int64)
+        self.struct.rows, self.struct.up = at(self.rows), at(self.up)
+        places = self.pivot_block, self.row_block, self.stack, self.inverse, self.top, self.rank, self.up
+        lib.bih_lay_out(tree, TASKS if n > CUT_ALONE // 4 else 0, *places, work, totals)
+        *self.factor_size, self.work, self.blocks_room = totals.tolist()
+        top, parent = self.top, self.parent
+        task = [int(q) for q in np.flatnonzero(top | (parent < 0) | (top[parent] > 0))]
+        number = {q: k for k, q in enumerate(task)}
+        self.tasks = [(q if top[q] else self._first_below(q), q) for q in task]
+        self.after = [[number[int(d)] for d in self.children[q]] if top[q] else [] for q in task]
+        self.before = [[number[int(parent[q])]] if parent[q] >= 0 else [] for q in task]
+
+    def _first_below(self, front: int) -> int:
+        """The first front of a subtree."""
+        while (child := self.children[front, 0]) >= 0:
+            front = int(child)
+        return front
 
 
 class _Cut:
@@ -226,15 +202,6 @@ class _Cut:
         return last, np.concatenate([one_subtrees, other_subtrees, own])
 
 
-def padded(count: Count) -> Count:
+def padded(count: int) -> int:
     """Rounded up to a multiple of PAD."""
     return -(-count // PAD) * PAD
-
-
-def _from_the_end(sizes: IntArray) -> IntArray:
-    """Where each part starts if the last comes first."""
-    return np.cumsum(sizes[::-1])[::-1] - sizes
-
-
-def _entries(matrix: Rows) -> int:
-    return int(ctypes.cast(matrix.start, ctypes.POINTER(ctypes.c_int32))[matrix.n])

@@ -172,7 +172,7 @@ def small_meshes(size: Size) -> Iterator[Line]:
         23,
         f"exact set-up and one field of {len(cases):,} meshes of about 1,000 vertices",
         result,
-        bound=1.0,
+        bound=0.6,
         error=max(case.error(field[case.targets]) for case, field in zip(cases[:20], result.answer, strict=False)),
         tolerance=EXACT,
         note="peer: potpourri3d, heat solver constructed and one heat solve",

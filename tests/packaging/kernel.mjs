@@ -5,7 +5,6 @@
 import { array, at, done, doubles, given, ints, kernel, longs } from "./wasm.mjs";
 
 const structure = (...words) => at(ints(words));
-const padded = (k) => (k + 3) & ~3;
 
 // The matrix, and the order of elimination.
 const n = given.start.length - 1;
@@ -13,49 +12,30 @@ const N = BigInt(n);
 const [start, index, value] = [ints(given.start), ints(given.index), doubles(given.value)];
 const matrix = structure(n, 0, at(start), at(index), at(value), 0);
 const watch = structure(0, 0, 0, 0);
-done(kernel.bih_check_symmetric(matrix, at(ints(n))));
-const [numbers, bin, band, reached, region] = [ints(n), ints(n), ints(n), ints(n), ints(n)];
-const [edges, ends] = [ints(n + 1), ints(index.length)];
-const [charts, key] = [array(Float32Array, 7 * n), array(Float32Array, n)];
-kernel.bih_number_graph(matrix, at(doubles(given.x)), at(numbers), at(bin), at(edges), at(ends), at(charts), at(band),
-  at(reached), at(key));
-const ordered = ints(n);
-const [pairs, spare] = [ints(index.length), ints(index.length)];
-const dissection = structure(n, 0, at(edges), at(ends), 0, 0, at(charts), at(ordered), at(pairs), at(spare), at(region),
-  at(bin), at(band), at(reached), at(ints(8 * n)), at(key), at(array(Uint8Array, n)), 0);
-const whole = longs([0n, N, 0n, kernel.bih_begin_dissection(dissection)]);
+const dissection = at(array(Uint8Array, Number(kernel.bih_dissection_room(N, BigInt(index.length)))));
+const edges = kernel.bih_begin_dissection(matrix, at(doubles(given.x)), dissection);
+const whole = longs([0n, N, 0n, BigInt(done(edges))]);
 const [last, subtrees] = [ints(2 * n + 1), ints(4 * n + 2)];
 const fronts = done(kernel.bih_dissect(dissection, at(whole), 0n, at(last), at(subtrees), watch));
+const [vertices, place] = [ints(n), ints(n)];
+kernel.bih_end_dissection(dissection, at(vertices), at(place));
 
 // The elimination tree, as one task.
-const vertices = ints(Array.from(ordered, (v) => numbers[v]));
-const place = ints(n);
-vertices.forEach((v, p) => (place[v] = p));
-const first = ints([0, ...last.subarray(0, fronts)]);
-const [children, parent] = [ints(2 * fronts).fill(-1), ints(fronts).fill(-1)];
-for (let q = 0; q < fronts; q++)
-  if (subtrees[2 * q]) {
-    children.set([q - 1 - subtrees[2 * q + 1], q - 1], 2 * q);
-    parent[children[2 * q]] = parent[children[2 * q + 1]] = q;
-  }
+const root = BigInt(fronts - 1);
+const [first, children, parent] = [ints(fronts + 1), ints(2 * fronts), ints(fronts)];
+kernel.bih_link(root + 1n, at(last), at(subtrees), at(first), at(children), at(parent));
 const [bound, pivotBlock, rowBlock, stack, inverse] = Array.from({ length: 5 }, () => longs(fronts + 1));
 const room = 64 * n;
 const [rows, up, rank] = [ints(room), ints(room), ints(n)];
 const top = array(Uint8Array, fronts);
 const tree = structure(n, 0, fronts, 0, ...[vertices, place, first, children, parent, bound, rows, up, pivotBlock,
   rowBlock, stack, inverse, top, rank].map(at), 0);
-done(kernel.bih_boundaries(matrix, tree, at(bound), at(rows), BigInt(room), at(ints(n))));
-let [pivots, boundaries] = [0, 0];
-for (let q = fronts - 1; q >= 0; q--) {
-  const [c, m] = [first[q + 1] - first[q], Number(bound[q + 1] - bound[q])];
-  [pivotBlock[q], rowBlock[q]] = [BigInt(pivots), BigInt(boundaries)];
-  [pivots, boundaries] = [pivots + c * padded(c), boundaries + c * padded(m)];
-}
-kernel.bih_stack(tree, at(stack), at(inverse));
-kernel.bih_places_in_parents(tree, at(up), at(ints(n)));
+done(kernel.bih_boundaries(matrix, tree, at(bound), at(rows), BigInt(room), at(ints(3 * n))));
+const totals = longs(4);
+kernel.bih_lay_out(tree, 0n, ...[pivotBlock, rowBlock, stack, inverse, top, rank, up, ints(n), totals].map(at));
+const [pivots, boundaries] = [Number(totals[0]), Number(totals[1])];
 
 // The factor with its derivatives.
-const root = BigInt(fronts - 1);
 const factor = structure(tree, 1, at(doubles(2 * pivots + 8)), at(doubles(2 * boundaries + 8)));
 const areas = doubles(given.areas);
 const blocks = ints(fronts); // one task hands nothing on

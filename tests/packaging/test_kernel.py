@@ -152,8 +152,9 @@ import numpy as np
 from bihdist_core.kernel import library
 
 library.FOLDER = Path(sys.argv[1])
-start, index, cursor = np.arange(301, dtype=np.int32), np.zeros(1, np.int32), np.zeros(300, np.int32)
-library._loaded("libbihdist").bih_check_symmetric(ctypes.byref(library.rows_of(start, index)), cursor)
+start, index, room = np.arange(301, dtype=np.int32), np.zeros(1, np.int32), np.zeros(100_000, np.uint8)
+matrix = ctypes.byref(library.rows_of(start, index))
+library._loaded("libbihdist").bih_begin_dissection(matrix, np.zeros((300, 3)), room)
 """
 """A matrix that says it has more entries than there are."""
 
