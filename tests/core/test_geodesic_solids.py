@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 from bihdist_core.distances.exact_geodesic import ExactGeodesic
-from bihdist_core.errors import SolverError
 from bihdist_core.sources.pieces import Pieces
 from bihdist_core.surface import Surface
 from tests.core.edge_ways import from_segment
@@ -266,16 +265,7 @@ SOLIDS = {
 }
 
 
-FAULTS = {"torus as thin as a hair": "windows wind around it too often, and it is given up"}
-"""What is not right yet."""
-
-
-def case(name):
-    marks = [pytest.mark.xfail(reason=FAULTS[name], raises=SolverError, strict=True)] if name in FAULTS else []
-    return pytest.param(SOLIDS[name], id=name, marks=marks)
-
-
-@pytest.mark.parametrize("make", [case(name) for name in SOLIDS])
+@pytest.mark.parametrize("make", SOLIDS.values(), ids=SOLIDS)
 def test_distances_and_paths_are_those_of_the_plane(make):
     solid, rng = make(), np.random.default_rng(9)
     surface, solver = solid.surface, ExactGeodesic(solid.surface)
