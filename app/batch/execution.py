@@ -173,7 +173,7 @@ def _facts_of_mesh(task: Task, mesh: Mesh, work: str) -> dict[str, Any]:
         **({"checksums": others} if others else {}),
         "vertices": len(surface.vertices),
         "faces": len(surface.faces),
-        "components": surface.component_count,
+        "components": surface.n_components,
         "area": float(surface.face_areas.sum()),
         **scaled,
         "repairs": list(notes.repairs),

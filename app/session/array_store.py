@@ -20,14 +20,15 @@ import numpy.typing as npt
 from bihdist_core import ParameterError, Surface
 from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.sources.source import Source
+from bihdist_core.surface import MeshLike
 
 from ..document.beside_edits import open_beside
 from ..document.document import Document, FieldArray, MeshFile, comparison
 from ..document.page import Recipe
 from ..document.quantities import Quantity, quantity
 
-Mesh = str | os.PathLike[str] | Surface | tuple[Any, Any]
-"""A file or the name of a sample, a surface, or its vertices (n, 3) and faces (m, 3)."""
+Mesh = MeshLike
+"""A file or the name of a sample, or what else `Surface.of` takes."""
 
 
 class ArrayStore:
@@ -164,7 +165,7 @@ def with_beside(document: Document, given: ArrayStore, mesh: Mesh) -> Document:
 
 
 def _entry(mesh: Mesh, given: ArrayStore) -> MeshFile:
-    return MeshFile("A", str(mesh)) if isinstance(mesh, str | os.PathLike) else given.add_surface(_surface(mesh))
+    return MeshFile("A", str(mesh)) if isinstance(mesh, str | os.PathLike) else given.add_surface(Surface.of(mesh))
 
 
 def _quantity(shows: Any, fields: Mapping[str, npt.ArrayLike]) -> Quantity:
@@ -173,18 +174,6 @@ def _quantity(shows: Any, fields: Mapping[str, npt.ArrayLike]) -> Quantity:
     if not isinstance(shows, Quantity):
         raise ParameterError(f"{shows!r} is no distance; write it in words, such as 'diffusion(t=1/4)'.")
     return shows
-
-
-def _surface(mesh: Any) -> Surface:
-    if isinstance(mesh, Surface):
-        return mesh
-    try:
-        vertices, faces = mesh
-    except (TypeError, ValueError):
-        raise ParameterError(
-            f"A mesh is a file, a Surface, or vertices and faces, not {type(mesh).__name__}."
-        ) from None
-    return Surface(vertices, faces)
 
 
 def _checksum(*arrays: AnyArray) -> str:

@@ -1,6 +1,5 @@
 """Geodesic distance: exact, by the heat method, or along edges (Dijkstra).  The label says which."""
 
-import threading
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -10,9 +9,10 @@ from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..kernel import library as kernel
 from ..laplacian import Component, Laplacian
+from ..memo import Memo
 from ..progress import Progress, part
 from ..sources.pieces import Pieces
-from ..surface import Surface
+from ..surface import MeshLike, Surface
 from .accuracy import ErrorEstimate
 from .distance import Distance
 from .edge_geodesic import EdgeGeodesic
@@ -52,7 +52,7 @@ class GeodesicDistance(Distance):
 
     length_power = 1.0
 
-    def __init__(self, laplacian: Laplacian | Surface, method: str = "auto", progress: Progress | None = None) -> None:
+    def __init__(self, laplacian: Laplacian | MeshLike, method: str = "auto", progress: Progress | None = None) -> None:
         if method not in METHODS:
             raise ParameterError(f"There is no geodesic method {method!r}; choose one of {', '.join(METHODS)}.")
         super().__init__(laplacian)
@@ -62,9 +62,8 @@ class GeodesicDistance(Distance):
         self.method = method
         self.label = LABELS[method]
         self.is_symmetric = method != "heat"
-        self._solvers: dict[int, ExactGeodesic | HeatTimes | EdgeGeodesic] = {}
-        self._errors: dict[int, HeatErrors | None] = {}
-        self._judging = threading.Lock()
+        self._solvers: Memo[int, ExactGeodesic | HeatTimes | EdgeGeodesic] = Memo()
+        self._errors: Memo[int, HeatErrors | None] = Memo()
         self._below = 0.0
         self.prepare(self.laplacian.components[0], progress)
 
@@ -85,7 +84,7 @@ class GeodesicDistance(Distance):
         below a straight line it is not off.
         """
         if self.method == "heat":
-            with self._judging:
+            with self._errors.lock:
                 found = [self._errors_on(self.laplacian.components[index]) for index in self._those(components)]
             measured = [errors for errors in found if errors is not None]
             if len(measured) == len(found):
