@@ -218,6 +218,7 @@ class Distance(ABC):
         memory map, and is returned; then and in float32 only some fields at a time are in memory besides.  Raises
         VertexError or ParameterError for a source as `from_source` does, ParameterError for another shape or type.
         """
+        (progress or silent)(0.0, self.label)
         n = len(self.surface.vertices)
         if isinstance(sources, Sequence) and any(isinstance(each, str | ELSEWHERE) for each in sources):
             fields = _room(out, (n, len(sources)), dtype)
@@ -275,6 +276,7 @@ class Distance(ABC):
         self, vertices: npt.ArrayLike | Sequence[Source | str], progress: Progress | None = None
     ) -> FloatArray:
         """(k, k) distances among k vertices, or places in faces: symmetric, zero diagonal."""
+        (progress or silent)(0.0, self.label)
         if has_places(vertices):
             points = list(vertices)
             i, j = np.triu_indices(len(points), 1)
@@ -302,6 +304,7 @@ class Distance(ABC):
         """
         if digits not in DIGITS:
             raise ParameterError(f"Digits of pairs are {' or '.join(map(repr, DIGITS))}, not {digits!r}.")
+        (progress or silent)(0.0, self.label)
         if are_of_places(pairs):
             return self._of_points(*(points_on(self.surface, [pair[side] for pair in pairs]) for side in (0, 1)))
         table = np.asarray(pairs)

@@ -105,16 +105,18 @@ class GeodesicDistance(Distance):
 
     def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
         solver = self._solvers[component.index]
-        if isinstance(solver, EdgeGeodesic):
-            return solver.distances(index)
         if isinstance(solver, ExactGeodesic):
             return solver.columns(index, progress)
-        share, fields = 1 / len(index), []
+        share, fields = 1 / len(index), np.empty((len(component.vertices), len(index)))
         for k, source in enumerate(index.tolist()):
-            field = solver.distances(source, part(progress, k * share, (k + 1) * share))
-            self._below = max(self._below, below_straight_line(component.surface, source, field))
-            fields.append(field)
-        return np.stack(fields, 1)
+            step = part(progress, k * share, (k + 1) * share)
+            if isinstance(solver, EdgeGeodesic):
+                step(0.0, self.label)
+                fields[:, k] = solver.distances(source)
+            else:
+                fields[:, k] = solver.distances(source, step)
+                self._below = max(self._below, below_straight_line(component.surface, source, fields[:, k]))
+        return fields
 
     def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
         solver, vertices = self._solvers[component.index], pieces.vertices
