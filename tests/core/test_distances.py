@@ -221,7 +221,7 @@ def test_wrong_kinds_of_parameters_are_refused_in_a_sentence():
         (lambda: DiffusionDistance(s, t="a"), "The diffusion time t is 'a'; it must be a number"),
         (lambda: DiffusionDistance(s, tolerance="a"), "The tolerance is 'a'; it must be a number"),
         (lambda: PowerDistance(s, alpha="2"), "alpha is '2'; it must be a number"),
-        (lambda: Laplacian("x"), "A Laplacian is that of a Surface, not of str"),
+        (lambda: Laplacian(3), "A mesh is a path, .*, not int"),
     ]:
         with pytest.raises(ParameterError, match=words):
             make()
