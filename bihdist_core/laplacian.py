@@ -9,6 +9,8 @@ with zeros.  With a the component's area and u = G A 1,
 is the Green's function of the biharmonic operator up to terms that cancel in distances.
 """
 
+from __future__ import annotations
+
 import threading
 from collections.abc import Callable
 from copy import copy
@@ -56,7 +58,7 @@ class Laplacian:
     def __repr__(self) -> str:
         return f"Laplacian({self.surface!r}, {self.areas_kind} areas)"
 
-    def __reduce__(self) -> tuple[Callable[..., "Laplacian"], tuple[object, ...]]:
+    def __reduce__(self) -> tuple[Callable[..., Laplacian], tuple[object, ...]]:
         computed = tuple(component._computed for component in self.components) if self.pickles_factors else None
         return _unpickled, (self.surface, self.areas_kind, computed)
 
@@ -91,7 +93,7 @@ class Laplacian:
                 f"{name} has {most:,} eigenpairs besides the constant, and k is {k:,}; choose k from 1 to {most:,}."
             )
 
-    def component_of(self, vertex: int) -> "Component":
+    def component_of(self, vertex: int) -> Component:
         """The component a vertex belongs to; VertexError if there is none."""
         index: int = self.surface.component_of_vertex[self.surface.check_vertex(vertex)]
         return self.components[index]
@@ -116,7 +118,7 @@ class Component:
         self._factor_has_diagonals = False
         self._spectrum: Spectrum | None = None
 
-    def __reduce__(self) -> tuple[Callable[..., "Component"], tuple["Laplacian", int]]:
+    def __reduce__(self) -> tuple[Callable[..., Component], tuple[Laplacian, int]]:
         return _component, (self.laplacian, self.index)
 
     @property

@@ -1,5 +1,7 @@
 """A triangle mesh, checked once and never changed: the input of everything else."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
@@ -51,7 +53,7 @@ class Surface:
         object.__setattr__(self, "facts", tuple(self.facts))
 
     @classmethod
-    def of(cls, mesh: MeshLike, faces: npt.ArrayLike | None = None, *, name: str | None = None) -> "Surface":
+    def of(cls, mesh: MeshLike, faces: npt.ArrayLike | None = None, *, name: str | None = None) -> Surface:
         """The surface of a mesh of any kind; a Surface is itself.
 
         mesh: a path, as of `read_surface`; vertices (n, 3), with the faces (m, 3) beside them or both as a pair; or an
@@ -153,7 +155,7 @@ class Surface:
         """How many vertices belong to no face."""
         return int((self.component_of_vertex < 0).sum())
 
-    def component(self, index: int) -> tuple["Surface", IntArray]:
+    def component(self, index: int) -> tuple[Surface, IntArray]:
         """One component as a surface of its own, and (k,) the ids its vertices have here, ascending."""
         ids = np.flatnonzero(self.component_of_vertex == index)
         if len(ids) == len(self.vertices):

@@ -4,6 +4,8 @@ They are saved as an .npz archive of plain arrays: `surface/A/vertices`, `surfac
 surface A, and `field/height` of a field.
 """
 
+from __future__ import annotations
+
 import hashlib
 import os
 import zipfile
@@ -85,7 +87,7 @@ class ArrayStore:
             raise ParameterError(f"The field {name!r} was given from Python, and is not there any more.")
         return self._fields[sha256]
 
-    def update(self, other: "ArrayStore") -> None:
+    def update(self, other: ArrayStore) -> None:
         """Keep what another keeps."""
         self._surfaces.update(other._surfaces)
         self._fields.update(other._fields)
@@ -102,7 +104,7 @@ class ArrayStore:
         return arrays | {f"field/{field.name}": self.field(field.sha256, field.name) for field in document.fields}
 
     @classmethod
-    def read(cls, recipe: Recipe) -> "ArrayStore":
+    def read(cls, recipe: Recipe) -> ArrayStore:
         """What the document of a recipe needs, from the recipe's archive.
 
         Raises ParameterError if the archive is missing, is none, lacks something, or holds something else.

@@ -3,6 +3,8 @@
 A graph of them is what much of machine learning and of visualization on meshes starts from.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

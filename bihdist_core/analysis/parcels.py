@@ -1,5 +1,7 @@
 """Distances between the parcels of a labelled surface, without the distances between all its vertices."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -48,7 +50,7 @@ class ParcelSums:
     sums: FloatArray
     weights: FloatArray | IntArray
 
-    def __add__(self, other: "ParcelSums") -> "ParcelSums":
+    def __add__(self, other: ParcelSums) -> ParcelSums:
         return replace(self, sums=self.sums + other.sums)
 
     @property

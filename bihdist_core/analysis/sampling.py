@@ -1,5 +1,7 @@
 """Farthest-point sampling with any distance."""
 
+from __future__ import annotations
+
 import os
 
 import numpy as np

@@ -1,5 +1,7 @@
 """What a sum over the first k eigenpairs loses of the exact biharmonic distance, for every k at once."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

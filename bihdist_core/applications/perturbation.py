@@ -1,5 +1,7 @@
 """What can go wrong with a mesh, done on purpose: noise, holes, welded parts, a thin handle (paper, Figs. 3, 6, 7)."""
 
+from __future__ import annotations
+
 from itertools import pairwise
 
 import numpy as np

@@ -1,5 +1,7 @@
 """The biharmonic distance, exact (paper, Eqs. 4 and 9)."""
 
+from __future__ import annotations
+
 import numpy as np
 import numpy.typing as npt
 

@@ -1,5 +1,7 @@
 """The commute-time distance, exact on the mesh (paper, Eqs. 2 and 3; it has no continuous counterpart)."""
 
+from __future__ import annotations
+
 import numpy as np
 import numpy.typing as npt
 

@@ -1,5 +1,7 @@
 """What every distance has in common: the same four questions, answered per connected component."""
 
+from __future__ import annotations
+
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 

@@ -6,6 +6,8 @@ has the squared length C_ii - |p_i|^2, and C_ii is known.  So the bound holds wh
 converged, and no distance of points is larger than the true one.
 """
 
+from __future__ import annotations
+
 from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

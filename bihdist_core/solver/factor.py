@@ -5,6 +5,8 @@ With G = matrix^-1 and a diagonal A, the diagonal of G A G costs no more than a 
 that derivative lives on the factor's own pattern.  So everything carries its derivative (see `kernel/kernel.h`).
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np
