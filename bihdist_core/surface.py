@@ -36,6 +36,10 @@ class Surface:
     how a file was read that are no repairs, such as polygons that were divided into triangles.
 
     Raises MeshError for wrong shapes, a coordinate that is not finite, a vertex id out of range, or no faces.
+
+    >>> surface = Surface([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    >>> surface, surface.area, surface.n_components, len(surface.boundary_edges)
+    (Surface(surface: 4 vertices, 2 faces), 1.0, 1, 4)
     """
 
     vertices: FloatArray

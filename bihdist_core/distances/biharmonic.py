@@ -28,6 +28,10 @@ class BiharmonicDistance(Distance):
 
     One to all costs one sweep through the factor, with the diagonal of C computed once by selected inversion.  Pairs
     use the half-order form, free of cancellation: solve L y = e_i - e_j, centre y by area, d = |y|_A.
+
+    >>> corners, faces = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> BiharmonicDistance(corners, faces).from_source(0).round(3).tolist()
+    [0.0, 0.4, 0.4, 0.4]
     """
 
     label = "biharmonic, exact"

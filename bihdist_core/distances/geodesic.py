@@ -48,6 +48,10 @@ class GeodesicDistance(Distance):
     edges: 4 to 6 % too long in the mean on most samples), or "auto": exact up to 300,000 vertices, else heat.  On long,
     thin faces, such as those of the sample `part`, the means are 5 and 13 %.  Raises ParameterError for any other word,
     and SolverError for "exact" without the compiled kernel, where "auto" is heat.
+
+    >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
+    >>> GeodesicDistance(square).from_source(1).round(3).tolist()
+    [1.0, 0.0, 1.0, 1.414]
     """
 
     length_power = 1.0
