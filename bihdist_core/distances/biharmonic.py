@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from ..arrays import AnyArray, FloatArray, IntArray
 from ..laplacian import Component, Laplacian
-from ..progress import Progress, silent
+from ..progress import Progress, part
 from ..solver.tall import point_distances
 from ..surface import FLAT, MeshLike
 from .accuracy import accuracy_of_pairs
@@ -96,13 +96,14 @@ class BiharmonicDistance(Distance):
             return super()._of_pairs(component, i, j, digits, progress)
         distances = np.empty(len(i))
         for start in range(0, len(i), SMALL_SET):
-            (progress or silent)(start / len(i), "Solving for pairs")
             some = slice(start, start + SMALL_SET)
+            step = part(progress, start / len(i), min(1.0, (start + SMALL_SET) / len(i)))
+            step(0.0, self.label)
             b = np.zeros((len(component.vertices), len(i[some])))
             each = np.arange(b.shape[1])
             b[i[some], each] += 1
             b[j[some], each] -= 1
-            distances[some] = np.linalg.norm(_half_order(component, component.solve(b)), axis=0)
+            distances[some] = np.linalg.norm(_half_order(component, component.solve(b, step)), axis=0)
         return distances
 
     def _estimated_accuracy(self, component: Component) -> float:

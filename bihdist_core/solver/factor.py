@@ -15,7 +15,7 @@ import scipy.sparse as sp
 
 from ..arrays import AnyArray, FloatArray
 from ..errors import ParameterError, SolverError
-from ..progress import Progress
+from ..progress import Progress, silent
 from .compiled_factor import CompiledFactor
 from .compiled_tree import CompiledTree
 from .elimination_tree import EliminationTree, canonical
@@ -137,7 +137,7 @@ class Factor:
                 work(slice(0, count), in_turn if self._blocks.nbytes < SMALL else side_by_side)
             return
         starts = range(0, count, width)
-        if progress is None:
+        if progress in (None, silent):
             side_by_side(lambda start: work(slice(start, start + width), in_turn), starts)
             return
         job = Job(progress, "Solving", count)

@@ -84,7 +84,7 @@ def point_distances(x: FloatArray, y: FloatArray, progress: Progress | None = No
             job.advance(len(apart))
 
     chunks = chunks_of(len(x))
-    if progress is None:
+    if progress in (None, silent):
         side_by_side(one, chunks)
     else:
         job.run(one, chunks)
