@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from .figures.picture import figure as figure, figure_again as figure_again
     from .qt.show import show as show
 
+    __version__: str
+
 __all__ = [*_library.__all__, "figure", "figure_again", "show"]  # type: ignore[attr-defined]
 
 
@@ -34,6 +36,10 @@ def __getattr__(name: str) -> object:
         from .qt.show import show
 
         return show
+    if name == "__version__":
+        from .version import version
+
+        return version()
     if name in __all__:
         return getattr(_library, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

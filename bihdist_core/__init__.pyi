@@ -118,6 +118,7 @@ from .errors import (
     BihdistError as BihdistError,
     Cancelled as Cancelled,
     MeshError as MeshError,
+    MissingFileError as MissingFileError,
     OutputError as OutputError,
     ParameterError as ParameterError,
     SolverError as SolverError,

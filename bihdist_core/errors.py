@@ -9,6 +9,10 @@ class MeshError(BihdistError, ValueError):
     """A mesh file or array that cannot be a surface."""
 
 
+class MissingFileError(MeshError, FileNotFoundError):
+    """A mesh file that is not there."""
+
+
 class VertexError(BihdistError, ValueError):
     """A vertex id that does not exist or belongs to no face."""
 
@@ -26,4 +30,7 @@ class OutputError(BihdistError, OSError):
 
 
 class Cancelled(BihdistError):
-    """Raised from a progress callback to stop a long construction; raised again to whoever asked for it."""
+    """Raised from a progress callback to stop long work; raised again to whoever asked for it.
+
+    No failure: whoever catches BihdistError to report failures and stops work by it catches this one first.
+    """

@@ -9,10 +9,14 @@ with zeros.  With a the component's area and u = G A 1,
 is the Green's function of the biharmonic operator up to terms that cancel in distances.
 """
 
+from __future__ import annotations
+
 import threading
+from collections.abc import Callable
 from copy import copy
 
 import numpy as np
+import numpy.typing as npt
 import scipy.sparse as sp
 
 from .arrays import AnyArray, FloatArray, IntArray
@@ -25,40 +29,54 @@ from .solver.aside import aside
 from .solver.elimination_tree import EliminationTree
 from .solver.factor import Factor, ReceivePiece
 from .solver.spectrum import Spectrum, is_long, smallest_eigenpairs
-from .surface import Surface
+from .sources.source import whole_number
+from .surface import MeshLike, Surface
+
+Computed = tuple[EliminationTree | None, Factor | None, bool, Spectrum | None]
+"""What a component has computed so far: its tree, its factor, whether that has diagonals, its eigenpairs."""
 
 
 class Laplacian:
     """Operators of a surface (paper, Eq. 7): `stiffness` (n, n), `areas` (n,), and its connected `components`.
 
-    areas: "voronoi" (mixed Voronoi) or "barycentric"; anything else is a ParameterError.  Distances share a
-    Laplacian by being given it; nothing is cached elsewhere.
+    surface: a Surface or what `Surface.of` takes.  areas: "voronoi" (mixed Voronoi) or "barycentric"; anything else is
+    a ParameterError.  Distances share a Laplacian by being given it; nothing is cached elsewhere.
+
+    pickles_factors: whether factors and eigenpairs are part of its pickles, and of those of its distances.  Without,
+    which is usual, only the surface is, and they are computed again where they are needed.
     """
 
-    def __init__(self, surface: Surface, areas: str = "voronoi") -> None:
-        if not isinstance(surface, Surface):
-            raise ParameterError(f"A Laplacian is that of a Surface, not of {type(surface).__name__}.")
+    pickles_factors = False
+
+    def __init__(self, surface: MeshLike, areas: str = "voronoi") -> None:
         if areas not in AREAS:
             raise ParameterError(f"There are no {areas!r} vertex areas; choose one of {', '.join(AREAS)}.")
-        self.surface = surface
+        self.surface = Surface.of(surface)
         self.areas_kind = areas
-        self.components = tuple(Component(self, k) for k in range(surface.component_count))
+        self.components = tuple(Component(self, k) for k in range(self.surface.n_components))
 
     def __repr__(self) -> str:
         return f"Laplacian({self.surface!r}, {self.areas_kind} areas)"
 
+    def __reduce__(self) -> tuple[Callable[..., Laplacian], tuple[object, ...]]:
+        computed = tuple(component._computed for component in self.components) if self.pickles_factors else None
+        return _unpickled, (self.surface, self.areas_kind, computed)
+
     @locked_cached_property
     def _operators(self) -> tuple[sp.csr_matrix, FloatArray]:
-        return operators(self.surface, self.areas_kind)
+        stiffness, areas = operators(self.surface, self.areas_kind)
+        for array in (stiffness.data, stiffness.indices, stiffness.indptr, areas):
+            array.flags.writeable = False
+        return stiffness, areas
 
     @property
     def stiffness(self) -> sp.csr_matrix:
-        """(n, n) cotangent stiffness matrix, positive semi-definite; no unit."""
+        """(n, n) cotangent stiffness matrix, positive semi-definite, read-only; no unit."""
         return self._operators[0]
 
     @property
     def areas(self) -> FloatArray:
-        """(n,) vertex areas, unit length squared."""
+        """(n,) vertex areas, read-only; unit length squared."""
         return self._operators[1]
 
     @locked_cached_property
@@ -69,13 +87,13 @@ class Laplacian:
 
     def check_eigenpairs(self, k: int, most: int) -> None:
         """ParameterError, which says what is possible, unless there are k eigenpairs among `most`."""
-        if not 1 <= k <= most:
+        if not 1 <= whole_number(k, "k") <= most:
             name = self.surface.name
             raise ParameterError(
                 f"{name} has {most:,} eigenpairs besides the constant, and k is {k:,}; choose k from 1 to {most:,}."
             )
 
-    def component_of(self, vertex: int) -> "Component":
+    def component_of(self, vertex: int) -> Component:
         """The component a vertex belongs to; VertexError if there is none."""
         index: int = self.surface.component_of_vertex[self.surface.check_vertex(vertex)]
         return self.components[index]
@@ -99,6 +117,18 @@ class Component:
         self._factor: Factor | None = None
         self._factor_has_diagonals = False
         self._spectrum: Spectrum | None = None
+
+    def __reduce__(self) -> tuple[Callable[..., Component], tuple[Laplacian, int]]:
+        return _component, (self.laplacian, self.index)
+
+    @property
+    def _computed(self) -> Computed:
+        with self._factor_lock, self._spectrum_lock:
+            return self._tree, self._factor, self._factor_has_diagonals, self._spectrum
+
+    @_computed.setter
+    def _computed(self, computed: Computed) -> None:
+        self._tree, self._factor, self._factor_has_diagonals, self._spectrum = computed
 
     @locked_cached_property
     def _cut(self) -> tuple[Surface, IntArray]:
@@ -166,7 +196,7 @@ class Component:
 
     def solve(self, b: FloatArray, progress: Progress | None = None) -> FloatArray:
         """G b; b (m,) or (m, k)."""
-        return _solved(self.factor(progress), self.pin, b)
+        return _solved(self.factor(progress), self.pin, b, progress)
 
     def centred(self, x: FloatArray) -> FloatArray:
         """x (m,) or (m, k) less its mean by area."""
@@ -209,7 +239,7 @@ class Component:
         """(m,) u = G A 1."""
         return self.solve(self.areas)
 
-    def each_biharmonic_piece(self, index: IntArray, receive: ReceivePiece) -> None:
+    def each_biharmonic_piece(self, index: IntArray, receive: ReceivePiece, progress: Progress | None = None) -> None:
         """The columns `index` (k,) of C in pieces (see `Factor.each_sandwich_piece`); unit length squared."""
         index, u = np.asarray(index), self._u
         scaled = u[index] / self.areas.sum()
@@ -218,7 +248,7 @@ class Component:
             values -= u[rows][:, None] * scaled[columns]
             receive(rows, columns, values)
 
-        self.factor(diagonals=True).each_sandwich_piece(index, centred)
+        self.factor(diagonals=True).each_sandwich_piece(index, centred, progress)
 
     # ------------------------------------------------------------------ the spectrum
     @property
@@ -245,6 +275,19 @@ class Component:
             return self._spectrum
 
 
+def _unpickled(surface: Surface, areas: str, computed: tuple[Computed, ...] | None) -> Laplacian:
+    laplacian = Laplacian(surface, areas)
+    if computed is not None:
+        laplacian.pickles_factors = True
+        for component, its in zip(laplacian.components, computed, strict=True):
+            component._computed = its
+    return laplacian
+
+
+def _component(laplacian: Laplacian, index: int) -> Component:
+    return laplacian.components[index]
+
+
 def _spectrum(
     factor: Factor,
     pin: int,
@@ -260,15 +303,15 @@ def _spectrum(
     )
 
 
-def _solved(factor: Factor, pin: int, b: FloatArray) -> FloatArray:
+def _solved(factor: Factor, pin: int, b: FloatArray, progress: Progress | None = None) -> FloatArray:
     """G b by the factor of the pinned matrix."""
-    x = factor.solve(b)
+    x = factor.solve(b, progress)
     # The pinned vertex' equation is one of its own: x_p = b_p.
     x[pin] = 0
     return x
 
 
-def eigenpairs(laplacian: "Laplacian | Surface", count: int, progress: Progress | None = None) -> Spectrum:
+def eigenpairs(laplacian: Laplacian | MeshLike, count: int, progress: Progress | None = None) -> Spectrum:
     """The first `count` eigenpairs L phi = lambda A phi, phi^T A phi = 1, the constant of each component not counted.
 
     Returns eigenvalues (count,), ascending, unit 1 / length squared, and eigenvectors (n, count), 0 at
@@ -292,13 +335,9 @@ def eigenpairs(laplacian: "Laplacian | Surface", count: int, progress: Progress 
     return Spectrum(values[first], vectors)
 
 
-def as_laplacian(laplacian: Laplacian | Surface) -> Laplacian:
-    """A Surface stands for its Laplacian with the default vertex areas."""
-    if isinstance(laplacian, Surface):
-        return Laplacian(laplacian)
-    if isinstance(laplacian, Laplacian):
-        return laplacian
-    raise ParameterError(f"A Surface or a Laplacian is needed, not {type(laplacian).__name__}.")
+def as_laplacian(laplacian: Laplacian | MeshLike, faces: npt.ArrayLike | None = None) -> Laplacian:
+    """A mesh of any kind that `Surface.of` takes stands for its Laplacian with the default vertex areas."""
+    return laplacian if isinstance(laplacian, Laplacian) else Laplacian(Surface.of(laplacian, faces))
 
 
 def _pinned(matrix: sp.csr_matrix, pin: int) -> sp.csr_matrix:

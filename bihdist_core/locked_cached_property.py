@@ -25,7 +25,7 @@ class locked_cached_property(cached_property[Value], Generic[Value]):
             return self
         values, name = instance.__dict__, str(self.attrname)
         if name not in values:
-            with values.setdefault(f"lock of {name}", threading.RLock()):
+            with values.setdefault(f"_lock_of_{name.lstrip('_')}", threading.RLock()):
                 if name not in values:
                     values[name] = self.func(instance)
         value: Value = values[name]

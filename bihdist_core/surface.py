@@ -1,8 +1,13 @@
 """A triangle mesh, checked once and never changed: the input of everything else."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
 from functools import cached_property
+from importlib import import_module
+from operator import index
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +23,10 @@ FLAT = 1e-7
 """A face whose height is less than this share of its longest side is flat (see `degenerate_faces`)."""
 
 
+MeshLike = Any
+"""What `Surface.of` takes."""
+
+
 @dataclass(frozen=True, eq=False)
 class Surface:
     """A triangle mesh: `vertices` (n, 3) float64 and `faces` (m, 3) int64 vertex ids, both read-only copies.
@@ -27,6 +36,10 @@ class Surface:
     how a file was read that are no repairs, such as polygons that were divided into triangles.
 
     Raises MeshError for wrong shapes, a coordinate that is not finite, a vertex id out of range, or no faces.
+
+    >>> surface = Surface([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    >>> surface, surface.area, surface.n_components, len(surface.boundary_edges)
+    (Surface(surface: 4 vertices, 2 faces), 1.0, 1, 4)
     """
 
     vertices: FloatArray
@@ -43,6 +56,39 @@ class Surface:
             object.__setattr__(self, key, value)
         object.__setattr__(self, "facts", tuple(self.facts))
 
+    @classmethod
+    def of(cls, mesh: MeshLike, faces: npt.ArrayLike | None = None, *, name: str | None = None) -> Surface:
+        """The surface of a mesh of any kind; a Surface is itself.
+
+        mesh: a path, as of `read_surface`; vertices (n, 3), with the faces (m, 3) beside them or both as a pair; or an
+        object of PyVista (PolyData), trimesh (Trimesh), meshio (Mesh), Open3D (TriangleMesh), nibabel (GiftiImage) or
+        nilearn.  Polygons are divided into triangles, which `facts` says; vertex ids stay.  Wherever a surface is asked
+        for to make a distance, a Laplacian or a figure, these do, too.
+
+        Raises MeshError as `read_surface` and `Surface` do and where an object has no faces, ParameterError for an
+        object of another kind.
+        """
+        from .formats.mesh_objects import surface_of
+
+        return surface_of(mesh, faces, name)
+
+    def to_pyvista(self, fields: Mapping[str, npt.ArrayLike] | None = None) -> Any:
+        """A `pyvista.PolyData` with vertex k as point k; fields: arrays (n,) or (n, k) that become its point data.
+
+        ImportError where PyVista is not installed.
+        """
+        mesh = import_module("pyvista").PolyData.from_regular_faces(self.vertices, self.faces)
+        for name, values in (fields or {}).items():
+            mesh.point_data[name] = values
+        return mesh
+
+    def to_trimesh(self) -> Any:
+        """A `trimesh.Trimesh` with the same vertices and faces; ImportError where trimesh is not installed."""
+        return import_module("trimesh").Trimesh(self.vertices, self.faces, process=False)
+
+    def __getstate__(self) -> dict[str, object]:
+        return {each.name: getattr(self, each.name) for each in fields(self)}
+
     def __setstate__(self, state: dict[str, object]) -> None:
         self.__dict__.update(state)
         # Arrays come back from a pickle writeable.
@@ -52,15 +98,19 @@ class Surface:
         return f"Surface({self.name}: {len(self.vertices):,} vertices, {len(self.faces):,} faces)"
 
     def check_vertex(self, vertex: int) -> int:
-        """The id as an int; VertexError if there is no such vertex or it belongs to no face."""
+        """The id as an int, from any whole number; VertexError if there is no such vertex or it belongs to no face."""
         n = len(self.vertices)
-        if isinstance(vertex, (bool, np.bool_)) or not isinstance(vertex, (int, np.integer)):
-            raise VertexError(f"{self.name}: {vertex!r} is not a vertex id; ids are whole numbers from 0 to {n - 1}.")
+        try:
+            vertex = index(None if isinstance(vertex, bool) else vertex)  # type: ignore[arg-type]
+        except TypeError:
+            raise VertexError(
+                f"{self.name}: {vertex!r} is not a vertex id; ids are whole numbers from 0 to {n - 1}."
+            ) from None
         if not 0 <= vertex < n:
             raise VertexError(f"{self.name} has no vertex {vertex}; ids run from 0 to {n - 1}.")
         if self.component_of_vertex[vertex] < 0:
             raise VertexError(f"{self.name}: vertex {vertex} belongs to no face, so no distance is defined from it.")
-        return int(vertex)
+        return vertex
 
     def check_vertices(self, vertices: npt.ArrayLike) -> IntArray:
         """(k,) int64 ids, each checked as by `check_vertex`."""
@@ -84,8 +134,18 @@ class Surface:
         rank[np.argsort(-count, kind="stable")] = np.arange(len(count))
         return np.where(used, rank[np.minimum(label, len(count) - 1)], -1)
 
+    @property
+    def n_vertices(self) -> int:
+        """How many vertices there are, those of no face among them."""
+        return len(self.vertices)
+
+    @property
+    def n_faces(self) -> int:
+        """How many faces there are."""
+        return len(self.faces)
+
     @cached_property
-    def component_count(self) -> int:
+    def n_components(self) -> int:
         """How many connected components the surface has."""
         return int(self.component_of_vertex.max()) + 1
 
@@ -99,7 +159,7 @@ class Surface:
         """How many vertices belong to no face."""
         return int((self.component_of_vertex < 0).sum())
 
-    def component(self, index: int) -> tuple["Surface", IntArray]:
+    def component(self, index: int) -> tuple[Surface, IntArray]:
         """One component as a surface of its own, and (k,) the ids its vertices have here, ascending."""
         ids = np.flatnonzero(self.component_of_vertex == index)
         if len(ids) == len(self.vertices):
@@ -200,7 +260,7 @@ class Surface:
     def genus(self) -> int | None:
         """Handles of all components together; None where the mesh is not manifold or not orientable."""
         used = len(self.vertices) - self.unreferenced_count
-        twice = 2 * self.component_count - self.boundary_loop_count - (used - len(self.edges) + len(self.faces))
+        twice = 2 * self.n_components - self.boundary_loop_count - (used - len(self.edges) + len(self.faces))
         return twice // 2 if self.is_manifold and twice % 2 == 0 else None
 
     # ------------------------------------------------------------------ measures
@@ -229,6 +289,17 @@ class Surface:
     def face_areas(self) -> FloatArray:
         """(m,) areas of the faces, unit length squared."""
         return self._face_measures[0]
+
+    @property
+    def area(self) -> float:
+        """The area of all faces together, unit length squared."""
+        return float(self.face_areas.sum())
+
+    @property
+    def bounds(self) -> FloatArray:
+        """(2, 3) the least and the greatest coordinates of vertices that belong to a face."""
+        used = self.vertices[self.component_of_vertex >= 0]
+        return np.stack([used.min(axis=0), used.max(axis=0)])
 
     @cached_property
     def face_heights(self) -> FloatArray:
@@ -291,7 +362,10 @@ def connected(edges: IntArray, n: int) -> IntArray:
 
 def _checked_vertices(vertices: npt.ArrayLike, name: str) -> FloatArray:
     try:
-        x = np.array(vertices, np.float64)
+        x = np.array(vertices)
+        if x.dtype.kind not in "iufO":
+            raise TypeError(f"their type is {x.dtype}")
+        x = x.astype(np.float64, copy=False)
     except (TypeError, ValueError) as error:
         raise MeshError(f"{name}: the vertices are not an array of numbers ({error}).") from None
     if x.ndim != 2 or x.shape[1] != 3:
@@ -307,6 +381,8 @@ def _checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[IntArray, l
     """(m, 3) faces that can be used, and what was dropped, in words."""
     try:
         f = np.array(faces)
+        if f.dtype.kind not in "iufO":
+            raise TypeError(f"their type is {f.dtype}")
         whole = np.ascontiguousarray(f, np.int64)
     except (TypeError, ValueError) as error:
         raise MeshError(f"{name}: the faces are not an array of vertex ids ({error}).") from None

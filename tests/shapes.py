@@ -171,4 +171,4 @@ def spike(n: int, length: float) -> Surface:
 
 def components_apart(s: Surface) -> list[np.ndarray]:
     """The vertex ids of each component."""
-    return [np.flatnonzero(s.component_of_vertex == k) for k in range(s.component_count)]
+    return [np.flatnonzero(s.component_of_vertex == k) for k in range(s.n_components)]

@@ -173,7 +173,7 @@ def _facts_of_mesh(task: Task, mesh: Mesh, work: str) -> dict[str, Any]:
         **({"checksums": others} if others else {}),
         "vertices": len(surface.vertices),
         "faces": len(surface.faces),
-        "components": surface.component_count,
+        "components": surface.n_components,
         "area": float(surface.face_areas.sum()),
         **scaled,
         "repairs": list(notes.repairs),
@@ -241,7 +241,7 @@ def _join(task: Task, part: Part) -> Report:
     if part.work == "pairs" and task.wanted.labels:
         names, of_each = np.unique(mesh.labels[labelled(mesh.surface, mesh.labels, mesh.mask)], return_counts=True)
         sums = sum(_read_part(folder, task, each) for each in parts)
-        found = ParcelSums(names, of_each, np.asarray(sums)).parcels
+        found = ParcelSums(names, of_each, np.asarray(sums), of_each).parcels
         made = parcels_made(mesh.distance(part.distance), found, task.wanted.dtype)
     elif part.work == "nearest":
         indices, values = np.concatenate([_read_part(folder, task, each) for each in parts], axis=1)

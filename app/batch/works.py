@@ -197,7 +197,7 @@ def neighbours_made(
 def parcels_made(distance: Distance, found: Parcels, dtype: str) -> Made:
     """Mean distances between parcels (m, m), with their labels and sizes."""
     facts = {**_facts_of_distance(distance), "labels": found.labels.tolist(), "counts": found.counts.tolist()}
-    return Made({"means": _in(found.means, dtype)}, {**facts, "means": "of the distances of all pairs of vertices"})
+    return Made({"means": _in(found.distances, dtype)}, {**facts, "means": "of the distances of all pairs of vertices"})
 
 
 def eigen(mesh: Mesh, words: str = "") -> Made:

@@ -54,7 +54,7 @@ def _facts(mesh: str, options: argparse.Namespace) -> dict[str, Any]:
         "mesh": s.name,
         "vertices": len(s.vertices),
         "faces": len(s.faces),
-        "components": s.component_count,
+        "components": s.n_components,
         "boundary loops": s.boundary_loop_count if options.json else _loops(s),
         "genus": s.genus,
         "non-manifold edges": s.nonmanifold_edge_count,

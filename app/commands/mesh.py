@@ -30,11 +30,11 @@ def check_mesh(word: str, commands: Iterable[str] = ()) -> None:
     """
     if os.path.exists(mesh_path(word)):
         return
-    from bihdist_core.errors import MeshError
+    from bihdist_core.errors import MeshError, MissingFileError
 
     shown = word if len(word) <= LONGEST else f"{word[:LONGEST]}..."
     if word.lower().endswith(".json"):
-        raise MeshError(f"There is no file {shown}.")
+        raise MissingFileError(f"There is no file {shown}.")
     commands = tuple(commands)
     near = get_close_matches(word.lower(), dict.fromkeys((*commands, *sample_names())), 1)
     meant = f"; did you mean {near[0]}?" if near else "."

@@ -93,7 +93,7 @@ def accuracy(distance: "Distance", everywhere: bool = False) -> str:
 
     everywhere: on all components, also those not asked about.
     """
-    error_estimate = distance.error_estimate(range(distance.surface.component_count) if everywhere else None)
+    error_estimate = distance.error_estimate(range(distance.surface.n_components) if everywhere else None)
     if error_estimate.is_poor:
         warn(f"{distance.label} on {distance.surface.name} is only {error_estimate.text}.")
     return f", {error_estimate.text}" if error_estimate.text else ""

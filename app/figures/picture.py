@@ -1,5 +1,7 @@
 """`bihdist.figure`: the command `bihdist figure` as a function, whose result a notebook draws by itself."""
 
+from __future__ import annotations
+
 import io
 import os
 from collections.abc import Mapping, Sequence

@@ -4,6 +4,8 @@ The process is left as it was: no hook for exceptions, no frozen garbage collect
 ours, and nothing in the user's list of recent files.
 """
 
+from __future__ import annotations
+
 import atexit
 import os
 import sys
@@ -81,11 +83,11 @@ class ShownPanel:
     unit: str
     field: FloatArray | None
     failure: str
-    plotter: "PanelPlotter"
-    _drawn: "vtkPolyData"
+    plotter: PanelPlotter
+    _drawn: vtkPolyData
 
     @cached_property
-    def mesh(self) -> "pyvista.PolyData":
+    def mesh(self) -> pyvista.PolyData:
         """The surface as it is drawn, with the field as an array (n,) under the panel's quantity; vertex k is point k.
 
         A copy: what is written into it changes neither the panel nor the field.
@@ -243,7 +245,7 @@ class Viewer:
         if not arrived:
             raise BihdistError("It was stopped, or something else was opened meanwhile.")
 
-    def _picked(self, panel: int, hit: "Hit") -> None:
+    def _picked(self, panel: int, hit: Hit) -> None:
         if self._on_pick is None:
             return
         fields = {id: shown.answer.field for id, shown in self._session.shown.items()}

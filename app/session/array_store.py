@@ -4,6 +4,8 @@ They are saved as an .npz archive of plain arrays: `surface/A/vertices`, `surfac
 surface A, and `field/height` of a field.
 """
 
+from __future__ import annotations
+
 import hashlib
 import os
 import zipfile
@@ -20,14 +22,15 @@ import numpy.typing as npt
 from bihdist_core import ParameterError, Surface
 from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.sources.source import Source
+from bihdist_core.surface import MeshLike
 
 from ..document.beside_edits import open_beside
 from ..document.document import Document, FieldArray, MeshFile, comparison
 from ..document.page import Recipe
 from ..document.quantities import Quantity, quantity
 
-Mesh = str | os.PathLike[str] | Surface | tuple[Any, Any]
-"""A file or the name of a sample, a surface, or its vertices (n, 3) and faces (m, 3)."""
+Mesh = MeshLike
+"""A file or the name of a sample, or what else `Surface.of` takes."""
 
 
 class ArrayStore:
@@ -84,7 +87,7 @@ class ArrayStore:
             raise ParameterError(f"The field {name!r} was given from Python, and is not there any more.")
         return self._fields[sha256]
 
-    def update(self, other: "ArrayStore") -> None:
+    def update(self, other: ArrayStore) -> None:
         """Keep what another keeps."""
         self._surfaces.update(other._surfaces)
         self._fields.update(other._fields)
@@ -101,7 +104,7 @@ class ArrayStore:
         return arrays | {f"field/{field.name}": self.field(field.sha256, field.name) for field in document.fields}
 
     @classmethod
-    def read(cls, recipe: Recipe) -> "ArrayStore":
+    def read(cls, recipe: Recipe) -> ArrayStore:
         """What the document of a recipe needs, from the recipe's archive.
 
         Raises ParameterError if the archive is missing, is none, lacks something, or holds something else.
@@ -164,7 +167,7 @@ def with_beside(document: Document, given: ArrayStore, mesh: Mesh) -> Document:
 
 
 def _entry(mesh: Mesh, given: ArrayStore) -> MeshFile:
-    return MeshFile("A", str(mesh)) if isinstance(mesh, str | os.PathLike) else given.add_surface(_surface(mesh))
+    return MeshFile("A", str(mesh)) if isinstance(mesh, str | os.PathLike) else given.add_surface(Surface.of(mesh))
 
 
 def _quantity(shows: Any, fields: Mapping[str, npt.ArrayLike]) -> Quantity:
@@ -173,18 +176,6 @@ def _quantity(shows: Any, fields: Mapping[str, npt.ArrayLike]) -> Quantity:
     if not isinstance(shows, Quantity):
         raise ParameterError(f"{shows!r} is no distance; write it in words, such as 'diffusion(t=1/4)'.")
     return shows
-
-
-def _surface(mesh: Any) -> Surface:
-    if isinstance(mesh, Surface):
-        return mesh
-    try:
-        vertices, faces = mesh
-    except (TypeError, ValueError):
-        raise ParameterError(
-            f"A mesh is a file, a Surface, or vertices and faces, not {type(mesh).__name__}."
-        ) from None
-    return Surface(vertices, faces)
 
 
 def _checksum(*arrays: AnyArray) -> str:

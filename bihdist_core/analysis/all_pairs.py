@@ -6,6 +6,8 @@ the distance, the number type.  So what is found there is the beginning of the s
 much of it.
 """
 
+from __future__ import annotations
+
 import hashlib
 import os
 import re

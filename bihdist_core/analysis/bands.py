@@ -1,5 +1,7 @@
 """The part of a surface where a field lies between two values, cut out exactly."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """What is said of distances in words, as numbers: isotropy, kinks, change, and the axioms of a metric."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """One field against another, a point for each vertex: how many lie where, and which lie inside a polygon."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,5 +1,7 @@
 """Fields in numbers: means, quantiles and histograms by area, extremes and where, and how two fields go together."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """Isolines of a field on a surface, as ordered polylines."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """A field that is linear on each face, over the area of its surface: mean, quantiles and histogram, all exact."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +27,7 @@ class LinearField:
     ends: FloatArray
 
     @classmethod
-    def on(cls, surface: Surface, field: FloatArray) -> "LinearField":
+    def on(cls, surface: Surface, field: FloatArray) -> LinearField:
         """field: (n,).  Faces with a corner that is not finite are left out, as from a band between two values."""
         corners = field[surface.faces]
         there = np.isfinite(corners).all(axis=1)
@@ -110,7 +112,7 @@ class LinearField:
         missing = [below + faces.area_below(value) - area for value in (lower, (lower + upper) / 2, upper)]
         return lower + (upper - lower) * _root(*missing)
 
-    def _part(self, chosen: BoolArray) -> "LinearField":
+    def _part(self, chosen: BoolArray) -> LinearField:
         if chosen.all():
             return self
         return LinearField(self.low[chosen], self.middle[chosen], self.high[chosen], self.areas[chosen], self.ends)

@@ -3,6 +3,8 @@
 A graph of them is what much of machine learning and of visualization on meshes starts from.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np
@@ -45,6 +47,8 @@ def nearest(
     n = len(surface.vertices)
     if isinstance(k, bool) or not isinstance(k, (int, np.integer)) or k < 1:
         raise ParameterError(f"k is {k!r}; at least one neighbour is needed, a whole number.")
+    if k > n:
+        raise ParameterError(f"{k:,} neighbours asked for; {surface.name} has {n:,} vertices.")
     if not memory > 0:
         raise ParameterError(f"The memory for a block is {memory:g} bytes; it must be positive.")
     hidden = None if mask is None else ~checked_mask(surface, mask)

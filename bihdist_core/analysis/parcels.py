@@ -1,15 +1,18 @@
-"""Mean distances between the parcels of a labelled surface, without the distances between all its vertices."""
+"""Distances between the parcels of a labelled surface, without the distances between all its vertices."""
 
-from dataclasses import dataclass
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
-from ..arrays import BoolArray, FloatArray, IntArray
+from ..arrays import AnyArray, BoolArray, FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
-from ..progress import Progress, silent
+from ..progress import Progress, part, silent
+from ..sources.pieces import points_on
 from ..surface import Surface
 
 MEMORY = 3e8
@@ -18,38 +21,42 @@ BYTES_PER_VALUE = 24
 """In memory, at once, for each distance of a block."""
 
 
+REDUCTIONS = ("mean", "min", "centroid", "hausdorff")
+"""How one number is made of the distances between two parcels (`parcel_means`)."""
+
+
 @dataclass(frozen=True, eq=False)
 class Parcels:
-    """Mean distances between the parcels that labels divide the vertices into.
+    """Distances between the parcels that labels divide the vertices into.
 
-    labels: (p,) ascending.  counts: (p,) vertices of each.  means: (p, p), symmetric: over all pairs of a vertex of the
-    one and a vertex of the other, in the distance's unit; NaN where any pair has none.  On the diagonal the pairs are
-    those within a parcel, each vertex with itself among them.
+    labels: (p,) ascending.  counts: (p,) vertices of each.  distances: (p, p), symmetric, in the distance's unit.
     """
 
-    labels: IntArray
+    labels: AnyArray
     counts: IntArray
-    means: FloatArray
+    distances: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
 class ParcelSums:
-    """labels: (p,); counts: (p,); sums: (p, p), of a column's parcel over a part of its vertices.
+    """labels: (p,); counts: (p,); sums: (p, p), of a column's parcel over a part of its vertices; weights: (p,) of all
+    vertices of a parcel, their numbers if there are none.
 
     Parts of one surface's vertices are added up: they may be computed apart, in any order.
     """
 
-    labels: IntArray
+    labels: AnyArray
     counts: IntArray
     sums: FloatArray
+    weights: FloatArray | IntArray
 
-    def __add__(self, other: "ParcelSums") -> "ParcelSums":
-        return ParcelSums(self.labels, self.counts, self.sums + other.sums)
+    def __add__(self, other: ParcelSums) -> ParcelSums:
+        return replace(self, sums=self.sums + other.sums)
 
     @property
     def parcels(self) -> Parcels:
         """The means, once all parts have been added up."""
-        means = self.sums / np.outer(self.counts, self.counts)
+        means = self.sums / np.outer(self.weights, self.weights)
         return Parcels(self.labels, self.counts, (means + means.T) / 2)
 
 
@@ -59,16 +66,68 @@ def parcel_means(
     mask: npt.ArrayLike | None = None,
     memory: float = MEMORY,
     progress: Progress | None = None,
+    *,
+    reduce: str = "mean",
+    weights: str | None = None,
 ) -> Parcels:
-    """The mean distances between parcels of vertices.
+    """The distances between parcels of vertices, one for each two parcels.
 
-    labels: (n,) whole numbers, negative where a vertex belongs to none; mask: (n,) which vertices count, or all.
+    labels: (n,) whole numbers, negative where a vertex belongs to no parcel, or strings, empty where it does not;
+    mask: (n,) which vertices count, or all.  memory: bytes for the fields of a block.
 
-    Costs a field for each vertex that counts; holds those of a block, and (p, p) sums.  memory: bytes for a block.
-    Raises ParameterError for labels or a mask of another shape or kind, and if nothing is left.
+    reduce: what becomes of the distances between the vertices of one parcel and those of another.
+    - "mean": over all pairs, within a parcel each vertex with itself among them; NaN where any pair has none.  Costs a
+      field for each vertex that counts.
+    - "min": the least.  "hausdorff": how far a vertex of either is from the nearest of the other, at most; NaN where
+      one is not reached.  Both cost a field from each parcel: of geodesic distances one, else as many as it has
+      vertices.
+    - "centroid": from the vertex that is nearest to the mean position of the one to that of the other.
+
+    weights: "area" weighs vertices by their areas, in means and mean positions; None counts them alike.
+
+    Raises ParameterError for labels or a mask of another shape or kind, another word, and if nothing is left.
     """
-    chosen = labelled(distance.surface, labels, mask)
-    return parcel_sums(distance, labels, mask, 0, len(chosen), memory, progress).parcels
+    if reduce not in REDUCTIONS:
+        raise ParameterError(f"Distances of parcels are reduced by {', '.join(REDUCTIONS)}, not by {reduce!r}.")
+    vertices = labelled(distance.surface, labels, mask)
+    if reduce == "mean":
+        return parcel_sums(distance, labels, mask, 0, len(vertices), memory, progress, weights).parcels
+    names, parcel, counts = np.unique(np.asarray(labels)[vertices], return_inverse=True, return_counts=True)
+    members = [vertices[parcel == k] for k in range(len(names))]
+    if reduce == "centroid":
+        of_each = _weights(distance, weights)
+        centres = [_central(distance.surface.vertices[mine], of_each[mine]) for mine in members]
+        found = distance.pairwise([mine[k] for mine, k in zip(members, centres, strict=True)], progress)
+    else:
+        found = _from_nearest(distance, members, np.fmin if reduce == "min" else np.maximum, progress)
+        found = (found + found.T) / 2 if reduce == "min" else np.maximum(found, found.T)
+    return Parcels(names, counts, found)
+
+
+def _from_nearest(
+    distance: Distance, members: list[IntArray], reduce: np.ufunc, progress: Progress | None
+) -> FloatArray:
+    """(p, p) of each parcel's vertices, in rows, how far they are from the nearest of another's, reduced to one."""
+    found = np.empty((len(members), len(members)))
+    for k, mine in enumerate(members):
+        step = part(progress, k / len(members), (k + 1) / len(members))
+        field = distance.from_pieces(points_on(distance.surface, mine.tolist()), step)
+        found[:, k] = [reduce.reduce(field[each]) for each in members]
+    (progress or silent)(1.0, f"{len(members):,} parcels")
+    return found
+
+
+def _central(positions: FloatArray, weights: FloatArray) -> int:
+    """Which of the positions (m, 3) is nearest to their mean by weights (m,)."""
+    apart = positions - np.average(positions, axis=0, weights=weights if weights.any() else None)
+    return int((apart**2).sum(axis=1).argmin())
+
+
+def _weights(distance: Distance, weights: str | None) -> FloatArray:
+    """(n,) what each vertex counts."""
+    if weights not in (None, "area"):
+        raise ParameterError(f"Vertices are weighed by 'area' or by None, not by {weights!r}.")
+    return np.ones(len(distance.surface.vertices)) if weights is None else distance.laplacian.areas
 
 
 def parcel_sums(
@@ -79,13 +138,14 @@ def parcel_sums(
     end: int,
     memory: float = MEMORY,
     progress: Progress | None = None,
+    weights: str | None = None,
 ) -> ParcelSums:
     """The sums over the columns begin to end of those that `labelled` lists."""
     surface = distance.surface
     vertices = labelled(surface, labels, mask)
     names, parcel = np.unique(np.asarray(labels)[vertices], return_inverse=True)
     p, of_vertex = len(names), surface.component_of_vertex
-    counts = np.bincount(parcel, minlength=p)
+    counts, of_each = np.bincount(parcel, minlength=p), _weights(distance, weights)
     sums = np.zeros((p, p))
     longest = int(np.bincount(of_vertex[of_vertex >= 0])[of_vertex[vertices]].max())
     step = int(np.clip(memory / (longest * BYTES_PER_VALUE), 1, max(end - begin, 1)))
@@ -94,18 +154,19 @@ def parcel_sums(
         (progress or silent)((start - begin) / (end - begin), f"{start - begin:,} of {end - begin:,} columns")
         for component, mine, columns in distance.columns_by_component(vertices[some]):
             here = of_vertex[vertices] == component.index
-            into = _sums_into(parcel[here], component.local(vertices[here]), (p, len(columns)))
-            of_column = _sums_into(parcel[some][mine], np.arange(len(mine)), (p, len(mine)))
+            theirs, own = vertices[here], vertices[some][mine]
+            into = _sums_into(of_each[theirs], parcel[here], component.local(theirs), (p, len(columns)))
+            of_column = _sums_into(of_each[own], parcel[some][mine], np.arange(len(mine)), (p, len(mine)))
             sums += of_column @ (into @ columns).T
             is_elsewhere = np.bincount(parcel[~here], minlength=p) > 0
             sums[np.ix_(np.unique(parcel[some][mine]), is_elsewhere)] = np.nan
     (progress or silent)(1.0, f"{end - begin:,} columns")
-    return ParcelSums(names, counts, sums)
+    return ParcelSums(names, counts, sums, np.bincount(parcel, of_each[vertices], p))
 
 
-def _sums_into(rows: IntArray, columns: IntArray, shape: tuple[int, int]) -> sparse.csr_array:
-    """The matrix that adds up what stands at those columns, into those rows."""
-    return sparse.csr_array((np.ones(len(rows)), (rows, columns)), shape=shape)
+def _sums_into(weights: FloatArray, rows: IntArray, columns: IntArray, shape: tuple[int, int]) -> sparse.csr_array:
+    """The matrix that adds up what stands at those columns, by weights, into those rows."""
+    return sparse.csr_array((weights, (rows, columns)), shape=shape)
 
 
 def labelled(surface: Surface, labels: npt.ArrayLike, mask: npt.ArrayLike | None = None) -> IntArray:
@@ -114,12 +175,12 @@ def labelled(surface: Surface, labels: npt.ArrayLike, mask: npt.ArrayLike | None
     ParameterError for labels or a mask of another shape or kind, and if there is none.
     """
     numbers, n = np.asarray(labels), len(surface.vertices)
-    if numbers.shape != (n,) or numbers.dtype.kind not in "iu":
+    if numbers.shape != (n,) or numbers.dtype.kind not in "iuU":
         raise ParameterError(
-            f"Labels are whole numbers, one for each of the {n:,} vertices of {surface.name}; "
+            f"Labels are whole numbers or strings, one for each of the {n:,} vertices of {surface.name}; "
             f"these have the shape {numbers.shape} and the type {numbers.dtype}."
         )
-    counts = (numbers >= 0) & (surface.component_of_vertex >= 0)
+    counts = ((numbers != "") if numbers.dtype.kind == "U" else (numbers >= 0)) & (surface.component_of_vertex >= 0)
     if mask is not None:
         counts &= checked_mask(surface, mask)
     vertices = np.flatnonzero(counts)

@@ -6,6 +6,8 @@ deep the hollow is.  Noise of the triangulation makes many minima of nearly no p
 figure sees persist over a share of the field's range.  Maxima are the minima of -f.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

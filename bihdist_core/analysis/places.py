@@ -1,5 +1,7 @@
 """Places on a surface: vertices, or points in faces given by barycentric weights."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -30,7 +32,7 @@ class Places:
     weights: FloatArray
 
     @classmethod
-    def of(cls, surface: Surface, places: Sequence[int | SurfacePoint | str]) -> "Places":
+    def of(cls, surface: Surface, places: Sequence[int | SurfacePoint | str]) -> Places:
         """Vertices and places in faces, or their words, checked.
 
         Raises VertexError for a bad vertex; ParameterError for other sources, and for a face that does not exist.

@@ -1,5 +1,7 @@
 """Sections of a surface by planes, from place to place."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise

@@ -1,5 +1,7 @@
 """Profiles written to files: fields along a path over arc length."""
 
+from __future__ import annotations
+
 import json
 import os
 from collections.abc import Mapping

@@ -1,6 +1,8 @@
 """How good a distance field is, in the paper's words as numbers: extrema away from the source, isotropy near it, kinks,
 the triangle inequality."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from dataclasses import dataclass
 

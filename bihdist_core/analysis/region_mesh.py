@@ -1,5 +1,7 @@
 """A surface cut along the boundaries of regions, each region with vertices of its own: to be drawn and written."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,6 +4,8 @@ The fields are linear on each face, so there the least of them is the lower enve
 convex polygons in each face, and their boundaries segments that meet in points.  All is exact but for rounding.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from dataclasses import dataclass
 

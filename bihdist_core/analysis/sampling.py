@@ -1,5 +1,7 @@
 """Farthest-point sampling with any distance."""
 
+from __future__ import annotations
+
 import os
 
 import numpy as np
@@ -12,7 +14,7 @@ from ..formats.field_output import write_array
 from ..formats.pins import PIN_FORMATS, Pins, write_pins
 from ..progress import Progress, part, silent
 from ..sources.pieces import pieces_of
-from ..sources.source import Source
+from ..sources.source import Source, whole_number
 from ..sources.words import short_words_of
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
@@ -34,7 +36,7 @@ def farthest_points(
     start.  Raises VertexError for a bad start; ParameterError for starts on different components, the same twice, or
     more of them than `count`; and if the component has fewer different points than `count`.
     """
-    if count < 1:
+    if whole_number(count, "count") < 1:
         raise ParameterError(f"count is {count}; at least one point is needed.")
     points = distance.surface.check_vertices(start).tolist()
     if not 1 <= len(points) <= count:
@@ -43,6 +45,10 @@ def farthest_points(
         )
     if len(set(points)) < len(points) or len(np.unique(distance.surface.component_of_vertex[points])) > 1:
         raise ParameterError(f"The starts {points} are not different vertices of one component.")
+    component = distance.laplacian.component_of(points[0])
+    if count > len(component.vertices):
+        held = len(component.vertices)
+        raise ParameterError(f"{count:,} points asked for; the component of vertex {points[0]} has {held:,} vertices.")
     report, start_count = progress or silent, len(points)
     nearest = np.full(len(distance.surface.vertices), np.nan)
     for k in range(count):

@@ -1,5 +1,7 @@
 """Vertices chosen on a surface: by a brush of some radius, cut out as a mesh, written to files."""
 
+from __future__ import annotations
+
 import os
 from functools import cached_property
 from pathlib import Path

@@ -23,7 +23,7 @@ class SurfaceNotes:
 
 def surface_notes(surface: Surface) -> SurfaceNotes:
     """The notes of a surface; those on large meshes take a moment the first time."""
-    parts = surface.component_count
+    parts = surface.n_components
     facts = [
         (surface.boundary_loop_count, "boundary loop", ""),
         (surface.unreferenced_count, "vertex without a face", "vertices without a face"),

@@ -1,5 +1,7 @@
 """Paths on a surface: polylines of which each piece lies in one face, so that fields can be read along them exactly."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property

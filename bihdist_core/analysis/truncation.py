@@ -1,5 +1,7 @@
 """What a sum over the first k eigenpairs loses of the exact biharmonic distance, for every k at once."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +17,7 @@ from ..solver.tall import over_rows
 from ..sources.pieces import pieces_of
 from ..sources.source import Source, checked_source
 from ..sources.words import short_words_of
-from ..surface import Surface
+from ..surface import MeshLike
 
 LINE_COUNTS = (1, 2, 3, 5, 8, 12, 18, 25, 35, 50, 70, 100, 140, 200)
 """For lines, and for sources on several components, where each count costs a field of its own; and so on by 1.4."""
@@ -37,7 +39,7 @@ class TruncationLoss:
 
 
 def truncation_loss(
-    laplacian: Laplacian | Surface,
+    laplacian: Laplacian | MeshLike,
     source: Source | str,
     most: int = 200,
     counts: npt.ArrayLike | None = None,
@@ -72,7 +74,7 @@ def truncation_loss(
     if not len(counted):
         raise ParameterError(f"{laplacian.surface.name} has {highest:,} eigenpairs at {_words(at)}.")
     report = progress or silent
-    distance = BiharmonicDistance(laplacian, part(report, 0, 0.2))
+    distance = BiharmonicDistance(laplacian, progress=part(report, 0, 0.2))
     exact = distance.from_source(at, part(report, 0.2, 0.3))
     largest = np.nanmax(exact)
     if not largest > 0:

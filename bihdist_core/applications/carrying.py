@@ -7,6 +7,8 @@ mapped to, and would have to choose where several are mapped to one.  Where the 
 and folds of it show as such, and two parts of A in the same colours are mapped to one of B.
 """
 
+from __future__ import annotations
+
 import numpy as np
 import numpy.typing as npt
 

@@ -1,5 +1,7 @@
 """Which vertex of one surface corresponds to a vertex of another (paper, section 5.2, surface matching)."""
 
+from __future__ import annotations
+
 import numpy as np
 import numpy.typing as npt
 
@@ -63,7 +65,7 @@ class Correspondence:
 
     def changed(
         self, pairs: npt.ArrayLike, weights: npt.ArrayLike | None = None, progress: Progress | None = None
-    ) -> "Correspondence":
+    ) -> Correspondence:
         """This correspondence with other pairs (k, 2) and weights (k,).
 
         A new pair costs a field on each surface, pairs that are known cost none.  Raises VertexError for bad vertices,

@@ -1,5 +1,7 @@
 """Shepard interpolation on a surface (paper, section 5.2): weighted averages, the weights inverse distances."""
 
+from __future__ import annotations
+
 import numpy as np
 import numpy.typing as npt
 
@@ -51,7 +53,7 @@ class ShepardInterpolant:
         values: npt.ArrayLike | None = None,
         exponent: float | None = None,
         smoothness: float | None = None,
-    ) -> "ShepardInterpolant":
+    ) -> ShepardInterpolant:
         """This interpolant with other anchors, values or parameters.
 
         Distances that are known are kept: other values cost one product of matrices, a new anchor one field.  Raises

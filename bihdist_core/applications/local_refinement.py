@@ -1,5 +1,7 @@
 """A mesh made finer around some of its vertices, the surface itself unchanged."""
 
+from __future__ import annotations
+
 import numpy as np
 import numpy.typing as npt
 from scipy.spatial import cKDTree

@@ -4,6 +4,8 @@ As the field measures it (Kim, Lipman, Funkhouser 2011): the error of a vertex i
 that is mapped to, between where it is mapped and where it belongs, over the root of that surface's area.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

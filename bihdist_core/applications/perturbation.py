@@ -1,5 +1,7 @@
 """What can go wrong with a mesh, done on purpose: noise, holes, welded parts, a thin handle (paper, Figs. 3, 6, 7)."""
 
+from __future__ import annotations
+
 from itertools import pairwise
 
 import numpy as np
@@ -91,7 +93,7 @@ def without(surface: Surface, vertices: npt.ArrayLike) -> Surface:
     rest = Surface(surface.vertices, left, surface.name)
     was, now = (each.component_of_vertex[left[:, 0]] for each in (surface, rest))
     # Components are numbered from the largest.
-    largest = np.full(surface.component_count, rest.component_count)
+    largest = np.full(surface.n_components, rest.n_components)
     np.minimum.at(largest, was, now)
     return Surface(rest.vertices, left[now == largest[was]], surface.name)
 

@@ -47,7 +47,7 @@ def resized(surface: Surface, count: int, progress: Progress | None = None) -> S
     if count > 2 * len(surface.vertices):
         # A refined coarse mesh is more even than a fine one with vertices taken out, and quicker to make.
         times = int(np.ceil(np.log(count / len(surface.vertices)) / np.log(4)))
-        spare = 3 * surface.component_count + len(surface.boundary_edges)
+        spare = 3 * surface.n_components + len(surface.boundary_edges)
         surface = simplified(surface, min(len(surface.vertices), count // 4**times + spare))[0]
     while len(surface.vertices) < count:
         surface = refined(surface)

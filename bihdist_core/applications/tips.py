@@ -1,5 +1,7 @@
 """The tips of a shape, where functions without needless extrema have some nevertheless."""
 
+from __future__ import annotations
+
 import numpy as np
 import numpy.typing as npt
 

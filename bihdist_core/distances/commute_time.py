@@ -1,11 +1,14 @@
 """The commute-time distance, exact on the mesh (paper, Eqs. 2 and 3; it has no continuous counterpart)."""
 
+from __future__ import annotations
+
 import numpy as np
+import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
 from ..laplacian import Component, Laplacian
 from ..progress import Progress
-from ..surface import Surface
+from ..surface import MeshLike
 from .accuracy import accuracy_of_pairs
 from .distance import Distance, root
 
@@ -22,8 +25,13 @@ class CommuteTimeDistance(Distance):
     length_power = 0.0
     is_quadratic = True
 
-    def __init__(self, laplacian: Laplacian | Surface, progress: Progress | None = None) -> None:
-        super().__init__(laplacian)
+    def __init__(
+        self,
+        laplacian: Laplacian | MeshLike,
+        faces: npt.ArrayLike | None = None,
+        progress: Progress | None = None,
+    ) -> None:
+        super().__init__(laplacian, faces)
         self.prepare(self.laplacian.components[0], progress)
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
@@ -34,7 +42,7 @@ class CommuteTimeDistance(Distance):
         diagonal = component.green_diagonal()
         b = np.zeros((len(diagonal), len(index)))
         b[index, np.arange(len(index))] = 1
-        squares = diagonal[:, None] + diagonal[index] - 2 * component.solve(b)
+        squares = diagonal[:, None] + diagonal[index] - 2 * component.solve(b, progress)
         distances = root(squares, diagonal.max())
         if component.flat.lack.any():
             for column, source in enumerate(index):

@@ -1,5 +1,7 @@
 """The difference of two fields: where one distance is larger than another."""
 
+from __future__ import annotations
+
 import numpy as np
 import numpy.typing as npt
 

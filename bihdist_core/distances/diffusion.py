@@ -7,9 +7,10 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian
+from ..memo import Memo
 from ..progress import Progress, part
 from ..solver.spectrum import Spectrum
-from ..surface import Surface
+from ..surface import MeshLike
 from .spectral import SpectralDistance, checked_number
 from .tails import Cloud, biharmonic_squares, missing, tail_lengths
 
@@ -38,7 +39,7 @@ class DiffusionDistance(SpectralDistance):
 
     def __init__(
         self,
-        laplacian: Laplacian | Surface,
+        laplacian: Laplacian | MeshLike,
         t: float = 1.0,
         tolerance: float | None = None,
         progress: Progress | None = None,
@@ -51,7 +52,7 @@ class DiffusionDistance(SpectralDistance):
         self.t, self.tolerance = float(t), TOLERANCE if tolerance is None else float(tolerance)
         self._coarsest = COARSEST if tolerance is None else self.tolerance
         self.label = f"diffusion, t = {t:g}"
-        self._used: dict[int, tuple[Spectrum, FloatArray]] = {}
+        self._used: Memo[int, tuple[Spectrum, FloatArray]] = Memo()
         self.prepare(self.laplacian.components[0], progress)
 
     def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, FloatArray]:

@@ -1,19 +1,22 @@
 """What every distance has in common: the same four questions, answered per connected component."""
 
+from __future__ import annotations
+
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..laplacian import Component, Laplacian, as_laplacian
+from ..memo import Memo
 from ..progress import Progress, part, silent
 from ..sources.pieces import Pieces, pieces_of, points_on
 from ..sources.source import BoundaryLoop, Curve, Source, SourceSet, SurfacePoint, checked_source
 from ..sources.words import short_words_of
-from ..surface import Surface
+from ..surface import MeshLike
 from .accuracy import POOR, ErrorEstimate, accurate_to, rounded_up
 from .in_faces import blocks, squares_from
 from .place_pairs import Pair, are_of_places, are_same, has_places, squares_of_pairs
@@ -24,6 +27,11 @@ ROUNDING = 1e-7
 SOURCES = 32
 """From so many sources at a time pairs are computed, which bounds the memory."""
 
+BLOCK = 1 << 23
+"""How many distances of fields are held at a time besides those that are wanted."""
+
+DIGITS = ("field", "all")
+"""How many digits distances of pairs may have (`Distance.of_pairs`)."""
 
 ELSEWHERE = SurfacePoint | BoundaryLoop | Curve | SourceSet
 """Sources that are no vertex."""
@@ -37,7 +45,10 @@ class Distance(ABC):
     between components, and of vertices that belong to no face, are NaN.  A vertex asked for that does not exist or
     belongs to no face is a VertexError.
 
-    Constructing a distance does its long work on the largest component; on another, the first question does.
+    It is constructed from a Laplacian, whose work distances share, or from any mesh that `Surface.of` takes.
+    Constructing a distance does its long work on the largest component; on another, the first question does.  Pickled,
+    it is what it was constructed from, and the first question there does the work again; `Laplacian.pickles_factors`
+    lets factors and eigenpairs travel with it.
     """
 
     label: str
@@ -47,11 +58,11 @@ class Distance(ABC):
     is_quadratic = False
     """Whether squares are a quadratic form of differences of unit vectors, which is defined anywhere in a face."""
 
-    def __init__(self, laplacian: Laplacian | Surface) -> None:
-        self.laplacian = as_laplacian(laplacian)
+    def __init__(self, laplacian: Laplacian | MeshLike, faces: npt.ArrayLike | None = None) -> None:
+        self.laplacian = as_laplacian(laplacian, faces)
         self.surface = self.laplacian.surface
         self._asked: set[int] = set()
-        self._accuracies: dict[int, float | None] = {}
+        self._accuracies: Memo[int, float | None] = Memo()
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.label}, on {self.surface!r})"
@@ -200,23 +211,39 @@ class Distance(ABC):
         return root(least, size)
 
     def from_sources(
-        self, sources: npt.ArrayLike | Sequence[Source | str], progress: Progress | None = None
-    ) -> FloatArray:
-        """(n, k) distances of every vertex from each of k vertices, or sources of any kind."""
+        self,
+        sources: npt.ArrayLike | Sequence[Source | str],
+        progress: Progress | None = None,
+        *,
+        dtype: npt.DTypeLike = np.float64,
+        out: AnyArray | None = None,
+    ) -> AnyArray:
+        """(n, k) distances of every vertex from each of k vertices, or sources of any kind.
+
+        dtype: float64 or float32, of the array that is made.  out: an array (n, k) of either that takes them, such as a
+        memory map, and is returned; then and in float32 only some fields at a time are in memory besides.  Raises
+        VertexError or ParameterError for a source as `from_source` does, ParameterError for another shape or type.
+        """
+        (progress or silent)(0.0, self.label)
+        n = len(self.surface.vertices)
         if isinstance(sources, Sequence) and any(isinstance(each, str | ELSEWHERE) for each in sources):
-            steps = [part(progress, k / len(sources), (k + 1) / len(sources)) for k in range(len(sources))]
-            fields_of_each = [self.from_source(each, step) for each, step in zip(sources, steps, strict=True)]
-            return np.stack(fields_of_each, axis=1)
-        ids, n = self.surface.check_vertices(np.asarray(sources)), len(self.surface.vertices)
-        fields = np.empty((n, 0))
-        for component, mine, columns in self.columns_by_component(ids, progress):
-            if len(columns) == n:
-                fields = columns
-                break
-            if not fields.size:
-                fields = np.full((n, len(ids)), np.nan)
-            fields[np.ix_(component.vertices, mine)] = columns
-        fields[ids, np.arange(len(ids))] = 0
+            fields = _room(out, (n, len(sources)), dtype)
+            for k, each in enumerate(sources):
+                fields[:, k] = self.from_source(each, part(progress, k / len(sources), (k + 1) / len(sources)))
+            return fields
+        ids = self.surface.check_vertices(np.asarray(sources))
+        is_whole = self.surface.largest_component_size == n
+        if is_whole and out is None and np.dtype(dtype) == np.float64 and len(ids):
+            [(_, _, fields)] = self.columns_by_component(ids, progress)
+            return fields
+        fields, step = _room(out, (n, len(ids)), dtype), max(SOURCES, BLOCK // n)
+        for start in range(0, len(ids), step):
+            some = ids[start : start + step]
+            if not is_whole:
+                fields[:, start : start + step] = np.nan
+            report = part(progress, start / len(ids), (start + len(some)) / len(ids))
+            for component, mine, columns in self.columns_by_component(some, report):
+                fields[np.ix_(component.vertices, start + mine)] = columns
         return fields
 
     def columns_by_component(
@@ -255,6 +282,7 @@ class Distance(ABC):
         self, vertices: npt.ArrayLike | Sequence[Source | str], progress: Progress | None = None
     ) -> FloatArray:
         """(k, k) distances among k vertices, or places in faces: symmetric, zero diagonal."""
+        (progress or silent)(0.0, self.label)
         if has_places(vertices):
             points = list(vertices)
             i, j = np.triu_indices(len(points), 1)
@@ -270,12 +298,19 @@ class Distance(ABC):
         distances[ids[:, None] == ids] = 0
         return distances
 
-    def of_pairs(self, pairs: npt.ArrayLike | Sequence[Pair], progress: Progress | None = None) -> FloatArray:
+    def of_pairs(
+        self, pairs: npt.ArrayLike | Sequence[Pair], progress: Progress | None = None, *, digits: str = "field"
+    ) -> FloatArray:
         """(k,) the distances of k pairs of vertices (k, 2), or places in faces; NaN between components.
 
-        The mean of both ways where a distance is not symmetric.  ParameterError for another shape, and for places in
-        faces if this distance knows vertices only.
+        digits: "field", as exact as fields are, by one field for all pairs of a vertex where that is less work than a
+        solve for each pair; "all": free of cancellation, so that the smallest have all digits, too, by a solve for
+        each, where a distance has such a form.  The mean of both ways where a distance is not symmetric.
+        ParameterError for another shape, other digits, and for places in faces if this distance knows vertices only.
         """
+        if digits not in DIGITS:
+            raise ParameterError(f"Digits of pairs are {' or '.join(map(repr, DIGITS))}, not {digits!r}.")
+        (progress or silent)(0.0, self.label)
         if are_of_places(pairs):
             u, v = (points_on(self.surface, [pair[side] for pair in pairs]) for side in (0, 1))
             return self._of_points(u, v, progress)
@@ -290,7 +325,7 @@ class Distance(ABC):
             if len(mine):
                 self.prepare(component, progress)
                 ends = component.local(i[mine]), component.local(j[mine])
-                distances[mine] = self._of_pairs(component, *ends, progress)
+                distances[mine] = self._of_pairs(component, *ends, digits, progress)
         distances[i == j] = 0
         return distances
 
@@ -303,7 +338,7 @@ class Distance(ABC):
         if are_vertices.any():
             ends = (each.some(are_vertices) for each in (u, v))
             pairs = np.column_stack([each.corners[each.start == 1] for each in ends])
-            distances[are_vertices] = self.of_pairs(pairs, part(progress, 0, share))
+            distances[are_vertices] = self.of_pairs(pairs, part(progress, 0, share), digits="all")
         if len(others):
             distances[others] = self._of_places(u.some(others), v.some(others), part(progress, share, 1))
         return distances
@@ -312,27 +347,29 @@ class Distance(ABC):
         """(k,) the same of pairs that are apart, and of which one is no vertex."""
         if not self.is_quadratic:
             raise ParameterError(f"{self.label} is known between vertices only, not at places in faces.")
-        squares = squares_of_pairs(u, v, lambda pairs: self.of_pairs(pairs, progress))
+        squares = squares_of_pairs(u, v, lambda pairs: self.of_pairs(pairs, progress, digits="all"))
         return np.sqrt(np.maximum(squares, 0))
 
-    def _of_pairs(self, component: Component, i: IntArray, j: IntArray, progress: Progress | None = None) -> FloatArray:
+    def _of_pairs(
+        self, component: Component, i: IntArray, j: IntArray, digits: str, progress: Progress | None
+    ) -> FloatArray:
         """(k,) distances of local vertices i and j (k,)."""
         if not self.is_symmetric:
             there = self._one_way(component, i, j, part(progress, 0, 0.5))
             return (there + self._one_way(component, j, i, part(progress, 0.5, 1))) / 2
-        few, others = sorted((i, j), key=lambda side: len(np.unique(side)))
-        return self._one_way(component, few, others, progress)
+        return self._one_way(component, *by_source(i, j), progress)
 
     def _one_way(
         self, component: Component, sources: IntArray, targets: IntArray, progress: Progress | None
     ) -> FloatArray:
         among, place = np.unique(sources, return_inverse=True)
-        distances = np.empty(len(sources))
-        for start in range(0, len(among), SOURCES):
-            some = among[start : start + SOURCES]
-            step = part(progress, start / len(among), (start + len(some)) / len(among))
-            columns = self._columns(component, some, step)
-            mine = np.flatnonzero((place >= start) & (place < start + SOURCES))
+        order = np.argsort(place, kind="stable")
+        distances, step = np.empty(len(sources)), max(SOURCES, BLOCK // len(component.vertices))
+        for start in range(0, len(among), step):
+            some = among[start : start + step]
+            report = part(progress, start / len(among), (start + len(some)) / len(among))
+            columns = self._columns(component, some, report)
+            mine = order[slice(*np.searchsorted(place, [start, start + step], sorter=order))]
             distances[mine] = columns[targets[mine], place[mine] - start]
         return distances
 
@@ -347,7 +384,12 @@ class Distance(ABC):
     def _pairwise(self, component: Component, index: IntArray, progress: Progress | None = None) -> FloatArray:
         """(k, k) distances among local vertices `index` (k,)."""
         self.prepare(component, progress)
-        return self._columns(component, index, progress)[index]
+        found, step = np.empty((len(index), len(index))), max(SOURCES, BLOCK // len(component.vertices))
+        for start in range(0, len(index), step):
+            some = index[start : start + step]
+            report = part(progress, start / len(index), (start + len(some)) / len(index))
+            found[:, start : start + step] = self._columns(component, some, report)[index]
+        return found
 
     def _by_component(self, ids: IntArray) -> Iterable[tuple[Component, IntArray]]:
         """Each component with the positions of its vertices among ids (k,)."""
@@ -355,6 +397,23 @@ class Distance(ABC):
         for index in np.unique(label):
             self._asked.add(int(index))
             yield self.laplacian.components[index], np.flatnonzero(label == index)
+
+
+def by_source(i: IntArray, j: IntArray) -> tuple[IntArray, IntArray]:
+    """(k,), (k,): of each pair of vertices first the one that more pairs have, so that few fields have all pairs."""
+    count = np.bincount(np.concatenate([i, j]))
+    swap = (count[j] > count[i]) | ((count[j] == count[i]) & (j < i))
+    return np.where(swap, j, i), np.where(swap, i, j)
+
+
+def _room(out: AnyArray | None, shape: tuple[int, int], dtype: npt.DTypeLike) -> AnyArray:
+    """An array for fields: the one given, if it fits, or a new one."""
+    kind = np.dtype(dtype if out is None else out.dtype)
+    if kind not in (np.float32, np.float64):
+        raise ParameterError(f"Distances are float32 or float64, not {kind}.")
+    if out is not None and out.shape != shape:
+        raise ParameterError(f"The fields have the shape {shape}, and `out` has {out.shape}.")
+    return np.empty(shape, kind) if out is None else out
 
 
 def root(squares: FloatArray, terms: FloatArray | float) -> FloatArray:

@@ -1,6 +1,8 @@
 """Shortest paths along mesh edges (Dijkstra): an upper bound of geodesic distance, too long by 4 to 6 % in
 the mean on most samples, and by 13 % on long, thin faces."""
 
+from __future__ import annotations
+
 import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp

@@ -6,6 +6,8 @@ has the squared length C_ii - |p_i|^2, and C_ii is known.  So the bound holds wh
 converged, and no distance of points is larger than the true one.
 """
 
+from __future__ import annotations
+
 from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -17,7 +19,8 @@ from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian, as_laplacian
 from ..progress import Progress, part, silent
-from ..surface import Surface
+from ..solver.tall import pair_distances
+from ..surface import MeshLike
 from .spectral import checked_count, checked_number
 from .tails import biharmonic_squares, tail_lengths
 
@@ -59,7 +62,7 @@ class Embedding:
         if table.size and not (table.min() >= 0 and table.max() < len(self.points)):
             raise ParameterError(f"The vertices are 0 to {len(self.points) - 1}.")
         i, j = table.T
-        least = np.linalg.norm(self.points[i] - self.points[j], axis=1)
+        least = pair_distances(self.points, i, j)
         most = np.sqrt(least**2 + np.where(i == j, 0, self.tails[i] + self.tails[j]) ** 2)
         is_apart = (self.components[i] != self.components[j]) | (self.components[i] < 0)
         least[is_apart] = most[is_apart] = np.nan
@@ -72,7 +75,7 @@ class Embedding:
 
 
 def biharmonic_embedding(
-    laplacian: Laplacian | Surface,
+    laplacian: Laplacian | MeshLike,
     k: int | None = None,
     tolerance: float | None = None,
     progress: Progress | None = None,

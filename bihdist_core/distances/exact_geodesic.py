@@ -1,5 +1,7 @@
 """Exact geodesic distance on any surface, by windows that unfold from face to face (`kernel/geodesic.h`)."""
 
+from __future__ import annotations
+
 import ctypes
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -43,7 +45,7 @@ class FacePath:
     begins: FloatArray
     ends: FloatArray
 
-    def reversed(self) -> "FacePath":
+    def reversed(self) -> FacePath:
         """The path from the source."""
         return FacePath(self.faces[::-1], self.ends[::-1], self.begins[::-1])
 

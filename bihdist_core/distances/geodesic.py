@@ -1,6 +1,5 @@
 """Geodesic distance: exact, by the heat method, or along edges (Dijkstra).  The label says which."""
 
-import threading
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -10,9 +9,10 @@ from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..laplacian import Component, Laplacian
+from ..memo import Memo
 from ..progress import Progress, part
 from ..sources.pieces import Pieces
-from ..surface import Surface
+from ..surface import MeshLike, Surface
 from .accuracy import ErrorEstimate
 from .distance import Distance
 from .edge_geodesic import EdgeGeodesic
@@ -53,13 +53,17 @@ class GeodesicDistance(Distance):
 
     Raises ParameterError for any other word, a radius that is no length, and one for another method; SolverError for
     "exact" without the compiled kernel, or where it gives up; "auto" is heat there.
+
+    >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
+    >>> GeodesicDistance(square).from_source(1).round(3).tolist()
+    [1.0, 0.0, 1.0, 1.414]
     """
 
     length_power = 1.0
 
     def __init__(
         self,
-        laplacian: Laplacian | Surface,
+        laplacian: Laplacian | MeshLike,
         method: str = "auto",
         progress: Progress | None = None,
         *,
@@ -68,7 +72,7 @@ class GeodesicDistance(Distance):
         if method not in METHODS:
             raise ParameterError(f"There is no geodesic method {method!r}; choose one of {', '.join(METHODS)}.")
         super().__init__(laplacian)
-        self._solvers: dict[int, ExactGeodesic | HeatTimes | EdgeGeodesic] = {}
+        self._solvers: Memo[int, ExactGeodesic | HeatTimes | EdgeGeodesic] = Memo()
         self._takes_long: bool | None = None
         self._is_auto = method == "auto" and radius == np.inf
         if method == "auto":
@@ -81,8 +85,7 @@ class GeodesicDistance(Distance):
         self.radius = radius
         self.label = LABELS[method]
         self.is_symmetric = method != "heat"
-        self._errors: dict[int, HeatErrors | None] = {}
-        self._judging, self._changing = threading.Lock(), threading.Lock()
+        self._errors: Memo[int, HeatErrors | None] = Memo()
         self._below = 0.0
         self.prepare(self.laplacian.components[0], part(progress, 0.3, 1))
 
@@ -105,6 +108,7 @@ class GeodesicDistance(Distance):
         if self.method != "exact":
             return False
         if self._takes_long is None:
+            self.prepare(self.laplacian.components[0])
             solver = self._solvers[0]
             assert isinstance(solver, ExactGeodesic)
             self._takes_long = takes_long(solver, progress)
@@ -127,7 +131,7 @@ class GeodesicDistance(Distance):
         below a straight line it is not off.
         """
         if self.method == "heat":
-            with self._judging:
+            with self._errors.lock:
                 found = [self._errors_on(self.laplacian.components[index]) for index in self._those(components)]
             measured = [errors for errors in found if errors is not None]
             if len(measured) == len(found):
@@ -153,11 +157,11 @@ class GeodesicDistance(Distance):
         except SolverError:
             if not self._is_auto:
                 raise
-        with self._changing:
+        with self._solvers.lock:
             if self.method == "exact":
                 solvers = {index: HeatTimes(self.laplacian.components[index], progress) for index in self._solvers}
                 self.method, self.label, self.is_symmetric = "heat", LABELS["heat"], False
-                self._solvers = {**solvers}
+                self._solvers.update(solvers)
         return found()
 
     def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
@@ -171,16 +175,18 @@ class GeodesicDistance(Distance):
 
     def _columns_now(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
         solver = self._solvers[component.index]
-        if isinstance(solver, EdgeGeodesic):
-            return solver.distances(index)
         if isinstance(solver, ExactGeodesic):
             return solver.columns(index, progress, radius=self.radius)
-        share, fields = 1 / len(index), []
+        share, fields = 1 / len(index), np.empty((len(component.vertices), len(index)))
         for k, source in enumerate(index.tolist()):
-            field = solver.distances(source, part(progress, k * share, (k + 1) * share))
-            self._below = max(self._below, below_straight_line(component.surface, source, field))
-            fields.append(field)
-        return np.stack(fields, 1)
+            step = part(progress, k * share, (k + 1) * share)
+            if isinstance(solver, EdgeGeodesic):
+                step(0.0, self.label)
+                fields[:, k] = solver.distances(source)
+            else:
+                fields[:, k] = solver.distances(source, step)
+                self._below = max(self._below, below_straight_line(component.surface, source, fields[:, k]))
+        return fields
 
     def _one_way(
         self, component: Component, sources: IntArray, targets: IntArray, progress: Progress | None

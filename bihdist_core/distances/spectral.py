@@ -8,10 +8,11 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian
+from ..memo import Memo
 from ..progress import Progress, part
 from ..solver.spectrum import Spectrum
-from ..solver.tall import point_distances
-from ..surface import Surface
+from ..solver.tall import pair_distances, point_distances
+from ..surface import MeshLike
 from .accuracy import SPARE, Perturbation, rounded_up
 from .distance import Distance
 from .tails import Cloud, biharmonic_squares, commute_time_squares, tail_lengths
@@ -25,9 +26,9 @@ class SpectralDistance(Distance):
 
     is_quadratic = True
 
-    def __init__(self, laplacian: Laplacian | Surface) -> None:
+    def __init__(self, laplacian: Laplacian | MeshLike) -> None:
         super().__init__(laplacian)
-        self._points: dict[int, FloatArray] = {}
+        self._points: Memo[int, FloatArray] = Memo()
 
     @abstractmethod
     def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, FloatArray]:
@@ -61,16 +62,16 @@ class SpectralDistance(Distance):
 
     def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
         points = self.points(component)
-        return point_distances(points, points[index])
+        return point_distances(points, points[index], progress)
 
     def _pairwise(self, component: Component, index: IntArray, progress: Progress | None = None) -> FloatArray:
         points = self.points(component)[index]
-        return point_distances(points, points)
+        return point_distances(points, points, progress)
 
-    def _of_pairs(self, component: Component, i: IntArray, j: IntArray, progress: Progress | None = None) -> FloatArray:
-        points = self.points(component)
-        distances: FloatArray = np.linalg.norm(points[i] - points[j], axis=1)
-        return distances
+    def _of_pairs(
+        self, component: Component, i: IntArray, j: IntArray, digits: str, progress: Progress | None
+    ) -> FloatArray:
+        return pair_distances(self.points(component), i, j, progress)
 
     def _estimated_accuracy(self, component: Component) -> float:
         left_out = self._left_out(component, self._next(component), self._tails(component))
@@ -137,7 +138,7 @@ class PowerDistance(SpectralDistance):
     """
 
     def __init__(
-        self, laplacian: Laplacian | Surface, alpha: float = 1.5, k: int = 200, progress: Progress | None = None
+        self, laplacian: Laplacian | MeshLike, alpha: float = 1.5, k: int = 200, progress: Progress | None = None
     ) -> None:
         if not 1 < checked_number(alpha, "alpha") < np.inf:
             raise ParameterError(f"alpha is {alpha:g}; the sum of 1 / lambda^alpha needs alpha > 1.")
@@ -215,7 +216,7 @@ class TruncatedBiharmonicDistance(PowerDistance):
     Its error falls about like 1 / k; `BiharmonicDistance` is exact and, for one source, faster.
     """
 
-    def __init__(self, laplacian: Laplacian | Surface, k: int = 200, progress: Progress | None = None) -> None:
+    def __init__(self, laplacian: Laplacian | MeshLike, k: int = 200, progress: Progress | None = None) -> None:
         super().__init__(laplacian, alpha=2.0, k=k, progress=progress)
         self.label = f"biharmonic, {self.k:,} eigenpairs"
 

@@ -126,7 +126,7 @@ class Shapes:
     def connected(self, name: str) -> Surface:
         """The largest component of the surface, without vertices of no face."""
         surface = self[name]
-        if surface.component_count > 1 or surface.unreferenced_count:
+        if surface.n_components > 1 or surface.unreferenced_count:
             return surface.component(0)[0]
         return surface
 

@@ -4,6 +4,8 @@ A number never stands alone.  It is taken from the pictured source and from rand
 estimate with the interval that it is known within (`Estimate`).
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
@@ -90,7 +92,7 @@ class BySource:
     random: tuple[float, ...] = ()
 
     @property
-    def known(self) -> "BySource":
+    def known(self) -> BySource:
         """Those that are numbers."""
         return BySource(*(tuple(x for x in each if not np.isnan(x)) for each in (self.pictured, self.random)))
 

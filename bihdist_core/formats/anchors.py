@@ -1,5 +1,7 @@
 """Files of anchors, vertices with a value: the files of pins, with a column `value`."""
 
+from __future__ import annotations
+
 import csv
 import io
 import json

@@ -1,5 +1,7 @@
 """Values at vertices, and tables of numbers, written to files that other programs read."""
 
+from __future__ import annotations
+
 import csv
 import os
 import re

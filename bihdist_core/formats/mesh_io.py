@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from ..counts import counted
-from ..errors import MeshError
+from ..errors import MeshError, MissingFileError
 from ..surface import Surface
 from .obj import read_obj
 from .off import read_off
@@ -41,8 +41,8 @@ def read_surface(path: str | os.PathLike[str]) -> Surface:
     Polygons are divided into triangles, and in STL files coincident vertices are merged, which `Surface.facts` says;
     what cannot be part of a surface is left out, which `Surface.repairs` says, both in words with counts.
 
-    Raises MeshError, one sentence with the file, the place and the value, for a file that is missing, unreadable,
-    truncated, damaged or of another kind, and for a mesh without faces.
+    Raises MeshError, one sentence with the file, the place and the value, for a file that is missing (then it is a
+    FileNotFoundError, too), unreadable, truncated, damaged or of another kind, and for a mesh without faces.
     """
     return surface_in(mesh_content(path), Path(path).name)
 
@@ -81,7 +81,7 @@ def mesh_content(path: str | os.PathLike[str]) -> bytes:
     except MeshError:
         raise  # it is a ValueError too
     except FileNotFoundError:
-        raise MeshError(f"There is no file {path}.") from None
+        raise MissingFileError(f"There is no file {path}.") from None
     except PermissionError:
         raise MeshError(f"{path} cannot be read: permission denied.") from None
     except (OSError, ValueError) as error:

@@ -1,5 +1,7 @@
 """Files of pins, named vertices of a surface: CSV, JSON, and MeshLab's picked points (.pp)."""
 
+from __future__ import annotations
+
 import csv
 import io
 import json
@@ -43,7 +45,7 @@ class Pins:
     @classmethod
     def of(
         cls, surface: Surface, vertices: npt.ArrayLike, names: Sequence[str] = (), ids: npt.ArrayLike | None = None
-    ) -> "Pins":
+    ) -> Pins:
         """Pins at vertices (k,), with ids from 1 unless others are given.
 
         Raises VertexError for a bad vertex; ParameterError for no vertices, another number of names (none is fine) or
@@ -77,7 +79,7 @@ def read_pins(path: str | os.PathLike[str], surface: Surface) -> Pins:
     return placed(picked_in(path), surface)
 
 
-def picked_in(path: str | os.PathLike[str]) -> list["Picked"]:
+def picked_in(path: str | os.PathLike[str]) -> list[Picked]:
     """What a file of pins says, as it stands there; at least one.  Raises ParameterError as `read_pins`."""
     path = Path(path)
     reader = _READERS.get(path.suffix.lower())

@@ -1,5 +1,7 @@
 """Files of maps from the vertices of one surface to those of another, and of pairs of vertices."""
 
+from __future__ import annotations
+
 import os
 from pathlib import Path
 

@@ -5,6 +5,8 @@ With G = matrix^-1 and a diagonal A, the diagonal of G A G costs no more than a 
 that derivative lives on the factor's own pattern.  So everything carries its derivative (see `kernel/kernel.h`).
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np
@@ -13,7 +15,7 @@ import scipy.sparse as sp
 
 from ..arrays import AnyArray, FloatArray
 from ..errors import ParameterError, SolverError
-from ..progress import Progress
+from ..progress import Progress, silent
 from .compiled_factor import CompiledFactor
 from .compiled_tree import CompiledTree
 from .elimination_tree import EliminationTree, canonical
@@ -79,7 +81,7 @@ class Factor:
         """How many bytes the factor holds, the tree not counted."""
         return self._blocks.nbytes + sum(d.nbytes for d in self._diagonals or ())
 
-    def solve(self, b: npt.ArrayLike) -> FloatArray:
+    def solve(self, b: npt.ArrayLike, progress: Progress | None = None) -> FloatArray:
         """matrix^-1 b, in the shape of b: (n,) or (n, k)."""
         b = np.asarray(b, np.float64)
         n = self.tree.n
@@ -93,7 +95,7 @@ class Factor:
         def solve(some: slice, run: Run) -> None:
             self._blocks.solve(columns[:, some], result[:, some], run, workspaces)
 
-        self._in_slices(columns.shape[1], WIDE, solve)
+        self._in_slices(columns.shape[1], WIDE, solve, progress)
         _check_result(result)
         return result.reshape(b.shape)
 
@@ -107,7 +109,9 @@ class Factor:
         self.each_sandwich_piece(index, keep)
         return result
 
-    def each_sandwich_piece(self, index: npt.ArrayLike, receive: ReceivePiece) -> None:
+    def each_sandwich_piece(
+        self, index: npt.ArrayLike, receive: ReceivePiece, progress: Progress | None = None
+    ) -> None:
         """Call `receive` with each piece of G A G once, from several threads, without an array for all of it."""
         self._with_areas()
         index, n = np.asarray(index), self.tree.n
@@ -124,16 +128,25 @@ class Factor:
             self._blocks.each_sandwich_piece(index[some], run, finish, workspaces)
 
         # Each column comes with one of G.
-        self._in_slices(len(index), WIDE // 2, sweep)
+        self._in_slices(len(index), WIDE // 2, sweep, progress)
 
-    def _in_slices(self, count: int, width: int, work: Callable[[slice, Run], None]) -> None:
+    def _in_slices(self, count: int, width: int, work: Callable[[slice, Run], None], progress: Progress | None) -> None:
         """work(columns, run) for all columns: a few with the branches side by side, many in slices side by side."""
-        if not count:
-            return
         if count <= width:
-            work(slice(0, count), in_turn if self._blocks.nbytes < SMALL else side_by_side)
-        else:
-            side_by_side(lambda start: work(slice(start, start + width), in_turn), range(0, count, width))
+            if count:
+                work(slice(0, count), in_turn if self._blocks.nbytes < SMALL else side_by_side)
+            return
+        starts = range(0, count, width)
+        if progress in (None, silent):
+            side_by_side(lambda start: work(slice(start, start + width), in_turn), starts)
+            return
+        job = Job(progress, "Solving", count)
+
+        def one(start: int) -> None:
+            work(slice(start, start + width), in_turn)
+            job.advance(width)
+
+        job.run(one, starts)
 
     def _with_areas(self) -> tuple[FloatArray, FloatArray]:
         if self._diagonals is None:

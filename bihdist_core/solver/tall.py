@@ -10,8 +10,9 @@ from typing import Any, TypeVar
 import numpy as np
 import scipy.sparse as sp
 
-from ..arrays import FloatArray
-from .worker_threads import side_by_side
+from ..arrays import FloatArray, IntArray
+from ..progress import Progress, silent
+from .worker_threads import Job, side_by_side
 
 Result = TypeVar("Result")
 
@@ -20,6 +21,9 @@ Blocks = Sequence[FloatArray]
 
 ROWS = 1024
 """Rows multiplied at a time: enough to keep a core busy, few enough to stay in its cache."""
+
+PAIR_NUMBERS = 1 << 20
+"""How many coordinates of pairs of points are taken out at a time."""
 
 
 def gram(blocks: Blocks, y: FloatArray, weights: FloatArray) -> FloatArray:
@@ -105,16 +109,32 @@ def _with_rows(blocks: Blocks, c: FloatArray) -> Iterator[tuple[FloatArray, Floa
         first += x.shape[1]
 
 
-def point_distances(x: FloatArray, y: FloatArray) -> FloatArray:
+def point_distances(x: FloatArray, y: FloatArray, progress: Progress | None = None) -> FloatArray:
     """(n, j) Euclidean distances of points x (n, k) from points y (j, k), of their differences: nothing cancels."""
-    out = np.empty((len(x), len(y)))
+    out, job = np.empty((len(x), len(y))), Job(progress, "Measuring points", len(x) * len(y))
 
     def one(rows: slice) -> None:
         for column, point in enumerate(y):
             apart = x[rows] - point
             np.sqrt(np.einsum("ij,ij->i", apart, apart), out=out[rows, column])
+            job.advance(len(apart))
 
-    over_rows(one, len(x))
+    chunks = chunks_of(len(x))
+    if progress in (None, silent):
+        side_by_side(one, chunks)
+    else:
+        job.run(one, chunks)
+    return out
+
+
+def pair_distances(points: FloatArray, i: IntArray, j: IntArray, progress: Progress | None = None) -> FloatArray:
+    """(q,) Euclidean distances of q pairs of points i, j (q,) of the points (n, k)."""
+    out, step = np.empty(len(i)), max(1, PAIR_NUMBERS // max(1, points.shape[1]))
+    for start in range(0, len(i), step):
+        (progress or silent)(start / len(i), "Measuring pairs of points")
+        some = slice(start, start + step)
+        apart = points[i[some]] - points[j[some]]
+        np.sqrt(np.einsum("ij,ij->i", apart, apart), out=out[some])
     return out
 
 
@@ -127,4 +147,9 @@ def sparse_rows(matrix: sp.csr_matrix, rows: slice) -> sp.csr_matrix:
 
 def over_rows(work: Callable[[slice], Result], n: int) -> list[Result]:
     """What `work` returns for each chunk of n rows, in order."""
-    return side_by_side(work, [slice(first, min(first + ROWS, n)) for first in range(0, n, ROWS)])
+    return side_by_side(work, chunks_of(n))
+
+
+def chunks_of(n: int) -> list[slice]:
+    """n rows in chunks."""
+    return [slice(first, min(first + ROWS, n)) for first in range(0, n, ROWS)]

@@ -98,7 +98,7 @@ def test_all_of_them_together_are_small() -> None:
 def test_topology(name: str) -> None:
     surface = sample(name)
     assert surface.is_manifold
-    assert surface.component_count == TABLE[name].components
+    assert surface.n_components == TABLE[name].components
     assert surface.unreferenced_count == 0
     assert not surface.repairs
     assert surface.genus == TABLE[name].genus

@@ -99,7 +99,7 @@ def parcels(size: Size) -> Iterator[Line]:
     rows = BiharmonicDistance(surface).from_sources(np.arange(len(labels)))
     of = [labels == k for k in range(labels.max() + 1)]
     expected = np.array([[rows[np.ix_(a, b)].mean() for b in of] for a in of])
-    found = parcel_means(BiharmonicDistance(surface), labels, memory=1e5).means
+    found = parcel_means(BiharmonicDistance(surface), labels, memory=1e5).distances
     is_same = np.array_equal(np.isnan(found), np.isnan(expected))
     yield Line(
         22,

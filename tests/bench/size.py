@@ -49,7 +49,7 @@ class Size:
         from bihdist_core import read_surface
 
         surface = read_surface(self.file)
-        if surface.component_count > 1:
+        if surface.n_components > 1:
             surface, _ = surface.component(0)
         return np.array(surface.vertices), np.array(surface.faces)
 

@@ -70,7 +70,7 @@ def test_meshes_are_what_they_are_called(name):
     surface = Surface(vertices, faces)
     assert 0.85 < len(vertices) / 6000 < 1.15
     assert surface.is_manifold
-    assert surface.component_count == 1
+    assert surface.n_components == 1
     assert not surface.repairs
     assert not surface.unreferenced_count
     assert surface.genus == (2 if name == "genus 2" else 0)

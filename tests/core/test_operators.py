@@ -14,7 +14,7 @@ def test_stiffness_is_symmetric_semi_definite_and_its_kernel_is_the_constants(su
     stiff = stiffness(surface).toarray()
     assert np.array_equal(stiff, stiff.T)
     values = np.linalg.eigvalsh(stiff)
-    kernel = surface.component_count + surface.unreferenced_count
+    kernel = surface.n_components + surface.unreferenced_count
     rounding = 1e-12 * values[-1]  # eigvalsh is backward stable
     assert np.abs(values[:kernel]).max() < rounding
     assert values[kernel] > 1e-9 * values[-1]

@@ -31,7 +31,7 @@ def test_means_are_those_of_the_full_rows(word):
     names, means = slow_means(distance, LABELS)
     assert found.labels.tolist() == names
     assert found.counts.tolist() == [int((name == LABELS).sum()) for name in names]
-    np.testing.assert_allclose(found.means, means, rtol=1e-12)
+    np.testing.assert_allclose(found.distances, means, rtol=1e-12)
 
 
 def test_parts_added_up_are_the_whole():
@@ -39,14 +39,51 @@ def test_parts_added_up_are_the_whole():
     whole = parcel_means(distance, LABELS)
     cuts = [0, 17, 100, len(labelled(SURFACE, LABELS))]
     parts = [parcel_sums(distance, LABELS, None, a, b) for a, b in itertools.pairwise(cuts)]
-    np.testing.assert_allclose((parts[2] + parts[0] + parts[1]).parcels.means, whole.means, rtol=1e-13)
+    np.testing.assert_allclose((parts[2] + parts[0] + parts[1]).parcels.distances, whole.distances, rtol=1e-13)
 
 
 def test_what_is_masked_does_not_count():
     distance = BiharmonicDistance(SURFACE)
     mask = np.arange(len(LABELS)) % 3 > 0
     found = parcel_means(distance, LABELS, mask)
-    np.testing.assert_allclose(found.means, slow_means(distance, np.where(mask, LABELS, -1))[1], rtol=1e-12)
+    np.testing.assert_allclose(found.distances, slow_means(distance, np.where(mask, LABELS, -1))[1], rtol=1e-12)
+
+
+@pytest.mark.parametrize("word", ["biharmonic", "geodesic(method=exact)"])
+def test_other_reductions_are_those_of_the_full_rows(word):
+    distance = Spec.parse(word).build(Laplacian(SURFACE), None)
+    rows, areas, x = distance.from_sources(np.arange(300)), distance.laplacian.areas, SURFACE.vertices
+    members = [np.flatnonzero(name == LABELS) for name in np.unique(LABELS[LABELS >= 0])]
+    blocks = [[rows[np.ix_(a, b)] for b in members] for a in members]
+    least = [[each.min() for each in row] for row in blocks]
+    hausdorff = [[max(each.min(axis=0).max(), each.min(axis=1).max()) for each in row] for row in blocks]
+    centres = [a[np.linalg.norm(x[a] - np.average(x[a], axis=0, weights=areas[a]), axis=1).argmin()] for a in members]
+    mean = [
+        [(np.outer(areas[a], areas[b]) * rows[np.ix_(a, b)]).sum() / areas[a].sum() / areas[b].sum() for b in members]
+        for a in members
+    ]
+    for reduce, weights, expected in (
+        ("min", None, least),
+        ("hausdorff", None, hausdorff),
+        ("centroid", "area", rows[np.ix_(centres, centres)]),
+        ("mean", "area", mean),
+    ):
+        found = parcel_means(distance, LABELS, reduce=reduce, weights=weights)
+        np.testing.assert_allclose(found.distances, expected, rtol=1e-9, atol=1e-12)
+    with pytest.raises(ParameterError, match="reduced by mean, min, centroid, hausdorff, not by 'max'"):
+        parcel_means(distance, LABELS, reduce="max")
+    with pytest.raises(ParameterError, match="weighed by 'area' or by None, not by 'mass'"):
+        parcel_means(distance, LABELS, weights="mass")
+
+
+def test_labels_may_be_strings():
+    distance = BiharmonicDistance(SURFACE)
+    named = np.where(LABELS < 0, "", np.char.add("area ", LABELS.astype(str)))
+    found, expected = parcel_means(distance, named), parcel_means(distance, LABELS)
+    order = [f"area {name}" for name in expected.labels]
+    assert sorted(order) == found.labels.tolist()
+    place = [found.labels.tolist().index(name) for name in order]
+    np.testing.assert_allclose(found.distances[np.ix_(place, place)], expected.distances, rtol=1e-12)
 
 
 def test_between_components_there_is_no_mean():
@@ -54,7 +91,7 @@ def test_between_components_there_is_no_mean():
     # One vertex belongs to no face; it has a label all the same, and does not count.
     labels = np.maximum(surface.component_of_vertex, 0) * 2 + np.arange(len(surface.vertices)) % 2
     distance = BiharmonicDistance(surface)
-    means = parcel_means(distance, labels).means
+    means = parcel_means(distance, labels).distances
     piece = np.arange(4) // 2
     assert np.array_equal(np.isnan(means), piece[:, None] != piece)
     here, there = (np.flatnonzero((labels == k) & (surface.component_of_vertex >= 0)) for k in (0, 1))
@@ -65,7 +102,7 @@ def test_between_components_there_is_no_mean():
     ("labels", "mask", "words"),
     [
         (LABELS[:-1], None, "one for each"),
-        (LABELS * 1.0, None, "whole numbers"),
+        (LABELS * 1.0, None, "whole numbers or strings"),
         (np.full(len(LABELS), -1), None, "No vertex"),
         (LABELS, np.ones(3), "0 or 1 for each"),
         (LABELS, LABELS, "0 or 1 for each"),

@@ -107,13 +107,13 @@ def test_holes_leave_other_components_and_take_islands():
     s = two_pieces()
     far = np.flatnonzero(s.component_of_vertex == 1)
     rest = without(s, s.faces[np.flatnonzero(s.component_of_vertex[s.faces[:, 0]] == 0)[0]])
-    assert rest.component_count == 2
+    assert rest.n_components == 2
     assert np.isin(far, rest.faces).all()
     ball = bumpy(600)
     band = np.flatnonzero(np.abs(ball.vertices[:, 1] - 0.4 * ball.vertices[:, 1].max()) < 0.25)
     inside = np.isin(ball.faces, band).all(axis=1)
-    assert Surface(ball.vertices, ball.faces[~inside]).component_count > 1  # a cap is parted from the rest
-    assert without(ball, band).component_count == 1
+    assert Surface(ball.vertices, ball.faces[~inside]).n_components > 1  # a cap is parted from the rest
+    assert without(ball, band).n_components == 1
 
 
 def test_faces_are_cut_out_and_everything_else_stays():

@@ -142,7 +142,7 @@ def test_a_divided_surface_has_the_same_shape_with_vertices_at_the_places(rows):
     assert divided.face_areas.sum() == pytest.approx(g.face_areas.sum(), rel=1e-12)
     assert divided.face_areas.min() > 0
     assert divided.is_manifold
-    assert (divided.boundary_loop_count, divided.component_count, divided.genus) == (1, 1, 0)
+    assert (divided.boundary_loop_count, divided.n_components, divided.genus) == (1, 1, 0)
     assert np.array_equal(divided.vertices[:9], g.vertices)
     apart = np.linalg.norm(divided.vertices[:, None] - divided.vertices, axis=2) + np.eye(len(divided.vertices))
     assert apart.min() > 1e-3  # no place twice

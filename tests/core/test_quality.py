@@ -141,8 +141,8 @@ def test_the_triangle_inequality_on_samples():
         assert (found.triples, found.violations, found.worst) == (100_000, 0, 0)
 
     class Squared(BiharmonicDistance):
-        def of_pairs(self, pairs, progress=None):
-            return super().of_pairs(pairs, progress) ** 2
+        def of_pairs(self, pairs, progress=None, **options):
+            return super().of_pairs(pairs, progress, **options) ** 2
 
     broken = triangle_sample(Squared(surface), points=40, count=20_000)
     assert broken.violations > 500

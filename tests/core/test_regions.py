@@ -144,7 +144,7 @@ def test_vertices_on_a_boundary_are_there_for_each_region():
     plane = grid(4, 3)
     fields = np.stack([plane.vertices[:, 0], 4 - plane.vertices[:, 0]], 1)
     mesh = region_mesh(plane, fields)
-    assert mesh.surface.component_count == 2
+    assert mesh.surface.n_components == 2
     assert np.bincount(mesh.regions).tolist() == [12, 12]
     assert np.bincount(mesh.regions[mesh.surface.faces[:, 0]], mesh.surface.face_areas).tolist() == [6, 6]
 

@@ -108,7 +108,7 @@ def test_simplified_leaves_no_vertex_without_a_face():
     small, ids = simplified(surface, 60)
     assert len(ids) == 60
     assert small.unreferenced_count == 0
-    assert small.component_count == surface.component_count == 3
+    assert small.n_components == surface.n_components == 3
     assert surface.unreferenced_count == 1
     with pytest.raises(ParameterError, match="has 181 vertices and cannot be simplified to 182"):
         simplified(surface, 182)
@@ -158,7 +158,7 @@ def test_punched_holes_are_where_they_should_be():
     # Cut off along a row, the smaller part goes too.
     row = np.where(s.vertices[:, 1] // 1 % 20 == 5, 0.0, 9.0)
     below = punched(s, np.minimum(row, np.roll(row, 21))[:, None], 1)
-    assert below.component_count == 1
+    assert below.n_components == 1
     assert below.vertices[below.faces].min(axis=(0, 1))[1] >= 6
 
 
@@ -169,7 +169,7 @@ def test_joining_two_parts_adds_a_handle(edit):
     b = int(np.argmin(s.vertices[s.faces, 2].mean(axis=1)))
     joined = edit(s, a, b)
     assert joined.is_manifold
-    assert (joined.genus, joined.component_count, joined.boundary_loop_count) == (1, 1, 0)
+    assert (joined.genus, joined.n_components, joined.boundary_loop_count) == (1, 1, 0)
     # Oriented as a whole: every edge is run once in each direction.
     f = joined.faces
     sides = np.concatenate([f[:, [0, 1]], f[:, [1, 2]], f[:, [2, 0]]])

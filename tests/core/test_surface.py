@@ -58,7 +58,7 @@ def test_a_vertex_without_a_face_is_an_error():
 
 def test_components_are_numbered_by_size_and_cut_out_with_their_ids():
     s = two_pieces()
-    assert s.component_count == 2
+    assert s.n_components == 2
     assert s.component_of_vertex.tolist() == [0] * 60 + [-1] + [1] * 4
     small, ids = s.component(1)
     assert ids.tolist() == [61, 62, 63, 64]
@@ -78,7 +78,7 @@ def test_each_edge_is_listed_once_and_known_to_its_sides(surface, kernel, monkey
 
 
 def test_faces_that_share_one_vertex_are_connected():
-    assert fin().component_count == 1
+    assert fin().n_components == 1
 
 
 @pytest.mark.parametrize(

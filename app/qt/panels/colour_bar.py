@@ -1,5 +1,7 @@
 """The colour bar under a panel's view: what the colours mean, and the value under the pointer."""
 
+from __future__ import annotations
+
 import math
 import re
 from collections.abc import Sequence
