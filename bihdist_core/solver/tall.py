@@ -81,7 +81,7 @@ def centre(x: FloatArray, weights: FloatArray) -> None:
 def recombine(blocks: list[FloatArray], c: FloatArray) -> list[FloatArray]:
     """Blocks of the columns of x c; x (n, j), in blocks of columns whose memory is used again, c (j, k), k <= j."""
     k = c.shape[1]
-    kept = [x for x, each in _with_rows(blocks, np.arange(sum(x.shape[1] for x in blocks))) if each[0] < k]
+    kept = [x for x, each in _with_rows(blocks, np.arange(sum(x.shape[1] for x in blocks))) if each[0] < max(k, 1)]
 
     def one(rows: slice) -> None:
         mixed = _joined(blocks, rows) @ c
