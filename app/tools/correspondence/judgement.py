@@ -108,6 +108,9 @@ class KeptGeodesics:
     count: from so many vertices, which says by which method.
     """
 
+    is_symmetric = False
+    """So that `map_errors` asks for fields, which are kept, and not for pairs."""
+
     def __init__(self, laplacian: Laplacian, count: int) -> None:
         self.surface = laplacian.surface
         self.distance: GeodesicDistance = error_distance(laplacian, count)
