@@ -10,7 +10,7 @@ from ..errors import SolverError
 from ..kernel import library as kernel
 from ..sources.pieces import Pieces
 from ..surface import Surface
-from .degenerate_faces import NO_HEIGHT, Part, ProperFaces, in_parts
+from .proper_faces import NO_HEIGHT, Part, ProperFaces, in_parts
 
 MOST_FACES = (2**31 - 1) // 6
 """Numbers of sides are below 2^31, twice."""

@@ -86,7 +86,11 @@ def test_what_is_no_field_gets_a_sentence(name, values, words):
 
 @pytest.mark.parametrize(
     ("mesh", "error", "words"),
-    [(7, ParameterError, "not int"), ((1, 2, 3), ParameterError, "not tuple"), (([], []), MeshError, "vertices")],
+    [
+        (7, ParameterError, "not int"),
+        ((1, 2, 3), ParameterError, "not a tuple of 3"),
+        (([], []), MeshError, "vertices"),
+    ],
 )
 def test_what_is_no_mesh_gets_a_sentence(mesh, error, words):
     with pytest.raises(error, match=words):
