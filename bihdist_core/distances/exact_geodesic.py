@@ -158,8 +158,11 @@ class ExactGeodesic:
         self._in_workers(one, len(groups), progress)
         return found
 
-    def of_pairs(self, sources: IntArray, targets: IntArray, progress: Progress | None = None) -> FloatArray:
-        """(k,) distances from vertices (k,) to vertices (k,), NaN where no way leads; several sources at a time.
+    def of_pairs(
+        self, sources: IntArray, targets: IntArray, progress: Progress | None = None, *, radius: float = np.inf
+    ) -> FloatArray:
+        """(k,) distances from vertices (k,) to vertices (k,), NaN where no way leads, inf beyond the radius; several
+        sources at a time.
 
         Windows go only as far as the targets of a source, where these are few: near ones take little time.
         """
@@ -171,10 +174,10 @@ class ExactGeodesic:
             start = self._mesh.at_vertices(among[number : number + 1])
             there = targets[groups[number]]
             if len(there) > FEW:
-                found[groups[number]] = self._field(start, None, watch).distances[there]
+                found[groups[number]] = self._field(start, None, watch, radius=radius).distances[there]
             else:
                 goals = self._mesh.at_vertices(there)
-                found[groups[number]] = self._field(start, goals, watch, targets_only=True).at_places
+                found[groups[number]] = self._field(start, goals, watch, radius=radius, targets_only=True).at_places
 
         self._in_workers(one, len(among), progress)
         return found

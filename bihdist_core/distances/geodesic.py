@@ -194,7 +194,7 @@ class GeodesicDistance(Distance):
         def found() -> FloatArray:
             solver = self._solvers[component.index]
             if isinstance(solver, ExactGeodesic):
-                return solver.of_pairs(sources, targets, progress)
+                return solver.of_pairs(sources, targets, progress, radius=self.radius)
             return super(GeodesicDistance, self)._one_way(component, sources, targets, progress)
 
         return self._or_by_heat(found, progress)

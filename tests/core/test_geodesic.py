@@ -49,6 +49,11 @@ def test_a_radius_ends_what_the_exact_method_does(monkeypatch):
     check(near.from_source(place), whole.from_source(place))
     check(near.from_source("3+40"), whole.from_source("3+40"))
     check(near.pairwise([0, 7, 62]), whole.pairwise([0, 7, 62]))
+    away = whole.from_source(0)
+    for targets in ([int(np.nanargmax(away))], np.flatnonzero(away > 0)):  # few of a source, and many
+        pairs = np.column_stack([np.zeros(len(targets), int), targets])
+        assert (whole.of_pairs(pairs) > 1).any()
+        check(near.of_pairs(pairs), whole.of_pairs(pairs))
     places = [0, place, SurfacePoint.of(30, 0.4, 0.1), SurfacePoint.of(90, 0.2, 0.2), SurfacePoint.of(1, 0.3, 0.3)]
     full = whole.pairwise(places)
     assert (full[0] > 1).any()
