@@ -19,7 +19,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp
 
-from .arrays import AnyArray, FloatArray, IntArray
+from .arrays import FloatArray, IntArray
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError, SolverError
 from .locked_cached_property import locked_cached_property
@@ -27,7 +27,7 @@ from .operators import AREAS, operators
 from .progress import Progress, part, turn
 from .solver.aside import aside
 from .solver.elimination_tree import EliminationTree
-from .solver.factor import Factor, ReceivePiece
+from .solver.factor import Factor
 from .solver.spectrum import Spectrum, is_long, smallest_eigenpairs
 from .sources.source import whole_number
 from .surface import MeshLike, Surface
@@ -218,7 +218,7 @@ class Component:
 
     @locked_cached_property
     def _biharmonic_diagonal(self) -> FloatArray:
-        diagonal: FloatArray = self.factor(diagonals=True).sandwich_diagonal - self._u**2 / self.areas.sum()
+        diagonal: FloatArray = self.factor(diagonals=True).sandwich_diagonal - self.u**2 / self.areas.sum()
         return diagonal
 
     @locked_cached_property
@@ -227,7 +227,7 @@ class Component:
 
         It is largest at the tips of a shape.  With y = C A 1, the mean of C_ii + C_jj - 2 C_ij over j.
         """
-        diagonal, areas, u = self.biharmonic_diagonal(), self.areas, self._u
+        diagonal, areas, u = self.biharmonic_diagonal(), self.areas, self.u
         total = areas.sum()
         y = self.solve(areas * u) - u * (areas @ u / total)
         squares = diagonal + (areas @ diagonal - 2 * y) / total
@@ -235,20 +235,9 @@ class Component:
         return roots
 
     @locked_cached_property
-    def _u(self) -> FloatArray:
-        """(m,) u = G A 1."""
+    def u(self) -> FloatArray:
+        """(m,) u = G A 1, the column by which C = G A G - u u^T / sum(A) is without a mean; unit length squared."""
         return self.solve(self.areas)
-
-    def each_biharmonic_piece(self, index: IntArray, receive: ReceivePiece, progress: Progress | None = None) -> None:
-        """The columns `index` (k,) of C in pieces (see `Factor.each_sandwich_piece`); unit length squared."""
-        index, u = np.asarray(index), self._u
-        scaled = u[index] / self.areas.sum()
-
-        def centred(rows: AnyArray, columns: slice, values: FloatArray) -> None:
-            values -= u[rows][:, None] * scaled[columns]
-            receive(rows, columns, values)
-
-        self.factor(diagonals=True).each_sandwich_piece(index, centred, progress)
 
     # ------------------------------------------------------------------ the spectrum
     @property

@@ -95,9 +95,12 @@ def write_all_pairs(
             file.seek(0, os.SEEK_END)
             if not done:
                 file.write(header)
+            room = np.empty((rows, n), dtype)
             for start in range(done, n, rows):
                 report(start / n, f"all pairs: {start:,} of {n:,} vertices")
-                _rows(distance, np.arange(start, min(start + rows, n)), dtype).tofile(file)
+                ids = np.arange(start, min(start + rows, n))
+                _fill(room[: len(ids)], distance, ids)
+                room[: len(ids)].tofile(file)
                 file.flush()
         os.replace(partial, target)
     except OutputError:
@@ -107,13 +110,14 @@ def write_all_pairs(
     report(1.0, f"all pairs: {n:,} vertices")
 
 
-def _rows(distance: Distance, ids: IntArray, dtype: np.dtype) -> AnyArray:
-    """(k, n) distances from k vertices."""
-    rows = np.full((len(ids), len(distance.surface.vertices)), np.nan, dtype)
-    used = np.flatnonzero(distance.surface.component_of_vertex[ids] >= 0)
-    if len(used):
-        rows[used] = distance.from_sources(ids[used]).T
-    return rows
+def _fill(rows: AnyArray, distance: Distance, ids: IntArray) -> None:
+    """Distances from k vertices into rows (k, n)."""
+    used = distance.surface.component_of_vertex[ids] >= 0
+    if used.all():
+        distance.from_sources(ids, out=rows.T)
+    else:
+        rows[~used] = np.nan
+        rows[used] = distance.from_sources(ids[used], dtype=rows.dtype).T
 
 
 def _header(n: int, dtype: np.dtype) -> bytes:

@@ -11,8 +11,9 @@ from ..progress import Progress, part
 from ..solver.tall import point_distances
 from ..surface import FLAT, MeshLike
 from .accuracy import accuracy_of_pairs
-from .distance import Distance, by_source, root
+from .distance import Distance, by_source
 from .embedding import Embedding, biharmonic_embedding
+from .green_columns import writer_of_distances
 
 SMALL_SET = 64
 PAIRS_PER_FIELD = 1.4
@@ -59,24 +60,24 @@ class BiharmonicDistance(Distance):
 
     def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
         diagonal = component.biharmonic_diagonal()
-        distances, largest = np.empty((len(diagonal), len(index))), diagonal.max()
+        largest, found = diagonal.max(), np.empty((len(diagonal), len(index)))
+        limit = max(NEAR, NEAR_BY_HEIGHT / max(component.surface.face_heights.min(), FLAT)) ** 2 * largest
+        write = writer_of_distances(diagonal, component.u, component.areas.sum(), index, limit, found)
+        near = np.zeros(len(index), np.int64)
 
         def finish(rows: AnyArray, columns: slice, values: FloatArray) -> None:
-            values *= -2
-            values += diagonal[rows][:, None]
-            values += diagonal[index[columns]]
-            distances[rows, columns] = root(values, largest)
+            near[columns] += write(rows, columns, values)
 
-        component.each_biharmonic_piece(index, finish, progress)
-        share = max(NEAR, NEAR_BY_HEIGHT / max(component.surface.face_heights.min(), FLAT))
-        for column, source in enumerate(index):
-            field = distances[:, column]
-            near = np.flatnonzero(field < share * np.sqrt(largest))
-            near = near[near != source]
-            if len(near):
-                near = near[np.argsort(field[near], kind="stable")[:MOST_NEAR]]
-                field[near] = self._pairwise(component, np.append(source, near))[0, 1:]
-        return distances
+        component.factor(diagonals=True).each_sandwich_piece(index, finish, progress)
+        # The source itself is near.
+        for column in np.flatnonzero(near > 1):
+            field, source = found[:, column], index[column]
+            beside = np.flatnonzero(field < np.sqrt(limit))
+            beside = beside[beside != source]
+            beside = beside[np.argsort(field[beside], kind="stable")[:MOST_NEAR]]
+            if len(beside):
+                field[beside] = self._pairwise(component, np.append(source, beside))[0, 1:]
+        return found
 
     def _pairwise(self, component: Component, index: IntArray, progress: Progress | None = None) -> FloatArray:
         if len(index) > SMALL_SET:

@@ -13,6 +13,7 @@ from ..errors import ParameterError, SolverError
 from ..laplacian import Component, Laplacian, as_laplacian
 from ..memo import Memo
 from ..progress import Progress, part, silent
+from ..solver.tall import over_rows
 from ..sources.pieces import Pieces, pieces_of, points_on
 from ..sources.source import BoundaryLoop, Curve, Source, SourceSet, SurfacePoint, checked_source
 from ..sources.words import short_words_of
@@ -27,7 +28,7 @@ ROUNDING = 1e-7
 SOURCES = 32
 """From so many sources at a time pairs are computed, which bounds the memory."""
 
-BLOCK = 1 << 23
+BLOCK = 1 << 20
 """How many distances of fields are held at a time besides those that are wanted."""
 
 DIGITS = ("field", "all")
@@ -243,7 +244,10 @@ class Distance(ABC):
                 fields[:, start : start + step] = np.nan
             report = part(progress, start / len(ids), (start + len(some)) / len(ids))
             for component, mine, columns in self.columns_by_component(some, report):
-                fields[np.ix_(component.vertices, start + mine)] = columns
+                if is_whole:
+                    _put(columns, fields[:, start : start + len(some)])
+                else:
+                    fields[np.ix_(component.vertices, start + mine)] = columns
         return fields
 
     def columns_by_component(
@@ -414,6 +418,15 @@ def _room(out: AnyArray | None, shape: tuple[int, int], dtype: npt.DTypeLike) ->
     if out is not None and out.shape != shape:
         raise ParameterError(f"The fields have the shape {shape}, and `out` has {out.shape}.")
     return np.empty(shape, kind) if out is None else out
+
+
+def _put(columns: FloatArray, out: AnyArray) -> None:
+    """Copy columns (n, k) to an array that may lie the other way round in memory, by stretches that a cache holds."""
+
+    def put(rows: slice) -> None:
+        out[rows] = columns[rows]
+
+    over_rows(put, len(columns))
 
 
 def root(squares: FloatArray, terms: FloatArray | float) -> FloatArray:

@@ -177,6 +177,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "invert": (c_int32, (_P, _I, _I, _A, _A, _A, _A, _P)),
     "take_rows": (None, (_P, _I, _I, _I, _I, _P, _I, _A)),
     "put_rows": (None, (_P, _I, _I, _I, _I, _A, _P, _I)),
+    "distances": (_I, (_I, _I, _A, _P, _I, *(_A,) * 4, c_double, c_double, _A, _P, _I)),
     "sweep_room": (c_int64, (_P, _I, _I, _I)),
     "sweep_up": (c_int32, (_P, _I, _I, _I, _I, _A, _A, _A, _P)),
     "sweep_down": (c_int32, (_P, _I, _I, _I, _A, _A, _P)),

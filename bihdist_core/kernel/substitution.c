@@ -55,6 +55,27 @@ API void bih_put_rows(const Tree *t, i64 first, i64 end, i64 k, i64 w, const dou
   for (i64 p = first; p < end; p++) copy(b + t->vertices[p] * ldb, x + p * w, 8 * k);
 }
 
+/* Biharmonic distances of r vertices from k sources, by columns of G A G: values (r, ldv) of vertex (r,).
+ *
+ * With C = G A G - u u^T / sum(A), u = G A 1, and the diagonal of C, own (k,) at the sources, and share = u / sum(A) at
+ * them: d^2 = diagonal + own - 2 C, put as d to rows `vertex` of out, ldo apart.  near (k,) counts d^2 below `limit`.
+ * Returns how many d^2 are below `floor` or no number, 0 if all is well. */
+API i64 bih_distances(i64 r, i64 k, const i64 *vertex, const double *values, i64 ldv, const double *diagonal,
+                      const double *u, const double *own, const double *share, double floor, double limit, i64 *near,
+                      double *out, i64 ldo) {
+  i64 bad = 0;
+  for (i64 i = 0; i < r; i++, values += ldv) {
+    const double mine = diagonal[vertex[i]], by = u[vertex[i]];
+    double *to = out + vertex[i] * ldo;
+    for (i64 c = 0; c < k; c++) {
+      double square = mine + own[c] - 2 * (values[c] - by * share[c]);
+      bad += !(square >= floor), near[c] += square < limit;
+      to[c] = __builtin_sqrt(square > 0 ? square : 0);
+    }
+  }
+  return bad;
+}
+
 /* Doubles that a sweep of w columns along the fronts first to last needs to work. */
 API i64 bih_sweep_room(const Tree *t, i64 first, i64 last, i64 w) {
   i64 room = 0;

@@ -28,6 +28,9 @@ ReceivePiece = Callable[[AnyArray, slice, FloatArray], None]
 WIDE = 32
 """How many columns are solved for together: more would not stay in the cache."""
 
+FEW = 1 << 16
+"""Of fewer vertices as many columns stay in the cache where each has one of G beside it."""
+
 SMALL = 1 << 23
 """A factor of fewer bytes is read by one thread faster than several begin."""
 
@@ -128,7 +131,7 @@ class Factor:
             self._blocks.each_sandwich_piece(index[some], run, finish, workspaces)
 
         # Each column comes with one of G.
-        self._in_slices(len(index), WIDE // 2, sweep, progress)
+        self._in_slices(len(index), WIDE if n < FEW else WIDE // 2, sweep, progress)
 
     def _in_slices(self, count: int, width: int, work: Callable[[slice, Run], None], progress: Progress | None) -> None:
         """work(columns, run) for all columns: a few with the branches side by side, many in slices side by side."""

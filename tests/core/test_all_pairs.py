@@ -52,7 +52,7 @@ def counted(distance, monkeypatch):
     """The ids that are asked for from now on."""
     asked = []
     ask = distance.from_sources
-    monkeypatch.setattr(distance, "from_sources", lambda ids: (asked.extend(ids.tolist()), ask(ids))[1])
+    monkeypatch.setattr(distance, "from_sources", lambda ids, **how: (asked.extend(ids.tolist()), ask(ids, **how))[1])
     return asked
 
 
