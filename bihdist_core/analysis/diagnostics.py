@@ -10,12 +10,14 @@ import numpy.typing as npt
 from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
+from ..mesh_like import MeshLike
+from ..number_arrays import real_numbers
 from ..progress import Progress, part, silent
 from ..surface import Surface
 from .isoline_tracing import isolines
 
 
-def isotropy_ratio(surface: Surface, field: npt.ArrayLike, geodesic: npt.ArrayLike, radius: float) -> float:
+def isotropy_ratio(surface: MeshLike, field: npt.ArrayLike, geodesic: npt.ArrayLike, radius: float) -> float:
     """Greatest over least value of a distance field on the geodesic circle of a radius around its source; 1 is best.
 
     field, geodesic: (n,) distances from the same source, the latter geodesic (of which `radius` is a value).  Both are
@@ -53,17 +55,14 @@ class GradientJumps:
         return self.jumps / np.maximum(self.lengths, self.slope / 4)
 
 
-def gradient_jumps(surface: Surface, field: npt.ArrayLike) -> GradientJumps:
+def gradient_jumps(surface: MeshLike, field: npt.ArrayLike) -> GradientJumps:
     """How far the gradient jumps across each edge of two faces; NaN next to values that are not finite.
 
     A continuous field's gradient can only jump across an edge, by the sum of the two slopes away from the faces'
     insides.  Degenerate faces and edges of another number of faces are left out.
     """
-    f, faces, x = np.asarray(field, np.float64), surface.faces, surface.vertices
-    if f.shape != (len(x),):
-        raise ParameterError(
-            f"A field is a real number for each of {len(x):,} vertices, not an array of shape {f.shape}."
-        )
+    surface = Surface.of(surface)
+    f, faces, x = surface.check_field(field), surface.faces, surface.vertices
     proper = np.ones(len(faces), bool)
     proper[surface.degenerate_faces] = False
     faces, area = faces[proper], surface.face_areas[proper]
@@ -112,7 +111,7 @@ def field_change(before: npt.ArrayLike, after: npt.ArrayLike) -> FieldChange:
 
     Raises ParameterError for fields of different shape, without common points, or whose maximum is not positive.
     """
-    d, e = np.asarray(before, np.float64), np.asarray(after, np.float64)
+    d, e = (real_numbers(each, "Values of a field") for each in (before, after))
     if d.shape != e.shape:
         raise ParameterError(f"Fields of shape {d.shape} and {e.shape} cannot be compared.")
     both = np.isfinite(d) & np.isfinite(e)
@@ -144,7 +143,7 @@ def triangle_violations(distances: npt.ArrayLike, count: int = 1_000_000, seed: 
 
     Raises ParameterError for fewer than three points, an array that is not square, or a count below 1.
     """
-    d = np.asarray(distances, np.float64)
+    d = real_numbers(distances, "Distances")
     if d.ndim != 2 or d.shape[0] != d.shape[1] or len(d) < 3:
         raise ParameterError(f"Distances among at least 3 points are a square array, not one of shape {d.shape}.")
     if count < 1:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
-from ..progress import Progress, silent
+from ..progress import Progress, part, silent
 from .parcels import checked_mask
 
 MEMORY = 1e8
@@ -64,7 +64,7 @@ def nearest(
     for start in range(0, len(ids), step):
         (progress or silent)(start / len(ids), f"neighbours of {start:,} of {len(ids):,} vertices")
         some = ids[start : start + step]
-        fields = distance.from_sources(some)
+        fields = distance.from_sources(some, part(progress, start / len(ids), (start + len(some)) / len(ids)))
         fields[some, np.arange(len(some))] = np.nan
         if hidden is not None:
             fields[hidden] = np.nan

@@ -12,12 +12,12 @@ from ..distances.biharmonic import BiharmonicDistance
 from ..distances.spectral import TruncatedBiharmonicDistance, checked_count
 from ..errors import ParameterError
 from ..laplacian import Laplacian, as_laplacian
+from ..mesh_like import MeshLike
 from ..progress import Progress, part, silent
 from ..solver.tall import over_rows
 from ..sources.pieces import pieces_of
 from ..sources.source import Source, checked_source
 from ..sources.words import short_words_of
-from ..surface import MeshLike
 
 LINE_COUNTS = (1, 2, 3, 5, 8, 12, 18, 25, 35, 50, 70, 100, 140, 200)
 """For lines, and for sources on several components, where each count costs a field of its own; and so on by 1.4."""

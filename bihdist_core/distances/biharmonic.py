@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from ..arrays import AnyArray, FloatArray, IntArray
-from ..laplacian import Component, Laplacian
+from ..laplacian import Component
 from ..progress import Progress, part
 from ..solver.tall import point_distances
-from ..surface import FLAT, MeshLike
+from ..surface import FLAT
 from .accuracy import accuracy_of_pairs
-from .distance import Distance, by_source, root
 from .embedding import Embedding, biharmonic_embedding
+from .factored import FactoredDistance
+from .pair_questions import by_source
+from .squares import root
 
 SMALL_SET = 64
 PAIRS_PER_FIELD = 1.4
@@ -23,7 +24,7 @@ thinnest, are computed again as pairs, up to so many of them: there a difference
 left."""
 
 
-class BiharmonicDistance(Distance):
+class BiharmonicDistance(FactoredDistance):
     """d(i, j)^2 = C_ii + C_jj - 2 C_ij, C the Green's function of the biharmonic operator (paper, Eq. 4); unit length.
 
     One to all costs one sweep through the factor, with the diagonal of C computed once by selected inversion.  Pairs
@@ -36,16 +37,6 @@ class BiharmonicDistance(Distance):
 
     label = "biharmonic, exact"
     length_power = 1.0
-    is_quadratic = True
-
-    def __init__(
-        self,
-        laplacian: Laplacian | MeshLike,
-        faces: npt.ArrayLike | None = None,
-        progress: Progress | None = None,
-    ) -> None:
-        super().__init__(laplacian, faces)
-        self.prepare(self.laplacian.components[0], progress)
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
         """Compute the diagonal of the Green's function on a component, if that is not done."""
@@ -83,7 +74,7 @@ class BiharmonicDistance(Distance):
             return super()._pairwise(component, index, progress)
         b = np.zeros((len(component.vertices), len(index)))
         b[index, np.arange(len(index))] = 1
-        half = _half_order(component, component.solve(b))
+        half = _half_order(component, component.solve(b, progress))
         return point_distances(half.T, half.T)
 
     def _of_pairs(
@@ -91,7 +82,7 @@ class BiharmonicDistance(Distance):
     ) -> FloatArray:
         among, place = np.unique(np.stack([i, j]), return_inverse=True)
         if len(among) <= min(len(i), SMALL_SET):
-            return self._pairwise(component, among)[tuple(place.reshape(2, -1))]
+            return self._pairwise(component, among, progress)[tuple(place.reshape(2, -1))]
         if digits == "field" and PAIRS_PER_FIELD * len(np.unique(by_source(i, j)[0])) < len(i):
             return super()._of_pairs(component, i, j, digits, progress)
         distances = np.empty(len(i))

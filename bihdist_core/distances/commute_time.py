@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
-from ..laplacian import Component, Laplacian
+from ..laplacian import Component
 from ..progress import Progress
-from ..surface import MeshLike
 from .accuracy import accuracy_of_pairs
-from .distance import Distance, root
+from .factored import FactoredDistance
+from .squares import root
 
 NEAR = 0.4
 """Below this fraction of the maximum it shows what springs of degenerate faces lack (a fraction FLAT of the square)."""
@@ -18,21 +17,11 @@ MOST_NEAR, MOST_SPRINGS = 128, 256
 """So many distances are corrected at most, with so many springs: many more lie so near only where all are far apart."""
 
 
-class CommuteTimeDistance(Distance):
+class CommuteTimeDistance(FactoredDistance):
     """d(i, j)^2 = G_ii + G_jj - 2 G_ij with the Green's function G of the stiffness matrix (paper, Eq. 2); no unit."""
 
     label = "commute-time, exact"
     length_power = 0.0
-    is_quadratic = True
-
-    def __init__(
-        self,
-        laplacian: Laplacian | MeshLike,
-        faces: npt.ArrayLike | None = None,
-        progress: Progress | None = None,
-    ) -> None:
-        super().__init__(laplacian, faces)
-        self.prepare(self.laplacian.components[0], progress)
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
         """Factor the stiffness matrix of a component, with the inverse's diagonal, if that is not done."""

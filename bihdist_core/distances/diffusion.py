@@ -1,5 +1,7 @@
 """The diffusion distance (paper, Eq. 1, with its normalised time t <- t / (2 lambda_1))."""
 
+from __future__ import annotations
+
 from bisect import bisect_left
 
 import numpy as np
@@ -8,9 +10,9 @@ from ..arrays import FloatArray
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian
 from ..memo import Memo
+from ..mesh_like import MeshLike
 from ..progress import Progress, part
 from ..solver.spectrum import Spectrum
-from ..surface import MeshLike
 from .spectral import SpectralDistance, checked_number
 from .tails import Cloud, biharmonic_squares, missing, tail_lengths
 

@@ -18,9 +18,10 @@ import numpy.typing as npt
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian, as_laplacian
+from ..mesh_like import MeshLike
+from ..number_arrays import array_of
 from ..progress import Progress, part, silent
 from ..solver.tall import pair_distances
-from ..surface import MeshLike
 from .spectral import checked_count, checked_number
 from .tails import biharmonic_squares, tail_lengths
 
@@ -56,9 +57,9 @@ class Embedding:
 
         Raises ParameterError for another shape, or a vertex that is not there.
         """
-        table = np.asarray(pairs)
+        table = array_of(pairs, "Pairs of vertices")
         if table.ndim != 2 or table.shape[1] != 2 or table.dtype.kind not in "iu":
-            raise ParameterError(f"Pairs of vertices must have shape (q, 2), not {table.shape}.")
+            raise ParameterError(f"Pairs of vertices are (q, 2) whole numbers, not {table.shape} of {table.dtype}.")
         if table.size and not (table.min() >= 0 and table.max() < len(self.points)):
             raise ParameterError(f"The vertices are 0 to {len(self.points) - 1}.")
         i, j = table.T

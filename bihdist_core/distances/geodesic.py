@@ -1,5 +1,7 @@
 """Geodesic distance: exact, by the heat method, or along edges (Dijkstra).  The label says which."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -10,9 +12,10 @@ from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..laplacian import Component, Laplacian
 from ..memo import Memo
+from ..mesh_like import MeshLike
 from ..progress import Progress, part
 from ..sources.pieces import Pieces
-from ..surface import MeshLike, Surface
+from ..surface import Surface
 from .accuracy import ErrorEstimate
 from .distance import Distance
 from .edge_geodesic import EdgeGeodesic
@@ -152,10 +155,11 @@ class GeodesicDistance(Distance):
 
     def _or_by_heat(self, found: Callable[[], FloatArray], progress: Progress | None) -> FloatArray:
         """What is found, by the heat method from now on where the exact method of "auto" gives up."""
+        method = self.method
         try:
             return found()
         except SolverError:
-            if not self._is_auto:
+            if not self._is_auto or method == "heat":
                 raise
         with self._solvers.lock:
             if self.method == "exact":

@@ -1,5 +1,7 @@
 """Distances that are sums over eigenpairs: d(i, j)^2 = sum_k w_k (phi_k(i) - phi_k(j))^2."""
 
+from __future__ import annotations
+
 from abc import abstractmethod
 from collections.abc import Sequence
 
@@ -9,10 +11,10 @@ from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian
 from ..memo import Memo
+from ..mesh_like import MeshLike
 from ..progress import Progress, part
 from ..solver.spectrum import Spectrum
 from ..solver.tall import pair_distances, point_distances
-from ..surface import MeshLike
 from .accuracy import SPARE, Perturbation, rounded_up
 from .distance import Distance
 from .tails import Cloud, biharmonic_squares, commute_time_squares, tail_lengths

@@ -21,7 +21,7 @@ from bihdist_core import (
     VertexError,
 )
 from bihdist_core.distances.accuracy import ErrorEstimate
-from bihdist_core.distances.distance import root
+from bihdist_core.distances.squares import root
 from bihdist_core.laplacian import Component, as_laplacian, eigenpairs
 from tests.shapes import bumpy, components_apart, fin, grid, slivers, spike, tetrahedron, torus, two_pieces
 
@@ -56,8 +56,6 @@ def all_pairs(make, surface):
 @every_distance
 @every_surface
 def test_zero_at_the_source_finite_and_positive_elsewhere(make, surface):
-    if make is DISTANCES["exact"] and not surface.is_manifold:
-        pytest.skip("refused there; see test_geodesic")
     field = make(surface).from_source(2)
     assert field.shape == (len(surface.vertices),)
     assert field[2] == 0
@@ -70,8 +68,6 @@ def test_zero_at_the_source_finite_and_positive_elsewhere(make, surface):
 @pytest.mark.parametrize("name", FULL_METRICS)
 @every_surface
 def test_symmetry_and_triangle_inequality(name, surface):
-    if name == "exact" and not surface.is_manifold:
-        pytest.skip("refused there; see test_geodesic")
     d = all_pairs(DISTANCES[name], surface)
     slack = SMALL * d.max()
     assert np.abs(d - d.T).max() <= slack

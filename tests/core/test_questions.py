@@ -49,7 +49,7 @@ def test_all_digits_of_near_pairs():
 
 @pytest.mark.parametrize("surface", [bumpy(300), two_pieces()], ids=["one", "two"])
 def test_fields_of_many_sources_go_where_they_are_to(surface, monkeypatch, tmp_path):
-    monkeypatch.setattr("bihdist_core.distances.distance.BLOCK", 1)
+    monkeypatch.setattr("bihdist_core.distances.source_questions.BLOCK", 1)
     distance, ids = BiharmonicDistance(surface), np.flatnonzero(surface.component_of_vertex >= 0)[::2]
     expected = np.column_stack([distance.from_source(int(v)) for v in ids])
     close = 1e-6 * np.nanmax(expected)
@@ -84,6 +84,41 @@ def test_questions_report_progress_and_can_be_cancelled(make, ask, monkeypatch):
     getattr(distance, ask)(asked, lambda fraction, text: said.append(fraction))
     assert said == sorted(said)
     assert 0 <= said[0] <= said[-1] <= 1
+
+
+@pytest.mark.parametrize("make", {**QUADRATIC, **GEODESIC}.values(), ids={**QUADRATIC, **GEODESIC})
+def test_between_takes_arrays_reports_and_can_be_cancelled(make):
+    distance, said = make(bumpy(300)), []
+    u, v = np.arange(40), np.arange(40)[::-1] + 100
+
+    def stop(fraction, text):
+        raise Cancelled("enough")
+
+    found = distance.between(u, v, lambda fraction, text: said.append(fraction))
+    assert np.array_equal(found, distance.of_pairs(np.column_stack([u, v])))
+    assert said == sorted(said)
+    assert distance.between(7, 132, lambda fraction, text: said.append(fraction)) == pytest.approx(found[7], rel=1e-9)
+    assert np.array_equal(distance.between(u.tolist(), tuple(v)), found)
+    for ends in ((u, v), (7, 132), ("7", 132), ("3+7", 132), (132, "3+7")):
+        with pytest.raises(Cancelled, match="enough"):
+            distance.between(*ends, stop)
+
+
+def test_between_takes_as_many_points_on_both_sides():
+    distance = BiharmonicDistance(two_pieces())
+    places = ["f3:0.2,0.5", 12, "f9:0,1"]
+    found = distance.between(places, [3, 4, 5])
+    assert np.allclose(found, [distance.between(p, q) for p, q in zip(places, [3, 4, 5], strict=True)], rtol=1e-12)
+    assert np.isnan(distance.between([0], [61]))
+    assert distance.between(np.array(3), np.array(5)) == distance.between(3, 5)
+    for u, v, words in (
+        ([1, 2], [3], "not between 2 points and 1 points"),
+        (1, [3], "not between 1 and 1 points"),
+        ([[1, 2]], [[3, 4]], r"must have shape \(k, 2\), not \(1, 4\)"),
+        ([1, [2]], [3, 4], "Vertices are no array: their rows differ in length"),
+    ):
+        with pytest.raises(ParameterError, match=words):
+            distance.between(u, v)
 
 
 @pytest.mark.parametrize("source", [12.0, "twelve", None, np.float64(3)])

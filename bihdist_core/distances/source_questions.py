@@ -1,0 +1,191 @@
+"""How far all vertices are from a source, or from each of many: answered per connected component."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from ..arrays import AnyArray, FloatArray, IntArray
+from ..errors import ParameterError
+from ..laplacian import Component, Laplacian, as_laplacian
+from ..mesh_like import MeshLike, Rows
+from ..progress import Progress, part, silent
+from ..sources.pieces import Pieces, pieces_of
+from ..sources.source import BoundaryLoop, Curve, Source, SourceSet, SurfacePoint, checked_source
+from .in_faces import blocks, squares_from
+from .squares import root
+
+SOURCES = 32
+"""From so many sources at a time pairs are computed, which bounds the memory."""
+
+BLOCK = 1 << 23
+"""How many distances of fields are held at a time besides those that are wanted."""
+
+ELSEWHERE = SurfacePoint | BoundaryLoop | Curve | SourceSet
+"""Sources that are no vertex."""
+
+
+class SourceQuestions(ABC):
+    """What a distance answers by fields: one value at each vertex of the surface."""
+
+    label: str
+    is_quadratic = False
+    """Whether squares are a quadratic form of differences of unit vectors, which is defined anywhere in a face."""
+
+    def __init__(self, laplacian: Laplacian | MeshLike | Rows, faces: npt.ArrayLike | None = None) -> None:
+        self.laplacian = as_laplacian(laplacian, faces)
+        self.surface = self.laplacian.surface
+        self._asked: set[int] = set()
+
+    @abstractmethod
+    def prepare(self, component: Component, progress: Progress | None = None) -> None:
+        """Do the long work that questions about a component need; nothing if it is done."""
+
+    @abstractmethod
+    def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
+        """(m, k) distances within a component from its local vertices `index` (k,)."""
+
+    def from_source(self, source: Source | str, progress: Progress | None = None) -> FloatArray:
+        """(n,) distance of every vertex from a source; 0 at vertices that belong to it, NaN where it does not reach.
+
+        A vertex or any other source, or its words (`sources`).  From several the distance is that from the nearest;
+        along a boundary loop or a curve, from its nearest point where the distance can be had anywhere in a face.
+        Raises VertexError or ParameterError for a source that is not on this surface, and ParameterError for one that
+        this distance cannot start from.
+        """
+        if isinstance(source, str):
+            source = checked_source(source)
+        if not isinstance(source, ELSEWHERE):
+            return self._from_vertex(source, progress)
+        return self.from_pieces(pieces_of(source, self.surface), progress)
+
+    def _from_vertex(self, vertex: int, progress: Progress | None) -> FloatArray:
+        component = self.laplacian.component_of(vertex)
+        self._asked.add(component.index)
+        self.prepare(component, progress)
+        field = self._columns(component, component.local(np.array([vertex])), progress)[:, 0]
+        if len(field) < len(self.surface.vertices):
+            inside, field = field, np.full(len(self.surface.vertices), np.nan)
+            field[component.vertices] = inside
+        field[vertex] = 0
+        return field
+
+    def label_from(self, pieces: Pieces) -> str:
+        """`label`, with what there is to say of fields that start from some pieces of the surface."""
+        return self.label
+
+    def from_pieces(self, pieces: Pieces, progress: Progress | None = None) -> FloatArray:
+        """(n,) distances of every vertex from the nearest of some pieces of this surface."""
+        field = np.full(len(self.surface.vertices), np.nan)
+        for component, mine in self._by_component(pieces.corners[:, 0]):
+            self.prepare(component, progress)
+            some = pieces.some(mine)
+            field[component.vertices] = self._from_pieces(component, some, progress)
+        for weights in (pieces.start, pieces.stop):
+            field[pieces.corners[weights == 1]] = 0
+        return field
+
+    def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
+        """(m,) distances within a component, from pieces in the whole surface's numbers."""
+        vertices = pieces.vertices
+        if vertices is None and not self.is_quadratic:
+            raise ParameterError(
+                f"{self.label} is known between vertices only; let it start from some, such as 12 or 12+40+7."
+            )
+        least = np.full(len(component.vertices), np.inf)
+        if vertices is not None:
+            starts = range(0, len(vertices), SOURCES)
+            for number, start in enumerate(starts):
+                step = part(progress, number / len(starts), (number + 1) / len(starts))
+                index = component.local(vertices[start : start + SOURCES])
+                np.minimum(least, self._columns(component, index, step).min(axis=1), out=least)
+            return least
+        groups, size = blocks(pieces, SOURCES), 0.0
+        for number, group in enumerate(groups):
+            (progress or silent)(number / len(groups), self.label)
+            some = pieces.some(group)
+            index, local = np.unique(component.local(some.touched), return_inverse=True)
+            squares = self._columns(component, index, None) ** 2
+            size = max(size, float(squares.max()))
+            among = self._pairwise(component, index) ** 2
+            each = squares_from(squares, (among + among.T) / 2, index, local.reshape(-1, 3), some)
+            for one in each:
+                np.minimum(least, one, out=least)
+        # What is nearest may be at no distance everywhere.
+        return root(least, size)
+
+    def from_sources(
+        self,
+        sources: npt.ArrayLike | Sequence[Source | str],
+        progress: Progress | None = None,
+        *,
+        dtype: npt.DTypeLike = np.float64,
+        out: AnyArray | None = None,
+    ) -> AnyArray:
+        """(n, k) distances of every vertex from each of k vertices, or sources of any kind.
+
+        dtype: float64 or float32, of the array that is made.  out: an array (n, k) of either that takes them, such as a
+        memory map, and is returned; then and in float32 only some fields at a time are in memory besides.  Raises
+        VertexError or ParameterError for a source as `from_source` does, ParameterError for another shape or type.
+        """
+        (progress or silent)(0.0, self.label)
+        n = len(self.surface.vertices)
+        if isinstance(sources, Sequence) and any(isinstance(each, str | ELSEWHERE) for each in sources):
+            fields = _room(out, (n, len(sources)), dtype)
+            for k, each in enumerate(sources):
+                fields[:, k] = self.from_source(each, part(progress, k / len(sources), (k + 1) / len(sources)))
+            return fields
+        ids = self.surface.check_vertices(sources)
+        is_whole = self.surface.largest_component_size == n
+        if is_whole and out is None and np.dtype(dtype) == np.float64 and len(ids):
+            [(_, _, fields)] = self.columns_by_component(ids, progress)
+            return fields
+        fields, step = _room(out, (n, len(ids)), dtype), block_size(n)
+        for start in range(0, len(ids), step):
+            some = ids[start : start + step]
+            if not is_whole:
+                fields[:, start : start + step] = np.nan
+            report = part(progress, start / len(ids), (start + len(some)) / len(ids))
+            for component, mine, columns in self.columns_by_component(some, report):
+                fields[np.ix_(component.vertices, start + mine)] = columns
+        return fields
+
+    def columns_by_component(
+        self, sources: npt.ArrayLike, progress: Progress | None = None
+    ) -> Iterator[tuple[Component, IntArray, FloatArray]]:
+        """For each component with some of the source vertices (k,): itself, which of them (c,), and their fields.
+
+        Fields are (m, c), for the m vertices of the component only.
+        """
+        ids = self.surface.check_vertices(sources)
+        for component, mine in self._by_component(ids):
+            self.prepare(component, progress)
+            index = component.local(ids[mine])
+            columns = self._columns(component, index, progress)
+            columns[index, np.arange(len(index))] = 0
+            yield component, mine, columns
+
+    def _by_component(self, ids: IntArray) -> Iterable[tuple[Component, IntArray]]:
+        """Each component with the positions of its vertices among ids (k,)."""
+        label = self.surface.component_of_vertex[ids]
+        for index in np.unique(label):
+            self._asked.add(int(index))
+            yield self.laplacian.components[index], np.flatnonzero(label == index)
+
+
+def block_size(n: int) -> int:
+    """From how many sources fields of n vertices are held at a time."""
+    return max(SOURCES, BLOCK // n)
+
+
+def _room(out: AnyArray | None, shape: tuple[int, int], dtype: npt.DTypeLike) -> AnyArray:
+    """An array for fields: the one given, if it fits, or a new one."""
+    kind = np.dtype(dtype if out is None else out.dtype)
+    if kind not in (np.float32, np.float64):
+        raise ParameterError(f"Distances are float32 or float64, not {kind}.")
+    if out is not None and out.shape != shape:
+        raise ParameterError(f"The fields have the shape {shape}, and `out` has {out.shape}.")
+    return np.empty(shape, kind) if out is None else out
