@@ -26,11 +26,11 @@ from .locked_cached_property import locked_cached_property
 from .mesh_like import MeshLike, Rows
 from .operators import AREAS, operators
 from .progress import Progress, part, turn
+from .scalars import whole_number
 from .solver.aside import aside
 from .solver.elimination_tree import EliminationTree
 from .solver.factor import Factor, ReceivePiece
 from .solver.spectrum import Spectrum, is_long, smallest_eigenpairs
-from .sources.source import whole_number
 from .surface import Surface
 
 Computed = tuple[EliminationTree | None, Factor | None, bool, Spectrum | None]

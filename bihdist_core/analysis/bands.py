@@ -10,6 +10,7 @@ import numpy.typing as npt
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..mesh_like import MeshLike
+from ..scalars import real_number
 from ..surface import Surface
 from .clipping import clipped
 
@@ -53,7 +54,7 @@ def band(surface: MeshLike, field: npt.ArrayLike, low: float = -np.inf, high: fl
     """
     surface = Surface.of(surface)
     f = surface.check_field(field)
-    if not low < high:
+    if not real_number(low, "The lower value") < real_number(high, "The higher value"):
         raise ParameterError(f"A region lies between two values, the smaller first, not {low:g} and {high:g}.")
     finite = np.isfinite(f[surface.faces]).all(axis=1)
     inside = finite & ((f >= low) & (f <= high))[surface.faces].all(axis=1)

@@ -13,6 +13,7 @@ from ..errors import ParameterError
 from ..mesh_like import MeshLike
 from ..number_arrays import real_numbers
 from ..progress import Progress, part, silent
+from ..scalars import real_number, whole_number
 from ..surface import Surface
 from .isoline_tracing import isolines
 
@@ -25,7 +26,7 @@ def isotropy_ratio(surface: MeshLike, field: npt.ArrayLike, geodesic: npt.ArrayL
     a radius of at least three or four.  Infinite if the field is 0 on the circle.  Raises ParameterError if no vertex
     is as far as that.
     """
-    circle = isolines(surface, geodesic, [radius])
+    circle = isolines(surface, geodesic, real_number(radius, "A radius"))
     if not circle:
         raise ParameterError(f"There is no geodesic circle of radius {radius:g} around the source.")
     values = np.concatenate([line.along(field) for line in circle])
@@ -146,7 +147,7 @@ def triangle_violations(distances: npt.ArrayLike, count: int = 1_000_000, seed: 
     d = real_numbers(distances, "Distances")
     if d.ndim != 2 or d.shape[0] != d.shape[1] or len(d) < 3:
         raise ParameterError(f"Distances among at least 3 points are a square array, not one of shape {d.shape}.")
-    if count < 1:
+    if whole_number(count, "count") < 1:
         raise ParameterError(f"count is {count}; at least one triple is needed.")
     rng = np.random.default_rng(seed)
     k = len(d)

@@ -14,6 +14,7 @@ from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
 from ..progress import Progress, part, silent
+from ..scalars import real_number
 from .parcels import checked_mask
 
 MEMORY = 1e8
@@ -49,7 +50,7 @@ def nearest(
         raise ParameterError(f"k is {k!r}; at least one neighbour is needed, a whole number.")
     if k > n:
         raise ParameterError(f"{k:,} neighbours asked for; {surface.name} has {n:,} vertices.")
-    if not memory > 0:
+    if not real_number(memory, "The memory for a block") > 0:
         raise ParameterError(f"The memory for a block is {memory:g} bytes; it must be positive.")
     hidden = None if mask is None else ~checked_mask(surface, mask)
     if sources is None:

@@ -16,6 +16,7 @@ import numpy.typing as npt
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..mesh_like import MeshLike
+from ..scalars import real_number
 from ..surface import Surface
 
 
@@ -46,7 +47,7 @@ def extrema(surface: MeshLike, field: npt.ArrayLike, share: float = 1e-3) -> Ext
     """
     surface = Surface.of(surface)
     f = surface.check_field(field)
-    if not 0 <= share <= 1:
+    if not 0 <= real_number(share, "The share") <= 1:
         raise ParameterError(f"The share is {share:g}; it must lie between 0 and 1.")
     used = np.isfinite(f) & (surface.component_of_vertex >= 0)
     edges = surface.edges[used[surface.edges].all(axis=1)]

@@ -15,6 +15,7 @@ from ..errors import ParameterError
 from ..mesh_like import MeshLike
 from ..number_arrays import real_numbers
 from ..progress import Progress, part
+from ..scalars import whole_number
 from ..sources.pieces import pieces_of
 from ..sources.source import Source
 from ..surface import Surface
@@ -341,8 +342,12 @@ def triangle_samples(
     ParameterError for a component that does not exist or has fewer than three vertices, and for fewer points than
     three.
     """
-    ids = np.flatnonzero(distance.surface.component_of_vertex == component) if component >= 0 else np.empty(0, np.int64)
-    if min(points, len(ids)) < 3:
+    ids = (
+        np.flatnonzero(distance.surface.component_of_vertex == component)
+        if whole_number(component, "A component") >= 0
+        else np.empty(0, np.int64)
+    )
+    if min(whole_number(points, "The number of points"), len(ids)) < 3:
         raise ParameterError(
             f"Triangles need three points; {points:,} were asked for, and component {component} has {len(ids):,} "
             "vertices."

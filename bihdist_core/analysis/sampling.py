@@ -14,8 +14,9 @@ from ..formats.field_output import write_array
 from ..formats.pins import PIN_FORMATS, Pins, write_pins
 from ..mesh_like import MeshLike
 from ..progress import Progress, part, silent
+from ..scalars import whole_number
 from ..sources.pieces import pieces_of
-from ..sources.source import Source, whole_number
+from ..sources.source import Source
 from ..sources.words import short_words_of
 from ..surface import Surface
 from ..whole_file import check_output, whole_file

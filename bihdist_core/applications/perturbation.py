@@ -13,6 +13,7 @@ from ..errors import ParameterError
 from ..formats.mesh_io import read_surface
 from ..mesh_like import MeshLike
 from ..progress import Progress
+from ..scalars import real_number, whole_number
 from ..surface import Surface
 from .changes import WAYS, Perturbation, Runs
 from .resizing import simplified
@@ -30,7 +31,7 @@ def noisy(surface: MeshLike, share: float, seed: int = 0, along: str = "xyz") ->
     surface = Surface.of(surface)
     if along not in WAYS:
         raise ParameterError(f"Noise is along one of {', '.join(WAYS)}, not {along!r}.")
-    if not (np.isfinite(share) and share >= 0):
+    if not 0 <= real_number(share, "The size of noise") < np.inf:
         raise ParameterError(f"The size of noise is a number of mean edge lengths of at least 0, not {share!r}.")
     random = np.random.default_rng(seed)
     if along == "xyz":
@@ -58,9 +59,9 @@ def with_holes(surface: MeshLike, count: int, radius: float = 0.05, seed: int = 
     fewer holes than one, a radius that is not a share from 0 to 1, and where nothing or all would be left.
     """
     surface = Surface.of(surface)
-    if count < 1:
+    if whole_number(count, "The number of holes") < 1:
         raise ParameterError(f"The number of holes is a whole number from 1, not {count!r}.")
-    if not 0 < radius <= 1:
+    if not 0 < real_number(radius, "The radius of holes") <= 1:
         raise ParameterError(f"The radius of holes is a fraction of the root of the area, from 0 to 1, not {radius!r}.")
     candidates = np.flatnonzero(surface.component_of_vertex >= 0)
     centres = np.random.default_rng(seed).choice(candidates, min(count, len(candidates)), replace=False)

@@ -14,6 +14,7 @@ from ..arrays import BoolArray, FloatArray, IntArray
 from ..errors import ParameterError
 from ..mesh_like import MeshLike
 from ..progress import Progress, silent
+from ..scalars import whole_number
 from ..surface import Surface
 
 KEEP_NORMAL = 0.3
@@ -64,7 +65,7 @@ def simplified(surface: MeshLike, count: int, progress: Progress | None = None) 
     left out.  Raises ParameterError if that leaves more than `count`, or if there are not so many to begin with.
     """
     surface = Surface.of(surface)
-    small, ids = _collapsed(surface, count, progress)
+    small, ids = _collapsed(surface, whole_number(count, "The number of vertices"), progress)
     if len(ids) > count:
         raise ParameterError(f"{surface.name} cannot be simplified below {len(ids):,} vertices without damage.")
     return small, ids

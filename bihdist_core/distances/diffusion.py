@@ -12,8 +12,9 @@ from ..laplacian import Component, Laplacian
 from ..memo import Memo
 from ..mesh_like import MeshLike
 from ..progress import Progress, part
+from ..scalars import real_number
 from ..solver.spectrum import Spectrum
-from .spectral import SpectralDistance, checked_number
+from .spectral import SpectralDistance
 from .tails import Cloud, biharmonic_squares, missing, tail_lengths
 
 FIRST_BATCH = 16
@@ -46,9 +47,9 @@ class DiffusionDistance(SpectralDistance):
         tolerance: float | None = None,
         progress: Progress | None = None,
     ) -> None:
-        if not 0 < checked_number(t, "The diffusion time t") <= LONGEST:
+        if not 0 < real_number(t, "The diffusion time t") <= LONGEST:
             raise ParameterError(f"The diffusion time t is {t:g}; it must be positive, and at most {LONGEST:g}.")
-        if tolerance is not None and not 0 < checked_number(tolerance, "The tolerance") < 1:
+        if tolerance is not None and not 0 < real_number(tolerance, "The tolerance") < 1:
             raise ParameterError(f"The tolerance is {tolerance:g}; it must lie between 0 and 1.")
         super().__init__(laplacian)
         self.t, self.tolerance = float(t), TOLERANCE if tolerance is None else float(tolerance)

@@ -21,8 +21,9 @@ from ..laplacian import Component, Laplacian, as_laplacian
 from ..mesh_like import MeshLike
 from ..number_arrays import array_of
 from ..progress import Progress, part, silent
+from ..scalars import real_number
 from ..solver.tall import pair_distances
-from .spectral import checked_count, checked_number
+from .spectral import checked_count
 from .tails import biharmonic_squares, tail_lengths
 
 FIRST = 50
@@ -89,7 +90,7 @@ def biharmonic_embedding(
     laplacian = as_laplacian(laplacian)
     if (k is None) == (tolerance is None):
         raise ParameterError("An embedding has k coordinates, or as many as a tolerance needs; give one of the two.")
-    if tolerance is not None and not 0 < checked_number(tolerance, "tolerance") < np.inf:
+    if tolerance is not None and not 0 < real_number(tolerance, "tolerance") < np.inf:
         raise ParameterError(f"tolerance is {tolerance:g}; it must be a length above 0.")
     count = checked_count(k) if k is not None else FIRST
     most = max(component.most_eigenpairs for component in laplacian.components)

@@ -183,7 +183,12 @@ def block_size(n: int) -> int:
 
 def _room(out: AnyArray | None, shape: tuple[int, int], dtype: npt.DTypeLike) -> AnyArray:
     """An array for fields: the one given, if it fits, or a new one."""
-    kind = np.dtype(dtype if out is None else out.dtype)
+    if not (out is None or isinstance(out, np.ndarray)):
+        raise ParameterError(f"Fields are written into an array, not into {type(out).__name__}.")
+    try:
+        kind = np.dtype(dtype if out is None else out.dtype)
+    except TypeError:
+        raise ParameterError(f"Distances are float32 or float64, not {dtype!r}.") from None
     if kind not in (np.float32, np.float64):
         raise ParameterError(f"Distances are float32 or float64, not {kind}.")
     if out is not None and out.shape != shape:

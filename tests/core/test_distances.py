@@ -214,9 +214,9 @@ def test_labels_say_what_is_shown():
 def test_wrong_kinds_of_parameters_are_refused_in_a_sentence():
     s = tetrahedron()
     for make, words in [
-        (lambda: DiffusionDistance(s, t="a"), "The diffusion time t is 'a'; it must be a number"),
-        (lambda: DiffusionDistance(s, tolerance="a"), "The tolerance is 'a'; it must be a number"),
-        (lambda: PowerDistance(s, alpha="2"), "alpha is '2'; it must be a number"),
+        (lambda: DiffusionDistance(s, t="a"), "The diffusion time t is a number, not 'a'"),
+        (lambda: DiffusionDistance(s, tolerance="a"), "The tolerance is a number, not 'a'"),
+        (lambda: PowerDistance(s, alpha="2"), "alpha is a number, not '2'"),
         (lambda: Laplacian(3), "A mesh is a path, .*, not int"),
     ]:
         with pytest.raises(ParameterError, match=words):
