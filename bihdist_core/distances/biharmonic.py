@@ -22,6 +22,8 @@ NEAR, NEAR_BY_HEIGHT, MOST_NEAR = 1e-5, 1e-9, 16
 """Distances below this fraction of the maximum, or, on a mesh with thin faces, the second over the height of the
 thinnest, are computed again as pairs, up to so many of them: there a difference of the Green's function has few digits
 left."""
+SWEEP = 0.8
+"""What share of the progress of fields the sweep through the factor is, before such pairs."""
 
 
 class BiharmonicDistance(FactoredDistance):
@@ -58,7 +60,7 @@ class BiharmonicDistance(FactoredDistance):
             values += diagonal[index[columns]]
             distances[rows, columns] = root(values, largest)
 
-        component.each_biharmonic_piece(index, finish, progress)
+        component.each_biharmonic_piece(index, finish, part(progress, 0, SWEEP))
         share = max(NEAR, NEAR_BY_HEIGHT / max(component.surface.face_heights.min(), FLAT))
         for column, source in enumerate(index):
             field = distances[:, column]
@@ -66,7 +68,10 @@ class BiharmonicDistance(FactoredDistance):
             near = near[near != source]
             if len(near):
                 near = near[np.argsort(field[near], kind="stable")[:MOST_NEAR]]
-                field[near] = self._pairwise(component, np.append(source, near))[0, 1:]
+                done = SWEEP + (1 - SWEEP) * column / len(index)
+                step = part(progress, done, done + (1 - SWEEP) / len(index))
+                step(0.0, self.label)
+                field[near] = self._pairwise(component, np.append(source, near), step)[0, 1:]
         return distances
 
     def _pairwise(self, component: Component, index: IntArray, progress: Progress | None = None) -> FloatArray:

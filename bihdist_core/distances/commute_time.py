@@ -6,7 +6,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..laplacian import Component
-from ..progress import Progress
+from ..progress import Progress, part
 from .accuracy import accuracy_of_pairs
 from .factored import FactoredDistance
 from .squares import root
@@ -31,14 +31,17 @@ class CommuteTimeDistance(FactoredDistance):
         diagonal = component.green_diagonal()
         b = np.zeros((len(diagonal), len(index)))
         b[index, np.arange(len(index))] = 1
-        squares = diagonal[:, None] + diagonal[index] - 2 * component.solve(b, progress)
+        solved = 0.5 if component.flat.lack.any() else 1.0
+        squares = diagonal[:, None] + diagonal[index] - 2 * component.solve(b, part(progress, 0, solved))
         distances = root(squares, diagonal.max())
-        if component.flat.lack.any():
+        if solved < 1:
             for column, source in enumerate(index):
-                self._with_exact_springs(component, int(source), distances[:, column])
+                done = solved + (1 - solved) * column / len(index)
+                step = part(progress, done, done + (1 - solved) / len(index))
+                self._with_exact_springs(component, int(source), distances[:, column], step)
         return distances
 
-    def _with_exact_springs(self, component: Component, source: int, field: FloatArray) -> None:
+    def _with_exact_springs(self, component: Component, source: int, field: FloatArray, progress: Progress) -> None:
         """Put exact springs in place for the smallest distances (m,), where those of degenerate faces show most.
 
         By the formula of Sherman, Morrison and Woodbury, as G with few springs more.
@@ -54,7 +57,7 @@ class CommuteTimeDistance(FactoredDistance):
         b = np.zeros((len(field), len(near)))
         b[source] = 1
         b[near, np.arange(len(near))] = -1
-        y, by_springs = component.solve(b), component.solve(g)
+        y, by_springs = component.solve(b, part(progress, 0, 0.5)), component.solve(g, part(progress, 0.5, 1))
         moved = g.T @ y
         exact = np.einsum("ij,ij->j", b, y) - np.einsum(
             "ij,ij->j", moved, np.linalg.lstsq(np.diag(slack) + g.T @ by_springs, moved, rcond=None)[0]

@@ -228,13 +228,10 @@ class GeodesicDistance(Distance):
     def _of_places_now(self, u: Pieces, v: Pieces, progress: Progress) -> FloatArray:
         labels = self.surface.component_of_vertex
         found = np.full(len(u), np.nan)
-        done = 0
-        for component, mine in self._by_component(u.corners[:, 0]):
-            step = part(progress, done / len(u), (done + len(mine)) / len(u))
-            done += len(mine)
+        for component, mine, step in self._by_component(u.corners[:, 0], progress):
             mine = mine[labels[v.corners[mine, 0]] == component.index]
             if len(mine):
-                self.prepare(component, step)
+                step = self._prepared(component, step)
                 one, other = u.some(mine), v.some(mine)
                 if self.method == "exact":
                     found[mine] = self._exactly(component, one, other, step)

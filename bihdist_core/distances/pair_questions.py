@@ -74,8 +74,8 @@ class PairQuestions(SourceQuestions):
             return found
         ids = self.surface.check_vertices(vertices)
         distances = np.full((len(ids), len(ids)), np.nan)
-        for component, mine in self._by_component(ids):
-            block = self._pairwise(component, component.local(ids[mine]), progress)
+        for component, mine, step in self._by_component(ids, progress):
+            block = self._pairwise(component, component.local(ids[mine]), step)
             distances[np.ix_(mine, mine)] = (block + block.T) / 2
         distances[ids[:, None] == ids] = 0
         return distances
@@ -102,12 +102,12 @@ class PairQuestions(SourceQuestions):
         i, j = self.surface.check_vertices(table.ravel()).reshape(-1, 2).T
         distances = np.full(len(i), np.nan)
         label = self.surface.component_of_vertex
-        for component, mine in self._by_component(i):
+        for component, mine, step in self._by_component(i, progress):
             mine = mine[label[i[mine]] == label[j[mine]]]
             if len(mine):
-                self.prepare(component, progress)
+                step = self._prepared(component, step)
                 ends = component.local(i[mine]), component.local(j[mine])
-                distances[mine] = self._of_pairs(component, *ends, digits, progress)
+                distances[mine] = self._of_pairs(component, *ends, digits, step)
         distances[i == j] = 0
         return distances
 
@@ -157,7 +157,7 @@ class PairQuestions(SourceQuestions):
 
     def _pairwise(self, component: Component, index: IntArray, progress: Progress | None = None) -> FloatArray:
         """(k, k) distances among local vertices `index` (k,)."""
-        self.prepare(component, progress)
+        progress = self._prepared(component, progress)
         found, step = np.empty((len(index), len(index))), block_size(len(component.vertices))
         for start in range(0, len(index), step):
             some = index[start : start + step]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -65,7 +65,7 @@ class SourceQuestions(ABC):
     def _from_vertex(self, vertex: int, progress: Progress | None) -> FloatArray:
         component = self.laplacian.component_of(vertex)
         self._asked.add(component.index)
-        self.prepare(component, progress)
+        progress = self._prepared(component, progress)
         field = self._columns(component, component.local(np.array([vertex])), progress)[:, 0]
         if len(field) < len(self.surface.vertices):
             inside, field = field, np.full(len(self.surface.vertices), np.nan)
@@ -80,10 +80,10 @@ class SourceQuestions(ABC):
     def from_pieces(self, pieces: Pieces, progress: Progress | None = None) -> FloatArray:
         """(n,) distances of every vertex from the nearest of some pieces of this surface."""
         field = np.full(len(self.surface.vertices), np.nan)
-        for component, mine in self._by_component(pieces.corners[:, 0]):
-            self.prepare(component, progress)
+        for component, mine, step in self._by_component(pieces.corners[:, 0], progress):
+            step = self._prepared(component, step)
             some = pieces.some(mine)
-            field[component.vertices] = self._from_pieces(component, some, progress)
+            field[component.vertices] = self._from_pieces(component, some, step)
         for weights in (pieces.start, pieces.stop):
             field[pieces.corners[weights == 1]] = 0
         return field
@@ -105,10 +105,11 @@ class SourceQuestions(ABC):
             return least
         groups, size = blocks(pieces, SOURCES), 0.0
         for number, group in enumerate(groups):
-            (progress or silent)(number / len(groups), self.label)
+            step = part(progress, number / len(groups), (number + 1) / len(groups))
+            step(0.0, self.label)
             some = pieces.some(group)
             index, local = np.unique(component.local(some.touched), return_inverse=True)
-            squares = self._columns(component, index, None) ** 2
+            squares = self._columns(component, index, step) ** 2
             size = max(size, float(squares.max()))
             among = self._pairwise(component, index) ** 2
             each = squares_from(squares, (among + among.T) / 2, index, local.reshape(-1, 3), some)
@@ -161,19 +162,37 @@ class SourceQuestions(ABC):
         Fields are (m, c), for the m vertices of the component only.
         """
         ids = self.surface.check_vertices(sources)
-        for component, mine in self._by_component(ids):
-            self.prepare(component, progress)
+        for component, mine, step in self._by_component(ids, progress):
+            step = self._prepared(component, step)
             index = component.local(ids[mine])
-            columns = self._columns(component, index, progress)
+            columns = self._columns(component, index, step)
             columns[index, np.arange(len(index))] = 0
             yield component, mine, columns
 
-    def _by_component(self, ids: IntArray) -> Iterable[tuple[Component, IntArray]]:
-        """Each component with the positions of its vertices among ids (k,)."""
-        label = self.surface.component_of_vertex[ids]
+    def _prepared(self, component: Component, progress: Progress | None) -> Progress:
+        """Prepare a component; the progress of what follows, which is all of it where nothing was left to do."""
+        begun = 0.0
+
+        def first_half(fraction: float, text: str) -> None:
+            nonlocal begun
+            begun = 0.5
+            report(fraction / 2, text)
+
+        report = part(progress, 0, 1)
+        self.prepare(component, silent if report is silent else first_half)
+        return part(report, begun, 1)
+
+    def _by_component(
+        self, ids: IntArray, progress: Progress | None = None
+    ) -> Iterator[tuple[Component, IntArray, Progress]]:
+        """Each component with the positions of its vertices among ids (k,), and the progress of its share of them."""
+        label, done = self.surface.component_of_vertex[ids], 0
         for index in np.unique(label):
             self._asked.add(int(index))
-            yield self.laplacian.components[index], np.flatnonzero(label == index)
+            mine = np.flatnonzero(label == index)
+            step = part(progress, done / len(ids), (done + len(mine)) / len(ids))
+            yield self.laplacian.components[index], mine, step
+            done += len(mine)
 
 
 def block_size(n: int) -> int:

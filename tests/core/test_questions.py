@@ -87,6 +87,18 @@ def test_questions_report_progress_and_can_be_cancelled(make, ask, monkeypatch):
 
 
 @pytest.mark.parametrize("make", {**QUADRATIC, **GEODESIC}.values(), ids={**QUADRATIC, **GEODESIC})
+@pytest.mark.parametrize("ask", ["from_sources", "pairwise", "of_pairs"])
+def test_progress_grows_from_component_to_component_also_where_one_is_asked_first(make, ask):
+    distance, said = make(two_pieces()), []
+    asked = [0, 3, 61, 62]
+    getattr(distance, ask)(
+        np.column_stack([asked, asked[::-1]]) if ask == "of_pairs" else asked, lambda f, _: said.append(f)
+    )
+    assert said == sorted(said)
+    assert said[-1] <= 1
+
+
+@pytest.mark.parametrize("make", {**QUADRATIC, **GEODESIC}.values(), ids={**QUADRATIC, **GEODESIC})
 def test_between_takes_arrays_reports_and_can_be_cancelled(make):
     distance, said = make(bumpy(300)), []
     u, v = np.arange(40), np.arange(40)[::-1] + 100
