@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import numpy.typing as npt
 
@@ -9,7 +11,7 @@ from .arrays import AnyArray, FloatArray
 from .errors import ParameterError
 
 
-def array_of(values: npt.ArrayLike, what: str) -> AnyArray:
+def array_of(values: npt.ArrayLike | Sequence[object], what: str) -> AnyArray:
     """Values as an array; ParameterError, which begins with what they are, for rows of different lengths."""
     try:
         return np.asarray(values)

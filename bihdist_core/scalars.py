@@ -21,7 +21,7 @@ def real_number(value: Any, what: str) -> float:
     # Of NumPy's scalars and arrays without axes.
     kind = getattr(getattr(value, "dtype", None), "kind", "f")
     try:
-        if isinstance(value, str | bytes | bool) or kind not in "iuf" or getattr(value, "ndim", 0):
+        if isinstance(value, str | bytes | bool) or kind not in "iuf" or getattr(value, "ndim", 0) > 0:
             raise TypeError
         return float(value)
     except (TypeError, ValueError, OverflowError):

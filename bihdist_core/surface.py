@@ -111,7 +111,7 @@ class Surface:
             raise VertexError(f"{self.name}: vertex {vertex} belongs to no face, so no distance is defined from it.")
         return vertex
 
-    def check_vertices(self, vertices: npt.ArrayLike) -> IntArray:
+    def check_vertices(self, vertices: npt.ArrayLike | Sequence[object]) -> IntArray:
         """(k,) int64 ids, each checked as by `check_vertex`."""
         try:
             ids = np.atleast_1d(np.asarray(vertices))

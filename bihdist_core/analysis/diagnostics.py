@@ -26,10 +26,12 @@ def isotropy_ratio(surface: MeshLike, field: npt.ArrayLike, geodesic: npt.ArrayL
     a radius of at least three or four.  Infinite if the field is 0 on the circle.  Raises ParameterError if no vertex
     is as far as that.
     """
+    surface = Surface.of(surface)
+    f = surface.check_field(field)
     circle = isolines(surface, geodesic, real_number(radius, "A radius"))
     if not circle:
         raise ParameterError(f"There is no geodesic circle of radius {radius:g} around the source.")
-    values = np.concatenate([line.along(field) for line in circle])
+    values = np.concatenate([line.along(f) for line in circle])
     return float(values.max() / values.min()) if values.min() > 0 else float("inf")
 
 

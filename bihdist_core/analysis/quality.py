@@ -64,7 +64,7 @@ def geodesic_circles(
     for a bad source, ParameterError for bad radii or fields.
     """
     surface = Surface.of(surface)
-    usual = surface.mean_edge_length * np.array(CIRCLES)
+    f, usual = surface.check_field(field), surface.mean_edge_length * np.array(CIRCLES)
     r = usual if radii is None else np.atleast_1d(real_numbers(radii, "Radii of circles"))
     if r.ndim != 1 or not (np.isfinite(r) & (r > 0)).all():
         raise ParameterError(f"Radii of circles are positive numbers, not {radii!r}.")
@@ -80,7 +80,7 @@ def geodesic_circles(
             order = np.arange(len(line.points) + line.closed) % len(line.points)
             across, along = axes @ (line.points[order] - centre).T
             angles.append(_around(np.arctan2(along, across), line.points[order], line.closed))
-            values.append(line.along(field)[order])
+            values.append(line.along(f)[order])
         if values:
             every = np.concatenate(values)
             least, greatest = float(every.min()), float(every.max())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TypeAlias, overload
+from typing import Any, TypeAlias, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -37,9 +37,7 @@ class PairQuestions(SourceQuestions):
     @overload
     def between(self, u: Ends, v: Ends, progress: Progress | None = None) -> FloatArray: ...
 
-    def between(
-        self, u: Source | str | Ends, v: Source | str | Ends, progress: Progress | None = None
-    ) -> float | FloatArray:
+    def between(self, u: Any, v: Any, progress: Progress | None = None) -> float | FloatArray:
         """The distance of two vertices, or places in faces; NaN between components.
 
         One of them may be any source if the other is a vertex.  Of arrays or lists, as long as each other (k,), the
@@ -154,16 +152,6 @@ class PairQuestions(SourceQuestions):
             mine = order[slice(*np.searchsorted(place, [start, start + step], sorter=order))]
             distances[mine] = columns[targets[mine], place[mine] - start]
         return distances
-
-    def _pairwise(self, component: Component, index: IntArray, progress: Progress | None = None) -> FloatArray:
-        """(k, k) distances among local vertices `index` (k,)."""
-        progress = self._prepared(component, progress)
-        found, step = np.empty((len(index), len(index))), block_size(len(component.vertices))
-        for start in range(0, len(index), step):
-            some = index[start : start + step]
-            report = part(progress, start / len(index), (start + len(some)) / len(index))
-            found[:, start : start + step] = self._columns(component, some, report)[index]
-        return found
 
 
 def by_source(i: IntArray, j: IntArray) -> tuple[IntArray, IntArray]:

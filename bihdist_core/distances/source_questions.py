@@ -56,6 +56,7 @@ class SourceQuestions(ABC):
         Raises VertexError or ParameterError for a source that is not on this surface, and ParameterError for one that
         this distance cannot start from.
         """
+        (progress or silent)(0.0, self.label)
         if isinstance(source, str):
             source = checked_source(source)
         if not isinstance(source, ELSEWHERE):
@@ -168,6 +169,16 @@ class SourceQuestions(ABC):
             columns = self._columns(component, index, step)
             columns[index, np.arange(len(index))] = 0
             yield component, mine, columns
+
+    def _pairwise(self, component: Component, index: IntArray, progress: Progress | None = None) -> FloatArray:
+        """(k, k) distances among local vertices `index` (k,)."""
+        progress = self._prepared(component, progress)
+        found, step = np.empty((len(index), len(index))), block_size(len(component.vertices))
+        for start in range(0, len(index), step):
+            some = index[start : start + step]
+            report = part(progress, start / len(index), (start + len(some)) / len(index))
+            found[:, start : start + step] = self._columns(component, some, report)[index]
+        return found
 
     def _prepared(self, component: Component, progress: Progress | None) -> Progress:
         """Prepare a component; the progress of what follows, which is all of it where nothing was left to do."""

@@ -10,7 +10,6 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import MeshError, ParameterError
-from ..mesh_like import MeshLike, Rows
 from ..surface import Surface
 from .mesh_io import read_surface
 from .polygons import Polygons, triangulated
@@ -24,7 +23,7 @@ KNOWN = (
 )
 
 
-def surface_of(mesh: MeshLike | Rows, faces: npt.ArrayLike | None = None, name: str | None = None) -> Surface:
+def surface_of(mesh: Any, faces: Any = None, name: str | None = None) -> Surface:
     """The surface of a mesh of any kind that `Surface.of` lists; raises as that does."""
     if faces is not None:
         return Surface(mesh, faces, name or "surface")

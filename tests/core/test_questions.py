@@ -90,10 +90,8 @@ def test_questions_report_progress_and_can_be_cancelled(make, ask, monkeypatch):
 @pytest.mark.parametrize("ask", ["from_sources", "pairwise", "of_pairs"])
 def test_progress_grows_from_component_to_component_also_where_one_is_asked_first(make, ask):
     distance, said = make(two_pieces()), []
-    asked = [0, 3, 61, 62]
-    getattr(distance, ask)(
-        np.column_stack([asked, asked[::-1]]) if ask == "of_pairs" else asked, lambda f, _: said.append(f)
-    )
+    asked = [(0, 3), (61, 62), (3, 61)] if ask == "of_pairs" else [0, 3, 61, 62]
+    getattr(distance, ask)(asked, lambda fraction, text: said.append(fraction))
     assert said == sorted(said)
     assert said[-1] <= 1
 
