@@ -100,7 +100,7 @@ class Correspondence:
 
     def best(self, x: int) -> tuple[int, float]:
         """The vertex of N that fits x best, and its misfit; (-1, NaN) where none can be compared."""
-        misfit = self.misfit(x)
+        misfit = self.misfit(self.distance_m.surface.check_vertex(x))
         if np.isnan(misfit).all():
             return NOWHERE, float("nan")
         y = int(np.nanargmin(misfit))

@@ -74,6 +74,7 @@ class GeodesicDistance(Distance):
     ) -> None:
         if method not in METHODS:
             raise ParameterError(f"There is no geodesic method {method!r}; choose one of {', '.join(METHODS)}.")
+        check_radius(radius)
         super().__init__(laplacian)
         self._solvers: Memo[int, ExactGeodesic | HeatTimes | EdgeGeodesic] = Memo()
         self._takes_long: bool | None = None
@@ -81,7 +82,6 @@ class GeodesicDistance(Distance):
         if method == "auto":
             is_short = radius < np.inf and kernel.library() is not None
             method = "exact" if is_short or self._is_exact_soon(part(progress, 0, 0.3)) else "heat"
-        check_radius(radius)
         if radius < np.inf and method != "exact":
             raise ParameterError(f"Only the exact method has a radius, not {method}.")
         self.method = method

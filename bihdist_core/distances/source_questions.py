@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -134,18 +135,18 @@ class SourceQuestions(ABC):
         VertexError or ParameterError for a source as `from_source` does, ParameterError for another shape or type.
         """
         (progress or silent)(0.0, self.label)
-        n = len(self.surface.vertices)
+        n, kind = len(self.surface.vertices), _checked_type(out, dtype)
         if isinstance(sources, Sequence) and any(isinstance(each, str | ELSEWHERE) for each in sources):
-            fields = _room(out, (n, len(sources)), dtype)
+            fields = _room(out, (n, len(sources)), kind)
             for k, each in enumerate(sources):
                 fields[:, k] = self.from_source(each, part(progress, k / len(sources), (k + 1) / len(sources)))
             return fields
         ids = self.surface.check_vertices(sources)
         is_whole = self.surface.largest_component_size == n
-        if is_whole and out is None and np.dtype(dtype) == np.float64 and len(ids):
+        if is_whole and out is None and kind == np.float64 and len(ids):
             [(_, _, fields)] = self.columns_by_component(ids, progress)
             return fields
-        fields, step = _room(out, (n, len(ids)), dtype), block_size(n)
+        fields, step = _room(out, (n, len(ids)), kind), block_size(n)
         for start in range(0, len(ids), step):
             some = ids[start : start + step]
             if not is_whole:
@@ -211,8 +212,15 @@ def block_size(n: int) -> int:
     return max(SOURCES, BLOCK // n)
 
 
-def _room(out: AnyArray | None, shape: tuple[int, int], dtype: npt.DTypeLike) -> AnyArray:
+def _room(out: AnyArray | None, shape: tuple[int, int], dtype: np.dtype[Any]) -> AnyArray:
     """An array for fields: the one given, if it fits, or a new one."""
+    if out is not None and out.shape != shape:
+        raise ParameterError(f"The fields have the shape {shape}, and `out` has {out.shape}.")
+    return np.empty(shape, dtype) if out is None else out
+
+
+def _checked_type(out: AnyArray | None, dtype: npt.DTypeLike) -> np.dtype[Any]:
+    """The type of fields; ParameterError for an array or a type that cannot hold distances."""
     if not (out is None or isinstance(out, np.ndarray)):
         raise ParameterError(f"Fields are written into an array, not into {type(out).__name__}.")
     try:
@@ -221,6 +229,4 @@ def _room(out: AnyArray | None, shape: tuple[int, int], dtype: npt.DTypeLike) ->
         raise ParameterError(f"Distances are float32 or float64, not {dtype!r}.") from None
     if kind not in (np.float32, np.float64):
         raise ParameterError(f"Distances are float32 or float64, not {kind}.")
-    if out is not None and out.shape != shape:
-        raise ParameterError(f"The fields have the shape {shape}, and `out` has {out.shape}.")
-    return np.empty(shape, kind) if out is None else out
+    return kind
