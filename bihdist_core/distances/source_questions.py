@@ -25,6 +25,9 @@ SOURCES = 32
 BLOCK = 1 << 23
 """How many distances of fields are held at a time besides those that are wanted."""
 
+ROWS = 1 << 12
+"""How many vertices' values are written at a time."""
+
 ELSEWHERE = SurfacePoint | BoundaryLoop | Curve | SourceSet
 """Sources that are no vertex."""
 
@@ -152,8 +155,16 @@ class SourceQuestions(ABC):
             if not is_whole:
                 fields[:, start : start + step] = np.nan
             report = part(progress, start / len(ids), (start + len(some)) / len(ids))
+            done = 0
             for component, mine, columns in self.columns_by_component(some, report):
-                fields[np.ix_(component.vertices, start + mine)] = columns
+                done += len(mine)
+                into = slice(start, start + len(some)) if len(mine) == len(some) else start + mine
+                # Into new memory or a file, where it takes as long as to compute them.
+                for first in range(0, len(columns), ROWS):
+                    report(done / len(some), self.label)
+                    rows = component.vertices[first : first + ROWS]
+                    there = (rows, into) if isinstance(into, slice) else np.ix_(rows, into)
+                    fields[there] = columns[first : first + ROWS]
         return fields
 
     def columns_by_component(
