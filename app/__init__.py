@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 
     __version__: str
 
-__all__ = [*_library.__all__, "figure", "figure_again", "show"]  # type: ignore[attr-defined]
+# In two steps, which type checkers follow.
+__all__ = ["figure", "figure_again", "show"]
+__all__ += _library.__all__
 
 
 def __getattr__(name: str) -> object:

@@ -23,14 +23,15 @@ from .arrays import FloatArray, IntArray
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError, SolverError
 from .locked_cached_property import locked_cached_property
+from .mesh_like import MeshLike, Rows
 from .operators import AREAS, operators
 from .progress import Progress, part, turn
+from .scalars import whole_number
 from .solver.aside import aside
 from .solver.elimination_tree import EliminationTree
 from .solver.factor import Factor
 from .solver.spectrum import Spectrum, is_long, smallest_eigenpairs
-from .sources.source import whole_number
-from .surface import MeshLike, Surface
+from .surface import Surface
 
 Computed = tuple[EliminationTree | None, Factor | None, bool, Spectrum | None]
 """What a component has computed so far: its tree, its factor, whether that has diagonals, its eigenpairs."""
@@ -324,7 +325,7 @@ def eigenpairs(laplacian: Laplacian | MeshLike, count: int, progress: Progress |
     return Spectrum(values[first], vectors)
 
 
-def as_laplacian(laplacian: Laplacian | MeshLike, faces: npt.ArrayLike | None = None) -> Laplacian:
+def as_laplacian(laplacian: Laplacian | MeshLike | Rows, faces: npt.ArrayLike | None = None) -> Laplacian:
     """A mesh of any kind that `Surface.of` takes stands for its Laplacian with the default vertex areas."""
     return laplacian if isinstance(laplacian, Laplacian) else Laplacian(Surface.of(laplacian, faces))
 

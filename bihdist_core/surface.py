@@ -12,19 +12,18 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .arrays import AnyArray, BoolArray, FloatArray, IntArray
-from .errors import MeshError, VertexError
-from .kernel.library import DONE, library
+from .arrays import BoolArray, FloatArray, IntArray
+from .errors import ParameterError, VertexError
+from .kernel.library import library
+from .mesh_arrays import checked_faces, checked_vertices
+from .mesh_like import MeshLike, Rows
+from .number_arrays import real_numbers
 
 Coordinates = FloatArray | list[FloatArray]
 """(3, m): vectors, each coordinate for itself."""
 
 FLAT = 1e-7
 """A face whose height is less than this share of its longest side is flat (see `degenerate_faces`)."""
-
-
-MeshLike = Any
-"""What `Surface.of` takes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,21 +48,21 @@ class Surface:
     facts: Sequence[str] = field(default=())
 
     def __post_init__(self) -> None:
-        vertices = _checked_vertices(self.vertices, self.name)
-        faces, dropped = _checked_faces(self.faces, len(vertices), self.name)
+        vertices = checked_vertices(self.vertices, self.name)
+        faces, dropped = checked_faces(self.faces, len(vertices), self.name)
         vertices.flags.writeable = faces.flags.writeable = False
         for key, value in [("vertices", vertices), ("faces", faces), ("repairs", (*self.repairs, *dropped))]:
             object.__setattr__(self, key, value)
         object.__setattr__(self, "facts", tuple(self.facts))
 
     @classmethod
-    def of(cls, mesh: MeshLike, faces: npt.ArrayLike | None = None, *, name: str | None = None) -> Surface:
+    def of(cls, mesh: MeshLike | Rows, faces: npt.ArrayLike | None = None, *, name: str | None = None) -> Surface:
         """The surface of a mesh of any kind; a Surface is itself.
 
         mesh: a path, as of `read_surface`; vertices (n, 3), with the faces (m, 3) beside them or both as a pair; or an
         object of PyVista (PolyData), trimesh (Trimesh), meshio (Mesh), Open3D (TriangleMesh), nibabel (GiftiImage) or
         nilearn.  Polygons are divided into triangles, which `facts` says; vertex ids stay.  Wherever a surface is asked
-        for to make a distance, a Laplacian or a figure, these do, too.
+        for, these do, too.
 
         Raises MeshError as `read_surface` and `Surface` do and where an object has no faces, ParameterError for an
         object of another kind.
@@ -112,9 +111,28 @@ class Surface:
             raise VertexError(f"{self.name}: vertex {vertex} belongs to no face, so no distance is defined from it.")
         return vertex
 
-    def check_vertices(self, vertices: npt.ArrayLike) -> IntArray:
+    def check_vertices(self, vertices: npt.ArrayLike | Sequence[object]) -> IntArray:
         """(k,) int64 ids, each checked as by `check_vertex`."""
-        return np.array([self.check_vertex(v) for v in np.atleast_1d(np.asarray(vertices))], np.int64)
+        try:
+            ids = np.atleast_1d(np.asarray(vertices))
+        except ValueError:
+            raise VertexError(f"{self.name}: vertex ids are one row, and these differ in length.") from None
+        n = len(self.vertices)
+        # One by one it takes a second for a million.
+        if ids.ndim == 1 and ids.dtype.kind in "iu" and ((ids >= 0) & (ids < n)).all():
+            known = ids.astype(np.int64)
+            if (self.component_of_vertex[known] >= 0).all():
+                return known
+        return np.array([self.check_vertex(v) for v in ids], np.int64)
+
+    def check_field(self, field: npt.ArrayLike) -> FloatArray:
+        """(n,) float64 values at the vertices; ParameterError for another shape, and for what is no real number."""
+        values, n = real_numbers(field, "Values of a field"), len(self.vertices)
+        if values.shape != (n,):
+            raise ParameterError(
+                f"A field is a real number for each of {n:,} vertices, not an array of shape {values.shape}."
+            )
+        return values
 
     # ------------------------------------------------------------------ connectivity
     @cached_property
@@ -358,75 +376,3 @@ def connected(edges: IntArray, n: int) -> IntArray:
         i, j = i.take(apart), j.take(apart)
     # Not counted in booleans, which would hold up other Python threads.
     return (np.cumsum((root == np.arange(n)).astype(np.int64)) - 1).take(root)
-
-
-def _checked_vertices(vertices: npt.ArrayLike, name: str) -> FloatArray:
-    try:
-        x = np.array(vertices)
-        if x.dtype.kind not in "iufO":
-            raise TypeError(f"their type is {x.dtype}")
-        x = x.astype(np.float64, copy=False)
-    except (TypeError, ValueError) as error:
-        raise MeshError(f"{name}: the vertices are not an array of numbers ({error}).") from None
-    if x.ndim != 2 or x.shape[1] != 3:
-        raise MeshError(f"{name}: vertices must have shape (n, 3), not {x.shape}.")
-    is_finite = np.isfinite(x)
-    if not is_finite.all():
-        bad = np.flatnonzero(~is_finite.all(axis=1))
-        raise MeshError(f"{name}: vertex {bad[0]} has the coordinates {_row(x[bad[0]])}; all must be finite numbers.")
-    return x
-
-
-def _checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[IntArray, list[str]]:
-    """(m, 3) faces that can be used, and what was dropped, in words."""
-    try:
-        f = np.array(faces)
-        if f.dtype.kind not in "iufO":
-            raise TypeError(f"their type is {f.dtype}")
-        whole = np.ascontiguousarray(f, np.int64)
-    except (TypeError, ValueError) as error:
-        raise MeshError(f"{name}: the faces are not an array of vertex ids ({error}).") from None
-    if f.size == 0:
-        raise MeshError(f"{name} has no faces; a surface needs at least one triangle.")
-    if f.ndim != 2 or f.shape[1] != 3:
-        raise MeshError(f"{name}: faces must have shape (m, 3), not {f.shape}.")
-    if f.dtype.kind in "iu" and _are_proper(whole, n):
-        return whole, []
-    bad = np.flatnonzero(((whole < 0) | (whole >= n) | (whole != f)).any(axis=1))
-    if len(bad):
-        raise MeshError(f"{name}: face {bad[0]} has the vertices {_row(f[bad[0]])}; ids run from 0 to {n - 1}.")
-    a, b, c = whole.T
-    proper = np.flatnonzero((a != b) & (b != c) & (c != a))
-    unique = _without_repeats(whole, proper)
-    repairs = [
-        f"{count} {'face' if count == 1 else 'faces'} {what} dropped"
-        for count, what in [
-            (len(f) - len(proper), "with a repeated vertex"),
-            (len(proper) - len(unique), "that repeated another"),
-        ]
-        if count
-    ]
-    if not len(unique):
-        raise MeshError(f"{name}: every face names a vertex twice; a surface needs at least one triangle.")
-    return whole[unique], repairs
-
-
-def _are_proper(faces: IntArray, n: int) -> bool:
-    """Whether the kernel finds nothing wrong with the (m, 3) faces of n vertices."""
-    kernel, slots = library(), 2 << len(faces).bit_length()
-    return kernel is not None and kernel.bih_check_faces(n, len(faces), faces, slots, np.empty(slots, np.int32)) == DONE
-
-
-def _without_repeats(faces: IntArray, some: IntArray) -> IntArray:
-    """Of the faces with the numbers `some` (k,) the first of each three vertices."""
-    # Repeated faces are rare.  Random numbers for the vertices, added up, tell in no time that there are none.
-    random = np.random.default_rng(0).integers(1 << 62, size=int(faces.max()) + 1)
-    sums = random[faces[some]].sum(axis=1)
-    sums.sort()
-    if (sums[1:] != sums[:-1]).all():
-        return some
-    return np.sort(some[np.unique(np.sort(faces[some], axis=1), axis=0, return_index=True)[1]])
-
-
-def _row(values: AnyArray) -> str:
-    return "(" + ", ".join(f"{v:g}" for v in values) + ")"

@@ -11,7 +11,8 @@ from typing import Any, TypeVar
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.distances.kinds import Spec, kinds
 from bihdist_core.errors import ParameterError
-from bihdist_core.sources.source import Source, checked_source, whole_number
+from bihdist_core.scalars import whole_number
+from bihdist_core.sources.source import Source, checked_source
 
 from .beside import Beside
 from .camera import View, checked_view

@@ -21,8 +21,8 @@ import numpy.typing as npt
 
 from bihdist_core import ParameterError, Surface
 from bihdist_core.arrays import AnyArray, FloatArray
+from bihdist_core.mesh_like import MeshLike
 from bihdist_core.sources.source import Source
-from bihdist_core.surface import MeshLike
 
 from ..document.beside_edits import open_beside
 from ..document.document import Document, FieldArray, MeshFile, comparison

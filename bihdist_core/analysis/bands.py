@@ -9,6 +9,8 @@ import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
+from ..mesh_like import MeshLike
+from ..scalars import real_number
 from ..surface import Surface
 from .clipping import clipped
 
@@ -44,17 +46,15 @@ class Band:
         return np.where(t == 0, at[self.ends[:, 0]], (1 - t) * at[self.ends[:, 0]] + t * at[self.ends[:, 1]])
 
 
-def band(surface: Surface, field: npt.ArrayLike, low: float = -np.inf, high: float = np.inf) -> Band:
+def band(surface: MeshLike, field: npt.ArrayLike, low: float = -np.inf, high: float = np.inf) -> Band:
     """The part of a surface where a field (n,) is between two values, either of which may be infinite.
 
     Faces with a corner that is not finite are left out.  Raises ParameterError for a field that is not (n,) numbers,
     for values that are NaN or not in order, and where nothing lies between them.
     """
-    f = np.asarray(field)
-    if f.shape != (len(surface.vertices),) or f.dtype.kind not in "biuf":
-        raise ParameterError(f"A field is a real number for each of {len(surface.vertices):,} vertices, not {f.shape}.")
-    f = f.astype(np.float64)
-    if not low < high:
+    surface = Surface.of(surface)
+    f = surface.check_field(field)
+    if not real_number(low, "The lower value") < real_number(high, "The higher value"):
         raise ParameterError(f"A region lies between two values, the smaller first, not {low:g} and {high:g}.")
     finite = np.isfinite(f[surface.faces]).all(axis=1)
     inside = finite & ((f >= low) & (f <= high))[surface.faces].all(axis=1)

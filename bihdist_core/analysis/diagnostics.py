@@ -10,12 +10,15 @@ import numpy.typing as npt
 from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
+from ..mesh_like import MeshLike
+from ..number_arrays import real_numbers
 from ..progress import Progress, part, silent
+from ..scalars import real_number, whole_number
 from ..surface import Surface
 from .isoline_tracing import isolines
 
 
-def isotropy_ratio(surface: Surface, field: npt.ArrayLike, geodesic: npt.ArrayLike, radius: float) -> float:
+def isotropy_ratio(surface: MeshLike, field: npt.ArrayLike, geodesic: npt.ArrayLike, radius: float) -> float:
     """Greatest over least value of a distance field on the geodesic circle of a radius around its source; 1 is best.
 
     field, geodesic: (n,) distances from the same source, the latter geodesic (of which `radius` is a value).  Both are
@@ -23,10 +26,12 @@ def isotropy_ratio(surface: Surface, field: npt.ArrayLike, geodesic: npt.ArrayLi
     a radius of at least three or four.  Infinite if the field is 0 on the circle.  Raises ParameterError if no vertex
     is as far as that.
     """
-    circle = isolines(surface, geodesic, [radius])
+    surface = Surface.of(surface)
+    f = surface.check_field(field)
+    circle = isolines(surface, geodesic, real_number(radius, "A radius"))
     if not circle:
         raise ParameterError(f"There is no geodesic circle of radius {radius:g} around the source.")
-    values = np.concatenate([line.along(field) for line in circle])
+    values = np.concatenate([line.along(f) for line in circle])
     return float(values.max() / values.min()) if values.min() > 0 else float("inf")
 
 
@@ -53,17 +58,14 @@ class GradientJumps:
         return self.jumps / np.maximum(self.lengths, self.slope / 4)
 
 
-def gradient_jumps(surface: Surface, field: npt.ArrayLike) -> GradientJumps:
+def gradient_jumps(surface: MeshLike, field: npt.ArrayLike) -> GradientJumps:
     """How far the gradient jumps across each edge of two faces; NaN next to values that are not finite.
 
     A continuous field's gradient can only jump across an edge, by the sum of the two slopes away from the faces'
     insides.  Degenerate faces and edges of another number of faces are left out.
     """
-    f, faces, x = np.asarray(field, np.float64), surface.faces, surface.vertices
-    if f.shape != (len(x),):
-        raise ParameterError(
-            f"A field is a real number for each of {len(x):,} vertices, not an array of shape {f.shape}."
-        )
+    surface = Surface.of(surface)
+    f, faces, x = surface.check_field(field), surface.faces, surface.vertices
     proper = np.ones(len(faces), bool)
     proper[surface.degenerate_faces] = False
     faces, area = faces[proper], surface.face_areas[proper]
@@ -112,7 +114,7 @@ def field_change(before: npt.ArrayLike, after: npt.ArrayLike) -> FieldChange:
 
     Raises ParameterError for fields of different shape, without common points, or whose maximum is not positive.
     """
-    d, e = np.asarray(before, np.float64), np.asarray(after, np.float64)
+    d, e = (real_numbers(each, "Values of a field") for each in (before, after))
     if d.shape != e.shape:
         raise ParameterError(f"Fields of shape {d.shape} and {e.shape} cannot be compared.")
     both = np.isfinite(d) & np.isfinite(e)
@@ -144,10 +146,10 @@ def triangle_violations(distances: npt.ArrayLike, count: int = 1_000_000, seed: 
 
     Raises ParameterError for fewer than three points, an array that is not square, or a count below 1.
     """
-    d = np.asarray(distances, np.float64)
+    d = real_numbers(distances, "Distances")
     if d.ndim != 2 or d.shape[0] != d.shape[1] or len(d) < 3:
         raise ParameterError(f"Distances among at least 3 points are a square array, not one of shape {d.shape}.")
-    if count < 1:
+    if whole_number(count, "count") < 1:
         raise ParameterError(f"count is {count}; at least one triple is needed.")
     rng = np.random.default_rng(seed)
     k = len(d)

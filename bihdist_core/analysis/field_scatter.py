@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
+from ..mesh_like import MeshLike
 from ..surface import Surface
 
 
@@ -82,20 +83,17 @@ class FieldScatter:
         return order, self.y[order]
 
 
-def field_scatter(surface: Surface, a: npt.ArrayLike, b: npt.ArrayLike, shares: bool = False) -> FieldScatter:
+def field_scatter(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, shares: bool = False) -> FieldScatter:
     """The second of two fields (n,) against the first; shares: each divided by its largest size.
 
     Raises ParameterError for fields of other shapes, no common vertices, and shares of a field that is 0.
     """
-    n = len(surface.vertices)
-    f, g = np.asarray(a), np.asarray(b)
-    for field in (f, g):
-        if field.shape != (n,) or field.dtype.kind not in "biuf":
-            raise ParameterError(f"A field is a real number for each of {n:,} vertices, not {field.shape}.")
+    surface = Surface.of(surface)
+    f, g = surface.check_field(a), surface.check_field(b)
     ids = np.flatnonzero(np.isfinite(f) & np.isfinite(g) & (surface.component_of_vertex >= 0))
     if not len(ids):
         raise ParameterError("To compare two fields, both need finite values at common vertices.")
-    x, y = (field[ids].astype(np.float64) for field in (f, g))
+    x, y = f[ids], g[ids]
     if shares:
         sizes = np.abs(x).max(), np.abs(y).max()
         if not min(sizes) > 0:

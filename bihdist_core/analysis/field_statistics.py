@@ -10,6 +10,8 @@ import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
+from ..mesh_like import MeshLike
+from ..number_arrays import real_numbers
 from ..surface import Surface
 from .field_scatter import field_scatter
 from .linear_field import LinearField
@@ -52,7 +54,7 @@ def corner_areas(surface: Surface) -> FloatArray:
 
 
 def field_statistics(
-    surface: Surface,
+    surface: MeshLike,
     field: npt.ArrayLike,
     bins: int | npt.ArrayLike = 50,
     shares: Sequence[float] = (0.05, 0.25, 0.5, 0.75, 0.95),
@@ -63,8 +65,9 @@ def field_statistics(
     which the field is an end count above it, those on the last end below it.  shares: (q,) from 0 to 1.
     Raises ParameterError for a field of another shape or that is finite on no face, and bad bins or shares.
     """
+    surface = Surface.of(surface)
     f, ids, faces = _chosen(surface, field)
-    share = np.asarray(shares, np.float64)
+    share = real_numbers(shares, "Fractions of the area")
     if share.ndim != 1 or not ((share >= 0) & (share <= 1)).all():
         raise ParameterError(f"Fractions of the area are numbers from 0 to 1, not {shares!r}.")
     mean = faces.mean()
@@ -105,11 +108,12 @@ class Agreement:
     largest_at: int
 
 
-def field_agreement(surface: Surface, a: npt.ArrayLike, b: npt.ArrayLike, shares: bool = False) -> Agreement:
+def field_agreement(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, shares: bool = False) -> Agreement:
     """The agreement of two fields (n,); shares: each divided by its largest size first, for fields of different unit.
 
     Raises ParameterError for fields of other shapes, no common vertices, and shares of a field that is 0.
     """
+    surface = Surface.of(surface)
     both = field_scatter(surface, a, b, shares)
     f, g, ids = both.x, both.y, both.ids
     weights = corner_areas(surface)[ids]
@@ -136,8 +140,8 @@ def rank_correlation(a: npt.ArrayLike, b: npt.ArrayLike, weights: npt.ArrayLike 
     Equal values have the mean of their ranks.  A weight is as so many points in one place.
     Raises ParameterError for arrays of different shape, values that are not finite, or bad weights.
     """
-    f, g = np.asarray(a, np.float64), np.asarray(b, np.float64)
-    w = np.ones(f.shape) if weights is None else np.asarray(weights, np.float64)
+    f, g = (real_numbers(each, "Ranked values") for each in (a, b))
+    w = np.ones(f.shape) if weights is None else real_numbers(weights, "Weights")
     if f.ndim != 1 or f.shape != g.shape or f.shape != w.shape or not len(f):
         raise ParameterError(f"Ranks of shape {f.shape} and {g.shape}, weights {w.shape}, cannot be correlated.")
     if not (np.isfinite(f).all() and np.isfinite(g).all() and np.isfinite(w).all() and (w >= 0).all() and w.sum() > 0):
@@ -176,15 +180,12 @@ def _ranks(of: Order, w: FloatArray) -> FloatArray:
 
 def _chosen(surface: Surface, field: npt.ArrayLike) -> tuple[FloatArray, IntArray, LinearField]:
     """Values and ids of the vertices that have a value, and the faces that have one everywhere."""
-    f = np.asarray(field)
-    n = len(surface.vertices)
-    if f.shape != (n,) or f.dtype.kind not in "biuf":
-        raise ParameterError(f"A field is a real number for each of {n:,} vertices, not {f.shape}.")
+    f = surface.check_field(field)
     faces = LinearField.on(surface, f)
     if not faces.area > 0:
         raise ParameterError(f"The field has no finite value on {surface.name}: on no face is it finite.")
     ids = np.flatnonzero(np.isfinite(f) & (surface.component_of_vertex >= 0))
-    return f[ids].astype(np.float64), ids, faces
+    return f[ids], ids, faces
 
 
 def _edges(bins: int | npt.ArrayLike, least: float, greatest: float) -> FloatArray:
@@ -197,7 +198,7 @@ def _edges(bins: int | npt.ArrayLike, least: float, greatest: float) -> FloatArr
             half = max(0.5, 4 * bins * finest)
             least, greatest = least - half, greatest + half
         return np.linspace(least, greatest, int(bins) + 1)
-    edges = np.asarray(bins, np.float64)
+    edges = real_numbers(bins, "The ends of bins")
     if edges.ndim != 1 or len(edges) < 2 or not (np.diff(edges) > 0).all() or not np.isfinite(edges).all():
         raise ParameterError(f"The ends of bins are at least two finite numbers, ascending, not {bins!r}.")
     return edges

@@ -1,6 +1,8 @@
 """Geodesic paths between places on a surface: the shortest, exact, or the shortest along edges, which is 4 to 13 % too
 long in the mean on the samples."""
 
+from __future__ import annotations
+
 import threading
 from collections.abc import Sequence
 from itertools import pairwise
@@ -12,6 +14,7 @@ from ..distances.edge_geodesic import EdgeGeodesic
 from ..distances.exact_geodesic import ExactGeodesic
 from ..errors import ParameterError
 from ..kernel import library as kernel
+from ..mesh_like import MeshLike
 from ..progress import Progress, part
 from ..sources.pieces import Pieces
 from ..sources.source import SurfacePoint
@@ -28,8 +31,8 @@ NEAR = 1e-9
 class GeodesicPaths:
     """Paths on one surface of any kind; what they need is made when first needed.  Usable from several threads."""
 
-    def __init__(self, surface: Surface) -> None:
-        self.surface = surface
+    def __init__(self, surface: MeshLike) -> None:
+        self.surface = Surface.of(surface)
         self._lock = threading.Lock()
         self._exact: ExactGeodesic | None = None
 

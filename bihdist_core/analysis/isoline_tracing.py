@@ -9,6 +9,8 @@ import numpy.typing as npt
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..errors import ParameterError
+from ..mesh_like import MeshLike
+from ..number_arrays import real_numbers
 from ..surface import Surface
 from .chains import chains
 
@@ -42,7 +44,7 @@ class Isoline:
         return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
 
 
-def isolines(surface: Surface, field: npt.ArrayLike, values: npt.ArrayLike) -> list[Isoline]:
+def isolines(surface: MeshLike, field: npt.ArrayLike, values: npt.ArrayLike) -> list[Isoline]:
     """The curves where a field, linear on each face, has the given values; in the order of `values`.
 
     field: (n,) real numbers.  Faces with a corner that is not finite are left out, and curves end there, as at
@@ -52,11 +54,9 @@ def isolines(surface: Surface, field: npt.ArrayLike, values: npt.ArrayLike) -> l
 
     Raises ParameterError for a field that is not (n,) numbers, or values that are not finite.
     """
-    f = np.asarray(field)
-    if f.shape != (len(surface.vertices),) or f.dtype.kind not in "biuf":
-        raise ParameterError(f"A field is a real number for each of {len(surface.vertices):,} vertices, not {f.shape}.")
-    f = f.astype(np.float64)
-    levels = np.array(values, np.float64, ndmin=1)
+    surface = Surface.of(surface)
+    f = surface.check_field(field)
+    levels = np.atleast_1d(real_numbers(values, "The values of isolines"))
     if levels.ndim != 1 or not np.isfinite(levels).all():
         raise ParameterError("The values of isolines are finite numbers.")
     faces = surface.faces[np.isfinite(f[surface.faces]).all(axis=1)]

@@ -13,7 +13,8 @@ import numpy.typing as npt
 from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
-from ..progress import Progress, silent
+from ..progress import Progress, part, silent
+from ..scalars import real_number
 from .parcels import checked_mask
 
 MEMORY = 1e8
@@ -49,7 +50,7 @@ def nearest(
         raise ParameterError(f"k is {k!r}; at least one neighbour is needed, a whole number.")
     if k > n:
         raise ParameterError(f"{k:,} neighbours asked for; {surface.name} has {n:,} vertices.")
-    if not memory > 0:
+    if not real_number(memory, "The memory for a block") > 0:
         raise ParameterError(f"The memory for a block is {memory:g} bytes; it must be positive.")
     hidden = None if mask is None else ~checked_mask(surface, mask)
     if sources is None:
@@ -64,7 +65,7 @@ def nearest(
     for start in range(0, len(ids), step):
         (progress or silent)(start / len(ids), f"neighbours of {start:,} of {len(ids):,} vertices")
         some = ids[start : start + step]
-        fields = distance.from_sources(some)
+        fields = distance.from_sources(some, part(progress, start / len(ids), (start + len(some)) / len(ids)))
         fields[some, np.arange(len(some))] = np.nan
         if hidden is not None:
             fields[hidden] = np.nan

@@ -11,6 +11,7 @@ from scipy import sparse
 from ..arrays import AnyArray, BoolArray, FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
+from ..number_arrays import array_of
 from ..progress import Progress, part, silent
 from ..sources.pieces import points_on
 from ..surface import Surface
@@ -151,8 +152,10 @@ def parcel_sums(
     step = int(np.clip(memory / (longest * BYTES_PER_VALUE), 1, max(end - begin, 1)))
     for start in range(begin, end, step):
         some = slice(start, min(start + step, end))
-        (progress or silent)((start - begin) / (end - begin), f"{start - begin:,} of {end - begin:,} columns")
-        for component, mine, columns in distance.columns_by_component(vertices[some]):
+        done, todo = start - begin, end - begin
+        (progress or silent)(done / todo, f"{done:,} of {todo:,} columns")
+        report = part(progress, done / todo, (done + some.stop - start) / todo)
+        for component, mine, columns in distance.columns_by_component(vertices[some], report):
             here = of_vertex[vertices] == component.index
             theirs, own = vertices[here], vertices[some][mine]
             into = _sums_into(of_each[theirs], parcel[here], component.local(theirs), (p, len(columns)))
@@ -174,7 +177,7 @@ def labelled(surface: Surface, labels: npt.ArrayLike, mask: npt.ArrayLike | None
 
     ParameterError for labels or a mask of another shape or kind, and if there is none.
     """
-    numbers, n = np.asarray(labels), len(surface.vertices)
+    numbers, n = array_of(labels, "Labels"), len(surface.vertices)
     if numbers.shape != (n,) or numbers.dtype.kind not in "iuU":
         raise ParameterError(
             f"Labels are whole numbers or strings, one for each of the {n:,} vertices of {surface.name}; "
@@ -191,7 +194,7 @@ def labelled(surface: Surface, labels: npt.ArrayLike, mask: npt.ArrayLike | None
 
 def checked_mask(surface: Surface, mask: npt.ArrayLike) -> BoolArray:
     """(n,) which vertices count; ParameterError for anything but n times yes or no."""
-    flags, n = np.asarray(mask), len(surface.vertices)
+    flags, n = array_of(mask, "Values of a mask"), len(surface.vertices)
     what = f"A mask has 0 or 1 for each of the {n:,} vertices of {surface.name}"
     if flags.shape != (n,):
         raise ParameterError(f"{what}; this one has the shape {flags.shape}.")

@@ -15,6 +15,8 @@ import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
+from ..mesh_like import MeshLike
+from ..scalars import real_number
 from ..surface import Surface
 
 
@@ -34,7 +36,7 @@ class Extrema:
     raw_maxima: int
 
 
-def extrema(surface: Surface, field: npt.ArrayLike, share: float = 1e-3) -> Extrema:
+def extrema(surface: MeshLike, field: npt.ArrayLike, share: float = 1e-3) -> Extrema:
     """The local extrema of a field (n,) whose persistence is at least `share` of the field's range.
 
     Vertices whose value is not finite are left out.  Equal values are told apart by the smaller id; what that alone
@@ -43,11 +45,9 @@ def extrema(surface: Surface, field: npt.ArrayLike, share: float = 1e-3) -> Extr
 
     Raises ParameterError for a field of another shape, or a share outside 0 to 1.
     """
-    f = np.asarray(field, np.float64)
-    n = len(surface.vertices)
-    if f.shape != (n,):
-        raise ParameterError(f"A field is a real number for each of {n:,} vertices, not an array of shape {f.shape}.")
-    if not 0 <= share <= 1:
+    surface = Surface.of(surface)
+    f = surface.check_field(field)
+    if not 0 <= real_number(share, "The share") <= 1:
         raise ParameterError(f"The share is {share:g}; it must lie between 0 and 1.")
     used = np.isfinite(f) & (surface.component_of_vertex >= 0)
     edges = surface.edges[used[surface.edges].all(axis=1)]

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
+from ..mesh_like import MeshLike
 from ..sources.pieces import points_on
 from ..sources.source import SurfacePoint, checked_source
 from ..sources.splitting import Split, split_at
@@ -32,11 +33,12 @@ class Places:
     weights: FloatArray
 
     @classmethod
-    def of(cls, surface: Surface, places: Sequence[int | SurfacePoint | str]) -> Places:
+    def of(cls, surface: MeshLike, places: Sequence[int | SurfacePoint | str]) -> Places:
         """Vertices and places in faces, or their words, checked.
 
         Raises VertexError for a bad vertex; ParameterError for other sources, and for a face that does not exist.
         """
+        surface = Surface.of(surface)
         if not len(places):
             raise ParameterError("No places were given; at least one is needed.")
         found = points_on(surface, places)
@@ -46,9 +48,9 @@ class Places:
     def __len__(self) -> int:
         return len(self.faces)
 
-    def split(self, surface: Surface) -> Split:
+    def split(self, surface: MeshLike) -> Split:
         """The surface divided so that each of the places is a vertex."""
-        return split_at(surface, self.faces, self.weights, APART)
+        return split_at(Surface.of(surface), self.faces, self.weights, APART)
 
     def values(self, field: npt.ArrayLike) -> FloatArray:
         """(k,) or (k, d): values (n,) or (n, d) at the vertices, interpolated linearly."""

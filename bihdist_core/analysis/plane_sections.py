@@ -11,6 +11,8 @@ import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
+from ..mesh_like import MeshLike
+from ..number_arrays import real_numbers
 from ..sources.source import SurfacePoint
 from ..sources.splitting import Split
 from ..surface import Surface
@@ -27,7 +29,7 @@ PARTS = {
 
 
 def plane_section(
-    surface: Surface, places: Sequence[int | SurfacePoint | str], direction: npt.ArrayLike, part: str = "shorter"
+    surface: MeshLike, places: Sequence[int | SurfacePoint | str], direction: npt.ArrayLike, part: str = "shorter"
 ) -> SurfacePath:
     """A path through two or more places in order, along plane sections of the surface.
 
@@ -39,7 +41,8 @@ def plane_section(
     components, more than two for the whole, for a direction that is not three finite numbers or is that from one place
     to the next, and where the section does not join them, or in one way only; VertexError for a bad vertex.
     """
-    d = np.asarray(direction, np.float64)
+    surface = Surface.of(surface)
+    d = real_numbers(direction, "The three numbers of a direction")
     if d.shape != (3,) or not np.isfinite(d).all():
         raise ParameterError(f"A direction is three finite numbers, not {direction!r}.")
     if part not in PARTS:

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from ..errors import ParameterError
 from ..formats.field_output import write_array
 from ..formats.vtp_output import write_poly_data
+from ..number_arrays import real_numbers
 from ..whole_file import check_output, whole_file
 from .surface_paths import SurfacePath
 
@@ -32,7 +33,10 @@ def write_profile(
     before then stays.
     """
     extension = check_output(path, PROFILE_FORMATS)
-    values = {name: along.along(field) for name, field in (fields or {}).items()}
+    values = {
+        name: along.along(real_numbers(field, f"Values of the field {name!r}"))
+        for name, field in (fields or {}).items()
+    }
     for name, column in values.items():
         if column.ndim != 1:
             raise ParameterError(f"The field {name!r} has {column.shape[1:]} numbers at a vertex; a profile needs one.")

@@ -12,7 +12,10 @@ import numpy.typing as npt
 from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
+from ..mesh_like import MeshLike
+from ..number_arrays import real_numbers
 from ..progress import Progress, part
+from ..scalars import whole_number
 from ..sources.pieces import pieces_of
 from ..sources.source import Source
 from ..surface import Surface
@@ -52,7 +55,7 @@ class Circle:
 
 
 def geodesic_circles(
-    surface: Surface, field: npt.ArrayLike, geodesic: npt.ArrayLike, source: Source, radii: npt.ArrayLike | None = None
+    surface: MeshLike, field: npt.ArrayLike, geodesic: npt.ArrayLike, source: Source, radii: npt.ArrayLike | None = None
 ) -> list[Circle]:
     """A field (n,) along geodesic circles around its source; geodesic: (n,) geodesic distances from it.
 
@@ -60,7 +63,9 @@ def geodesic_circles(
     order; by default `CIRCLES`.  Those that no vertex is as far as are left out.  Raises VertexError or ParameterError
     for a bad source, ParameterError for bad radii or fields.
     """
-    r = surface.mean_edge_length * np.array(CIRCLES) if radii is None else np.array(radii, np.float64, ndmin=1)
+    surface = Surface.of(surface)
+    f, usual = surface.check_field(field), surface.mean_edge_length * np.array(CIRCLES)
+    r = usual if radii is None else np.atleast_1d(real_numbers(radii, "Radii of circles"))
     if r.ndim != 1 or not (np.isfinite(r) & (r > 0)).all():
         raise ParameterError(f"Radii of circles are positive numbers, not {radii!r}.")
     around = _tangent_plane(surface, source)
@@ -75,7 +80,7 @@ def geodesic_circles(
             order = np.arange(len(line.points) + line.closed) % len(line.points)
             across, along = axes @ (line.points[order] - centre).T
             angles.append(_around(np.arctan2(along, across), line.points[order], line.closed))
-            values.append(line.along(field)[order])
+            values.append(line.along(f)[order])
         if values:
             every = np.concatenate(values)
             least, greatest = float(every.min()), float(every.max())
@@ -185,13 +190,14 @@ class OtherExtrema:
         return np.concatenate([self.minima, self.maxima])
 
 
-def other_extrema(surface: Surface, field: npt.ArrayLike, source: Source | None, share: float = 1e-3) -> OtherExtrema:
+def other_extrema(surface: MeshLike, field: npt.ArrayLike, source: Source | None, share: float = 1e-3) -> OtherExtrema:
     """The extrema of a field (n,) away from its source that persist over at least `share` of its range.
 
     source: None for a field that starts nowhere, all extrema of which count.  Raises VertexError or ParameterError for
     a bad source, ParameterError for a field of another shape or with nothing but one value.
     """
-    f = np.asarray(field, np.float64)
+    surface = Surface.of(surface)
+    f = surface.check_field(field)
     touched = np.empty(0, np.int64) if source is None else pieces_of(source, surface).touched
     found = extrema(surface, f, share)
     finite = f[np.isfinite(f)]
@@ -212,7 +218,7 @@ def apparent_source(field: npt.ArrayLike) -> int | None:
 
     It is the only one with less than `ZERO` of the maximum, while all others, where the field is finite, are positive.
     """
-    f = np.asarray(field, np.float64)
+    f = real_numbers(field, "Values of a field")
     ids = np.flatnonzero(np.isfinite(f))
     if len(ids) < 2:
         return None
@@ -250,14 +256,15 @@ class FieldQuality:
 
 
 def field_quality(
-    surface: Surface, field: npt.ArrayLike, geodesic: npt.ArrayLike, source: Source, share: float = 1e-3
+    surface: MeshLike, field: npt.ArrayLike, geodesic: npt.ArrayLike, source: Source, share: float = 1e-3
 ) -> FieldQuality:
     """The quality of a distance field (n,) from a source; geodesic: (n,) geodesic distances from it.
 
     share: of the field's range, which extrema persist at least.  Raises VertexError or ParameterError for a bad source,
     ParameterError for fields of another shape or with nothing but one value.
     """
-    f, near = np.asarray(field, np.float64), np.asarray(geodesic, np.float64)
+    surface = Surface.of(surface)
+    f, near = surface.check_field(field), surface.check_field(geodesic)
     if not np.nanmax(f, initial=0.0) > 0:
         raise ParameterError("The quality of a distance needs a field with a positive value.")
     found = other_extrema(surface, f, source, share)
@@ -270,7 +277,7 @@ def field_quality(
 
 
 def difference_quality(
-    surface: Surface, field: npt.ArrayLike, near: npt.ArrayLike | None, source: Source | None, share: float = 1e-3
+    surface: MeshLike, field: npt.ArrayLike, near: npt.ArrayLike | None, source: Source | None, share: float = 1e-3
 ) -> FieldQuality:
     """The quality of a field (n,) that is no distance, such as the difference of two: extrema and kinks, no circles.
 
@@ -279,9 +286,10 @@ def difference_quality(
     the field's range, which extrema persist at least.  Raises VertexError or ParameterError for a bad source,
     ParameterError for fields of another shape or with nothing but one value.
     """
-    f = np.asarray(field, np.float64)
+    surface = Surface.of(surface)
+    f = surface.check_field(field)
     found = other_extrema(surface, f, source, share)
-    away = np.full(len(f), np.inf) if near is None else near
+    away = np.full(len(f), np.inf) if near is None else surface.check_field(near)
     return _quality(source, found, (), float("nan"), kinks(surface, f, away))
 
 
@@ -334,8 +342,12 @@ def triangle_samples(
     ParameterError for a component that does not exist or has fewer than three vertices, and for fewer points than
     three.
     """
-    ids = np.flatnonzero(distance.surface.component_of_vertex == component) if component >= 0 else np.empty(0, np.int64)
-    if min(points, len(ids)) < 3:
+    ids = (
+        np.flatnonzero(distance.surface.component_of_vertex == component)
+        if whole_number(component, "A component") >= 0
+        else np.empty(0, np.int64)
+    )
+    if min(whole_number(points, "The number of points"), len(ids)) < 3:
         raise ParameterError(
             f"Triangles need three points; {points:,} were asked for, and component {component} has {len(ids):,} "
             "vertices."

@@ -1,5 +1,7 @@
 """The boundaries of regions as curves, and files of them."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,6 +10,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..formats.curve_output import Curve, write_curves
+from ..mesh_like import MeshLike
 from ..surface import Surface
 from .chains import chains
 from .regions import Regions
@@ -34,8 +37,9 @@ class Boundary:
         return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
 
 
-def region_boundaries(surface: Surface, regions: Regions) -> list[Boundary]:
+def region_boundaries(surface: MeshLike, regions: Regions) -> list[Boundary]:
     """The boundary segments of regions put end to end, in the order of the regions between."""
+    surface = Surface.of(surface)
     if not len(regions.faces):
         return []
     ends = _named_ends(surface, regions)

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
+from ..mesh_like import MeshLike
 from ..surface import Surface
 from .places import weighted
 from .regions import chunks, least_of, region_polygons, rivals_in, whole_and_mixed
@@ -39,11 +40,12 @@ class RegionMesh:
         return weighted(np.asarray(field), self.corners, self.weights)
 
 
-def region_mesh(surface: Surface, columns: npt.ArrayLike) -> RegionMesh:
+def region_mesh(surface: MeshLike, columns: npt.ArrayLike) -> RegionMesh:
     """The regions of fields (n, k) as a mesh (see `voronoi_regions`); faces without a value are left out.
 
     Raises ParameterError for fields of another shape, or none; MeshError where no face has a value.
     """
+    surface = Surface.of(surface)
     f, labels = least_of(surface, columns)
     at_corner = labels[surface.faces]
     whole, mixed = whole_and_mixed(at_corner)

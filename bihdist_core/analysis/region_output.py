@@ -1,5 +1,7 @@
 """Files of regions: the label of each vertex, and the mesh cut along their boundaries."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Sequence
 
@@ -7,7 +9,7 @@ import numpy as np
 
 from ..arrays import IntArray
 from ..formats.field_output import FIELD_FORMATS, write_fields
-from ..surface import Surface
+from ..mesh_like import MeshLike
 from ..whole_file import check_output
 from .region_mesh import RegionMesh
 from .regions import Regions
@@ -17,7 +19,7 @@ REGION_MESH_FORMATS = (".ply", ".vtp")
 
 
 def write_labels(
-    path: str | os.PathLike[str], surface: Surface, regions: Regions, labels: Sequence[int] | None = None
+    path: str | os.PathLike[str], surface: MeshLike, regions: Regions, labels: Sequence[int] | None = None
 ) -> None:
     """Write the region of each vertex as the field `region` (see `write_fields`); NaN where there is none.
 

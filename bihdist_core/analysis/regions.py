@@ -14,6 +14,8 @@ import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
+from ..mesh_like import MeshLike
+from ..number_arrays import real_numbers
 from ..surface import Surface
 from .clipping import clipped, polygon_shares
 
@@ -53,13 +55,14 @@ class Regions:
         return lengths
 
 
-def voronoi_regions(surface: Surface, columns: npt.ArrayLike) -> Regions:
+def voronoi_regions(surface: MeshLike, columns: npt.ArrayLike) -> Regions:
     """The regions of fields (n, k), linear on each face, such as the distances from k vertices.
 
     What is not finite (NaN on another component, at a vertex of no face) is no value: there the other fields compete,
     and a face with a corner at which a field has none is not in that field's region.  Raises ParameterError for another
     shape, or no fields.
     """
+    surface = Surface.of(surface)
     f, labels = least_of(surface, columns)
     at_corner = labels[surface.faces]
     whole, mixed = whole_and_mixed(at_corner)
@@ -79,7 +82,7 @@ def voronoi_regions(surface: Surface, columns: npt.ArrayLike) -> Regions:
 
 def least_of(surface: Surface, columns: npt.ArrayLike) -> tuple[FloatArray, IntArray]:
     """Fields (n, k), checked, infinite where they have no value, and (n,) which is the least, -1 for none."""
-    f = np.asarray(columns, np.float64)
+    f = real_numbers(columns, "Values of fields")
     n = len(surface.vertices)
     if f.ndim != 2 or len(f) != n or not f.shape[1]:
         raise ParameterError(f"Regions are those of fields (n, k) of {n:,} vertices, k at least 1, not {f.shape}.")

@@ -12,9 +12,11 @@ from ..distances.distance import Distance
 from ..errors import ParameterError
 from ..formats.field_output import write_array
 from ..formats.pins import PIN_FORMATS, Pins, write_pins
+from ..mesh_like import MeshLike
 from ..progress import Progress, part, silent
+from ..scalars import whole_number
 from ..sources.pieces import pieces_of
-from ..sources.source import Source, whole_number
+from ..sources.source import Source
 from ..sources.words import short_words_of
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
@@ -77,11 +79,12 @@ def starts_of(source: Source, surface: Surface) -> IntArray:
     return vertices
 
 
-def write_samples(path: str | os.PathLike[str], surface: Surface, vertices: npt.ArrayLike) -> None:
+def write_samples(path: str | os.PathLike[str], surface: MeshLike, vertices: npt.ArrayLike) -> None:
     """Write vertices (k,) of a surface, in order: .txt, an id on each line; .npy; or as pins (`write_pins`).
 
     Raises OutputError if the file cannot be written; what was there then stays.
     """
+    surface = Surface.of(surface)
     ids = surface.check_vertices(vertices)
     extension = check_output(path, SAMPLE_FORMATS)
     if extension in PIN_FORMATS:

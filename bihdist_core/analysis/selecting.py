@@ -15,6 +15,7 @@ from scipy.spatial import cKDTree
 from ..arrays import IntArray
 from ..errors import MeshError, ParameterError
 from ..formats.field_output import write_array, write_fields
+from ..mesh_like import MeshLike
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
 
@@ -25,9 +26,9 @@ SELECTION_WAYS = {"ids": (".txt", ".npy", ".csv"), "field": (".csv", ".npy", ".p
 class Brush:
     """Finds what is near a place and hangs together with it; made once for a surface."""
 
-    def __init__(self, surface: Surface) -> None:
-        self._surface = surface
-        self._tree = cKDTree(surface.vertices)
+    def __init__(self, surface: MeshLike) -> None:
+        self._surface = Surface.of(surface)
+        self._tree = cKDTree(self._surface.vertices)
 
     @cached_property
     def _edges(self) -> sparse.csr_matrix:
@@ -56,11 +57,12 @@ class Brush:
         return within[np.isin(piece, pieces)]
 
 
-def cut_out(surface: Surface, vertices: npt.ArrayLike) -> tuple[Surface, IntArray]:
+def cut_out(surface: MeshLike, vertices: npt.ArrayLike) -> tuple[Surface, IntArray]:
     """The faces all of whose corners are among vertices (k,), as a mesh, and (v,) which vertex each of its own is.
 
     Raises ParameterError if there is no such face.
     """
+    surface = Surface.of(surface)
     chosen = np.zeros(len(surface.vertices), bool)
     chosen[surface.check_vertices(vertices)] = True
     faces = surface.faces[chosen[surface.faces].all(axis=1)]
@@ -109,7 +111,7 @@ def read_ids(path: str | os.PathLike[str]) -> IntArray:
 
 
 def write_selection(
-    path: str | os.PathLike[str], surface: Surface, vertices: npt.ArrayLike, way: str = "ids", name: str = "selection"
+    path: str | os.PathLike[str], surface: MeshLike, vertices: npt.ArrayLike, way: str = "ids", name: str = "selection"
 ) -> None:
     """Write vertices (k,) of a surface; way: "ids" (`write_ids`), "field", 1 at them and 0 elsewhere under a name
     (`write_fields`), or "mesh", the faces all of whose corners they are, with the field `vertex` of their ids (.ply or
@@ -118,6 +120,7 @@ def write_selection(
     Raises OutputError if the file cannot be written, ParameterError for another way or where no face is cut out,
     VertexError for vertices that are not there.
     """
+    surface = Surface.of(surface)
     if way not in SELECTION_WAYS:
         raise ParameterError(f"A selection is written as {', '.join(SELECTION_WAYS)}, not as {way!r}.")
     check_output(path, SELECTION_WAYS[way])

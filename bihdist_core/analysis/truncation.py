@@ -12,12 +12,13 @@ from ..distances.biharmonic import BiharmonicDistance
 from ..distances.spectral import TruncatedBiharmonicDistance, checked_count
 from ..errors import ParameterError
 from ..laplacian import Laplacian, as_laplacian
+from ..mesh_like import MeshLike
+from ..number_arrays import array_of
 from ..progress import Progress, part, silent
 from ..solver.tall import over_rows
 from ..sources.pieces import pieces_of
 from ..sources.source import Source, checked_source
 from ..sources.words import short_words_of
-from ..surface import MeshLike
 
 LINE_COUNTS = (1, 2, 3, 5, 8, 12, 18, 25, 35, 50, 70, 100, 140, 200)
 """For lines, and for sources on several components, where each count costs a field of its own; and so on by 1.4."""
@@ -60,8 +61,10 @@ def truncation_loss(
         laplacian.components[k] for k in np.unique(laplacian.surface.component_of_vertex[pieces.corners[:, 0]])
     ]
     is_simple = len(components) == 1 and not pieces.along.any()
-    usual = np.arange(1, checked_count(most) + 1) if is_simple else _some_counts(checked_count(most))
-    counted = usual if counts is None else np.asarray(counts)
+    highest = max(component.most_eigenpairs for component in components)
+    last = min(checked_count(most), max(highest, 1))
+    usual = np.arange(1, last + 1) if is_simple else _some_counts(last)
+    counted = usual if counts is None else array_of(counts, "Counts")
     if (
         counted.ndim != 1
         or not len(counted)
@@ -69,7 +72,6 @@ def truncation_loss(
         or not (np.diff(counted, prepend=0) > 0).all()
     ):
         raise ParameterError(f"counts are whole numbers of at least 1, ascending, not {counts!r}.")
-    highest = max(component.most_eigenpairs for component in components)
     counted = counted[counted <= highest]
     if not len(counted):
         raise ParameterError(f"{laplacian.surface.name} has {highest:,} eigenpairs at {_words(at)}.")

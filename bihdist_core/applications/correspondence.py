@@ -8,6 +8,7 @@ import numpy.typing as npt
 from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
+from ..number_arrays import array_of, real_numbers
 from ..progress import Progress, part, silent
 
 BLOCK = 4096
@@ -45,12 +46,12 @@ class Correspondence:
         progress: Progress | None = None,
         known_columns: Columns | None = None,
     ) -> None:
-        known = np.asarray(pairs)
+        known = array_of(pairs, "Known correspondences")
         if known.ndim != 2 or known.shape[1] != 2 or not len(known):
             raise ParameterError(
                 f"Known correspondences are an array of shape (k, 2), k at least 1, not {known.shape}."
             )
-        w = np.ones(len(known)) if weights is None else np.asarray(weights, np.float64)
+        w = np.ones(len(known)) if weights is None else real_numbers(weights, "Weights")
         if w.shape != (len(known),) or not (np.isfinite(w) & (w >= 0)).all():
             raise ParameterError(
                 f"{len(known)} correspondences need as many finite weights of at least 0, not {weights!r}."
@@ -99,7 +100,7 @@ class Correspondence:
 
     def best(self, x: int) -> tuple[int, float]:
         """The vertex of N that fits x best, and its misfit; (-1, NaN) where none can be compared."""
-        misfit = self.misfit(x)
+        misfit = self.misfit(self.distance_m.surface.check_vertex(x))
         if np.isnan(misfit).all():
             return NOWHERE, float("nan")
         y = int(np.nanargmin(misfit))

@@ -8,6 +8,7 @@ import numpy.typing as npt
 from ..arrays import FloatArray
 from ..distances.distance import Distance
 from ..errors import ParameterError, VertexError
+from ..number_arrays import real_numbers
 from ..progress import Progress
 from .weights import Weights
 
@@ -124,7 +125,7 @@ class ShepardInterpolant:
         return self._weights
 
     def _checked(self, values: npt.ArrayLike) -> FloatArray:
-        found = np.array(values, np.float64, ndmin=1)
+        found = np.array(real_numbers(values, "Values at anchors"), ndmin=1)
         if found.shape != self.anchors.shape or not np.isfinite(found).all():
             raise ParameterError(
                 f"{len(self.anchors)} anchors need as many finite values, not an array of shape {found.shape} "

@@ -16,6 +16,7 @@ from ..distances.distance import Distance
 from ..distances.geodesic import GeodesicDistance
 from ..errors import ParameterError
 from ..laplacian import Laplacian
+from ..number_arrays import array_of, real_numbers
 from ..progress import Progress, part, silent
 from ..surface import Surface
 from .correspondence import NOWHERE
@@ -89,7 +90,7 @@ def map_errors(
 
 
 def _checked(vertices: npt.ArrayLike, surface: Surface, axes: int = 1) -> IntArray:
-    ids = np.asarray(vertices)
+    ids = array_of(vertices, "Vertices of a map")
     if not 1 <= ids.ndim <= axes or ids.dtype.kind not in "iu":
         raise ParameterError(f"A map is (m,) whole numbers, not {ids.shape} of {ids.dtype}.")
     inside = ids[ids != NOWHERE]
@@ -180,7 +181,7 @@ def error_curve(errors: npt.ArrayLike) -> ErrorCurve:
 
     Raises ParameterError if there is none.
     """
-    known = np.sort(np.asarray(errors, np.float64).ravel())
+    known = np.sort(real_numbers(errors, "Errors").ravel())
     known = known[~np.isnan(known)]
     if not len(known):
         raise ParameterError("Of no vertex the right place is known, so there is no error.")

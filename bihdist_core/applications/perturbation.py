@@ -11,7 +11,9 @@ from ..arrays import FloatArray, IntArray
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..errors import ParameterError
 from ..formats.mesh_io import read_surface
+from ..mesh_like import MeshLike
 from ..progress import Progress
+from ..scalars import real_number, whole_number
 from ..surface import Surface
 from .changes import WAYS, Perturbation, Runs
 from .resizing import simplified
@@ -20,15 +22,16 @@ WIDTH = 0.25
 """Sides of a thin handle, as a share of those of the faces it joins."""
 
 
-def noisy(surface: Surface, share: float, seed: int = 0, along: str = "xyz") -> Surface:
+def noisy(surface: MeshLike, share: float, seed: int = 0, along: str = "xyz") -> Surface:
     """Gaussian noise on each vertex; its standard deviation is `share` mean edge lengths.
 
     along: "xyz", on each coordinate; "normals", along the normal of the vertex.  Raises ParameterError for another
     word, and for a share that is not a finite number of at least 0.
     """
+    surface = Surface.of(surface)
     if along not in WAYS:
         raise ParameterError(f"Noise is along one of {', '.join(WAYS)}, not {along!r}.")
-    if not (np.isfinite(share) and share >= 0):
+    if not 0 <= real_number(share, "The size of noise") < np.inf:
         raise ParameterError(f"The size of noise is a number of mean edge lengths of at least 0, not {share!r}.")
     random = np.random.default_rng(seed)
     if along == "xyz":
@@ -49,15 +52,16 @@ def vertex_normals(surface: Surface) -> FloatArray:
     return normals
 
 
-def with_holes(surface: Surface, count: int, radius: float = 0.05, seed: int = 0) -> Surface:
+def with_holes(surface: MeshLike, count: int, radius: float = 0.05, seed: int = 0) -> Surface:
     """Round holes at random vertices: what is nearer along edges than `radius` roots of the surface's area.
 
     Vertex ids stay; what falls apart from the largest piece of a component goes as well.  Raises ParameterError for
     fewer holes than one, a radius that is not a share from 0 to 1, and where nothing or all would be left.
     """
-    if count < 1:
+    surface = Surface.of(surface)
+    if whole_number(count, "The number of holes") < 1:
         raise ParameterError(f"The number of holes is a whole number from 1, not {count!r}.")
-    if not 0 < radius <= 1:
+    if not 0 < real_number(radius, "The radius of holes") <= 1:
         raise ParameterError(f"The radius of holes is a fraction of the root of the area, from 0 to 1, not {radius!r}.")
     candidates = np.flatnonzero(surface.component_of_vertex >= 0)
     centres = np.random.default_rng(seed).choice(candidates, min(count, len(candidates)), replace=False)
@@ -149,12 +153,13 @@ def face_at(surface: Surface, vertex: int) -> int:
     return int(faces[surface.face_areas[faces].argmax()])
 
 
-def welded(surface: Surface, face_a: int, face_b: int) -> Surface:
+def welded(surface: MeshLike, face_a: int, face_b: int) -> Surface:
     """Two parts grown together: both faces go, and their corners become one, halfway between.
 
     A closed surface gets one handle more.  Vertex ids stay; the corners of `face_b` then belong to no face.  Raises
     ParameterError if the two faces or their neighbours touch.
     """
+    surface = Surface.of(surface)
     a, b = _opposite_corners(surface, face_a, face_b)
     follow = np.arange(len(surface.vertices))
     follow[b] = a
@@ -164,11 +169,12 @@ def welded(surface: Surface, face_a: int, face_b: int) -> Surface:
     return Surface(x, follow[surface.faces[keep]], surface.name)
 
 
-def with_handle(surface: Surface, face_a: int, face_b: int) -> Surface:
+def with_handle(surface: MeshLike, face_a: int, face_b: int) -> Surface:
     """A thin, straight, three-sided tube from the middle of one face to the middle of another.
 
     Vertex ids stay; the tube's come after them.  Raises ParameterError if the two faces or their neighbours touch.
     """
+    surface = Surface.of(surface)
     a, b = _opposite_corners(surface, face_a, face_b)
     x, n = surface.vertices, len(surface.vertices)
     mouths = []

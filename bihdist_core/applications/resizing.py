@@ -5,12 +5,16 @@ vertex that is left is one of the given surface, at its place, so that fields ca
 Many collapses far from each other are done at once, in rounds.
 """
 
+from __future__ import annotations
+
 import numpy as np
 import scipy.sparse as sp
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..errors import ParameterError
+from ..mesh_like import MeshLike
 from ..progress import Progress, silent
+from ..scalars import whole_number
 from ..surface import Surface
 
 KEEP_NORMAL = 0.3
@@ -54,13 +58,14 @@ def resized(surface: Surface, count: int, progress: Progress | None = None) -> S
     return simplified(surface, count, progress)[0]
 
 
-def simplified(surface: Surface, count: int, progress: Progress | None = None) -> tuple[Surface, IntArray]:
+def simplified(surface: MeshLike, count: int, progress: Progress | None = None) -> tuple[Surface, IntArray]:
     """The surface with `count` of its vertices, and (count,) their ids there, ascending.
 
     Topology, components and boundary loops stay; vertices of edges with more than two faces stay; those of no face are
     left out.  Raises ParameterError if that leaves more than `count`, or if there are not so many to begin with.
     """
-    small, ids = _collapsed(surface, count, progress)
+    surface = Surface.of(surface)
+    small, ids = _collapsed(surface, whole_number(count, "The number of vertices"), progress)
     if len(ids) > count:
         raise ParameterError(f"{surface.name} cannot be simplified below {len(ids):,} vertices without damage.")
     return small, ids

@@ -7,7 +7,8 @@ import numpy.typing as npt
 
 from ..analysis.persistence import extrema
 from ..arrays import BoolArray, IntArray
-from ..laplacian import Laplacian
+from ..laplacian import Laplacian, as_laplacian
+from ..mesh_like import MeshLike
 from ..surface import Surface
 
 PROMINENT = 0.05
@@ -16,24 +17,28 @@ NEAR = 0.1
 """An extremum is at a tip if it is within this share of the root of the surface's area of it, in a straight line."""
 
 
-def tips(laplacian: Laplacian, share: float = PROMINENT) -> IntArray:
+def tips(laplacian: Laplacian | MeshLike, share: float = PROMINENT) -> IntArray:
     """(t,) vertices at the tips of a shape: the ends of its limbs, the most prominent first on each component.
 
     They are the maxima, persistent over a share of the range, of the mean squared biharmonic distance to all points.  A
     function with few other extrema has one at each tip that has none of these: along a limb it must go up or down.
     """
     found = []
-    for component in laplacian.components:
+    for component in as_laplacian(laplacian).components:
         if len(component.vertices) > 1:
             ends = extrema(component.surface, component.biharmonic_eccentricity, share).maxima
             found.append(component.vertices[ends])
     return np.concatenate(found) if found else np.zeros(0, int)
 
 
-def at_tips(surface: Surface, vertices: npt.ArrayLike, ends: npt.ArrayLike) -> BoolArray:
-    """(k,) whether vertices (k,) are at one of the tips `ends` (t,): within NEAR roots of the surface's area."""
+def at_tips(surface: MeshLike, vertices: npt.ArrayLike, ends: npt.ArrayLike) -> BoolArray:
+    """(k,) whether vertices (k,) are at one of the tips `ends` (t,): within NEAR roots of the surface's area.
+
+    Raises VertexError for a bad vertex.
+    """
+    surface = Surface.of(surface)
     x = surface.vertices
-    ids, tip_ids = np.asarray(vertices, int), np.asarray(ends, int)
+    ids, tip_ids = surface.check_vertices(vertices), surface.check_vertices(ends)
     away = np.linalg.norm(x[ids][:, None] - x[tip_ids], axis=2)
     is_near: BoolArray = away.min(axis=1, initial=np.inf) <= NEAR * float(np.sqrt(surface.face_areas.sum()))
     return is_near

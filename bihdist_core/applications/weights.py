@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from ..errors import ParameterError
+from ..scalars import real_number
 
 LEAST_EXPONENT, MOST_EXPONENT = 0.1, 20.0
 
@@ -18,8 +19,8 @@ class Weights:
     smoothness: float = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "exponent", float(self.exponent))
-        object.__setattr__(self, "smoothness", float(self.smoothness))
+        object.__setattr__(self, "exponent", real_number(self.exponent, "The exponent of weights"))
+        object.__setattr__(self, "smoothness", real_number(self.smoothness, "The smoothness of weights"))
         if not LEAST_EXPONENT <= self.exponent <= MOST_EXPONENT:
             raise ParameterError(
                 f"The exponent of weights is a number from {LEAST_EXPONENT:g} to {MOST_EXPONENT:g}, "

@@ -19,8 +19,9 @@ from ..sources.pieces import Pieces, pieces_of
 from ..sources.source import Source
 from .accuracy import ErrorEstimate
 from .difference import PERCENTAGE_POINTS, difference_in_unit, scale_of
-from .distance import ELSEWHERE, Distance
+from .distance import Distance
 from .kinds import Spec
+from .source_questions import ELSEWHERE
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from ..arrays import AnyArray, FloatArray, IntArray
-from ..laplacian import Component, Laplacian
+from ..laplacian import Component
 from ..progress import Progress, part
 from ..solver.tall import point_distances
-from ..surface import FLAT, MeshLike
+from ..surface import FLAT
 from .accuracy import accuracy_of_pairs
-from .distance import Distance, by_source
 from .embedding import Embedding, biharmonic_embedding
+from .factored import FactoredDistance
 from .green_columns import writer_of_distances
+from .pair_questions import by_source
 
 SMALL_SET = 64
 PAIRS_PER_FIELD = 1.4
@@ -22,9 +22,11 @@ NEAR, NEAR_BY_HEIGHT, MOST_NEAR = 1e-5, 1e-9, 16
 """Distances below this fraction of the maximum, or, on a mesh with thin faces, the second over the height of the
 thinnest, are computed again as pairs, up to so many of them: there a difference of the Green's function has few digits
 left."""
+SWEEP = 0.8
+"""What share of the progress of fields the sweep through the factor is, before such pairs."""
 
 
-class BiharmonicDistance(Distance):
+class BiharmonicDistance(FactoredDistance):
     """d(i, j)^2 = C_ii + C_jj - 2 C_ij, C the Green's function of the biharmonic operator (paper, Eq. 4); unit length.
 
     One to all costs one sweep through the factor, with the diagonal of C computed once by selected inversion.  Pairs
@@ -37,16 +39,6 @@ class BiharmonicDistance(Distance):
 
     label = "biharmonic, exact"
     length_power = 1.0
-    is_quadratic = True
-
-    def __init__(
-        self,
-        laplacian: Laplacian | MeshLike,
-        faces: npt.ArrayLike | None = None,
-        progress: Progress | None = None,
-    ) -> None:
-        super().__init__(laplacian, faces)
-        self.prepare(self.laplacian.components[0], progress)
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
         """Compute the diagonal of the Green's function on a component, if that is not done."""
@@ -68,7 +60,7 @@ class BiharmonicDistance(Distance):
         def finish(rows: AnyArray, columns: slice, values: FloatArray) -> None:
             near[columns] += write(rows, columns, values)
 
-        component.factor(diagonals=True).each_sandwich_piece(index, finish, progress)
+        component.factor(diagonals=True).each_sandwich_piece(index, finish, part(progress, 0, SWEEP))
         # The source itself is near.
         for column in np.flatnonzero(near > 1):
             field, source = found[:, column], index[column]
@@ -76,7 +68,10 @@ class BiharmonicDistance(Distance):
             beside = beside[beside != source]
             beside = beside[np.argsort(field[beside], kind="stable")[:MOST_NEAR]]
             if len(beside):
-                field[beside] = self._pairwise(component, np.append(source, beside))[0, 1:]
+                done = SWEEP + (1 - SWEEP) * column / len(index)
+                step = part(progress, done, done + (1 - SWEEP) / len(index))
+                step(0.0, self.label)
+                field[beside] = self._pairwise(component, np.append(source, beside), step)[0, 1:]
         return found
 
     def _pairwise(self, component: Component, index: IntArray, progress: Progress | None = None) -> FloatArray:
@@ -84,7 +79,7 @@ class BiharmonicDistance(Distance):
             return super()._pairwise(component, index, progress)
         b = np.zeros((len(component.vertices), len(index)))
         b[index, np.arange(len(index))] = 1
-        half = _half_order(component, component.solve(b))
+        half = _half_order(component, component.solve(b, progress))
         return point_distances(half.T, half.T)
 
     def _of_pairs(
@@ -92,7 +87,7 @@ class BiharmonicDistance(Distance):
     ) -> FloatArray:
         among, place = np.unique(np.stack([i, j]), return_inverse=True)
         if len(among) <= min(len(i), SMALL_SET):
-            return self._pairwise(component, among)[tuple(place.reshape(2, -1))]
+            return self._pairwise(component, among, progress)[tuple(place.reshape(2, -1))]
         if digits == "field" and PAIRS_PER_FIELD * len(np.unique(by_source(i, j)[0])) < len(i):
             return super()._of_pairs(component, i, j, digits, progress)
         distances = np.empty(len(i))

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
-from ..laplacian import Component, Laplacian
-from ..progress import Progress
-from ..surface import MeshLike
+from ..laplacian import Component
+from ..progress import Progress, part
 from .accuracy import accuracy_of_pairs
-from .distance import Distance, root
+from .factored import FactoredDistance
+from .squares import root
 
 NEAR = 0.4
 """Below this fraction of the maximum it shows what springs of degenerate faces lack (a fraction FLAT of the square)."""
@@ -18,21 +17,11 @@ MOST_NEAR, MOST_SPRINGS = 128, 256
 """So many distances are corrected at most, with so many springs: many more lie so near only where all are far apart."""
 
 
-class CommuteTimeDistance(Distance):
+class CommuteTimeDistance(FactoredDistance):
     """d(i, j)^2 = G_ii + G_jj - 2 G_ij with the Green's function G of the stiffness matrix (paper, Eq. 2); no unit."""
 
     label = "commute-time, exact"
     length_power = 0.0
-    is_quadratic = True
-
-    def __init__(
-        self,
-        laplacian: Laplacian | MeshLike,
-        faces: npt.ArrayLike | None = None,
-        progress: Progress | None = None,
-    ) -> None:
-        super().__init__(laplacian, faces)
-        self.prepare(self.laplacian.components[0], progress)
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
         """Factor the stiffness matrix of a component, with the inverse's diagonal, if that is not done."""
@@ -42,14 +31,17 @@ class CommuteTimeDistance(Distance):
         diagonal = component.green_diagonal()
         b = np.zeros((len(diagonal), len(index)))
         b[index, np.arange(len(index))] = 1
-        squares = diagonal[:, None] + diagonal[index] - 2 * component.solve(b, progress)
+        solved = 0.5 if component.flat.lack.any() else 1.0
+        squares = diagonal[:, None] + diagonal[index] - 2 * component.solve(b, part(progress, 0, solved))
         distances = root(squares, diagonal.max())
-        if component.flat.lack.any():
+        if solved < 1:
             for column, source in enumerate(index):
-                self._with_exact_springs(component, int(source), distances[:, column])
+                done = solved + (1 - solved) * column / len(index)
+                step = part(progress, done, done + (1 - solved) / len(index))
+                self._with_exact_springs(component, int(source), distances[:, column], step)
         return distances
 
-    def _with_exact_springs(self, component: Component, source: int, field: FloatArray) -> None:
+    def _with_exact_springs(self, component: Component, source: int, field: FloatArray, progress: Progress) -> None:
         """Put exact springs in place for the smallest distances (m,), where those of degenerate faces show most.
 
         By the formula of Sherman, Morrison and Woodbury, as G with few springs more.
@@ -65,7 +57,7 @@ class CommuteTimeDistance(Distance):
         b = np.zeros((len(field), len(near)))
         b[source] = 1
         b[near, np.arange(len(near))] = -1
-        y, by_springs = component.solve(b), component.solve(g)
+        y, by_springs = component.solve(b, part(progress, 0, 0.5)), component.solve(g, part(progress, 0.5, 1))
         moved = g.T @ y
         exact = np.einsum("ij,ij->j", b, y) - np.einsum(
             "ij,ij->j", moved, np.linalg.lstsq(np.diag(slack) + g.T @ by_springs, moved, rcond=None)[0]

@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from ..arrays import FloatArray
 from ..errors import ParameterError
+from ..number_arrays import real_numbers
 
 
 def difference(minuend: npt.ArrayLike, subtrahend: npt.ArrayLike, raw: bool = False) -> FloatArray:
@@ -17,7 +18,7 @@ def difference(minuend: npt.ArrayLike, subtrahend: npt.ArrayLike, raw: bool = Fa
     the values themselves are subtracted, which makes sense for equal units only.  Raises ParameterError for fields of
     different shapes.
     """
-    a, b = (np.asarray(field, np.float64) for field in (minuend, subtrahend))
+    a, b = (real_numbers(field, "Values of a field") for field in (minuend, subtrahend))
     if a.shape != b.shape or a.ndim not in (1, 2):
         raise ParameterError(f"Fields of shapes {a.shape} and {b.shape} have no difference.")
     return a - b if raw else _shares(a) - _shares(b)

@@ -1,5 +1,7 @@
 """The diffusion distance (paper, Eq. 1, with its normalised time t <- t / (2 lambda_1))."""
 
+from __future__ import annotations
+
 from bisect import bisect_left
 
 import numpy as np
@@ -8,10 +10,11 @@ from ..arrays import FloatArray
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian
 from ..memo import Memo
+from ..mesh_like import MeshLike
 from ..progress import Progress, part
+from ..scalars import real_number
 from ..solver.spectrum import Spectrum
-from ..surface import MeshLike
-from .spectral import SpectralDistance, checked_number
+from .spectral import SpectralDistance
 from .tails import Cloud, biharmonic_squares, missing, tail_lengths
 
 FIRST_BATCH = 16
@@ -44,9 +47,9 @@ class DiffusionDistance(SpectralDistance):
         tolerance: float | None = None,
         progress: Progress | None = None,
     ) -> None:
-        if not 0 < checked_number(t, "The diffusion time t") <= LONGEST:
+        if not 0 < real_number(t, "The diffusion time t") <= LONGEST:
             raise ParameterError(f"The diffusion time t is {t:g}; it must be positive, and at most {LONGEST:g}.")
-        if tolerance is not None and not 0 < checked_number(tolerance, "The tolerance") < 1:
+        if tolerance is not None and not 0 < real_number(tolerance, "The tolerance") < 1:
             raise ParameterError(f"The tolerance is {tolerance:g}; it must lie between 0 and 1.")
         super().__init__(laplacian)
         self.t, self.tolerance = float(t), TOLERANCE if tolerance is None else float(tolerance)

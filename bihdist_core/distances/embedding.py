@@ -18,10 +18,12 @@ import numpy.typing as npt
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian, as_laplacian
+from ..mesh_like import MeshLike
+from ..number_arrays import array_of
 from ..progress import Progress, part, silent
+from ..scalars import real_number
 from ..solver.tall import pair_distances
-from ..surface import MeshLike
-from .spectral import checked_count, checked_number
+from .spectral import checked_count
 from .tails import biharmonic_squares, tail_lengths
 
 FIRST = 50
@@ -56,9 +58,9 @@ class Embedding:
 
         Raises ParameterError for another shape, or a vertex that is not there.
         """
-        table = np.asarray(pairs)
+        table = array_of(pairs, "Pairs of vertices")
         if table.ndim != 2 or table.shape[1] != 2 or table.dtype.kind not in "iu":
-            raise ParameterError(f"Pairs of vertices must have shape (q, 2), not {table.shape}.")
+            raise ParameterError(f"Pairs of vertices are (q, 2) whole numbers, not {table.shape} of {table.dtype}.")
         if table.size and not (table.min() >= 0 and table.max() < len(self.points)):
             raise ParameterError(f"The vertices are 0 to {len(self.points) - 1}.")
         i, j = table.T
@@ -88,7 +90,7 @@ def biharmonic_embedding(
     laplacian = as_laplacian(laplacian)
     if (k is None) == (tolerance is None):
         raise ParameterError("An embedding has k coordinates, or as many as a tolerance needs; give one of the two.")
-    if tolerance is not None and not 0 < checked_number(tolerance, "tolerance") < np.inf:
+    if tolerance is not None and not 0 < real_number(tolerance, "tolerance") < np.inf:
         raise ParameterError(f"tolerance is {tolerance:g}; it must be a length above 0.")
     count = checked_count(k) if k is not None else FIRST
     most = max(component.most_eigenpairs for component in laplacian.components)

@@ -15,6 +15,7 @@ from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..progress import Progress
+from ..scalars import real_number
 from ..solver.worker_threads import Job
 from ..sources.pieces import Pieces
 from ..surface import Surface
@@ -344,7 +345,7 @@ class _Workspace:
 
 def check_radius(radius: float) -> None:
     """Raises ParameterError for a radius that is no length, 0 or more, in any unit."""
-    if not radius >= 0:
+    if not real_number(radius, "A radius") >= 0:
         raise ParameterError(f"A radius is a length of at least 0, not {radius}.")
 
 

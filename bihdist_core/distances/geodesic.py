@@ -1,5 +1,7 @@
 """Geodesic distance: exact, by the heat method, or along edges (Dijkstra).  The label says which."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -10,9 +12,10 @@ from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..laplacian import Component, Laplacian
 from ..memo import Memo
+from ..mesh_like import MeshLike
 from ..progress import Progress, part
 from ..sources.pieces import Pieces
-from ..surface import MeshLike, Surface
+from ..surface import Surface
 from .accuracy import ErrorEstimate
 from .distance import Distance
 from .edge_geodesic import EdgeGeodesic
@@ -71,6 +74,7 @@ class GeodesicDistance(Distance):
     ) -> None:
         if method not in METHODS:
             raise ParameterError(f"There is no geodesic method {method!r}; choose one of {', '.join(METHODS)}.")
+        check_radius(radius)
         super().__init__(laplacian)
         self._solvers: Memo[int, ExactGeodesic | HeatTimes | EdgeGeodesic] = Memo()
         self._takes_long: bool | None = None
@@ -78,7 +82,6 @@ class GeodesicDistance(Distance):
         if method == "auto":
             is_short = radius < np.inf and kernel.library() is not None
             method = "exact" if is_short or self._is_exact_soon(part(progress, 0, 0.3)) else "heat"
-        check_radius(radius)
         if radius < np.inf and method != "exact":
             raise ParameterError(f"Only the exact method has a radius, not {method}.")
         self.method = method
@@ -152,10 +155,11 @@ class GeodesicDistance(Distance):
 
     def _or_by_heat(self, found: Callable[[], FloatArray], progress: Progress | None) -> FloatArray:
         """What is found, by the heat method from now on where the exact method of "auto" gives up."""
+        method = self.method
         try:
             return found()
         except SolverError:
-            if not self._is_auto:
+            if not self._is_auto or method == "heat":
                 raise
         with self._solvers.lock:
             if self.method == "exact":
@@ -224,13 +228,10 @@ class GeodesicDistance(Distance):
     def _of_places_now(self, u: Pieces, v: Pieces, progress: Progress) -> FloatArray:
         labels = self.surface.component_of_vertex
         found = np.full(len(u), np.nan)
-        done = 0
-        for component, mine in self._by_component(u.corners[:, 0]):
-            step = part(progress, done / len(u), (done + len(mine)) / len(u))
-            done += len(mine)
+        for component, mine, step in self._by_component(u.corners[:, 0], progress):
             mine = mine[labels[v.corners[mine, 0]] == component.index]
             if len(mine):
-                self.prepare(component, step)
+                step = self._prepared(component, step)
                 one, other = u.some(mine), v.some(mine)
                 if self.method == "exact":
                     found[mine] = self._exactly(component, one, other, step)

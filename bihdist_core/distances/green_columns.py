@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import AnyArray, FloatArray, IntArray
 from ..kernel.library import library
-from .distance import ROUNDING, root
+from .squares import ROUNDING, root
 
 Write = Callable[[AnyArray, slice, FloatArray], IntArray]
 

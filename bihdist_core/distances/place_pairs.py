@@ -1,19 +1,23 @@
 """Distances of pairs of points that may be anywhere in faces."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations
 from typing import TypeGuard
 
 import numpy as np
 
-from ..arrays import BoolArray, FloatArray, IntArray
+from ..arrays import AnyArray, BoolArray, FloatArray, IntArray
 from ..errors import ParameterError
+from ..number_arrays import array_of
 from ..sources.pieces import Pieces
 from ..sources.source import Source, SurfacePoint
 from ..surface import Surface
 
 Point = Source | str
 Pair = tuple[Point, Point]
+Many = Sequence[Point] | AnyArray
 
 
 PointKey = frozenset[tuple[int, float]]
@@ -35,6 +39,23 @@ def are_of_places(pairs: object) -> TypeGuard[Sequence[Pair]]:
     if any(len(pair) != 2 for pair in pairs):
         raise ParameterError("Pairs of points must be two each.")
     return True
+
+
+def are_many(points: object) -> TypeGuard[Many]:
+    """Whether these are points in an array or a list, and no single one."""
+    return (isinstance(points, np.ndarray) and points.ndim > 0) or (
+        isinstance(points, Sequence) and not isinstance(points, str)
+    )
+
+
+def paired(u: object, v: object) -> Sequence[Pair] | AnyArray:
+    """Pairs (k, 2) of the points u and v (k,); ParameterError unless both are as many."""
+    if not (are_many(u) and are_many(v) and len(u) == len(v)):
+        of_u, of_v = (f"{len(each):,} points" if are_many(each) else repr(each) for each in (u, v))
+        raise ParameterError(f"Distances are between as many points on both sides, not between {of_u} and {of_v}.")
+    if has_places(u) or has_places(v):
+        return list(zip(u, v, strict=True))
+    return np.column_stack([array_of(each, "Vertices") for each in (u, v)])
 
 
 def squares_of_pairs(u: Pieces, v: Pieces, of_pairs: Callable[[IntArray], FloatArray]) -> FloatArray:

@@ -1,5 +1,7 @@
 """Distances that are sums over eigenpairs: d(i, j)^2 = sum_k w_k (phi_k(i) - phi_k(j))^2."""
 
+from __future__ import annotations
+
 from abc import abstractmethod
 from collections.abc import Sequence
 
@@ -9,10 +11,11 @@ from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian
 from ..memo import Memo
+from ..mesh_like import MeshLike
 from ..progress import Progress, part
+from ..scalars import real_number
 from ..solver.spectrum import Spectrum
 from ..solver.tall import pair_distances, point_distances
-from ..surface import MeshLike
 from .accuracy import SPARE, Perturbation, rounded_up
 from .distance import Distance
 from .tails import Cloud, biharmonic_squares, commute_time_squares, tail_lengths
@@ -140,7 +143,7 @@ class PowerDistance(SpectralDistance):
     def __init__(
         self, laplacian: Laplacian | MeshLike, alpha: float = 1.5, k: int = 200, progress: Progress | None = None
     ) -> None:
-        if not 1 < checked_number(alpha, "alpha") < np.inf:
+        if not 1 < real_number(alpha, "alpha") < np.inf:
             raise ParameterError(f"alpha is {alpha:g}; the sum of 1 / lambda^alpha needs alpha > 1.")
         super().__init__(laplacian)
         self.alpha, self.k = float(alpha), checked_count(k)
@@ -219,13 +222,6 @@ class TruncatedBiharmonicDistance(PowerDistance):
     def __init__(self, laplacian: Laplacian | MeshLike, k: int = 200, progress: Progress | None = None) -> None:
         super().__init__(laplacian, alpha=2.0, k=k, progress=progress)
         self.label = f"biharmonic, {self.k:,} eigenpairs"
-
-
-def checked_number(value: float, name: str) -> float:
-    """A parameter as a float; ParameterError unless it is a number."""
-    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
-        raise ParameterError(f"{name} is {value!r}; it must be a number.")
-    return float(value)
 
 
 def checked_count(k: int) -> int:

@@ -105,7 +105,8 @@ def _doubles(laplacian: Laplacian, progress: Progress) -> Table:
         found = next((each for each in every if each.gap <= ROUNDING * largest), min(every, key=_gap, default=None))
         if found is not None:
             places = [SurfacePoint(int(f), tuple(w)) for f, w in zip(found.faces, found.weights.tolist(), strict=True)]
-            there = biharmonic.between(*places) / float(biharmonic.from_source(int(surface.faces[0, 0])).max())
+            farthest = float(biharmonic.from_source(int(surface.faces[0, 0])).max())
+            there = biharmonic.between(places[0], places[1]) / farthest
             way = float(along[tuple(surface.faces[found.faces, 0])]) / unit
             rows.append((count, found.gap / largest, there, way, *(_words(place) for place in places)))
     columns = (

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from ..arrays import AnyArray
 from ..errors import ParameterError
+from ..mesh_like import MeshLike
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
 from .vtp_output import write_poly_data
@@ -21,7 +22,7 @@ Columns = dict[str, AnyArray]
 """(n,) float64 arrays by name, in order."""
 
 
-def write_fields(path: str | os.PathLike[str], surface: Surface, fields: Mapping[str, npt.ArrayLike]) -> None:
+def write_fields(path: str | os.PathLike[str], surface: MeshLike, fields: Mapping[str, npt.ArrayLike]) -> None:
     """Write (n,) values at the vertices, in the order and under the names of `fields`; the extension names the format.
 
     .npy: an (n, k) float64 array, (n,) for a single field; the names are not kept.
@@ -34,6 +35,7 @@ def write_fields(path: str | os.PathLike[str], surface: Surface, fields: Mapping
     Raises OutputError if the file cannot be written (what was at `path` before then stays), ParameterError for fields
     that are not (n,) real numbers.
     """
+    surface = Surface.of(surface)
     extension = check_output(path, FIELD_FORMATS)
     columns = _checked(fields, len(surface.vertices))
     with whole_file(path) as temporary, temporary.open("wb") as file:

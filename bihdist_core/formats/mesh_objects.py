@@ -1,5 +1,7 @@
 """Meshes of other libraries into surfaces, by their attributes: none of these libraries is imported."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Callable
 from typing import Any
@@ -8,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import MeshError, ParameterError
-from ..surface import MeshLike, Surface
+from ..surface import Surface
 from .mesh_io import read_surface
 from .polygons import Polygons, triangulated
 
@@ -21,7 +23,7 @@ KNOWN = (
 )
 
 
-def surface_of(mesh: MeshLike, faces: Any = None, name: str | None = None) -> Surface:
+def surface_of(mesh: Any, faces: Any = None, name: str | None = None) -> Surface:
     """The surface of a mesh of any kind that `Surface.of` lists; raises as that does."""
     if faces is not None:
         return Surface(mesh, faces, name or "surface")
@@ -79,9 +81,20 @@ def _of_polygons(points: npt.NDArray[Any], rings: list[npt.NDArray[Any]], name: 
     return Surface(points, faces, name, repairs=left_out, facts=divided)
 
 
+def _of_open3d_tensors(mesh: Any, name: str) -> Surface:
+    return surface_of(mesh.to_legacy(), None, name)
+
+
+def _of_parts(mesh: Any, name: str) -> Surface:
+    parts = ", ".join(map(repr, mesh.parts))
+    raise MeshError(f"{name} has several parts; take one of mesh.parts: {parts}.")
+
+
 READERS: tuple[tuple[Callable[[Any], bool], Callable[[Any, str], Surface]], ...] = (
     (lambda mesh: hasattr(mesh, "points") and hasattr(mesh, "n_points"), _of_pyvista),
     (lambda mesh: hasattr(mesh, "points") and hasattr(mesh, "cells_dict"), _of_meshio),
     (lambda mesh: hasattr(mesh, "agg_data"), _of_nibabel),
+    (lambda mesh: hasattr(mesh, "to_legacy"), _of_open3d_tensors),
+    (lambda mesh: hasattr(mesh, "parts") and hasattr(mesh.parts, "keys"), _of_parts),
 )
 """Whether an object is of a library, and its surface."""

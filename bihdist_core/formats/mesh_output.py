@@ -1,21 +1,25 @@
 """Surfaces written to files that other programs read."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Callable
 from typing import BinaryIO
 
 from ..arrays import AnyArray
+from ..mesh_like import MeshLike
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
 from .field_output import write_ply_mesh
 from .vtp_output import write_poly_data
 
 
-def write_mesh(path: str | os.PathLike[str], surface: Surface) -> None:
+def write_mesh(path: str | os.PathLike[str], surface: MeshLike) -> None:
     """Write a surface as .off, .obj, .ply or .vtp, vertices in their order and so that they read back exactly.
 
     Raises OutputError if the file cannot be written; what was there then stays.
     """
+    surface = Surface.of(surface)
     extension = check_output(path, MESH_FORMATS)
     with whole_file(path) as temporary, temporary.open("wb") as file:
         _WRITERS[extension](file, surface)

@@ -18,6 +18,8 @@ import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError, VertexError
+from ..mesh_like import MeshLike
+from ..number_arrays import array_of
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
 
@@ -44,15 +46,16 @@ class Pins:
 
     @classmethod
     def of(
-        cls, surface: Surface, vertices: npt.ArrayLike, names: Sequence[str] = (), ids: npt.ArrayLike | None = None
+        cls, surface: MeshLike, vertices: npt.ArrayLike, names: Sequence[str] = (), ids: npt.ArrayLike | None = None
     ) -> Pins:
         """Pins at vertices (k,), with ids from 1 unless others are given.
 
         Raises VertexError for a bad vertex; ParameterError for no vertices, another number of names (none is fine) or
         ids, or ids that are not whole numbers or not different.
         """
+        surface = Surface.of(surface)
         places = surface.check_vertices(vertices)
-        numbers = np.arange(1, len(places) + 1) if ids is None else np.asarray(ids)
+        numbers = np.arange(1, len(places) + 1) if ids is None else array_of(ids, "Ids of pins")
         if not len(places):
             raise ParameterError("There are no pins.")
         if names and len(names) != len(places):
@@ -65,7 +68,7 @@ class Pins:
         return len(self.vertices)
 
 
-def read_pins(path: str | os.PathLike[str], surface: Surface) -> Pins:
+def read_pins(path: str | os.PathLike[str], surface: MeshLike) -> Pins:
     """The pins in a file, at vertices of a surface; the extension names the format.
 
     .csv: a header of some of `id,vertex,x,y,z,name`, in any order, then a line for each pin.
@@ -76,7 +79,7 @@ def read_pins(path: str | os.PathLike[str], surface: Surface) -> Pins:
 
     Raises ParameterError, a sentence with the file, the place in it and the value, for anything else.
     """
-    return placed(picked_in(path), surface)
+    return placed(picked_in(path), Surface.of(surface))
 
 
 def picked_in(path: str | os.PathLike[str]) -> list[Picked]:
@@ -96,11 +99,12 @@ def picked_in(path: str | os.PathLike[str]) -> list[Picked]:
     return found
 
 
-def write_pins(path: str | os.PathLike[str], surface: Surface, pins: Pins) -> None:
+def write_pins(path: str | os.PathLike[str], surface: MeshLike, pins: Pins) -> None:
     """Write pins in a form that `read_pins` reads, with the positions of their vertices, exactly.
 
     MeshLab's .pp has no place for ids.  Raises OutputError if the file cannot be written; what was there then stays.
     """
+    surface = Surface.of(surface)
     extension = check_output(path, PIN_FORMATS)
     points = surface.vertices[pins.vertices].tolist()
     rows = list(zip(pins.ids.tolist(), pins.vertices.tolist(), points, pins.names, strict=True))

@@ -10,6 +10,8 @@ import numpy.typing as npt
 
 from ..arrays import IntArray
 from ..errors import ParameterError
+from ..mesh_like import MeshLike
+from ..number_arrays import array_of
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
 from .field_output import write_array
@@ -20,7 +22,7 @@ PAIR_FORMATS = (".csv", ".txt")
 IDENTITY = "identity"
 
 
-def read_map(path: str | os.PathLike[str], source: Surface, target: Surface) -> IntArray:
+def read_map(path: str | os.PathLike[str], source: MeshLike, target: MeshLike) -> IntArray:
     """(n,) for each vertex of the source surface a vertex of the target, -1 for none.
 
     path: a .npy file with (n,) or (n, 1) whole numbers, a .txt file with one on each line, or the word `identity`: the
@@ -28,6 +30,7 @@ def read_map(path: str | os.PathLike[str], source: Surface, target: Surface) -> 
 
     Raises ParameterError, a sentence with the file, the place in it and the value, for anything else.
     """
+    source, target = Surface.of(source), Surface.of(target)
     n, most = len(source.vertices), len(target.vertices)
     if str(path) == IDENTITY:
         if n != most:
@@ -51,8 +54,13 @@ def read_map(path: str | os.PathLike[str], source: Surface, target: Surface) -> 
 
 
 def write_map(path: str | os.PathLike[str], found: npt.ArrayLike) -> None:
-    """Write a map (n,) so that `read_map` reads it.  Raises OutputError if the file cannot be written."""
-    ids = np.asarray(found, np.int64).ravel()
+    """Write a map (n,) so that `read_map` reads it.
+
+    Raises OutputError if the file cannot be written, ParameterError for a map that is not whole numbers.
+    """
+    ids = array_of(found, "Vertices of a map").ravel()
+    if ids.dtype.kind not in "iu":
+        raise ParameterError(f"A map is (n,) whole numbers, not {ids.dtype}.")
     if check_output(path, MAP_FORMATS) == ".npy":
         write_array(path, ids)
         return

@@ -95,6 +95,7 @@ def pieces_of(source: Source, surface: Surface) -> Pieces:
     Raises VertexError for a vertex that does not exist or belongs to no face, ParameterError for a face or a boundary
     loop that does not exist, and for a curve whose points cannot be joined.
     """
+    source = checked_source(source)
     with _lock:
         known = _found.setdefault(surface, OrderedDict())
         pieces = known.pop(source, None)

@@ -5,11 +5,11 @@ distance is the least of its members'.
 """
 
 import math
-import operator
 from dataclasses import dataclass, field
 from typing import Any
 
 from ..errors import ParameterError
+from ..scalars import whole_number
 
 ROUNDING = 1e-9
 """Weights may miss their sum, or be below 0, by this much."""
@@ -124,16 +124,6 @@ def checked_source(value: Any) -> Source:
 
         return source_from_words(value)
     return value if isinstance(value, SourceSet) else _member(value)
-
-
-def whole_number(value: Any, what: str) -> int:
-    """A whole number as Python's, also from NumPy; ParameterError for anything else."""
-    try:
-        if isinstance(value, bool):
-            raise TypeError
-        return operator.index(value)
-    except TypeError:
-        raise ParameterError(f"{what} is a whole number, not {value!r}.") from None
 
 
 def _member(value: Any) -> Member:

@@ -117,7 +117,7 @@ def test_vertices_of_no_face_have_no_points():
         ({"k": 3, "tolerance": 0.1}, "give one of the two"),
         ({"k": 0}, "whole number of at least 1"),
         ({"tolerance": 0.0}, "a length above 0"),
-        ({"tolerance": "much"}, "must be a number"),
+        ({"tolerance": "much"}, "is a number, not"),
     ],
 )
 def test_what_cannot_be_is_refused(distance, asked, words):

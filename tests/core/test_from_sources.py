@@ -16,8 +16,9 @@ from bihdist_core import (
     VertexError,
 )
 from bihdist_core.distances.answers import Distances
-from bihdist_core.distances.distance import SOURCES, Distance
+from bihdist_core.distances.distance import Distance
 from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.source_questions import SOURCES
 from bihdist_core.sources.pieces import pieces_of
 from tests.core.every_distance import (
     BUMPY,

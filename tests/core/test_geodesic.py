@@ -184,3 +184,19 @@ def test_auto_changes_to_heat_where_the_exact_method_gives_up(monkeypatch):
     assert auto.error_estimate().text
     with pytest.raises(SolverError, match="was given up after"):
         GeodesicDistance(surface, "exact").from_source(5)
+
+
+def test_auto_asks_the_heat_method_once_where_that_fails(monkeypatch):
+    auto, asked = GeodesicDistance(bumpy(300)), []
+
+    def fails(*_):
+        asked.append(1)
+        raise SolverError("the heat method fails")
+
+    monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_AT_LEAST", 0)
+    monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_PER_VERTEX", 0)
+    monkeypatch.setattr("bihdist_core.distances.heat_times.HeatTimes.distances", fails)
+    for times in (1, 2):
+        with pytest.raises(SolverError, match="the heat method fails"):
+            auto.from_source(5)
+        assert (auto.method, len(asked)) == ("heat", times)

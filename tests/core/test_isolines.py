@@ -138,7 +138,7 @@ def test_100_000_vertices_and_20_values_are_quick():
 @pytest.mark.parametrize(
     ("field", "values", "words"),
     [
-        (np.zeros(3), [1], r"each of 49 vertices, not \(3,\)"),
+        (np.zeros(3), [1], r"each of 49 vertices, not an array of shape \(3,\)"),
         (np.zeros(49), [np.nan], "finite"),
         (np.zeros(49), [[1]], "finite"),
     ],

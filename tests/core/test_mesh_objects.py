@@ -37,7 +37,27 @@ def of_nibabel(vertices, faces):
     return gifti.GiftiImage(darrays=[gifti.GiftiDataArray(array, intent) for array, intent in arrays])
 
 
-@pytest.mark.parametrize("made", [of_pyvista, of_trimesh, of_meshio, of_nibabel, lambda v, f: (v.tolist(), f.tolist())])
+def of_open3d(vertices, faces):
+    open3d = pytest.importorskip("open3d")
+    return open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(vertices), open3d.utility.Vector3iVector(faces))
+
+
+def of_open3d_tensors(vertices, faces):
+    made = of_open3d(vertices, faces)
+    return pytest.importorskip("open3d").t.geometry.TriangleMesh.from_legacy(made)
+
+
+def of_nilearn(vertices, faces):
+    return pytest.importorskip("nilearn.surface").InMemoryMesh(vertices, faces)
+
+
+def of_lists(vertices, faces):
+    return vertices.tolist(), faces.tolist()
+
+
+@pytest.mark.parametrize(
+    "made", [of_pyvista, of_trimesh, of_meshio, of_nibabel, of_open3d, of_open3d_tensors, of_nilearn, of_lists]
+)
 def test_each_is_the_surface_with_its_ids(made):
     mesh = made(V, F)
     surface = Surface.of(mesh)
@@ -83,6 +103,13 @@ def test_what_does_not_fit_is_one_sentence():
         assert "\n" not in str(caught.value)
     with pytest.raises(ParameterError, match="not dict"):
         bihdist.figure({}, ["biharmonic"])
+
+
+def test_of_several_meshes_one_has_to_be_chosen():
+    both = pytest.importorskip("nilearn.surface").PolyMesh(of_nilearn(V, F), of_nilearn(V, F))
+    with pytest.raises(MeshError, match=r"PolyMesh has several parts; take one of mesh.parts: 'left', 'right'."):
+        Surface.of(both)
+    assert np.array_equal(Surface.of(both.parts["left"]).faces, F)
 
 
 def test_and_back():

@@ -6,14 +6,27 @@ import pytest
 from bihdist_core import (
     BiharmonicDistance,
     Cancelled,
+    DiffusionDistance,
+    GeodesicDistance,
     Laplacian,
     ParameterError,
+    PowerDistance,
+    ShepardInterpolant,
     Surface,
     TruncatedBiharmonicDistance,
     VertexError,
+    band,
     eigenpairs,
+    extrema,
     farthest_points,
+    isotropy_ratio,
     nearest,
+    noisy,
+    simplified,
+    triangle_sample,
+    triangle_violations,
+    truncation_loss,
+    with_holes,
 )
 from tests.core.every_distance import GEODESIC, QUADRATIC
 from tests.shapes import bumpy, grid, two_pieces
@@ -49,7 +62,7 @@ def test_all_digits_of_near_pairs():
 
 @pytest.mark.parametrize("surface", [bumpy(300), two_pieces()], ids=["one", "two"])
 def test_fields_of_many_sources_go_where_they_are_to(surface, monkeypatch, tmp_path):
-    monkeypatch.setattr("bihdist_core.distances.distance.BLOCK", 1)
+    monkeypatch.setattr("bihdist_core.distances.source_questions.BLOCK", 1)
     distance, ids = BiharmonicDistance(surface), np.flatnonzero(surface.component_of_vertex >= 0)[::2]
     expected = np.column_stack([distance.from_source(int(v)) for v in ids])
     close = 1e-6 * np.nanmax(expected)
@@ -63,8 +76,11 @@ def test_fields_of_many_sources_go_where_they_are_to(surface, monkeypatch, tmp_p
     assert distance.from_sources([]).shape == (len(surface.vertices), 0)
     with pytest.raises(ParameterError, match="`out` has"):
         distance.from_sources(ids, out=mapped.T)
-    with pytest.raises(ParameterError, match="float32 or float64, not int64"):
-        distance.from_sources(ids, dtype=int)
+    for wrong, words in ((int, "float32 or float64, not int64"), ("text", "float32 or float64, not 'text'")):
+        with pytest.raises(ParameterError, match=words):
+            distance.from_sources(ids, dtype=wrong)
+    with pytest.raises(ParameterError, match="written into an array, not into list"):
+        distance.from_sources(ids, out=[0.0])
 
 
 @pytest.mark.parametrize("make", {**QUADRATIC, **GEODESIC}.values(), ids={**QUADRATIC, **GEODESIC})
@@ -84,6 +100,51 @@ def test_questions_report_progress_and_can_be_cancelled(make, ask, monkeypatch):
     getattr(distance, ask)(asked, lambda fraction, text: said.append(fraction))
     assert said == sorted(said)
     assert 0 <= said[0] <= said[-1] <= 1
+
+
+@pytest.mark.parametrize("make", {**QUADRATIC, **GEODESIC}.values(), ids={**QUADRATIC, **GEODESIC})
+@pytest.mark.parametrize("ask", ["from_sources", "pairwise", "of_pairs"])
+def test_progress_grows_from_component_to_component_also_where_one_is_asked_first(make, ask):
+    distance, said = make(two_pieces()), []
+    asked = [(0, 3), (61, 62), (3, 61)] if ask == "of_pairs" else [0, 3, 61, 62]
+    getattr(distance, ask)(asked, lambda fraction, text: said.append(fraction))
+    assert said == sorted(said)
+    assert said[-1] <= 1
+
+
+@pytest.mark.parametrize("make", {**QUADRATIC, **GEODESIC}.values(), ids={**QUADRATIC, **GEODESIC})
+def test_between_takes_arrays_reports_and_can_be_cancelled(make):
+    distance, said = make(bumpy(300)), []
+    u, v = np.arange(40), np.arange(40)[::-1] + 100
+
+    def stop(fraction, text):
+        raise Cancelled("enough")
+
+    found = distance.between(u, v, lambda fraction, text: said.append(fraction))
+    assert np.array_equal(found, distance.of_pairs(np.column_stack([u, v])))
+    assert said == sorted(said)
+    assert distance.between(7, 132, lambda fraction, text: said.append(fraction)) == pytest.approx(found[7], rel=1e-9)
+    assert np.array_equal(distance.between(u.tolist(), tuple(v)), found)
+    for ends in ((u, v), (7, 132), ("7", 132), ("3+7", 132), (132, "3+7")):
+        with pytest.raises(Cancelled, match="enough"):
+            distance.between(*ends, stop)
+
+
+def test_between_takes_as_many_points_on_both_sides():
+    distance = BiharmonicDistance(two_pieces())
+    places = ["f3:0.2,0.5", 12, "f9:0,1"]
+    found = distance.between(places, [3, 4, 5])
+    assert np.allclose(found, [distance.between(p, q) for p, q in zip(places, [3, 4, 5], strict=True)], rtol=1e-12)
+    assert np.isnan(distance.between([0], [61]))
+    assert distance.between(np.array(3), np.array(5)) == distance.between(3, 5)
+    for u, v, words in (
+        ([1, 2], [3], "not between 2 points and 1 points"),
+        (1, [3], "not between 1 and 1 points"),
+        ([[1, 2]], [[3, 4]], r"must have shape \(k, 2\), not \(1, 4\)"),
+        ([1, [2]], [3, 4], "Vertices are no array: their rows differ in length"),
+    ):
+        with pytest.raises(ParameterError, match=words):
+            distance.between(u, v)
 
 
 @pytest.mark.parametrize("source", [12.0, "twelve", None, np.float64(3)])
@@ -114,6 +175,58 @@ def test_counts_beyond_the_mesh_are_refused_at_once():
     ):
         with pytest.raises(ParameterError, match=r"6[01]"):
             ask()
+
+
+@pytest.mark.parametrize("value", ["a", None, 1j, [0.5], True])
+def test_what_is_no_number_is_refused_in_a_sentence(value):
+    surface = bumpy(60)
+    distance, field = BiharmonicDistance(surface), surface.vertices[:, 2]
+    for ask in (
+        lambda: DiffusionDistance(surface, t=value),
+        lambda: PowerDistance(surface, alpha=value, k=5),
+        lambda: GeodesicDistance(surface, radius=value),
+        lambda: ShepardInterpolant(distance, [1], [1.0], exponent=value),
+        lambda: ShepardInterpolant(distance, [1], [1.0], smoothness=value),
+        lambda: band(surface, field, value),
+        lambda: band(surface, field, 0, value),
+        lambda: extrema(surface, field, value),
+        lambda: isotropy_ratio(surface, field, field, value),
+        lambda: nearest(distance, [1], memory=value),
+        lambda: nearest(distance, [1], k=value),
+        lambda: noisy(surface, value),
+        lambda: simplified(surface, value),
+        lambda: triangle_sample(distance, value),
+        lambda: triangle_sample(distance, component=value),
+        lambda: triangle_violations(np.zeros((5, 5)), value),
+        lambda: truncation_loss(surface, 3, value),
+        lambda: with_holes(surface, value),
+        lambda: with_holes(surface, 1, value),
+    ):
+        with pytest.raises(ParameterError, match=r"number"):
+            ask()
+
+
+@pytest.mark.parametrize(
+    ("vertices", "words"),
+    [
+        ([[1], [2, 3]], "vertex ids are one row, and these differ in length"),
+        (np.array([1 + 0j, 2]), r"np.complex128\(1\+0j\) is not a vertex id"),
+        (np.array([1.0, 2.0]), r"1.0\) is not a vertex id"),
+        (np.array(["1", "b"]), r"'1'\) is not a vertex id"),
+        (np.array([True, False]), r"np.True_ is not a vertex id"),
+        ({1: 2}, r"\{1: 2\} is not a vertex id"),
+        (np.array([[1, 2]]), r"\[1, 2\]\) is not a vertex id"),
+        (np.array([3, 2**63 + 5], np.uint64), f"has no vertex {2**63 + 5}; ids run from 0 to 59"),
+        (np.array([3, -1]), "has no vertex -1"),
+    ],
+)
+def test_arrays_that_are_no_vertices_are_refused_in_a_sentence(vertices, words):
+    distance = BiharmonicDistance(bumpy(60))
+    for ask in (distance.from_sources, distance.pairwise, distance.surface.check_vertices):
+        with pytest.raises(VertexError, match=words):
+            ask(vertices)
+    with pytest.raises((VertexError, ParameterError)):
+        distance.of_pairs([vertices])
 
 
 def test_operators_cannot_be_written_to():

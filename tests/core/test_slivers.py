@@ -168,7 +168,7 @@ def test_a_certificate_knows_what_it_does_not_know(monkeypatch):
     monkeypatch.setattr("bihdist_core.solver.plain.STIFF", 0.0)
     distance = BiharmonicDistance(Surface(surface.vertices, surface.faces))
     # As digits are lost some squares are below zero, which processors do not have in common.
-    monkeypatch.setattr("bihdist_core.distances.distance.ROUNDING", 1.0)
+    monkeypatch.setattr("bihdist_core.distances.squares.ROUNDING", 1.0)
     error = max(abs(distance.from_source(i)[j] - exact) for i, j, exact, _ in pairs) / distance.from_source(3).max()
     assert error > RIGHT
     assert distance.accuracy > error

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
-from bihdist_core.sources.source import whole_number
+from bihdist_core.scalars import whole_number
 
 from ...document.document import Document, Panel, Point, free_names, unlike
 from ...document.json_values import record, text

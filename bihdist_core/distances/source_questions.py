@@ -1,0 +1,243 @@
+"""How far all vertices are from a source, or from each of many: answered per connected component."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..arrays import AnyArray, FloatArray, IntArray
+from ..errors import ParameterError
+from ..laplacian import Component, Laplacian, as_laplacian
+from ..mesh_like import MeshLike, Rows
+from ..progress import Progress, part, silent
+from ..sources.pieces import Pieces, pieces_of
+from ..sources.source import BoundaryLoop, Curve, Source, SourceSet, SurfacePoint, checked_source
+from .in_faces import blocks, squares_from
+from .squares import root
+
+SOURCES = 32
+"""From so many sources at a time pairs are computed, which bounds the memory."""
+
+BLOCK = 1 << 22
+"""How many distances of fields are held at a time besides those that are wanted."""
+
+ROWS = 1 << 12
+"""How many vertices' values are written at a time."""
+
+ELSEWHERE = SurfacePoint | BoundaryLoop | Curve | SourceSet
+"""Sources that are no vertex."""
+
+
+class SourceQuestions(ABC):
+    """What a distance answers by fields: one value at each vertex of the surface."""
+
+    label: str
+    is_quadratic = False
+    """Whether squares are a quadratic form of differences of unit vectors, which is defined anywhere in a face."""
+
+    def __init__(self, laplacian: Laplacian | MeshLike | Rows, faces: npt.ArrayLike | None = None) -> None:
+        self.laplacian = as_laplacian(laplacian, faces)
+        self.surface = self.laplacian.surface
+        self._asked: set[int] = set()
+
+    @abstractmethod
+    def prepare(self, component: Component, progress: Progress | None = None) -> None:
+        """Do the long work that questions about a component need; nothing if it is done."""
+
+    @abstractmethod
+    def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
+        """(m, k) distances within a component from its local vertices `index` (k,)."""
+
+    def from_source(self, source: Source | str, progress: Progress | None = None) -> FloatArray:
+        """(n,) distance of every vertex from a source; 0 at vertices that belong to it, NaN where it does not reach.
+
+        A vertex or any other source, or its words (`sources`).  From several the distance is that from the nearest;
+        along a boundary loop or a curve, from its nearest point where the distance can be had anywhere in a face.
+        Raises VertexError or ParameterError for a source that is not on this surface, and ParameterError for one that
+        this distance cannot start from.
+        """
+        (progress or silent)(0.0, self.label)
+        if isinstance(source, str):
+            source = checked_source(source)
+        if not isinstance(source, ELSEWHERE):
+            return self._from_vertex(source, progress)
+        return self.from_pieces(pieces_of(source, self.surface), progress)
+
+    def _from_vertex(self, vertex: int, progress: Progress | None) -> FloatArray:
+        component = self.laplacian.component_of(vertex)
+        self._asked.add(component.index)
+        progress = self._prepared(component, progress)
+        field = self._columns(component, component.local(np.array([vertex])), progress)[:, 0]
+        if len(field) < len(self.surface.vertices):
+            inside, field = field, np.full(len(self.surface.vertices), np.nan)
+            field[component.vertices] = inside
+        field[vertex] = 0
+        return field
+
+    def label_from(self, pieces: Pieces) -> str:
+        """`label`, with what there is to say of fields that start from some pieces of the surface."""
+        return self.label
+
+    def from_pieces(self, pieces: Pieces, progress: Progress | None = None) -> FloatArray:
+        """(n,) distances of every vertex from the nearest of some pieces of this surface."""
+        field = np.full(len(self.surface.vertices), np.nan)
+        for component, mine, step in self._by_component(pieces.corners[:, 0], progress):
+            step = self._prepared(component, step)
+            some = pieces.some(mine)
+            field[component.vertices] = self._from_pieces(component, some, step)
+        for weights in (pieces.start, pieces.stop):
+            field[pieces.corners[weights == 1]] = 0
+        return field
+
+    def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
+        """(m,) distances within a component, from pieces in the whole surface's numbers."""
+        vertices = pieces.vertices
+        if vertices is None and not self.is_quadratic:
+            raise ParameterError(
+                f"{self.label} is known between vertices only; let it start from some, such as 12 or 12+40+7."
+            )
+        least = np.full(len(component.vertices), np.inf)
+        if vertices is not None:
+            starts = range(0, len(vertices), SOURCES)
+            for number, start in enumerate(starts):
+                step = part(progress, number / len(starts), (number + 1) / len(starts))
+                index = component.local(vertices[start : start + SOURCES])
+                np.minimum(least, self._columns(component, index, step).min(axis=1), out=least)
+            return least
+        groups, size = blocks(pieces, SOURCES), 0.0
+        for number, group in enumerate(groups):
+            step = part(progress, number / len(groups), (number + 1) / len(groups))
+            step(0.0, self.label)
+            some = pieces.some(group)
+            index, local = np.unique(component.local(some.touched), return_inverse=True)
+            squares = self._columns(component, index, step) ** 2
+            size = max(size, float(squares.max()))
+            among = self._pairwise(component, index) ** 2
+            each = squares_from(squares, (among + among.T) / 2, index, local.reshape(-1, 3), some)
+            for one in each:
+                np.minimum(least, one, out=least)
+        # What is nearest may be at no distance everywhere.
+        return root(least, size)
+
+    def from_sources(
+        self,
+        sources: npt.ArrayLike | Sequence[Source | str],
+        progress: Progress | None = None,
+        *,
+        dtype: npt.DTypeLike = np.float64,
+        out: AnyArray | None = None,
+    ) -> AnyArray:
+        """(n, k) distances of every vertex from each of k vertices, or sources of any kind.
+
+        dtype: float64 or float32, of the array that is made.  out: an array (n, k) of either that takes them, such as a
+        memory map, and is returned; then and in float32 only some fields at a time are in memory besides.  Raises
+        VertexError or ParameterError for a source as `from_source` does, ParameterError for another shape or type.
+        """
+        (progress or silent)(0.0, self.label)
+        n, kind = len(self.surface.vertices), _checked_type(out, dtype)
+        if isinstance(sources, Sequence) and any(isinstance(each, str | ELSEWHERE) for each in sources):
+            fields = _room(out, (n, len(sources)), kind)
+            for k, each in enumerate(sources):
+                fields[:, k] = self.from_source(each, part(progress, k / len(sources), (k + 1) / len(sources)))
+            return fields
+        ids = self.surface.check_vertices(sources)
+        is_whole = self.surface.largest_component_size == n
+        if is_whole and out is None and kind == np.float64 and len(ids):
+            [(_, _, fields)] = self.columns_by_component(ids, progress)
+            return fields
+        fields, step = _room(out, (n, len(ids)), kind), block_size(n)
+        for start in range(0, len(ids), step):
+            some = ids[start : start + step]
+            if not is_whole:
+                fields[:, start : start + step] = np.nan
+            report = part(progress, start / len(ids), (start + len(some)) / len(ids))
+            done = 0
+            for component, mine, columns in self.columns_by_component(some, report):
+                done += len(mine)
+                into = slice(start, start + len(some)) if len(mine) == len(some) else start + mine
+                # Into new memory or a file, where it takes as long as to compute them.
+                for first in range(0, len(columns), ROWS):
+                    report(done / len(some), self.label)
+                    rows = slice(first, first + ROWS) if is_whole else component.vertices[first : first + ROWS]
+                    there = (rows, into) if isinstance(into, slice) else np.ix_(rows, into)
+                    fields[there] = columns[first : first + ROWS]
+        return fields
+
+    def columns_by_component(
+        self, sources: npt.ArrayLike, progress: Progress | None = None
+    ) -> Iterator[tuple[Component, IntArray, FloatArray]]:
+        """For each component with some of the source vertices (k,): itself, which of them (c,), and their fields.
+
+        Fields are (m, c), for the m vertices of the component only.
+        """
+        ids = self.surface.check_vertices(sources)
+        for component, mine, step in self._by_component(ids, progress):
+            step = self._prepared(component, step)
+            index = component.local(ids[mine])
+            columns = self._columns(component, index, step)
+            columns[index, np.arange(len(index))] = 0
+            yield component, mine, columns
+
+    def _pairwise(self, component: Component, index: IntArray, progress: Progress | None = None) -> FloatArray:
+        """(k, k) distances among local vertices `index` (k,)."""
+        progress = self._prepared(component, progress)
+        found, step = np.empty((len(index), len(index))), block_size(len(component.vertices))
+        for start in range(0, len(index), step):
+            some = index[start : start + step]
+            report = part(progress, start / len(index), (start + len(some)) / len(index))
+            found[:, start : start + step] = self._columns(component, some, report)[index]
+        return found
+
+    def _prepared(self, component: Component, progress: Progress | None) -> Progress:
+        """Prepare a component; the progress of what follows, which is all of it where nothing was left to do."""
+        begun = 0.0
+
+        def first_half(fraction: float, text: str) -> None:
+            nonlocal begun
+            begun = 0.5
+            report(fraction / 2, text)
+
+        report = part(progress, 0, 1)
+        self.prepare(component, silent if report is silent else first_half)
+        return part(report, begun, 1)
+
+    def _by_component(
+        self, ids: IntArray, progress: Progress | None = None
+    ) -> Iterator[tuple[Component, IntArray, Progress]]:
+        """Each component with the positions of its vertices among ids (k,), and the progress of its share of them."""
+        label, done = self.surface.component_of_vertex[ids], 0
+        for index in np.unique(label):
+            self._asked.add(int(index))
+            mine = np.flatnonzero(label == index)
+            step = part(progress, done / len(ids), (done + len(mine)) / len(ids))
+            yield self.laplacian.components[index], mine, step
+            done += len(mine)
+
+
+def block_size(n: int) -> int:
+    """From how many sources fields of n vertices are held at a time."""
+    return max(SOURCES, BLOCK // n)
+
+
+def _room(out: AnyArray | None, shape: tuple[int, int], dtype: np.dtype[Any]) -> AnyArray:
+    """An array for fields: the one given, if it fits, or a new one."""
+    if out is not None and out.shape != shape:
+        raise ParameterError(f"The fields have the shape {shape}, and `out` has {out.shape}.")
+    return np.empty(shape, dtype) if out is None else out
+
+
+def _checked_type(out: AnyArray | None, dtype: npt.DTypeLike) -> np.dtype[Any]:
+    """The type of fields; ParameterError for an array or a type that cannot hold distances."""
+    if not (out is None or isinstance(out, np.ndarray)):
+        raise ParameterError(f"Fields are written into an array, not into {type(out).__name__}.")
+    try:
+        kind = np.dtype(dtype if out is None else out.dtype)
+    except TypeError:
+        raise ParameterError(f"Distances are float32 or float64, not {dtype!r}.") from None
+    if kind not in (np.float32, np.float64):
+        raise ParameterError(f"Distances are float32 or float64, not {kind}.")
+    return kind

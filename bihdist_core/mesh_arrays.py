@@ -1,0 +1,83 @@
+"""Arrays of vertices and faces as they come from anywhere, checked and copied."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from .arrays import AnyArray, FloatArray, IntArray
+from .errors import MeshError
+from .kernel.library import DONE, library
+
+
+def checked_vertices(vertices: npt.ArrayLike, name: str) -> FloatArray:
+    """(n, 3) a copy of vertices in float64; MeshError, which begins with a name, for what is none."""
+    try:
+        x = np.array(vertices)
+        if x.dtype.kind not in "iufO":
+            raise TypeError(f"their type is {x.dtype}")
+        x = x.astype(np.float64, copy=False)
+    except (TypeError, ValueError) as error:
+        raise MeshError(f"{name}: the vertices are not an array of numbers ({error}).") from None
+    if x.ndim != 2 or x.shape[1] != 3:
+        raise MeshError(f"{name}: vertices must have shape (n, 3), not {x.shape}.")
+    is_finite = np.isfinite(x)
+    if not is_finite.all():
+        bad = np.flatnonzero(~is_finite.all(axis=1))
+        raise MeshError(f"{name}: vertex {bad[0]} has the coordinates {_row(x[bad[0]])}; all must be finite numbers.")
+    return x
+
+
+def checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[IntArray, list[str]]:
+    """(m, 3) the faces of n vertices that can be used, and what was dropped, in words; MeshError for what is none."""
+    try:
+        f = np.array(faces)
+        if f.dtype.kind not in "iufO":
+            raise TypeError(f"their type is {f.dtype}")
+        whole = np.ascontiguousarray(f, np.int64)
+    except (TypeError, ValueError) as error:
+        raise MeshError(f"{name}: the faces are not an array of vertex ids ({error}).") from None
+    if f.size == 0:
+        raise MeshError(f"{name} has no faces; a surface needs at least one triangle.")
+    if f.ndim != 2 or f.shape[1] != 3:
+        raise MeshError(f"{name}: faces must have shape (m, 3), not {f.shape}.")
+    if f.dtype.kind in "iu" and _are_proper(whole, n):
+        return whole, []
+    bad = np.flatnonzero(((whole < 0) | (whole >= n) | (whole != f)).any(axis=1))
+    if len(bad):
+        raise MeshError(f"{name}: face {bad[0]} has the vertices {_row(f[bad[0]])}; ids run from 0 to {n - 1}.")
+    a, b, c = whole.T
+    proper = np.flatnonzero((a != b) & (b != c) & (c != a))
+    unique = _without_repeats(whole, proper)
+    repairs = [
+        f"{count} {'face' if count == 1 else 'faces'} {what} dropped"
+        for count, what in [
+            (len(f) - len(proper), "with a repeated vertex"),
+            (len(proper) - len(unique), "that repeated another"),
+        ]
+        if count
+    ]
+    if not len(unique):
+        raise MeshError(f"{name}: every face names a vertex twice; a surface needs at least one triangle.")
+    return whole[unique], repairs
+
+
+def _are_proper(faces: IntArray, n: int) -> bool:
+    """Whether the kernel finds nothing wrong with the (m, 3) faces of n vertices."""
+    kernel, slots = library(), 2 << len(faces).bit_length()
+    return kernel is not None and kernel.bih_check_faces(n, len(faces), faces, slots, np.empty(slots, np.int32)) == DONE
+
+
+def _without_repeats(faces: IntArray, some: IntArray) -> IntArray:
+    """Of the faces with the numbers `some` (k,) the first of each three vertices."""
+    # Repeated faces are rare.  Random numbers for the vertices, added up, tell in no time that there are none.
+    random = np.random.default_rng(0).integers(1 << 62, size=int(faces.max()) + 1)
+    sums = random[faces[some]].sum(axis=1)
+    sums.sort()
+    if (sums[1:] != sums[:-1]).all():
+        return some
+    return np.sort(some[np.unique(np.sort(faces[some], axis=1), axis=0, return_index=True)[1]])
+
+
+def _row(values: AnyArray) -> str:
+    return "(" + ", ".join(f"{v:g}" for v in values) + ")"
