@@ -67,6 +67,11 @@ class CompiledTree:
     """Numbers of all that tasks hand to each other, with derivatives."""
     longest_row: int
     """Numbers of the longest row of a front, with its padding."""
+    tasks: list[tuple[int, int]]
+    """What is done as one: the first front of each and the last."""
+    after: list[list[int]]
+    before: list[list[int]]
+    """The numbers of the tasks that come before each, bottom up and top down."""
 
     def __init__(self, pattern: sp.csr_matrix, x: FloatArray, progress: Progress | None = None) -> None:
         self.n = len(x)
