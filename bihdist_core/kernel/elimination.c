@@ -14,7 +14,8 @@ typedef struct {
 
 static double *schur_of(const Elimination *e, i64 q) {
   const Tree *t = e->factor->tree;
-  return e->blocks[q] ? e->blocks[q] : e->stack + (1 + (e->factor->areas != NULL)) * t->stack[q];
+  double *block = handed(e->blocks, q);
+  return block ? block : e->stack + (1 + (e->factor->areas != NULL)) * t->stack[q];
 }
 
 static i64 work_of(Front f, int dual) {
@@ -214,7 +215,7 @@ static i32 eliminate(Elimination *e, i64 q) {
 }
 
 /* Eliminate the fronts first to last, one task.  blocks (fronts,): where Schur complements lie that tasks hand on, the
- * last one's and, of a top front, its children's; NULL for others.  work: as much as bih_elimination_room says;
+ * last one's and, of a top front, its children's; NULL for others, or for all.  work: as much as bih_elimination_room says;
  * where (2,): the entry if one is OUTSIDE. */
 API i32 bih_eliminate(const Factor *factor, const Rows *matrix, i64 first, i64 last, double *const *blocks, double *work,
                       i64 *where, Watch *watch) {

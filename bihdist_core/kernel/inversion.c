@@ -43,6 +43,11 @@ static void gather(Front f, const work_i32 *end, const double *Zp, i64 ldp, doub
   }
 }
 
+static double *block_of(const Tree *t, i64 q, double *const *blocks, double *stack) {
+  double *block = handed(blocks, q);
+  return block ? block : stack + t->inverse[q];
+}
+
 static void invert_leaf(const Factor *factor, i64 q, Front f, const double *Z, const double *Z1, double *work,
                         double *diagonal, double *sandwich) {
   i64 c = f.c, m = f.m, ld = f.sp, cp = f.cp, mp = f.mp;
@@ -69,10 +74,10 @@ static void invert(const Factor *factor, i64 q, double *const *blocks, double *s
   const Tree *t = factor->tree;
   Front f = front_of(t, q);
   i64 c = f.c, m = f.m, ld = f.sp, cp = f.cp, mp = f.mp, ln = 2 * mp, parent = t->parent[q];
-  double *Z = blocks[q] ? blocks[q] : stack + t->inverse[q], *Z1 = Z + f.s * ld;
+  double *Z = block_of(t, q, blocks, stack), *Z1 = Z + f.s * ld;
   if (parent >= 0) {
     Front p = front_of(t, parent);
-    const double *Zp = blocks[parent] ? blocks[parent] : stack + t->inverse[parent], *Zp1 = Zp + p.s * p.sp;
+    const double *Zp = block_of(t, parent, blocks, stack), *Zp1 = Zp + p.s * p.sp;
     work_i32 *end = (work_i32 *)work;
     find_runs(f, end);
     gather(f, end, Zp, p.sp, Z + c * ld + c, ld);
@@ -104,7 +109,7 @@ static void invert(const Factor *factor, i64 q, double *const *blocks, double *s
 }
 
 /* The diagonals (n,) at the pivots of the fronts last to first, one task.  blocks (fronts,): of top fronts, where their
- * blocks of the inverse lie, (2, s, sp); NULL for others.  work: as much as bih_inversion_room says. */
+ * blocks of the inverse lie, (2, s, sp); NULL for others, or for all.  work: as much as bih_inversion_room says. */
 API i32 bih_invert(const Factor *factor, i64 first, i64 last, double *const *blocks, double *work, double *diagonal,
                    double *sandwich, Watch *watch) {
   i64 room[2];
@@ -116,4 +121,20 @@ API i32 bih_invert(const Factor *factor, i64 first, i64 last, double *const *blo
     advance(watch, f.c * f.s * f.s);
   }
   return DONE;
+}
+
+/* A whole factor on one thread, and, with derivatives, the diagonals (n,).  work: as much as bih_factor_room says. */
+API i32 bih_factor(const Factor *factor, const Rows *matrix, double *work, double *diagonal, double *sandwich, i64 *where) {
+  Watch watch = {0, 0};
+  i64 last = factor->tree->fronts - 1;
+  i32 status = bih_eliminate(factor, matrix, 0, last, NULL, work, where, &watch);
+  if (status || !factor->areas) return status;
+  return bih_invert(factor, 0, last, NULL, work, diagonal, sandwich, &watch);
+}
+
+API i64 bih_factor_room(const Tree *t, i32 dual) {
+  i64 up[3], down[2] = {0};
+  bih_elimination_room(t, dual, 0, t->fronts - 1, up);
+  if (dual) bih_inversion_room(t, 0, t->fronts - 1, down);
+  return most(up[2], down[1]);
 }

@@ -121,6 +121,8 @@ static inline Front front_of(const Tree *t, i64 q) {
 static inline void find_runs(Front f, work_i32 *end) {
   for (i64 j = f.m; j-- > 0;) end[j] = (i32)(j + 1 < f.m && f.up[j + 1] == f.up[j] + 1 ? end[j + 1] : j + 1);
 }
+/* Where the block lies that a task hands on; NULL where a front hands nothing on, or nothing is. */
+static inline double *handed(double *const *blocks, i64 q) { return blocks ? blocks[q] : NULL; }
 static inline int is_leaf(const Tree *t, i64 q) { return t->children[2 * q] < 0; }
 /* How many of K and K1, or of N and N1, a front keeps. */
 static inline i64 kept(const Factor *f, i64 q) { return 1 + (f->areas && !is_leaf(f->tree, q)); }
@@ -129,6 +131,11 @@ static inline i64 block_at(const Factor *f, const i64 *block, i64 q) {
 }
 static inline double *block_K(const Factor *f, i64 q) { return f->pivots + block_at(f, f->tree->pivot_block, q); }
 static inline double *block_N(const Factor *f, i64 q) { return f->boundaries + block_at(f, f->tree->row_block, q); }
+
+/* elimination.c */
+API void bih_elimination_room(const Tree *t, i32 dual, i64 first, i64 last, i64 *room);
+API i32 bih_eliminate(const Factor *factor, const Rows *matrix, i64 first, i64 last, double *const *blocks, double *work,
+                      i64 *where, Watch *watch);
 
 /* dense.c */
 void add_product(i64 rows, i64 columns, i64 inner, double scale, const double *A, i64 row, i64 column, const double *B,

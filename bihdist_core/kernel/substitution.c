@@ -171,16 +171,27 @@ static void send_one(const Factor *factor, Front f, i64 q, i64 w, i64 column, do
   }
 }
 
+/* The front that eliminates a place. */
+static i64 front_at(const Tree *t, i64 place) {
+  i64 low = 0, high = t->fronts;
+  while (high - low > 1) {
+    i64 middle = (low + high) / 2;
+    if (t->first[middle] <= place) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
 /* Send unit vectors, at places (k,), up their paths to the root; xy (n, 2 w), w >= k, is set there alone.
  * count (fronts,): on how many paths a front is. */
-API void bih_send_units(const Factor *factor, const i32 *fronts, const i32 *places, i64 k, i64 w, double *xy, i32 *count,
-                        double *work) {
+API void bih_send_units(const Factor *factor, const i32 *places, i64 k, i64 w, double *xy, i32 *count, double *work) {
   const Tree *t = factor->tree;
   i64 lowest = t->fronts;
   for (i64 q = 0; q < t->fronts; q++) count[q] = 0;
   for (i64 l = 0; l < k; l++) {
-    lowest = least(lowest, fronts[l]);
-    for (i64 q = fronts[l]; q >= 0; q = t->parent[q])
+    i64 front = front_at(t, places[l]);
+    lowest = least(lowest, front);
+    for (i64 q = front; q >= 0; q = t->parent[q])
       if (!count[q]++) zero(xy + t->first[q] * 2 * w, 16 * w * (t->first[q + 1] - t->first[q]));
   }
   for (i64 l = 0; l < k; l++) xy[places[l] * 2 * w + l] = 1;

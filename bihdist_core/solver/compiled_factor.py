@@ -61,9 +61,14 @@ class CompiledFactor:
             np.empty(size + (0 if areas is None else int(block[-1])) + PADDING)
             for size, block in zip(tree.factor_size, (tree.pivot_block, tree.row_block), strict=True)
         )
+        self._diagonals: tuple[FloatArray, FloatArray] | None = None
+        self._arena: Arena | None = None
+        if len(tree.tasks) == 1 and job.is_silent:
+            self._factor_alone(matrix)
+            return
         self._rooms = {task: (self._elimination_room(task), self._inversion_room(task)) for task in tree.tasks}
         most = max(max(rooms) for rooms in self._rooms.values())
-        self._arena: Arena | None = Arena(tree.blocks_room + min(WORKERS, len(self._rooms)) * most)
+        self._arena = Arena(tree.blocks_room + min(WORKERS, len(self._rooms)) * most)
         self._eliminate(matrix, job)
         if areas is None:
             self._arena = None
@@ -80,6 +85,17 @@ class CompiledFactor:
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in self.__dict__.items() if name != "_struct"}
+
+    def _factor_alone(self, matrix: sp.csr_matrix) -> None:
+        """All of it, diagonals included, by one call."""
+        lib, tree, where = library(), ctypes.byref(self.tree.struct), np.empty(2, np.int64)
+        rows = rows_of(matrix.indptr, matrix.indices, matrix.data)
+        is_dual = self._areas is not None
+        diagonals = np.empty((2, self.tree.n)) if is_dual else (None, None)
+        work = np.empty(lib.bih_factor_room(tree, is_dual))
+        _check(lib.bih_factor(ctypes.byref(self._struct), ctypes.byref(rows), work, *diagonals, where), where)
+        if is_dual:
+            self._diagonals = diagonals[0], diagonals[1]
 
     def _elimination_room(self, task: tuple[int, int]) -> int:
         room = np.empty(3, np.int64)
@@ -107,11 +123,7 @@ class CompiledFactor:
                 status = lib.bih_eliminate(
                     factor, ctypes.byref(rows), *task, schur.address, work, where, ctypes.byref(job.watch)
                 )
-            if status == kernel.NOT_POSITIVE:
-                raise SolverError("The matrix is not positive definite to working accuracy, so it cannot be factored.")
-            if status == kernel.OUTSIDE:
-                raise ParameterError(f"The entry ({where[0]}, {where[1]}) is outside the pattern of the tree.")
-            check_stopped(status)
+            _check(status, where)
             if tree.top[q]:
                 for child in tree.children[q]:
                     schur.release(child)
@@ -120,6 +132,9 @@ class CompiledFactor:
 
     def diagonals(self, job: Job) -> tuple[FloatArray, FloatArray]:
         """(n,) diag(G) and (n,) diag(G A G); to be called once, after the elimination."""
+        if self._diagonals is not None:
+            found, self._diagonals = self._diagonals, None
+            return found
         lib, tree, factor, arena = library(), self.tree, ctypes.byref(self._struct), self._arena
         assert arena is not None
         diagonals, inverse = np.empty((2, tree.n)), Blocks(len(tree.parent), arena)
@@ -195,8 +210,7 @@ class CompiledFactor:
     ) -> None:
         lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
         places, width, count = tree.place[index], xy.shape[1] // 2, np.empty(len(tree.parent), np.int32)
-        front = (np.searchsorted(tree.first, places, side="right") - 1).astype(np.int32)
-        lib.bih_send_units(factor, front, places, len(index), width, xy, count, tree.workspace(2 * width))
+        lib.bih_send_units(factor, places, len(index), width, xy, count, tree.workspace(2 * width))
 
         def down(task: tuple[int, int]) -> None:
             lib.bih_sweep_down_both(factor, *task, width, xy, count, tree.workspace(2 * width), NEVER)
@@ -214,6 +228,15 @@ class CompiledFactor:
             # A copy: those below need it as it is.
             receive(tree.order[tree.top_places], xy[tree.top_places, width : width + len(index)])
         run(finish, tree.branches)
+
+
+def _check(status: int, where: IntArray) -> None:
+    """Raise what an elimination tells; where: the entry that it tells of."""
+    if status == kernel.NOT_POSITIVE:
+        raise SolverError("The matrix is not positive definite to working accuracy, so it cannot be factored.")
+    if status == kernel.OUTSIDE:
+        raise ParameterError(f"The entry ({where[0]}, {where[1]}) is outside the pattern of the tree.")
+    check_stopped(status)
 
 
 def _width(columns: int) -> int:

@@ -118,6 +118,11 @@ class Job:
         self._reported = time.monotonic()
         self.watch = Watch()
 
+    @property
+    def is_silent(self) -> bool:
+        """Whether nobody is told how far it is, so that nobody stops it either."""
+        return self._progress is None
+
     def advance(self, work: int) -> None:
         """Count a piece of work; raises Cancelled once the job is to stop."""
         if self.watch.stop:

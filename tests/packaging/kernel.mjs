@@ -34,23 +34,17 @@ const [pivots, boundaries, , , longest] = Array.from(totals, Number);
 // The factor with its derivatives.
 const areas = doubles(Array.from(vertices, (v) => given.areas[v]));
 const factor = structure(tree, at(areas), at(doubles(2 * pivots + 8)), at(doubles(2 * boundaries + 8)));
-const blocks = ints(fronts); // one task hands nothing on
-const sizes = longs(3);
-kernel.bih_elimination_room(tree, 1, 0n, root, at(sizes));
-done(kernel.bih_eliminate(factor, matrix, 0n, root, at(blocks), at(doubles(Number(sizes[2]))), at(longs(2)), watch));
 const [diagonal, sandwich] = [doubles(n), doubles(n)];
-kernel.bih_inversion_room(tree, 0n, root, at(sizes));
-const inverted = at(doubles(Number(sizes[1])));
-done(kernel.bih_invert(factor, 0n, root, at(blocks), inverted, at(diagonal), at(sandwich), watch));
+const factorWork = at(doubles(Number(kernel.bih_factor_room(tree, 1))));
+done(kernel.bih_factor(factor, matrix, factorWork, at(diagonal), at(sandwich), at(longs(2))));
 
 // Solves.
 const work = at(doubles(2 * (longest + 8) + 8));
 const mean = doubles(n);
 kernel.bih_solve(factor, 1n, 1n, at(doubles(given.areas)), 1n, at(mean), 1n, at(doubles(n)), work);
 const unit = place[given.column];
-const front = ints([first.findIndex((p) => p > unit) - 1]);
 const [xy, count] = [doubles(2 * n), ints(fronts)];
-kernel.bih_send_units(factor, at(front), at(ints([unit])), 1n, 1n, at(xy), at(count), work);
+kernel.bih_send_units(factor, at(ints([unit])), 1n, 1n, at(xy), at(count), work);
 done(kernel.bih_sweep_down_both(factor, 0n, root, 1n, at(xy), at(count), work, watch));
 
 const inOrder = (a) => Array.from(place, (p) => a[p]);
