@@ -33,8 +33,8 @@ from .solver.factor import Factor
 from .solver.spectrum import Spectrum, is_long, smallest_eigenpairs
 from .surface import Surface
 
-Computed = tuple[EliminationTree | None, Factor | None, bool, Spectrum | None]
-"""What a component has computed so far: its tree, its factor, whether that has diagonals, its eigenpairs."""
+Computed = tuple[EliminationTree | None, Factor | None, Spectrum | None]
+"""What a component has computed so far: its tree, its factor, its eigenpairs."""
 
 
 class Laplacian:
@@ -116,7 +116,6 @@ class Component:
         self._spectrum_lock = threading.Lock()
         self._tree: EliminationTree | None = None
         self._factor: Factor | None = None
-        self._factor_has_diagonals = False
         self._spectrum: Spectrum | None = None
 
     def __reduce__(self) -> tuple[Callable[..., Component], tuple[Laplacian, int]]:
@@ -125,11 +124,11 @@ class Component:
     @property
     def _computed(self) -> Computed:
         with self._factor_lock, self._spectrum_lock:
-            return self._tree, self._factor, self._factor_has_diagonals, self._spectrum
+            return self._tree, self._factor, self._spectrum
 
     @_computed.setter
     def _computed(self, computed: Computed) -> None:
-        self._tree, self._factor, self._factor_has_diagonals, self._spectrum = computed
+        self._tree, self._factor, self._spectrum = computed
 
     @locked_cached_property
     def _cut(self) -> tuple[Surface, IntArray]:
@@ -179,8 +178,11 @@ class Component:
         The pinned vertex stays in the matrix as an equation of its own, x_p = 0, and gets no area: then the
         entries of G and G A G elsewhere are the ones wanted.
         """
+        have = self._factor
+        if have is not None and (have.has_diagonals or not diagonals):
+            return have
         with turn(self._factor_lock, progress, "waiting for the factor"):
-            if self._factor is None or (diagonals and not self._factor_has_diagonals):
+            if self._factor is None or (diagonals and not self._factor.has_diagonals):
                 tree = self.tree(part(progress, 0, 0.4))
                 areas = self.areas.copy()
                 areas[self.pin] = 0
@@ -192,7 +194,6 @@ class Component:
                         f"The Laplacian of {self.surface.name} cannot be factored: its faces are too thin, or differ "
                         f"too much in size. Remeshing would help. ({error})"
                     ) from None
-                self._factor_has_diagonals = diagonals
             return self._factor
 
     def solve(self, b: FloatArray, progress: Progress | None = None) -> FloatArray:
@@ -213,9 +214,8 @@ class Component:
 
     def biharmonic_diagonal(self, progress: Progress | None = None) -> FloatArray:
         """(m,) C_jj; unit length squared."""
-        with turn(self._factor_lock, progress, "waiting for the factor"):
-            self.factor(progress, diagonals=True)
-            return self._biharmonic_diagonal
+        self.factor(progress, diagonals=True)
+        return self._biharmonic_diagonal
 
     @locked_cached_property
     def _biharmonic_diagonal(self) -> FloatArray:

@@ -142,7 +142,7 @@ class Surface:
         Vertices that share a face are connected, also through a single vertex.
         """
         n, f = len(self.vertices), self.faces
-        label = connected(f.T.take([0, 1, 1, 2], axis=0).reshape(2, -1), n)
+        label = connected(f.T, n)
         if not label.any():  # then there is but one, with every vertex
             return label
         used = np.zeros(n, bool)
@@ -355,17 +355,18 @@ def dots(a: Coordinates, b: Coordinates) -> FloatArray:
 
 
 def connected(edges: IntArray, n: int) -> IntArray:
-    """(n,) component, from 0 in the order of their least vertices, of each vertex of a graph with edges (2, e).
+    """(n,) component, from 0 in the order of their least vertices, of each vertex of a graph with edges (2, e), or
+    with the sides of faces (3, m).
 
     Without the compiled kernel each tree joins that of its least neighbour, until none has a neighbour: some ten rounds
     (Liu and Tarjan, Simple Concurrent Connected Components Algorithms, 2022).  SciPy's search is slower.
     """
     if lib := library():
-        label, (one, other) = np.empty(n, np.int64), np.ascontiguousarray(edges, np.int64)
-        lib.bih_connected(n, len(one), one, other, label)
+        label, rows = np.empty(n, np.int64), np.ascontiguousarray(edges.T, np.int64)
+        lib.bih_connected(n, *rows.shape, rows, label)
         return label
     root = np.arange(n)
-    i, j = edges
+    i, j = edges[:-1].ravel(), edges[1:].ravel()
     while len(i):
         low, high = np.minimum(i, j), np.maximum(i, j)
         np.minimum.at(root, high, low)

@@ -116,7 +116,10 @@ class MainWindow(QtWidgets.QMainWindow):
         self._scroll.setFocusPolicy(QtCore.Qt.FocusPolicy.NoFocus)
         self._scroll.setWidget(grid)
         self._stack.addWidget(self._scroll)
-        findings = (tool.load(tool.findings) for tool in tools() if tool.findings)
+        findings = [tool.load(tool.findings) for tool in tools() if tool.findings]
+        for tool in tools():
+            if tool.marks:
+                tool.load(tool.marks)  # imported while nobody waits, and not when a mesh has come
         context.build(grid, (HeldKeys, Brushing, *findings, Gestures, Docks))
         self._docks, self._gestures = context[Docks], context[Gestures]
         choices, display = context[Choices], context[ProgressDisplay]

@@ -16,7 +16,7 @@ def root(squares: FloatArray, terms: FloatArray | float) -> FloatArray:
 
     Values below zero by rounding become 0; SolverError if one is further below, or not a number.
     """
-    if squares.size and not squares.min() >= -ROUNDING * np.max(terms):
+    if squares.size and not squares.min() >= -ROUNDING * (terms.max() if isinstance(terms, np.ndarray) else terms):
         worst = float(np.nanmin(squares)) if not np.isnan(squares).all() else float("nan")
         raise SolverError(f"A squared distance came out as {worst:g}: the mesh is too badly shaped for its operator.")
     distances = np.maximum(squares, 0)

@@ -6,8 +6,7 @@ static const double STIFF = 3e-2; /* Below this fraction of its diagonal entry a
 
 typedef struct {
   const Factor *factor;
-  const Rows *matrix;  /* on and above the diagonal and below it, equal */
-  const double *areas; /* (n,), or NULL */
+  const Rows *matrix; /* on and above the diagonal and below it, equal */
   double *stack, *const *blocks;
   double *F, *F1, *work;
   i64 row, column; /* an entry outside the pattern */
@@ -15,7 +14,8 @@ typedef struct {
 
 static double *schur_of(const Elimination *e, i64 q) {
   const Tree *t = e->factor->tree;
-  return e->blocks[q] ? e->blocks[q] : e->stack + (1 + e->factor->dual) * t->stack[q];
+  double *block = handed(e->blocks, q);
+  return block ? block : e->stack + (1 + (e->factor->areas != NULL)) * t->stack[q];
 }
 
 static i64 work_of(Front f, int dual) {
@@ -59,7 +59,6 @@ static inline __attribute__((always_inline)) void fetch_ahead(const Elimination 
   __builtin_prefetch(L->index + k), __builtin_prefetch(L->value + k), __builtin_prefetch(L->value + k + 7);
   v = t->vertices[place + STEP];
   for (k = L->start[v]; k < L->start[v + 1]; k++) __builtin_prefetch(t->place + L->index[k]);
-  if (e->areas) __builtin_prefetch(e->areas + v);
 }
 
 /* How many of the ascending rows (m,) are below a place. */
@@ -69,16 +68,16 @@ static i64 count_below(const i32 *rows, i64 m, i64 place) {
   return m ? low + (rows[low] < place) : 0;
 }
 
-/* F and F1 of a front: the matrix' entries, areas, and the Schur complements of its children; above the diagonal.
- * scale (c,): the matrix' own diagonal, before Schur complements come on top. */
+/* F and F1 of a front: the matrix' entries, areas, and the Schur complements of its children; above the diagonal.  Of a
+ * leaf's F1 there are the areas alone, and zeros for S1.  scale (c,): the matrix' own diagonal, before Schur complements come on top. */
 static i32 assemble(Elimination *e, i64 q, Front f, double *scale, double *work) {
   const Tree *t = e->factor->tree;
   const Rows *L = e->matrix;
   double *F = e->F, *F1 = e->F1;
-  int dual = e->factor->dual;
-  i64 ld = f.sp;
+  const double *areas = e->factor->areas;
+  i64 ld = f.sp, filled = is_leaf(t, q) ? f.c * ld : 0;
   zero(F, 8 * f.s * ld);
-  if (dual) zero(F1, 8 * f.s * ld);
+  if (areas) zero(F1 + filled, 8 * (f.s * ld - filled));
   for (i64 i = 0; i < f.c; i++) {
     i64 v = t->vertices[f.first + i];
     fetch_ahead(e, f.first + i);
@@ -96,16 +95,16 @@ static i32 assemble(Elimination *e, i64 q, Front f, double *scale, double *work)
       F[i * ld + at] += L->value[k];
     }
     scale[i] = F[i * ld + i];
-    if (dual) F1[i * ld + i] = e->areas[v];
+    if (areas) F1[i * ld + i] = areas[f.first + i];
   }
-  for (int k = 0; k < 2 && t->children[2 * q] >= 0; k++) {
+  for (int k = 0; k < 2 && !is_leaf(t, q); k++) {
     i64 child = t->children[2 * q + k];
     Front g = front_of(t, child);
     const double *S = schur_of(e, child);
     work_i32 *end = (work_i32 *)work;
     find_runs(g, end);
     add_child(g, end, S, F, ld);
-    if (dual) add_child(g, end, S + g.m * g.mp, F1, ld);
+    if (areas) add_child(g, end, S + g.m * g.mp, F1, ld);
   }
   return DONE;
 }
@@ -149,46 +148,44 @@ static void refine(const Front f, const double *K, double *N, i64 ln, double *F,
   add_upper_product(m, m, c, 1, F + c, 1, ld, N, ln, F + c * ld + c, ld);
 }
 
-/* K1, N1 and, in the boundary block of F1, S1. */
-static void derive(const Front f, int leaf, const double *K, double *K1, const double *N, double *N1, i64 ln, double *F1,
+/* Of a leaf: in the boundary block of F1, S1 = X + X^T = N^T A N. */
+static void derive_leaf(const Front f, const double *N, double *F1, double *work) {
+  i64 c = f.c, m = f.m, mp = f.mp, ld = f.sp;
+  for (i64 i = 0; i < c; i++)
+    for (i64 j = 0; j < mp; j++) work[i * mp + j] = F1[i * ld + i] * N[i * mp + j];
+  add_upper_product(m, m, c, 1, work, 1, mp, N, mp, F1 + c * ld + c, ld);
+}
+
+/* Of other fronts: K1, N1 and, in the boundary block of F1, S1. */
+static void derive(const Front f, const double *K, double *K1, const double *N, double *N1, i64 ln, double *F1,
                    double *work) {
   i64 c = f.c, m = f.m, cp = f.cp, mp = f.mp, ld = f.sp;
   double *T = work, *U = T + c * cp, *P = U + c * mp, *S1 = F1 + c * ld + c;
   zero(K1, 8 * c * cp);
   for (i64 i = 0; i < c; i++) zero(N1 + i * ln, 8 * mp);
-  if (leaf) /* F1 is diagonal, R1 nothing */
-    for (i64 i = 0; i < c; i++) {
-      double area = F1[i * ld + i];
-      for (i64 j = 0; j < cp; j++) T[i * cp + j] = area * K[i * cp + j];
-      for (i64 j = 0; j < mp; j++) U[i * mp + j] = area * N[i * ln + j];
+  for (i64 i = 0; i < c; i++)
+    for (i64 j = 0; j < i; j++) F1[i * ld + j] = F1[j * ld + i];
+  zero(T, 8 * c * (cp + mp));
+  add_product(c, c, c, 1, F1, ld, 1, K, cp, T, cp);
+  add_product(c, m, c, 1, F1, ld, 1, N, ln, U, mp);
+  for (i64 i = 0; i < c; i++)
+    for (i64 j = 0; j < m; j++) {
+      double r = F1[i * ld + c + j], u = U[i * mp + j];
+      P[i * mp + j] = r + u / 2, U[i * mp + j] = r + u;
     }
-  else {
-    for (i64 i = 0; i < c; i++)
-      for (i64 j = 0; j < i; j++) F1[i * ld + j] = F1[j * ld + i];
-    zero(T, 8 * c * (cp + mp));
-    add_product(c, c, c, 1, F1, ld, 1, K, cp, T, cp);
-    add_product(c, m, c, 1, F1, ld, 1, N, ln, U, mp);
-    for (i64 i = 0; i < c; i++)
-      for (i64 j = 0; j < m; j++) {
-        double r = F1[i * ld + c + j], u = U[i * mp + j];
-        P[i * mp + j] = r + u / 2, U[i * mp + j] = r + u;
-      }
-  }
   add_upper_product(c, c, c, 1, K, cp, 1, T, cp, K1, cp);
   for (i64 i = 0; i < c; i++)
     for (i64 j = 0; j < i; j++) K1[i * cp + j] = K1[j * cp + i];
   add_product(c, m, c, 1, K, cp, 1, U, mp, N1, ln);
-  if (leaf) add_upper_product(m, m, c, 1, U, 1, mp, N, ln, S1, ld); /* X + X^T = U^T N is symmetric there */
-  else {
-    add_upper_product(m, m, c, 1, P, 1, mp, N, ln, S1, ld);
-    add_upper_product(m, m, c, 1, N, 1, ln, P, mp, S1, ld);
-  }
+  add_upper_product(m, m, c, 1, P, 1, mp, N, ln, S1, ld);
+  add_upper_product(m, m, c, 1, N, 1, ln, P, mp, S1, ld);
 }
 
 static i32 eliminate(Elimination *e, i64 q) {
   const Tree *t = e->factor->tree;
   Front f = front_of(t, q);
-  i64 c = f.c, m = f.m, ld = f.sp, ln = (1 + e->factor->dual) * f.mp;
+  i64 c = f.c, m = f.m, ld = f.sp, ln = kept(e->factor, q) * f.mp;
+  int dual = e->factor->areas != NULL;
   double *F = e->F, *scale = e->work, *work = scale + f.cp, left = 1;
   i32 status = assemble(e, q, f, scale, work);
   if (status) return status;
@@ -207,24 +204,26 @@ static i32 eliminate(Elimination *e, i64 q) {
     invert_by_cholesky(f, K, F, work);
     refine(f, K, N, ln, F, work);
   }
-  if (e->factor->dual) derive(f, t->children[2 * q] < 0, K, K1, N, N1, ln, e->F1, work);
+  if (dual && is_leaf(t, q)) derive_leaf(f, N, e->F1, work);
+  else if (dual) derive(f, K, K1, N, N1, ln, e->F1, work);
   double *S = schur_of(e, q), *S1 = S + m * f.mp;
   for (i64 i = 0; i < m; i++) {
     copy(S + i * f.mp + i, F + (c + i) * ld + c + i, 8 * (m - i));
-    if (e->factor->dual) copy(S1 + i * f.mp + i, e->F1 + (c + i) * ld + c + i, 8 * (m - i));
+    if (dual) copy(S1 + i * f.mp + i, e->F1 + (c + i) * ld + c + i, 8 * (m - i));
   }
   return DONE;
 }
 
 /* Eliminate the fronts first to last, one task.  blocks (fronts,): where Schur complements lie that tasks hand on, the
- * last one's and, of a top front, its children's; NULL for others.  work: as much as bih_elimination_room says;
+ * last one's and, of a top front, its children's; NULL for others, or for all.  work: as much as bih_elimination_room says;
  * where (2,): the entry if one is OUTSIDE. */
-API i32 bih_eliminate(const Factor *factor, const Rows *matrix, const double *areas, i64 first, i64 last,
-                      double *const *blocks, double *work, i64 *where, Watch *watch) {
+API i32 bih_eliminate(const Factor *factor, const Rows *matrix, i64 first, i64 last, double *const *blocks, double *work,
+                      i64 *where, Watch *watch) {
   i64 room[3];
-  bih_elimination_room(factor->tree, factor->dual, first, last, room);
+  int dual = factor->areas != NULL;
+  bih_elimination_room(factor->tree, dual, first, last, room);
   double *F = work + room[0];
-  Elimination e = {factor, matrix, areas, work, blocks, F, F + room[1], F + (1 + factor->dual) * room[1], 0, 0};
+  Elimination e = {factor, matrix, work, blocks, F, F + room[1], F + (1 + dual) * room[1], 0, 0};
   for (i64 q = first; q <= last; q++) {
     if (stopped(watch)) return STOPPED;
     i32 status = eliminate(&e, q);

@@ -3,10 +3,13 @@
  * Top down each front gets the block Z of G on its own rows (1: pivots, 2: boundary), of which the boundary's is part of
  * its parent's, and Z1, that of G A G:
  *
- *     Z12 = N Z22      Z11 = K + Z12 N^T      Z1_12 = N1 Z22 + N Z1_22      Z1_11 = K1 + Z12 N1^T + Z1_12 N^T */
+ *     Z12 = N Z22      Z11 = K + Z12 N^T      Z1_12 = N1 Z22 + N Z1_22      Z1_11 = K1 + Z12 N1^T + Z1_12 N^T
+ *
+ * Of a leaf only the diagonals are wanted.  With K1 = K A K and N1 = K A N that of Z1_11 is that of
+ * K A (K + 2 Z12 N^T) + N Z1_22 N^T. */
 #include "kernel.h"
 
-static i64 work_of(Front f) { return most(f.m, 2 * f.c * f.mp + 2 * f.m * f.cp); }
+static i64 work_of(Front f) { return most(f.m, 2 * f.c * f.mp + f.cp * (f.m + most(f.m, f.c))); }
 
 /* What inverting the fronts first to last needs, in doubles: room[0] for the stack, room[1] in all. */
 API void bih_inversion_room(const Tree *t, i64 first, i64 last, i64 *room) {
@@ -40,38 +43,57 @@ static void gather(Front f, const work_i32 *end, const double *Zp, i64 ldp, doub
   }
 }
 
+static double *block_of(const Tree *t, i64 q, double *const *blocks, double *stack) {
+  double *block = handed(blocks, q);
+  return block ? block : stack + t->inverse[q];
+}
+
+static void invert_leaf(const Factor *factor, i64 q, Front f, const double *Z, const double *Z1, double *work,
+                        double *diagonal, double *sandwich) {
+  i64 c = f.c, m = f.m, ld = f.sp, cp = f.cp, mp = f.mp;
+  const double *K = block_K(factor, q), *N = block_N(factor, q), *areas = factor->areas + f.first;
+  const i32 *vertices = factor->tree->vertices + f.first;
+  double *Y = work, *Y1 = Y + c * mp, *Nt = Y1 + c * mp, *W = Nt + m * cp; /* W = Z12 N^T */
+  zero(Y, 16 * c * mp), zero(W, 8 * c * cp);
+  add_product(c, m, m, 1, N, mp, 1, Z + c * ld + c, ld, Y, mp);
+  add_product(c, m, m, 1, N, mp, 1, Z1 + c * ld + c, ld, Y1, mp);
+  for (i64 i = 0; i < m; i++) zero(Nt + i * cp + c, 8 * (cp - c));
+  transpose(c, m, N, mp, Nt, cp);
+  add_upper_product(c, c, m, 1, Y, mp, 1, Nt, cp, W, cp);
+  for (i64 i = 0; i < c; i++) {
+    double z1 = 0;
+    for (i64 j = 0; j < m; j++) z1 += Y1[i * mp + j] * N[i * mp + j];
+    for (i64 j = 0; j < c; j++)
+      z1 += K[i * cp + j] * areas[j] * (K[i * cp + j] + 2 * (j < i ? W[j * cp + i] : W[i * cp + j]));
+    diagonal[vertices[i]] = K[i * cp + i] + W[i * cp + i], sandwich[vertices[i]] = z1;
+  }
+}
+
 static void invert(const Factor *factor, i64 q, double *const *blocks, double *stack, double *work, double *diagonal,
                    double *sandwich) {
   const Tree *t = factor->tree;
   Front f = front_of(t, q);
   i64 c = f.c, m = f.m, ld = f.sp, cp = f.cp, mp = f.mp, ln = 2 * mp, parent = t->parent[q];
-  const double *K = block_K(factor, q), *K1 = K + c * cp, *N = block_N(factor, q), *N1 = N + mp;
-  double *Z = blocks[q] ? blocks[q] : stack + t->inverse[q], *Z1 = Z + f.s * ld;
-  double *Y = work, *Y1 = Y + c * mp, *Nt = Y1 + c * mp, *Nt1 = Nt + m * cp;
+  double *Z = block_of(t, q, blocks, stack), *Z1 = Z + f.s * ld;
   if (parent >= 0) {
     Front p = front_of(t, parent);
-    const double *Zp = blocks[parent] ? blocks[parent] : stack + t->inverse[parent], *Zp1 = Zp + p.s * p.sp;
+    const double *Zp = block_of(t, parent, blocks, stack), *Zp1 = Zp + p.s * p.sp;
     work_i32 *end = (work_i32 *)work;
     find_runs(f, end);
     gather(f, end, Zp, p.sp, Z + c * ld + c, ld);
     gather(f, end, Zp1, p.sp, Z1 + c * ld + c, ld);
   }
+  if (is_leaf(t, q)) {
+    invert_leaf(factor, q, f, Z, Z1, work, diagonal, sandwich);
+    return;
+  }
+  const double *K = block_K(factor, q), *K1 = K + c * cp, *N = block_N(factor, q), *N1 = N + mp;
+  double *Y = work, *Y1 = Y + c * mp, *Nt = Y1 + c * mp, *Nt1 = Nt + m * cp;
   zero(Y, 16 * c * mp);
   add_product(c, m, m, 1, N, ln, 1, Z + c * ld + c, ld, Y, mp);
   add_product(c, m, m, 1, N1, ln, 1, Z + c * ld + c, ld, Y1, mp);
   add_product(c, m, m, 1, N, ln, 1, Z1 + c * ld + c, ld, Y1, mp);
   const i32 *vertices = t->vertices + f.first;
-  if (t->children[2 * q] < 0) { /* of a leaf only the diagonal is wanted */
-    for (i64 i = 0; i < c; i++) {
-      double z = K[i * cp + i], z1 = K1[i * cp + i];
-      for (i64 j = 0; j < m; j++) {
-        z += Y[i * mp + j] * N[i * ln + j];
-        z1 += Y[i * mp + j] * N1[i * ln + j] + Y1[i * mp + j] * N[i * ln + j];
-      }
-      diagonal[vertices[i]] = z, sandwich[vertices[i]] = z1;
-    }
-    return;
-  }
   for (i64 i = 0; i < m; i++) zero(Nt + i * cp + c, 8 * (cp - c)), zero(Nt1 + i * cp + c, 8 * (cp - c));
   transpose(c, m, N, ln, Nt, cp), transpose(c, m, N1, ln, Nt1, cp);
   for (i64 i = 0; i < c; i++) copy(Z + i * ld, K + i * cp, 8 * c), copy(Z1 + i * ld, K1 + i * cp, 8 * c);
@@ -87,7 +109,7 @@ static void invert(const Factor *factor, i64 q, double *const *blocks, double *s
 }
 
 /* The diagonals (n,) at the pivots of the fronts last to first, one task.  blocks (fronts,): of top fronts, where their
- * blocks of the inverse lie, (2, s, sp); NULL for others.  work: as much as bih_inversion_room says. */
+ * blocks of the inverse lie, (2, s, sp); NULL for others, or for all.  work: as much as bih_inversion_room says. */
 API i32 bih_invert(const Factor *factor, i64 first, i64 last, double *const *blocks, double *work, double *diagonal,
                    double *sandwich, Watch *watch) {
   i64 room[2];
@@ -99,4 +121,20 @@ API i32 bih_invert(const Factor *factor, i64 first, i64 last, double *const *blo
     advance(watch, f.c * f.s * f.s);
   }
   return DONE;
+}
+
+/* A whole factor on one thread, and, with derivatives, the diagonals (n,).  work: as much as bih_factor_room says. */
+API i32 bih_factor(const Factor *factor, const Rows *matrix, double *work, double *diagonal, double *sandwich, i64 *where) {
+  Watch watch = {0, 0};
+  i64 last = factor->tree->fronts - 1;
+  i32 status = bih_eliminate(factor, matrix, 0, last, NULL, work, where, &watch);
+  if (status || !factor->areas) return status;
+  return bih_invert(factor, 0, last, NULL, work, diagonal, sandwich, &watch);
+}
+
+API i64 bih_factor_room(const Tree *t, i32 dual) {
+  i64 up[3], down[2] = {0};
+  bih_elimination_room(t, dual, 0, t->fronts - 1, up);
+  if (dual) bih_inversion_room(t, 0, t->fronts - 1, down);
+  return most(up[2], down[1]);
 }

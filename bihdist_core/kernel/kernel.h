@@ -9,7 +9,10 @@
  *     K = F^-1          N = -K R           S = Q + R^T N            (S: Schur complement, added into the parent)
  *     K1 = K F1 K       N1 = K (R1 + F1 N)     S1 = Q1 + X + X^T,   X = (R1 + F1 N / 2)^T N
  *
- * K1 and N1 are minus the derivatives of K and N, so that all that follows adds up to +G A G, G = L^-1. */
+ * K1 and N1 are minus the derivatives of K and N, so that all that follows adds up to +G A G, G = L^-1.
+ *
+ * A leaf has no children: its F1 = A, diagonal, and R1 = 0, so that K1 = K A K and N1 = K A N.  These are not kept but
+ * applied as products, for half of a factor's pivots are in leaves. */
 #ifndef BIHDIST_KERNEL_H
 #define BIHDIST_KERNEL_H
 #include <stddef.h>
@@ -78,27 +81,28 @@ typedef struct {
 /* The elimination tree (symbolic.c). */
 typedef struct {
   i64 n, fronts;
-  const i32 *vertices;   /* (n,) the vertex at each place of the elimination order */
-  const i32 *place;      /* (n,) the place of each vertex */
-  const i32 *first;      /* (fronts + 1,) the first pivot of each front */
-  const i32 *children;   /* (fronts, 2), or -1 */
-  const i32 *parent;     /* (fronts,), or -1 */
-  const i64 *bound;      /* (fronts + 1,) where each front's boundary begins in rows */
-  const i32 *rows;       /* places of boundary rows, ascending in each front */
-  const i32 *up;         /* where each of these is in the parent's front */
-  const i64 *pivot_block; /* (fronts,) where each front's K begins, in doubles of a factor without derivatives */
-  const i64 *row_block;   /* (fronts,) the same of N */
-  const i64 *stack;      /* (fronts,) where its Schur complement lies on the stack while eliminating */
-  const i64 *inverse;    /* (fronts,) where its block of the inverse lies on the stack while inverting */
-  const unsigned char *top; /* (fronts,) whether the front is a task of its own */
-  const i32 *rank; /* (n,) of a place among the pivots of top fronts */
+  i32 *vertices;   /* (n,) the vertex at each place of the elimination order */
+  i32 *place;      /* (n,) the place of each vertex */
+  i32 *first;      /* (fronts + 1,) the first pivot of each front */
+  i32 *children;   /* (fronts, 2), or -1 */
+  i32 *parent;     /* (fronts,), or -1 */
+  i64 *bound;      /* (fronts + 1,) where each front's boundary begins in rows */
+  i32 *rows;       /* places of boundary rows, ascending in each front */
+  i32 *up;         /* where each of these is in the parent's front */
+  i64 *pivot_block; /* (fronts + 1,) where each front's K begins, in doubles of a factor without derivatives: those of
+                             leaves behind all others, and last where they begin */
+  i64 *row_block;   /* (fronts + 1,) the same of N */
+  i64 *stack;      /* (fronts,) where its Schur complement lies on the stack while eliminating */
+  i64 *inverse;    /* (fronts,) where its block of the inverse lies on the stack while inverting */
+  unsigned char *top; /* (fronts,) whether the front is a task of its own */
+  i32 *rank; /* (n,) of a place among the pivots of top fronts */
 } Tree;
 
 typedef struct {
   const Tree *tree;
-  i32 dual;           /* whether derivatives along A are kept */
-  double *pivots;     /* K, with derivatives K1 after each K */
-  double *boundaries; /* N, (c, m); with derivatives rows of N and of N1 take turns */
+  const double *areas; /* (n,) the diagonal of A in elimination order; NULL without derivatives along it */
+  double *pivots;      /* K, and of fronts with children K1 after it */
+  double *boundaries;  /* N, (c, m); of fronts with children rows of N and of N1 take turns */
 } Factor;
 
 typedef struct {
@@ -117,8 +121,21 @@ static inline Front front_of(const Tree *t, i64 q) {
 static inline void find_runs(Front f, work_i32 *end) {
   for (i64 j = f.m; j-- > 0;) end[j] = (i32)(j + 1 < f.m && f.up[j + 1] == f.up[j] + 1 ? end[j + 1] : j + 1);
 }
-static inline double *block_K(const Factor *f, i64 q) { return f->pivots + (1 + f->dual) * f->tree->pivot_block[q]; }
-static inline double *block_N(const Factor *f, i64 q) { return f->boundaries + (1 + f->dual) * f->tree->row_block[q]; }
+/* Where the block lies that a task hands on; NULL where a front hands nothing on, or nothing is. */
+static inline double *handed(double *const *blocks, i64 q) { return blocks ? blocks[q] : NULL; }
+static inline int is_leaf(const Tree *t, i64 q) { return t->children[2 * q] < 0; }
+/* How many of K and K1, or of N and N1, a front keeps. */
+static inline i64 kept(const Factor *f, i64 q) { return 1 + (f->areas && !is_leaf(f->tree, q)); }
+static inline i64 block_at(const Factor *f, const i64 *block, i64 q) {
+  return block[q] + (f->areas ? least(block[q], block[f->tree->fronts]) : 0);
+}
+static inline double *block_K(const Factor *f, i64 q) { return f->pivots + block_at(f, f->tree->pivot_block, q); }
+static inline double *block_N(const Factor *f, i64 q) { return f->boundaries + block_at(f, f->tree->row_block, q); }
+
+/* elimination.c */
+API void bih_elimination_room(const Tree *t, i32 dual, i64 first, i64 last, i64 *room);
+API i32 bih_eliminate(const Factor *factor, const Rows *matrix, i64 first, i64 last, double *const *blocks, double *work,
+                      i64 *where, Watch *watch);
 
 /* dense.c */
 void add_product(i64 rows, i64 columns, i64 inner, double scale, const double *A, i64 row, i64 column, const double *B,

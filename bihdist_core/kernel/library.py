@@ -80,7 +80,7 @@ class Tree(Structure):
 class Factor(Structure):
     """The factor's blocks."""
 
-    _fields_ = (("tree", POINTER(Tree)), ("dual", c_int32), ("pivots", c_void_p), ("boundaries", c_void_p))
+    _fields_ = (("tree", POINTER(Tree)), ("areas", c_void_p), ("pivots", c_void_p), ("boundaries", c_void_p))
 
 
 class Mesh(Structure):
@@ -168,22 +168,23 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "cut": (c_int32, (_A, _P, _P)),
     "dissect": (c_int64, (_A, _P, _I, _A, _A, _P)),
     "end_dissection": (None, (_A, _A, _A)),
-    "link": (None, (_I, *(_A,) * 5)),
-    "boundaries": (c_int64, (_P, _P, _A, _A, _I, _A)),
-    "lay_out": (None, (_P, _I, *(_A,) * 9)),
+    "order": (c_int64, (_P, *(_A,) * 6)),
+    "lay_out": (c_int64, (_P, _P, _A, _A, _I, _I, _A, _A)),
     "elimination_room": (None, (_P, c_int32, _I, _I, _A)),
-    "eliminate": (c_int32, (_P, _P, _A, _I, _I, _A, _A, _A, _P)),
+    "eliminate": (c_int32, (_P, _P, _I, _I, _A, _A, _A, _P)),
     "inversion_room": (None, (_P, _I, _I, _A)),
     "invert": (c_int32, (_P, _I, _I, _A, _A, _A, _A, _P)),
+    "factor_room": (c_int64, (_P, c_int32)),
+    "factor": (c_int32, (_P, _P, _A, _A, _A, _A)),
     "take_rows": (None, (_P, _I, _I, _I, _I, _P, _I, _A)),
     "put_rows": (None, (_P, _I, _I, _I, _I, _A, _P, _I)),
     "distances": (_I, (_I, _I, _A, _P, _I, *(_A,) * 4, c_double, c_double, _A, _P, _I)),
-    "sweep_room": (c_int64, (_P, _I, _I, _I)),
+    "solve": (None, (_P, _I, _I, _P, _I, _P, _I, _A, _A)),
     "sweep_up": (c_int32, (_P, _I, _I, _I, _I, _A, _A, _A, _P)),
     "sweep_down": (c_int32, (_P, _I, _I, _I, _A, _A, _P)),
-    "send_units": (None, (_P, _A, _A, _I, _I, _A, _A, _A)),
+    "send_units": (None, (_P, _A, _I, _I, _A, _A, _A)),
     "sweep_down_both": (c_int32, (_P, _I, _I, _I, _A, _A, _A, _P)),
-    "connected": (None, (_I, _I, _A, _A, _A)),
+    "connected": (None, (_I, _I, _I, _A, _A)),
     "measures": (None, (_I, _A, _A, _A, _A)),
     "corners": (None, (_I, _A, _A, _A, _A, _A)),
     "edges": (c_int64, (_I, _I, _A, _A, _A, _A)),

@@ -50,8 +50,27 @@ static i32 check_symmetric(const Rows *g, i32 *cursor) {
   return DONE;
 }
 
-/* Fill in the graph of a matrix without its diagonal, numbered breadth first, and its charts; x (n, 3) within single
- * precision's range.  bin, band, at and key are workspace. */
+/* Positions x (n, 3) as charts, moved and scaled as a whole into [-1, 1]: as they are, single precision might not hold
+ * them, nor doubles their squares. */
+static void chart_positions(Dissection *D, const double *x) {
+  double middle[POSITIONS], size = 0;
+  i64 n = D->graph.n;
+  for (int a = 0; a < POSITIONS; a++) {
+    double low = x[a], high = x[a];
+    for (i64 v = 1; v < n; v++) {
+      double value = x[POSITIONS * v + a];
+      low = value < low ? value : low, high = value > high ? value : high;
+    }
+    middle[a] = low / 2 + high / 2;
+    if (high / 2 - low / 2 > size) size = high / 2 - low / 2;
+  }
+  for (int a = 0; a < POSITIONS; a++)
+    for (i64 k = 0; k < n; k++)
+      D->charts[a * n + k] = (float)((x[POSITIONS * (i64)D->numbers[k] + a] - middle[a]) / (size > 0 ? size : 1));
+}
+
+/* Fill in the graph of a matrix without its diagonal, numbered breadth first, and its charts; x (n, 3).  bin, band, at
+ * and key are workspace. */
 static void number_graph(Dissection *D, const Rows *matrix, const double *x, i32 *start, i32 *index) {
   i64 n = matrix->n, put = 0;
   i32 *vertices = D->numbers, *place = D->bin;
@@ -62,9 +81,10 @@ static void number_graph(Dissection *D, const Rows *matrix, const double *x, i32
     start[k] = (i32)put;
     for (i64 v = vertices[k], e = matrix->start[v]; e < matrix->start[v + 1]; e++)
       if (matrix->index[e] != v) index[put++] = place[matrix->index[e]];
-    for (int a = 0; a < POSITIONS; a++) D->charts[a * n + k] = (float)x[3 * (i64)vertices[k] + a];
   }
   start[n] = (i32)put;
+  chart_positions(D, x);
+  if (n <= SMALL) return;
   i64 from = n - 1; /* a far end to begin from */
   for (int a = 0; a < LANDMARKS; a++) {
     float *chart = D->charts + (POSITIONS + a) * n;
@@ -276,7 +296,7 @@ static int separate(Dissection *D, Region r, int reach) {
 /* Bytes of a dissection of a matrix with so many rows and entries. */
 API i64 bih_dissection_room(i64 n, i64 entries) { return (i64)sizeof(Dissection) + 4 * (23 * n + 1 + 3 * entries) + n; }
 
-/* Begin to dissect a symmetric matrix' graph, all of its vertices in one region; x (n, 3) within single precision's range.
+/* Begin to dissect a symmetric matrix' graph, all of its vertices in one region; x (n, 3), finite.
  * D: as many bytes as bih_dissection_room says.  Returns how many edges there are, ASYMMETRIC if entries have no mirror
  * image. */
 API i64 bih_begin_dissection(const Rows *matrix, const double *x, Dissection *D) {
@@ -352,4 +372,15 @@ API i64 bih_dissect(Dissection *D, const Region *r, i64 fronts, i32 *last, i32 *
   last[fronts] = (i32)r->hi, subtrees[2 * fronts] = (i32)(end[0] - begin);
   subtrees[2 * fronts + 1] = (i32)(end[1] - end[0]);
   return fronts + 1;
+}
+
+/* All of it on one thread: vertices and place (n,) as bih_end_dissection has them, last (2 n + 1,) and subtrees
+ * (2 n + 1, 2) as bih_dissect; returns how many fronts there are, ASYMMETRIC if entries have no mirror image. */
+API i64 bih_order(const Rows *matrix, const double *x, Dissection *D, i32 *vertices, i32 *place, i32 *last, i32 *subtrees) {
+  Watch watch = {0, 0};
+  i64 edges = bih_begin_dissection(matrix, x, D);
+  if (edges < 0) return edges;
+  i64 fronts = bih_dissect(D, &(Region){0, matrix->n, 0, edges}, 0, last, subtrees, &watch);
+  bih_end_dissection(D, vertices, place);
+  return fronts;
 }

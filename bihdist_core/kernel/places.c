@@ -58,14 +58,16 @@ static i64 root_of(i64 *above, i64 v) {
   return v;
 }
 
-/* label (n,): the component, numbered by its least vertex, of each vertex of a graph with e edges one - other. */
-API void bih_connected(i64 n, i64 e, const i64 *one, const i64 *other, i64 *label) {
+/* label (n,): the component, numbered by its least vertex, of each vertex of a graph in which the k vertices of each of
+ * m rows, edges or faces, are connected: row (m, k). */
+API void bih_connected(i64 n, i64 m, i64 k, const i64 *row, i64 *label) {
   i64 count = 0;
   for (i64 v = 0; v < n; v++) label[v] = v;
-  for (i64 k = 0; k < e; k++) { /* a tree's root is its least vertex */
-    i64 a = root_of(label, one[k]), b = root_of(label, other[k]);
-    if (a < b) label[b] = a;
-    else label[a] = b;
-  }
+  for (const i64 *end = row + m * k; row < end; row += k)
+    for (i64 j = 1; j < k; j++) { /* a tree's root is its least vertex */
+      i64 a = root_of(label, row[0]), b = root_of(label, row[j]);
+      if (a < b) label[b] = a;
+      else label[a] = b;
+    }
   for (i64 v = 0; v < n; v++) label[v] = label[v] == v ? count++ : label[label[v]];
 }

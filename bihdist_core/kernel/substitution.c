@@ -1,10 +1,12 @@
 /* Solves with a finished factor.  A vector is (n, w), in elimination order, its w columns beside each other; w is 1 or a
- * multiple of PAD.
+ * multiple of PAD.  work: (w, row + 2 PAD) doubles and 2 PAD more, row the longest padded row of a front.
  *
  * Up, from the leaves to the root: x[boundary] += N^T x[pivots].  Down: x[pivots] = K x[pivots] + N x[boundary].  With
  * the derivatives the same sweeps turn unit vectors x into columns of G, and y = 0 into those of G A G:
  * up: y[boundary] += N^T y[pivots] + N1^T x[pivots];  down: y[pivots] = K y[pivots] + K1 x[pivots] + N y[boundary] +
- * N1 x[boundary].  Then a vector is (n, 2 w), x and y beside each other, and one product with N serves both. */
+ * N1 x[boundary].  Then a vector is (n, 2 w), x and y beside each other, and one product with N serves both.  Of a leaf,
+ * whose y is 0 before, up: y[boundary] += N^T (A K x[pivots]), and, with x as it is after it, down: y[pivots] =
+ * K (A x[pivots]) + N y[boundary]. */
 #include "kernel.h"
 
 enum { AHEAD = 256, SOON = 16, LINE = 8 }; /* so many doubles, or rows, are fetched before they are used; a line of the
@@ -76,13 +78,6 @@ API i64 bih_distances(i64 r, i64 k, const i64 *vertex, const double *values, i64
   return bad;
 }
 
-/* Doubles that a sweep of w columns along the fronts first to last needs to work. */
-API i64 bih_sweep_room(const Tree *t, i64 first, i64 last, i64 w) {
-  i64 room = 0;
-  for (i64 q = first; q <= last; q++) room = most(room, front_of(t, q).sp);
-  return (room + 2 * PAD) * w + 2 * PAD;
-}
-
 /* Sweep x (n, w) up the fronts first to last; what comes to places from `end` on, all of them pivots of top fronts, is
  * added to above (r, w), by their rank among those. */
 API i32 bih_sweep_up(const Factor *factor, i64 first, i64 last, i64 end, i64 w, double *x, double *above, double *work,
@@ -91,7 +86,7 @@ API i32 bih_sweep_up(const Factor *factor, i64 first, i64 last, i64 end, i64 w, 
   for (i64 q = first; q <= last; q++) {
     if (stopped(watch)) return STOPPED;
     Front f = front_of(t, q);
-    i64 ln = (1 + factor->dual) * f.mp, filled = 0;
+    i64 ln = kept(factor, q) * f.mp, filled = 0;
     const double *N = block_N(factor, q), *pivots = x + f.first * w;
     for (i64 i = 0; i < f.c * w && !filled; i++) filled = pivots[i] != 0;
     if (!filled) continue;
@@ -116,7 +111,7 @@ API i32 bih_sweep_down(const Factor *factor, i64 first, i64 last, i64 w, double 
   for (i64 q = last; q >= first; q--) {
     if (stopped(watch)) return STOPPED;
     Front f = front_of(t, q);
-    i64 ln = (1 + factor->dual) * f.mp;
+    i64 ln = kept(factor, q) * f.mp;
     const double *K = block_K(factor, q), *N = block_N(factor, q);
     double *pivots = x + f.first * w, *b = work, *p = b + f.mp * w;
     if (w == 1) {
@@ -140,47 +135,99 @@ API i32 bih_sweep_down(const Factor *factor, i64 first, i64 last, i64 w, double 
   return DONE;
 }
 
+/* out (n, k) = L^-1 b, rows of b and of out ldb and ldo doubles apart, all of it on one thread; x (n, w). */
+API void bih_solve(const Factor *factor, i64 k, i64 w, const double *b, i64 ldb, double *out, i64 ldo, double *x,
+                   double *work) {
+  const Tree *t = factor->tree;
+  Watch watch = {0, 0};
+  bih_take_rows(t, 0, t->n, k, w, b, ldb, x);
+  bih_sweep_up(factor, 0, t->fronts - 1, t->n, w, x, NULL, work, &watch);
+  bih_sweep_down(factor, 0, t->fronts - 1, w, x, work, &watch);
+  bih_put_rows(t, 0, t->n, k, w, x, out, ldo);
+}
+
+/* What several columns send from one front to the places above it; work: (m + c, 2 w). */
+static void send_several(const Factor *factor, Front f, i64 q, i64 w, const double *pivots, double *xy, double *work) {
+  const double *N = block_N(factor, q);
+  i64 ln = kept(factor, q) * f.mp;
+  zero(work, 16 * f.mp * w);
+  if (is_leaf(factor->tree, q)) {
+    double *loads = work + f.mp * 2 * w; /* A K x */
+    zero(loads, 8 * f.c * w);
+    add_product(f.c, w, f.c, 1, block_K(factor, q), f.cp, 1, pivots, 2 * w, loads, w);
+    for (i64 i = 0; i < f.c; i++)
+      for (i64 l = 0; l < w; l++) loads[i * w + l] *= factor->areas[f.first + i];
+    add_product(f.m, w, f.c, 1, N, 1, ln, pivots, 2 * w, work, 2 * w);
+    add_product(f.m, w, f.c, 1, N, 1, ln, loads, w, work + w, 2 * w);
+  } else {
+    add_product(f.m, 2 * w, f.c, 1, N, 1, ln, pivots, 2 * w, work, 2 * w);
+    add_product(f.m, w, f.c, 1, N + f.mp, 1, ln, pivots, 2 * w, work + w, 2 * w);
+  }
+  for (i64 j = 0; j < f.m; j++)
+    for (i64 l = 0; l < 2 * w; l += LANES) *(vec *)(xy + f.rows[j] * 2 * w + l) += *(const vec *)(work + j * 2 * w + l);
+}
+
+/* The same of one column, the only one here. */
+static void send_one(const Factor *factor, Front f, i64 q, i64 w, i64 column, double *xy, double *work) {
+  const double *N = block_N(factor, q), *K = block_K(factor, q), *pivots = xy + f.first * 2 * w + column;
+  i64 leaf = is_leaf(factor->tree, q);
+  double *a = work, *b = a + f.mp;
+  zero(work, 16 * f.mp);
+  for (i64 i = 0; i < f.c; i++, N += kept(factor, q) * f.mp) {
+    double x = pivots[i * 2 * w], y = pivots[i * 2 * w + w];
+    if (leaf) {
+      for (i64 k = 0; k < f.c; k++) y += K[i * f.cp + k] * pivots[k * 2 * w];
+      y *= factor->areas[f.first + i];
+    }
+    fetch_ahead(N, 2 * f.mp);
+    if (x == 0 && y == 0) continue;
+    if (leaf)
+      for (i64 j = 0; j < f.mp; j++) a[j] += N[j] * x, b[j] += N[j] * y;
+    else
+      for (i64 j = 0; j < f.mp; j++) a[j] += N[j] * x, b[j] += N[j] * y + N[f.mp + j] * x;
+  }
+  for (i64 j = 0; j < f.m; j++) {
+    double *to = xy + f.rows[j] * 2 * w + column;
+    to[0] += a[j], to[w] += b[j];
+  }
+}
+
+/* The front that eliminates a place. */
+static i64 front_at(const Tree *t, i64 place) {
+  i64 low = 0, high = t->fronts;
+  while (high - low > 1) {
+    i64 middle = (low + high) / 2;
+    if (t->first[middle] <= place) low = middle;
+    else high = middle;
+  }
+  return low;
+}
+
 /* Send unit vectors, at places (k,), up their paths to the root; xy (n, 2 w), w >= k, is set there alone.
  * count (fronts,): on how many paths a front is. */
-API void bih_send_units(const Factor *factor, const i32 *fronts, const i32 *places, i64 k, i64 w, double *xy, i32 *count,
-                        double *work) {
+API void bih_send_units(const Factor *factor, const i32 *places, i64 k, i64 w, double *xy, i32 *count, double *work) {
   const Tree *t = factor->tree;
   i64 lowest = t->fronts;
   for (i64 q = 0; q < t->fronts; q++) count[q] = 0;
   for (i64 l = 0; l < k; l++) {
-    lowest = least(lowest, fronts[l]);
-    for (i64 q = fronts[l]; q >= 0; q = t->parent[q])
+    i64 front = front_at(t, places[l]);
+    lowest = least(lowest, front);
+    for (i64 q = front; q >= 0; q = t->parent[q])
       if (!count[q]++) zero(xy + t->first[q] * 2 * w, 16 * w * (t->first[q + 1] - t->first[q]));
   }
   for (i64 l = 0; l < k; l++) xy[places[l] * 2 * w + l] = 1;
   for (i64 q = lowest; q < t->fronts; q++) {
     if (!count[q]) continue;
     Front f = front_of(t, q);
-    const double *N = block_N(factor, q), *pivots = xy + f.first * 2 * w;
+    const double *pivots = xy + f.first * 2 * w;
     if (count[q] > 1) {
-      zero(work, 16 * f.mp * w);
-      add_product(f.m, 2 * w, f.c, 1, N, 1, 2 * f.mp, pivots, 2 * w, work, 2 * w);
-      add_product(f.m, w, f.c, 1, N + f.mp, 1, 2 * f.mp, pivots, 2 * w, work + w, 2 * w);
-      for (i64 j = 0; j < f.m; j++)
-        for (i64 l = 0; l < 2 * w; l += LANES)
-          *(vec *)(xy + f.rows[j] * 2 * w + l) += *(const vec *)(work + j * 2 * w + l);
+      send_several(factor, f, q, w, pivots, xy, work);
       continue;
     }
     i64 column = 0; /* that of the only path here */
     for (i64 i = 0; i < f.c * 2 * w; i++)
       if (pivots[i] != 0) column = i % w;
-    double *a = work, *b = a + f.mp;
-    zero(work, 16 * f.mp);
-    for (i64 i = 0; i < f.c; i++, N += 2 * f.mp) {
-      double x = pivots[i * 2 * w + column], y = pivots[i * 2 * w + w + column];
-      fetch_ahead(N, 2 * f.mp);
-      if (x == 0 && y == 0) continue;
-      for (i64 j = 0; j < f.mp; j++) a[j] += N[j] * x, b[j] += N[j] * y + N[f.mp + j] * x;
-    }
-    for (i64 j = 0; j < f.m; j++) {
-      double *to = xy + f.rows[j] * 2 * w + column;
-      to[0] += a[j], to[w] += b[j];
-    }
+    send_one(factor, f, q, w, column, xy, work);
   }
 }
 
@@ -211,6 +258,30 @@ static void down_one(const Factor *factor, Front f, i64 q, int sent, double *xy,
   }
 }
 
+/* The same of a leaf. */
+static void down_one_leaf(const Factor *factor, Front f, i64 q, int sent, double *xy, double *work) {
+  i64 c = f.c, cp = f.cp, mp = f.mp;
+  const double *K = block_K(factor, q), *N = block_N(factor, q), *areas = factor->areas + f.first;
+  double *pivots = xy + 2 * f.first, *bx = work, *by = bx + mp, *px = by + mp, *loads = px + cp;
+  for (i64 j = 0; j < mp; j++) bx[j] = j < f.m ? xy[2 * f.rows[j]] : 0, by[j] = j < f.m ? xy[2 * f.rows[j] + 1] : 0;
+  for (i64 j = 0; j < cp; j++) px[j] = j < c && sent ? pivots[2 * j] : 0, loads[j] = 0;
+  for (i64 i = 0; i < c; i++, N += mp) {
+    vec x = {0}, y = {0};
+    fetch_ahead(N, mp);
+    for (i64 j = 0; j < cp && sent; j += LANES) x += *(const vec *)(K + i * cp + j) * *(const vec *)(px + j);
+    for (i64 j = 0; j < mp; j += LANES) {
+      vec n = *(const vec *)(N + j);
+      x += n * *(const vec *)(bx + j), y += n * *(const vec *)(by + j);
+    }
+    pivots[2 * i] = sum(x), pivots[2 * i + 1] = sum(y), loads[i] = areas[i] * pivots[2 * i];
+  }
+  for (i64 i = 0; i < c; i++) {
+    vec y = {0};
+    for (i64 j = 0; j < cp; j += LANES) y += *(const vec *)(K + i * cp + j) * *(const vec *)(loads + j);
+    pivots[2 * i + 1] += sum(y);
+  }
+}
+
 /* Sweep xy (n, 2 w) down the fronts last to first; count as bih_send_units left it. */
 API i32 bih_sweep_down_both(const Factor *factor, i64 first, i64 last, i64 w, double *xy, const i32 *count, double *work,
                             Watch *watch) {
@@ -219,20 +290,27 @@ API i32 bih_sweep_down_both(const Factor *factor, i64 first, i64 last, i64 w, do
     if (stopped(watch)) return STOPPED;
     Front f = front_of(t, q);
     if (w == 1) {
-      down_one(factor, f, q, count[q] > 0, xy, work);
+      (is_leaf(t, q) ? down_one_leaf : down_one)(factor, f, q, count[q] > 0, xy, work);
       continue;
     }
-    i64 c = f.c, cp = f.cp, ln = 2 * f.mp;
+    i64 c = f.c, cp = f.cp, ln = kept(factor, q) * f.mp;
     const double *K = block_K(factor, q), *K1 = K + c * cp, *N = block_N(factor, q), *N1 = N + f.mp;
     double *pivots = xy + f.first * 2 * w, *b = work, *p = b + f.mp * 2 * w;
     gather(f.rows, f.m, 2 * w, xy, b);
     zero(p, 16 * c * w);
-    if (count[q]) {
-      add_product(c, 2 * w, c, 1, K, cp, 1, pivots, 2 * w, p, 2 * w);
-      add_product(c, w, c, 1, K1, cp, 1, pivots, 2 * w, p + w, 2 * w);
-    }
     add_product(c, 2 * w, f.m, 1, N, ln, 1, b, 2 * w, p, 2 * w);
-    add_product(c, w, f.m, 1, N1, ln, 1, b, 2 * w, p + w, 2 * w);
+    if (is_leaf(t, q)) {
+      if (count[q]) add_product(c, w, c, 1, K, cp, 1, pivots, 2 * w, p, 2 * w);
+      for (i64 i = 0; i < c; i++)
+        for (i64 l = 0; l < w; l++) pivots[i * 2 * w + l] = factor->areas[f.first + i] * p[i * 2 * w + l];
+      add_product(c, w, c, 1, K, cp, 1, pivots, 2 * w, p + w, 2 * w);
+    } else {
+      add_product(c, w, f.m, 1, N1, ln, 1, b, 2 * w, p + w, 2 * w);
+      if (count[q]) {
+        add_product(c, 2 * w, c, 1, K, cp, 1, pivots, 2 * w, p, 2 * w);
+        add_product(c, w, c, 1, K1, cp, 1, pivots, 2 * w, p + w, 2 * w);
+      }
+    }
     copy(pivots, p, 16 * c * w);
   }
   return DONE;

@@ -12,14 +12,14 @@ static void sort(i32 *x, i64 count) { /* Shell's: the lists are short */
     }
 }
 
-/* The tree of fronts from what a dissection says of them: first (fronts + 1,), children (fronts, 2), parent (fronts,). */
-API void bih_link(i64 fronts, const i32 *last, const i32 *subtrees, i32 *first, i32 *children, i32 *parent) {
-  first[0] = 0;
-  for (i64 q = 0; q < fronts; q++) {
-    first[q + 1] = last[q], parent[q] = children[2 * q] = children[2 * q + 1] = -1;
+/* first, children and parent from what a dissection says of fronts. */
+static void link(Tree *t, const i32 *last, const i32 *subtrees) {
+  t->first[0] = 0;
+  for (i64 q = 0; q < t->fronts; q++) {
+    t->first[q + 1] = last[q], t->parent[q] = t->children[2 * q] = t->children[2 * q + 1] = -1;
     if (!subtrees[2 * q]) continue;
     i64 right = q - 1, left = right - subtrees[2 * q + 1];
-    children[2 * q] = (i32)left, children[2 * q + 1] = (i32)right, parent[left] = parent[right] = (i32)q;
+    t->children[2 * q] = (i32)left, t->children[2 * q + 1] = (i32)right, t->parent[left] = t->parent[right] = (i32)q;
   }
 }
 
@@ -40,8 +40,9 @@ static i64 merge(i64 from, const i32 *a, i64 na, const i32 *b, i64 nb, i32 *to) 
 
 /* Bottom up: a front's boundary is what its pivots' edges and its children's boundaries reach above it.  Fills bound,
  * and rows as far as there is room; work (3 n,).  Returns how many rows there are, NO_ROOM if room might not do. */
-API i64 bih_boundaries(const Rows *g, const Tree *t, i64 *bound, i32 *rows, i64 room, i32 *work) {
-  i32 *mark = work, *both = work + t->n;
+static i64 find_boundaries(const Rows *g, const Tree *t, i64 room, i32 *work) {
+  i32 *mark = work, *both = work + t->n, *rows = t->rows;
+  i64 *bound = t->bound;
   for (i64 v = 0; v < t->n; v++) mark[v] = -1;
   bound[0] = 0;
   for (i64 q = 0; q < t->fronts; q++) {
@@ -67,54 +68,74 @@ API i64 bih_boundaries(const Rows *g, const Tree *t, i64 *bound, i32 *rows, i64 
 }
 
 /* up: where each boundary row is in the parent's front; position (n,). */
-static void find_places_in_parents(const Tree *t, i32 *up, i32 *position) {
+static void find_places_in_parents(const Tree *t, i32 *position) {
   for (i64 q = 0; q < t->fronts; q++) {
     Front f = front_of(t, q);
     if (t->children[2 * q] < 0) continue;
     for (i64 k = 0; k < f.c; k++) position[f.first + k] = (i32)k;
     for (i64 k = 0; k < f.m; k++) position[f.rows[k]] = (i32)(f.c + k);
     for (int k = 0; k < 2; k++)
-      for (i64 d = t->children[2 * q + k], e = t->bound[d]; e < t->bound[d + 1]; e++) up[e] = position[t->rows[e]];
+      for (i64 d = t->children[2 * q + k], e = t->bound[d]; e < t->bound[d + 1]; e++) t->up[e] = position[t->rows[e]];
   }
 }
 
-/* Where everything lies, which fronts are tasks of their own (top: those whose subtrees are more than the tasks-th part
- * of the whole work; none if tasks is 0), and where boundary rows are in the parent's front; position (n,).  Blocks of
- * the factor begin with those of the last front, as in a sweep down.  Schur complements lie on a stack while a subtree is
- * eliminated (a front's replaces its children's), and blocks of the inverse while it is inverted (each on top of its
- * parent's); tasks begin at 0, and what they hand to each other lies elsewhere.  totals (4,): doubles of all K and of all
- * N, the work, and doubles of all that tasks hand to each other, with derivatives. */
-API void bih_lay_out(const Tree *t, i64 tasks, i64 *pivot_block, i64 *row_block, i64 *stack, i64 *inverse,
-                     unsigned char *top, i32 *rank, i32 *up, i32 *position, i64 *totals) {
-  i64 *inside = stack, handed_up = 0, handed_down = 0, last = t->fronts - 1;
+/* Where everything lies, and which fronts are tasks of their own (top: those whose subtrees are more than the tasks-th
+ * part of the whole work; none if tasks is 0).  Blocks of the factor begin with those of the last front, as in a sweep
+ * down; those of leaves lie behind all others.  Schur complements lie on a stack while a subtree is eliminated (a front's
+ * replaces its children's), and blocks of the inverse while it is inverted (each on top of its parent's); tasks begin at
+ * 0, and what they hand to each other lies elsewhere. */
+static void place_blocks(Tree *t, i64 tasks, i64 *totals) {
+  i64 *inside = t->stack, handed_up = 0, handed_down = 0, last = t->fronts - 1, largest = 0;
   i32 ranked = -1;
   for (i64 q = 0; q <= last; q++) {
     Front f = front_of(t, q);
     i64 left = t->children[2 * q];
     inside[q] = f.c * f.s * f.s + (left < 0 ? 0 : inside[left] + inside[t->children[2 * q + 1]]);
+    largest = most(largest, f.sp);
   }
   i64 pivots = 0, boundaries = 0, whole = last < 0 ? 0 : inside[last];
+  for (int leaves = 0; leaves < 2; leaves++) {
+    if (leaves) t->pivot_block[t->fronts] = pivots, t->row_block[t->fronts] = boundaries;
+    for (i64 q = last; q >= 0; q--) {
+      Front f = front_of(t, q);
+      if (is_leaf(t, q) != leaves) continue;
+      t->pivot_block[q] = pivots, t->row_block[q] = boundaries;
+      pivots += f.c * f.cp, boundaries += f.c * f.mp;
+    }
+  }
   for (i64 q = last; q >= 0; q--) {
     Front f = front_of(t, q);
     i64 parent = t->parent[q];
-    top[q] = t->children[2 * q] >= 0 && inside[q] * tasks > whole;
-    if (top[q]) handed_down += f.s * f.sp;
-    if (top[q] || parent < 0 || top[parent]) handed_up += f.m * f.mp;
-    pivot_block[q] = pivots, row_block[q] = boundaries;
-    pivots += f.c * f.cp, boundaries += f.c * f.mp;
+    t->top[q] = !is_leaf(t, q) && inside[q] * tasks > whole;
+    if (t->top[q]) handed_down += f.s * f.sp;
+    if (t->top[q] || parent < 0 || t->top[parent]) handed_up += f.m * f.mp;
   }
   totals[0] = pivots, totals[1] = boundaries, totals[2] = whole, totals[3] = 2 * most(handed_up, handed_down);
+  totals[4] = largest;
   for (i64 q = 0; q <= last; q++) {
-    stack[q] = inverse[q] = 0;
-    for (i64 v = t->first[q]; v < t->first[q + 1]; v++) rank[v] = ranked += top[q];
+    t->stack[q] = t->inverse[q] = 0;
+    for (i64 v = t->first[q]; v < t->first[q + 1]; v++) t->rank[v] = ranked += t->top[q];
   }
   for (i64 q = last; q >= 0; q--) {
     i64 left = t->children[2 * q], right = t->children[2 * q + 1];
-    if (left < 0 || top[q]) continue;
+    if (left < 0 || t->top[q]) continue;
     Front f = front_of(t, q), l = front_of(t, left);
-    stack[left] = stack[q];
-    stack[right] = stack[left] + l.m * l.mp;
-    inverse[left] = inverse[right] = inverse[q] + 2 * f.s * f.sp;
+    t->stack[left] = t->stack[q];
+    t->stack[right] = t->stack[left] + l.m * l.mp;
+    t->inverse[left] = t->inverse[right] = t->inverse[q] + 2 * f.s * f.sp;
   }
-  find_places_in_parents(t, up, position);
+}
+
+/* Fill in the tree of a matrix, of which vertices and place are there, from what a dissection says of its fronts: last
+ * and subtrees.  tasks: see place_blocks.  rows and up have `room` places; work (3 n,).  totals (5,): doubles of all K and
+ * of all N, the work, doubles of all that tasks hand to each other, with derivatives, and the longest padded row of a
+ * front.  Returns how many rows there are, NO_ROOM if room might not do. */
+API i64 bih_lay_out(const Rows *g, Tree *t, const i32 *last, const i32 *subtrees, i64 tasks, i64 room, i32 *work,
+                    i64 *totals) {
+  link(t, last, subtrees);
+  i64 found = find_boundaries(g, t, room, work);
+  if (found < 0) return found;
+  place_blocks(t, tasks, totals);
+  find_places_in_parents(t, work);
+  return found;
 }

@@ -55,15 +55,22 @@ class CompiledFactor:
 
     def __init__(self, tree: CompiledTree, matrix: sp.csr_matrix, areas: FloatArray | None, job: Job) -> None:
         self.tree = tree
-        self._dual = areas is not None
-        parts = 1 + self._dual
-        self._pivots = np.empty(parts * tree.factor_size[0] + PADDING)
-        self._boundaries = np.empty(parts * tree.factor_size[1] + PADDING)
+        self._areas = None if areas is None else areas.take(tree.order)
+        # Derivatives stand beside all blocks before those of leaves.
+        self._pivots, self._boundaries = (
+            np.empty(size + (0 if areas is None else int(block[-1])) + PADDING)
+            for size, block in zip(tree.factor_size, (tree.pivot_block, tree.row_block), strict=True)
+        )
+        self._diagonals: tuple[FloatArray, FloatArray] | None = None
+        self._arena: Arena | None = None
+        if len(tree.tasks) == 1 and job.is_silent:
+            self._factor_alone(matrix)
+            return
         self._rooms = {task: (self._elimination_room(task), self._inversion_room(task)) for task in tree.tasks}
         most = max(max(rooms) for rooms in self._rooms.values())
-        self._arena: Arena | None = Arena(tree.blocks_room + min(WORKERS, len(self._rooms)) * most)
-        self._eliminate(matrix, areas, job)
-        if not self._dual:
+        self._arena = Arena(tree.blocks_room + min(WORKERS, len(self._rooms)) * most)
+        self._eliminate(matrix, job)
+        if areas is None:
             self._arena = None
 
     @property
@@ -73,24 +80,36 @@ class CompiledFactor:
 
     @cached_property
     def _struct(self) -> kernel.Factor:
-        return kernel.Factor(ctypes.pointer(self.tree.struct), int(self._dual), at(self._pivots), at(self._boundaries))
+        blocks = at(self._areas), at(self._pivots), at(self._boundaries)
+        return kernel.Factor(ctypes.pointer(self.tree.struct), *blocks)
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in self.__dict__.items() if name != "_struct"}
 
+    def _factor_alone(self, matrix: sp.csr_matrix) -> None:
+        """All of it, diagonals included, by one call."""
+        lib, tree, where = library(), ctypes.byref(self.tree.struct), np.empty(2, np.int64)
+        rows = rows_of(matrix.indptr, matrix.indices, matrix.data)
+        is_dual = self._areas is not None
+        diagonals = np.empty((2, self.tree.n)) if is_dual else (None, None)
+        work = np.empty(lib.bih_factor_room(tree, is_dual))
+        _check(lib.bih_factor(ctypes.byref(self._struct), ctypes.byref(rows), work, *diagonals, where), where)
+        if is_dual:
+            self._diagonals = diagonals[0], diagonals[1]
+
     def _elimination_room(self, task: tuple[int, int]) -> int:
         room = np.empty(3, np.int64)
-        library().bih_elimination_room(ctypes.byref(self.tree.struct), int(self._dual), *task, room)
+        library().bih_elimination_room(ctypes.byref(self.tree.struct), self._areas is not None, *task, room)
         return int(room[2])
 
     def _inversion_room(self, task: tuple[int, int]) -> int:
-        if not self._dual:
+        if self._areas is None:
             return 0
         room = np.empty(2, np.int64)
         library().bih_inversion_room(ctypes.byref(self.tree.struct), *task, room)
         return int(room[1])
 
-    def _eliminate(self, matrix: sp.csr_matrix, areas: FloatArray | None, job: Job) -> None:
+    def _eliminate(self, matrix: sp.csr_matrix, job: Job) -> None:
         lib, tree, factor, arena = library(), self.tree, ctypes.byref(self._struct), self._arena
         assert arena is not None
         rows = rows_of(matrix.indptr, matrix.indices, matrix.data)
@@ -99,16 +118,12 @@ class CompiledFactor:
         def eliminate(task: tuple[int, int]) -> None:
             where, q = np.zeros(2, np.int64), task[1]
             m = int(tree.bound[q + 1] - tree.bound[q])
-            schur.take(q, (1 + self._dual) * m * padded(m), 1)
+            schur.take(q, (1 if self._areas is None else 2) * m * padded(m), 1)
             with arena.of(self._rooms[task][0]) as work:
                 status = lib.bih_eliminate(
-                    factor, ctypes.byref(rows), areas, *task, schur.address, work, where, ctypes.byref(job.watch)
+                    factor, ctypes.byref(rows), *task, schur.address, work, where, ctypes.byref(job.watch)
                 )
-            if status == kernel.NOT_POSITIVE:
-                raise SolverError("The matrix is not positive definite to working accuracy, so it cannot be factored.")
-            if status == kernel.OUTSIDE:
-                raise ParameterError(f"The entry ({where[0]}, {where[1]}) is outside the pattern of the tree.")
-            check_stopped(status)
+            _check(status, where)
             if tree.top[q]:
                 for child in tree.children[q]:
                     schur.release(child)
@@ -117,6 +132,9 @@ class CompiledFactor:
 
     def diagonals(self, job: Job) -> tuple[FloatArray, FloatArray]:
         """(n,) diag(G) and (n,) diag(G A G); to be called once, after the elimination."""
+        if self._diagonals is not None:
+            found, self._diagonals = self._diagonals, None
+            return found
         lib, tree, factor, arena = library(), self.tree, ctypes.byref(self._struct), self._arena
         assert arena is not None
         diagonals, inverse = np.empty((2, tree.n)), Blocks(len(tree.parent), arena)
@@ -146,6 +164,10 @@ class CompiledFactor:
         width, struct = _width(columns), ctypes.byref(tree.struct)
 
         with workspaces.of(tree.n * width) as x:
+            if len(tree.tasks) == 1:
+                sides = b.ctypes.data, b.strides[0] // 8, out.ctypes.data, out.strides[0] // 8
+                lib.bih_solve(factor, columns, width, *sides, x, tree.workspace(width))
+                return
             x = x.reshape(tree.n, width)
 
             def take(task: tuple[int, int]) -> None:
@@ -154,11 +176,11 @@ class CompiledFactor:
             def up(task: tuple[int, int]) -> FloatArray:
                 above, end = np.zeros((len(top), width)), int(tree.first[task[1] + 1])
                 take(task)
-                lib.bih_sweep_up(factor, *task, end, width, x, above, self._workspace(task, width), NEVER)
+                lib.bih_sweep_up(factor, *task, end, width, x, above, tree.workspace(width), NEVER)
                 return above
 
             def down(task: tuple[int, int]) -> None:
-                lib.bih_sweep_down(factor, *task, width, x, self._workspace(task, width), NEVER)
+                lib.bih_sweep_down(factor, *task, width, x, tree.workspace(width), NEVER)
                 lib.bih_put_rows(struct, *self._places(task), columns, width, x, out.ctypes.data, out.strides[0] // 8)
 
             for q in tree.tops:
@@ -166,7 +188,7 @@ class CompiledFactor:
             for above in run(up, tree.branches):
                 x[top] += above
             for q in tree.tops:
-                lib.bih_sweep_up(factor, q, q, tree.n, width, x, None, self._workspace((q, q), width), NEVER)
+                lib.bih_sweep_up(factor, q, q, tree.n, width, x, None, tree.workspace(width), NEVER)
             for q in reversed(tree.tops):
                 down((q, q))
             run(down, tree.branches)
@@ -188,12 +210,10 @@ class CompiledFactor:
     ) -> None:
         lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
         places, width, count = tree.place[index], xy.shape[1] // 2, np.empty(len(tree.parent), np.int32)
-        front = (np.searchsorted(tree.first, places, side="right") - 1).astype(np.int32)
-        everything = self._workspace((0, len(tree.parent) - 1), 2 * width)
-        lib.bih_send_units(factor, front, places, len(index), width, xy, count, everything)
+        lib.bih_send_units(factor, places, len(index), width, xy, count, tree.workspace(2 * width))
 
         def down(task: tuple[int, int]) -> None:
-            lib.bih_sweep_down_both(factor, *task, width, xy, count, self._workspace(task, 2 * width), NEVER)
+            lib.bih_sweep_down_both(factor, *task, width, xy, count, tree.workspace(2 * width), NEVER)
 
         def finish(task: tuple[int, int]) -> None:
             down(task)
@@ -209,8 +229,14 @@ class CompiledFactor:
             receive(tree.order[tree.top_places], xy[tree.top_places, width : width + len(index)])
         run(finish, tree.branches)
 
-    def _workspace(self, task: tuple[int, int], width: int) -> FloatArray:
-        return np.empty(library().bih_sweep_room(ctypes.byref(self.tree.struct), *task, width))
+
+def _check(status: int, where: IntArray) -> None:
+    """Raise what an elimination tells; where: the entry that it tells of."""
+    if status == kernel.NOT_POSITIVE:
+        raise SolverError("The matrix is not positive definite to working accuracy, so it cannot be factored.")
+    if status == kernel.OUTSIDE:
+        raise ParameterError(f"The entry ({where[0]}, {where[1]}) is outside the pattern of the tree.")
+    check_stopped(status)
 
 
 def _width(columns: int) -> int:

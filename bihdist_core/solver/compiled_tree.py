@@ -39,7 +39,7 @@ CUTS = 3
 
 
 class CompiledTree:
-    """The elimination tree of a pattern (n, n), by rows as `canonical` makes them; x (n, 3), in [-1, 1].
+    """The elimination tree of a pattern (n, n), by rows as `canonical` makes them; x (n, 3), finite.
 
     Raises ParameterError if the pattern is not symmetric.
     """
@@ -65,11 +65,23 @@ class CompiledTree:
     """How long an elimination takes, in the unit of `Job.advance`."""
     blocks_room: int
     """Numbers of all that tasks hand to each other, with derivatives."""
+    longest_row: int
+    """Numbers of the longest row of a front, with its padding."""
+    tasks: list[tuple[int, int]]
+    """What is done as one: the first front of each and the last."""
+    after: list[list[int]]
+    before: list[list[int]]
+    """The numbers of the tasks that come before each, bottom up and top down."""
 
     def __init__(self, pattern: sp.csr_matrix, x: FloatArray, progress: Progress | None = None) -> None:
         self.n = len(x)
         matrix = rows_of(pattern.indptr, pattern.indices)
-        self._lay_out(matrix, *self._dissect(matrix, pattern.nnz, x, part(progress, 0, 0.8)))
+        self.vertices, self.place = np.empty((2, self.n), np.int32)
+        dissection = np.empty(library().bih_dissection_room(self.n, pattern.nnz), np.uint8)
+        if self._is_small:
+            self._lay_out(matrix, *self._dissect_alone(matrix, x, dissection))
+        else:
+            self._lay_out(matrix, *self._dissect(matrix, x, dissection, part(progress, 0, 0.8)))
         if progress is not None:
             progress(1.0, "Laying out the factor")
 
@@ -77,6 +89,11 @@ class CompiledTree:
     def struct(self) -> Tree:
         """The tree as the compiled kernel has it."""
         return Tree(self.n, len(self.parent), *(at(getattr(self, name)) for name in TREE_ARRAYS))
+
+    @property
+    def _is_small(self) -> bool:
+        """Whether one thread does all of it, and nobody wants to hear how far it is."""
+        return self.n <= CUT_ALONE // 4
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in self.__dict__.items() if name != "struct"}
@@ -114,17 +131,29 @@ class CompiledTree:
     @cached_property
     def top_places(self) -> IntArray:
         """(r,) the places of their pivots."""
+        if len(self.tasks) == 1:
+            return np.empty(0, np.int64)
         return np.array([p for q in self.tops for p in range(self.first[q], self.first[q + 1])], np.int64)
 
+    def workspace(self, width: int) -> FloatArray:
+        """What sweeps of so many columns need to work."""
+        return np.empty((self.longest_row + 2 * PAD) * width + 2 * PAD)
+
     # ------------------------------------------------------------------ ordering
-    def _dissect(self, matrix: Rows, entries: int, x: FloatArray, progress: Progress) -> tuple[AnyArray, AnyArray]:
+    def _dissect_alone(self, matrix: Rows, x: FloatArray, dissection: AnyArray) -> tuple[AnyArray, AnyArray]:
         """Fills in `vertices` and `place`; (fronts,) one past the last pivot of each front, and (fronts, 2) how many
         fronts its children's subtrees have."""
+        last, subtrees = np.empty(2 * self.n + 1, np.int32), np.empty((2 * self.n + 1, 2), np.int32)
+        found = library().bih_order(ctypes.byref(matrix), x, dissection, self.vertices, self.place, last, subtrees)
+        count = _checked_symmetric(found)
+        return last[:count], subtrees[:count]
+
+    def _dissect(
+        self, matrix: Rows, x: FloatArray, dissection: AnyArray, progress: Progress
+    ) -> tuple[AnyArray, AnyArray]:
+        """What `_dissect_alone` does, side by side."""
         lib, n = library(), self.n
-        dissection = np.empty(lib.bih_dissection_room(n, entries), np.uint8)
-        edges = lib.bih_begin_dissection(ctypes.byref(matrix), x, dissection)
-        if edges == ASYMMETRIC:
-            raise ParameterError("The sparsity pattern of the matrix is not symmetric.")
+        edges = _checked_symmetric(lib.bih_begin_dissection(ctypes.byref(matrix), x, dissection))
         job = Job(progress, "Ordering the vertices", n)
 
         def cut(region: Region) -> list[Region]:
@@ -148,28 +177,32 @@ class CompiledTree:
             leaves = [half for leaf in leaves for half in leaf.halves or [leaf]]
         for leaf, fronts in zip(leaves, job.run(lambda leaf: dissect(leaf.region), leaves), strict=True):
             leaf.fronts = fronts
-        self.vertices, self.place = np.empty((2, n), np.int32)
         lib.bih_end_dissection(dissection, self.vertices, self.place)
         return root.all_fronts()
 
     # ------------------------------------------------------------------ layout
     def _lay_out(self, matrix: Rows, last: AnyArray, subtrees: AnyArray) -> None:
-        lib, n, count = library(), self.n, len(last)
+        n, count = self.n, len(last)
         self.first, self.children, self.parent = (np.empty(k, np.int32) for k in (count + 1, (count, 2), count))
-        lib.bih_link(count, last, subtrees, self.first, self.children, self.parent)
         self.bound, self.pivot_block, self.row_block, self.stack, self.inverse = np.empty((5, count + 1), np.int64)
         self.top, self.rank, work = np.empty(count, np.uint8), np.empty(n, np.int32), np.empty(3 * n, np.int32)
+        totals, tasks = np.empty(5, np.int64), 0 if self._is_small else TASKS
         room, found = 6 * n + 64, NO_ROOM
+        self.rows = self.up = np.empty(0, np.int32)
+        struct = self.struct
         while found == NO_ROOM:
             room *= 2
-            self.rows = self.up = np.empty(room, np.int32)
-            tree = ctypes.byref(self.struct)
-            found = lib.bih_boundaries(ctypes.byref(matrix), tree, self.bound, self.rows, room, work)
-        self.rows, self.up, totals = self.rows[:found].copy(), np.empty(found, np.int32), np.empty(4, np.int64)
-        self.struct.rows, self.struct.up = at(self.rows), at(self.up)
-        places = self.pivot_block, self.row_block, self.stack, self.inverse, self.top, self.rank, self.up
-        lib.bih_lay_out(tree, TASKS if n > CUT_ALONE // 4 else 0, *places, work, totals)
-        *self.factor_size, self.work, self.blocks_room = totals.tolist()
+            rows, up = np.empty((2, room), np.int32)
+            struct.rows, struct.up = at(rows), at(up)
+            found = library().bih_lay_out(
+                ctypes.byref(matrix), ctypes.byref(struct), last, subtrees, tasks, room, work, totals
+            )
+        self.rows, self.up = rows[:found].copy(), up[:found].copy()
+        struct.rows, struct.up = at(self.rows), at(self.up)
+        *self.factor_size, self.work, self.blocks_room, self.longest_row = totals.tolist()
+        if not tasks:
+            self.tasks, self.after, self.before = [(0, count - 1)], [[]], [[]]
+            return
         top, parent = self.top, self.parent
         task = [int(q) for q in np.flatnonzero(top | (parent < 0) | (top[parent] > 0))]
         number = {q: k for k, q in enumerate(task)}
@@ -200,6 +233,12 @@ class _Cut:
         own = np.array([[len(one), len(other)]], np.int32)
         last = np.concatenate([one, other, np.array([self.region.hi], np.int32)])
         return last, np.concatenate([one_subtrees, other_subtrees, own])
+
+
+def _checked_symmetric(found: int) -> int:
+    if found == ASYMMETRIC:
+        raise ParameterError("The sparsity pattern of the matrix is not symmetric.")
+    return found
 
 
 def padded(count: int) -> int:

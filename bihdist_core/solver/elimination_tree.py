@@ -24,9 +24,10 @@ class EliminationTree:
     """
 
     def __init__(self, pattern: sp.spmatrix, coordinates: FloatArray, progress: Progress | None = None) -> None:
-        x = _unit_box(_checked_coordinates(pattern, coordinates))
-        kind = CompiledTree if library() else PlainTree
-        self.layout: CompiledTree | PlainTree = kind(canonical(pattern), x, progress)
+        x, matrix = _checked_coordinates(pattern, coordinates), canonical(pattern)
+        self.layout: CompiledTree | PlainTree = (
+            CompiledTree(matrix, x, progress) if library() else PlainTree(matrix, _unit_box(x), progress)
+        )
         self.n = self.layout.n
 
     @property
@@ -65,7 +66,7 @@ def _unit_box(x: FloatArray) -> FloatArray:
 
 
 def _checked_coordinates(pattern: sp.spmatrix, coordinates: FloatArray) -> FloatArray:
-    coordinates = np.asarray(coordinates, np.float64)
+    coordinates = np.ascontiguousarray(coordinates, np.float64)
     n = pattern.shape[0]
     if pattern.shape != (n, n) or coordinates.shape != (n, 3):
         raise ParameterError(

@@ -70,6 +70,11 @@ class Factor:
         job.finish()
 
     @property
+    def has_diagonals(self) -> bool:
+        """Whether it was made with areas."""
+        return self._diagonals is not None
+
+    @property
     def diagonal(self) -> FloatArray:
         """(n,) diag(matrix^-1), read-only; SolverError without areas."""
         return self._with_areas()[0]

@@ -118,6 +118,11 @@ class Job:
         self._reported = time.monotonic()
         self.watch = Watch()
 
+    @property
+    def is_silent(self) -> bool:
+        """Whether nobody is told how far it is, so that nobody stops it either."""
+        return self._progress is None
+
     def advance(self, work: int) -> None:
         """Count a piece of work; raises Cancelled once the job is to stop."""
         if self.watch.stop:
@@ -144,6 +149,11 @@ class Job:
         if there is no progress, and all of them within `without_workers`, are done by the thread that asks.
         """
         items = list(items)
+        here = _alone.get() or (self._progress is None and len(items) == 1)
+        if here and len(items) == 1:
+            done = [_quietly(function, items[0])]
+            self.report()
+            return done
         missing = [len(before) for before in after] if after else [0] * len(items)
         followers: list[list[int]] = [[] for _ in items]
         for k, before in enumerate(after or ()):
@@ -160,7 +170,6 @@ class Job:
                 if not missing[follower]:
                     ready.append(follower)
 
-        here = _alone.get() or (self._progress is None and len(items) == 1)
         try:
             while ready or pending:
                 while ready:

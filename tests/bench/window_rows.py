@@ -174,7 +174,7 @@ def stalls(size: Size) -> Iterator[Line]:
         ours=longest,
         value=longest,
         bound=0.06,
-        note=f"until all fields are there; drawing by VTK ({picture:.2f} s at most) not counted",
+        note=f"until it is known how accurate all fields are; drawing by VTK ({picture:.2f} s at most) not counted",
     )
 
 
@@ -286,7 +286,11 @@ def _stalls(size: Size) -> tuple[float, float, int]:
         timer.start()
         last[0] = time.perf_counter()
         session = window.session
-        _wait(application, lambda: all(session.is_answered(panel.id) for panel in session.document.panels))
+
+        def is_final(panel: int) -> bool:
+            return session.is_answered(panel) and session.shown[panel].answer.is_final
+
+        _wait(application, lambda: all(is_final(panel.id) for panel in session.document.panels))
         timer.stop()
     return max(gaps), rendering.longest, len(vertices)
 

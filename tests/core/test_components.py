@@ -30,6 +30,15 @@ def test_components_are_those_of_scipy(seed):
         assert np.array_equal(connected(edges, n), connected_components(graph, directed=False)[1])
 
 
+@pytest.mark.parametrize("kernel", ["compiled", "plain"])
+def test_faces_connect_as_their_sides_do(kernel, monkeypatch):
+    if kernel == "plain":
+        monkeypatch.setattr("bihdist_core.surface.library", lambda: None)
+    for count in (0, 100, 600, 3000):
+        faces = np.random.default_rng(count).integers(0, 2000, (3, count))
+        assert np.array_equal(connected(faces, 2000), connected(np.hstack([faces[:2], faces[1:]]), 2000))
+
+
 @pytest.mark.parametrize("edges", [_path(100_001), _star(100_001)], ids=["path", "star"])
 @pytest.mark.parametrize("order", ["ascending", "descending", "random"])
 def test_long_ways_and_large_stars_take_a_few_rounds(edges, order):

@@ -1,5 +1,6 @@
 """One number to be set: a slider, and a pop-up with a slider and a box for the exact value."""
 
+from functools import cache
 from math import exp, inf, log
 
 from qtpy import QtCore, QtGui, QtWidgets
@@ -21,13 +22,19 @@ SYMBOLS = {"alpha": "α"}
 
 def value_of_step(parameter: Parameter, step: int) -> float:
     """The value at a slider position; one of the marks where it is within half a step."""
-    for mark in parameter.marks:
-        if step_of_value(parameter, mark) == step:
-            return mark
+    mark = _marks(parameter).get(step)
+    if mark is not None:
+        return mark
     low, high = _ends(parameter)
     value = low + (high - low) * step / STEPS
     value = exp(value) if parameter.logarithmic else value
     return round(value) if parameter.is_whole else float(f"{value:.3g}")
+
+
+@cache
+def _marks(parameter: Parameter) -> dict[int, float]:
+    """The marks by their steps."""
+    return {step_of_value(parameter, mark): mark for mark in reversed(parameter.marks)}
 
 
 def step_of_value(parameter: Parameter, value: float) -> int:
