@@ -1,5 +1,7 @@
 """How weights go from a face to the cells that it has become where degenerate faces are taken out (`proper_faces`)."""
 
+from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -8,6 +10,11 @@ from ..arrays import AnyArray, FloatArray
 
 ROUNDING = 1e-15
 """Of weights."""
+
+MOVED = 4e-12
+"""In the kernel's unit: how far places may move where faces are divided."""
+
+BISECTIONS = 50
 
 
 class CellWeights(NamedTuple):
@@ -46,35 +53,71 @@ class Part(NamedTuple):
     """A face that holds a part of another.
 
     inward (3, 3): weights in the other face times this are those in the part's; within (3, c): times this they are not
-    negative in the part.
+    negative in the part.  corners (3, 3): where those of the part's face are.
     """
 
     face: int
     inward: FloatArray
     within: FloatArray
+    corners: FloatArray
+
+    def weights(self, there: FloatArray) -> FloatArray:
+        """(3,) for weights in the other face."""
+        return _inside(there @ self.inward, self.inward)
 
 
-def in_parts(parts: list[Part], begin: FloatArray, end: FloatArray) -> list[tuple[int, FloatArray, FloatArray]]:
-    """A straight piece of a face, by the weights (3,) of its ends, as pieces of the face's parts: one for a point."""
-    if np.array_equal(begin, end):
-        face, inward, _ = max(parts, key=lambda part: float((begin @ part.within / _sizes(part.within)).min()))
-        weights = _inside(begin @ inward, inward)
-        return [(face, weights, weights)]
+def in_parts(
+    parts: list[Part], corners: FloatArray, begin: FloatArray, end: FloatArray
+) -> list[tuple[int, FloatArray, FloatArray]]:
+    """A straight piece of a face, by the weights (3,) of its ends, as pieces of the face's parts: one for a point.
+
+    corners (3, 3): where those of the face are.
+    """
+    way = end - begin
+
+    def off(part: Part, t: float) -> float:
+        there = begin + t * way
+        return float(np.linalg.norm(part.weights(there) @ part.corners - there @ corners))
+
+    if not way.any():
+        part = min(parts, key=lambda part: off(part, 0))
+        return [(part.face, part.weights(begin), part.weights(begin))]
+
+    def is_there(part: Part, t: float) -> bool:
+        return off(part, t) <= MOVED
+
     found = []
-    for face, inward, within in parts:
-        room, way = begin @ within + ROUNDING * _sizes(within), (end - begin) @ within
-        lo, hi = 0.0, 1.0
-        for least, change in zip(room.tolist(), way.tolist(), strict=True):
-            if change > 0:
-                lo = max(lo, -least / change)
-            elif change < 0:
-                hi = min(hi, -least / change)
-            elif least < 0:
-                hi = -1.0
-        if lo < hi:
-            here, there = (_inside((begin + t * (end - begin)) @ inward, inward) for t in (lo, hi))
-            found.append((face, here, there))
-    return found or in_parts(parts, begin, begin) + in_parts(parts, end, end)
+    for part in parts:
+        lo, hi = _range(begin @ part.within + ROUNDING * _sizes(part.within), way @ part.within)
+        middle = (lo + hi) / 2
+        # In parts with hardly any height rounding may say anything.
+        if lo < hi and is_there(part, middle):
+            lo, hi = (_last(middle, t, partial(is_there, part)) for t in (lo, hi))
+            found.append((part.face, part.weights(begin + lo * way), part.weights(begin + hi * way)))
+    return found or in_parts(parts, corners, begin, begin) + in_parts(parts, corners, end, end)
+
+
+def _range(room: FloatArray, way: FloatArray) -> tuple[float, float]:
+    """From where to where, of 0 to 1, numbers (c,) that begin so and change by so much are not negative."""
+    lo, hi = 0.0, 1.0
+    for least, change in zip(room.tolist(), way.tolist(), strict=True):
+        if change > 0:
+            lo = max(lo, -least / change)
+        elif change < 0:
+            hi = min(hi, -least / change)
+        elif least < 0:
+            hi = -1.0
+    return lo, hi
+
+
+def _last(good: float, end: float, holds: Callable[[float], bool]) -> float:
+    """The last number on the way from a good one to an end for which something holds."""
+    if holds(end):
+        return end
+    for _ in range(BISECTIONS):
+        middle = (good + end) / 2
+        good, end = (middle, end) if holds(middle) else (good, middle)
+    return good
 
 
 def _sizes(within: FloatArray) -> FloatArray:

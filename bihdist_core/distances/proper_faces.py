@@ -107,7 +107,8 @@ class ProperFaces:
     def pieces(self, face: int, begin: FloatArray, end: FloatArray) -> list[tuple[int, FloatArray, FloatArray]]:
         """A straight piece of a face that has changed, by the weights (3,) of its ends, in these faces."""
         low, high = np.searchsorted(self._part_faces, [face, face + 1]).tolist()
-        return in_parts([self._part(number) for number in range(low, high)], begin, end)
+        parts = [self._part(number) for number in range(low, high)]
+        return in_parts(parts, self.points[self._cells["corner"][face]], begin, end)
 
     def _part(self, number: int) -> Part:
         cell, target = int(self._part_cells[number]), int(self._part_targets[number])
@@ -115,7 +116,7 @@ class ProperFaces:
         corners, full = self.faces[target].tolist(), np.zeros((3, 3))
         columns = [corners.index(v) for v in self._cells["corner"][cell].tolist() if v >= 0]
         full[:, columns] = inward
-        return Part(target, full, full if len(columns) == 3 else np.hstack([within, inward]))
+        return Part(target, full, full if len(columns) == 3 else np.hstack([within, inward]), self.points[corners])
 
     def outside(self, faces: IntArray, begins: FloatArray, ends: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
         """Faces (p,) of the mesh for these, with the weights (p, 3) there."""
