@@ -5,8 +5,9 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from queue import Empty, SimpleQueue
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +20,7 @@ from ..scalars import real_number
 from ..solver.worker_threads import Job
 from ..sources.pieces import Pieces
 from ..surface import Surface
+from .path_search import PathSearch
 from .place_pairs import by_start
 from .unfolding_mesh import Places, UnfoldingMesh
 
@@ -33,6 +35,9 @@ FEW = 20
 
 FIRST_ROOM = 4_096
 """Windows for which there is room at first; it doubles when they are more."""
+
+AS_LONG = 1e-12
+"""Of the largest distance: a path is as long as its distance up to this."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +56,19 @@ class FacePath:
         return FacePath(self.faces[::-1], self.ends[::-1], self.begins[::-1])
 
 
+class _Kept(NamedTuple):
+    """What a run has read and written.
+
+    offsets (k,): of the sources.  reached (vertices + places,): of `REACHED`.  rest: other arrays that it points to.
+    """
+
+    starts: Places
+    goals: Places | None
+    offsets: FloatArray
+    reached: AnyArray
+    rest: list[Any]
+
+
 class GeodesicField:
     """Exact geodesic distances from one source, and the ways they take.
 
@@ -58,7 +76,7 @@ class GeodesicField:
     way leads, inf beyond the radius.  windows: how many windows were taken up.
     """
 
-    def __init__(self, mesh: UnfoldingMesh, run: kernel.Run, kept: list[Any], distances: FloatArray) -> None:
+    def __init__(self, mesh: UnfoldingMesh, run: kernel.Run, kept: _Kept, distances: FloatArray) -> None:
         n = len(mesh.number)
         self._mesh, self._run, self._kept = mesh, run, kept
         self.windows = run.taken
@@ -88,9 +106,49 @@ class GeodesicField:
             room *= 4
         if count == kernel.OUTSIDE:
             raise ParameterError(f"No way from the source to {words} of {self._mesh.surface.name} is known.")
-        if count < 0:
+        found = None if count < 0 else (faces[:count], begins[:count], ends[:count])
+        if found is None or not self._is_as_long(target, *found):
+            found = self._searched(target)
+        if found is None:
             raise SolverError(f"The way to {words} of {self._mesh.surface.name} was lost.")
-        return FacePath(*self._mesh.outside(faces[:count], begins[:count], ends[:count]))
+        return FacePath(*self._mesh.outside(*found))
+
+    @cached_property
+    def _largest(self) -> float:
+        lengths = self._kept.reached["distance"]
+        return float(lengths[np.isfinite(lengths)].max())
+
+    def _is_as_long(self, target: int, faces: AnyArray, begins: FloatArray, ends: FloatArray) -> bool:
+        """Whether a path in the kernel's faces is as long as the distance says, less the offset of a source."""
+        side, way = self._mesh.sides[3 * faces], ends - begins
+        x, y = way[:, 1] * side["length"] + way[:, 2] * side["x"], way[:, 2] * side["y"]
+        excess = np.hypot(x, y).sum() - (self._kept.reached["distance"][target] - self._kept.offsets)
+        return bool(np.abs(excess).min() <= AS_LONG * self._largest)
+
+    def _searched(self, target: int) -> tuple[AnyArray, FloatArray, FloatArray] | None:
+        """The path in the kernel's faces; None if none is found that is as long as the distance says."""
+        mesh, (starts, goals, offsets, reached, _) = self._mesh, self._kept
+        lengths, is_start = reached["distance"], reached["rest"][:, 0] < 0
+        sources: dict[int, list[int]] = {}
+        for number, face in enumerate(starts.faces.tolist()):
+            sources.setdefault(face, []).append(number)
+        search = PathSearch(
+            sides=mesh.sides, first=mesh.first, corner=mesh.corner, distances=lengths, is_start=is_start,
+            sources=sources, begins=starts.begin, ends=starts.end, offsets=offsets,
+            rounding=AS_LONG * self._largest / 4,
+        )  # fmt: skip
+        if target < mesh.vertices:
+            pieces = search.from_vertex(target)
+        else:
+            assert goals is not None
+            number = target - mesh.vertices
+            place = int(goals.faces[number]), goals.begin[number].tolist()
+            pieces = search.from_place(*place, float(lengths[target]))
+        if not pieces:
+            return None
+        numbers, begins, ends = zip(*pieces, strict=True)
+        found = np.array(numbers, np.int32), np.array(begins, np.float64), np.array(ends, np.float64)
+        return found if self._is_as_long(target, *found) else None
 
 
 class ExactGeodesic:
@@ -265,7 +323,7 @@ class ExactGeodesic:
     ) -> GeodesicField:
         mesh, unit = self._mesh, self._mesh.unit
         shifts = np.zeros(len(starts.rows)) if offsets is None else offsets / unit
-        kept: list[Any] = [starts, goals, shifts, mesh.arrays]
+        rest: list[Any] = [mesh.arrays]
         run = kernel.Run(mesh=ctypes.pointer(mesh.structure), offset=kernel.at(shifts), radius=radius / unit)
         run.source = kernel.Places(len(starts.rows), *map(kernel.at, starts[1:]))
         run.most_taken = MOST_PER_VERTEX * mesh.vertices + MOST_AT_LEAST
@@ -274,7 +332,7 @@ class ExactGeodesic:
         if goals is not None:
             count = len(goals.rows)
             lists = _lists(goals.faces, mesh.faces)
-            kept.append(lists)
+            rest.append(lists)
             run.target = kernel.Places(count, *map(kernel.at, goals[1:]))
             run.first_target, run.next_target = map(kernel.at, lists)
         reached = np.empty(mesh.vertices + count, kernel.REACHED)
@@ -284,7 +342,7 @@ class ExactGeodesic:
         except Empty:
             work = _Workspace(mesh)
         try:
-            kept += [reached, work.complete(run, watch, self.surface.name)]
+            rest.append(work.complete(run, watch, self.surface.name))
         finally:
             self._free.put(work)
         if not targets_only:
@@ -294,7 +352,7 @@ class ExactGeodesic:
         found[found > run.radius] = np.inf
         if radius == np.inf:
             found[np.isinf(found)] = np.nan
-        return GeodesicField(mesh, run, kept, found * unit)
+        return GeodesicField(mesh, run, _Kept(starts, goals, shifts, reached, rest), found * unit)
 
 
 class _Workspace:

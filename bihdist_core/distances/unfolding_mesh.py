@@ -10,7 +10,7 @@ from ..errors import SolverError
 from ..kernel import library as kernel
 from ..sources.pieces import Pieces
 from ..surface import Surface
-from .proper_faces import NO_HEIGHT, Part, ProperFaces, in_parts
+from .proper_faces import ProperFaces
 
 MOST_FACES = (2**31 - 1) // 6
 """Numbers of sides are below 2^31, twice."""
@@ -52,14 +52,10 @@ class UnfoldingMesh:
         self._face_number[self._face_order] = np.arange(len(surface.faces), dtype=np.int32)
         points = np.ascontiguousarray(x[vertex_order] / self.unit)
         corners = np.ascontiguousarray(number[surface.faces[self._face_order]])
-        self._parts: dict[int, list[Part]] = {}
-        self._whole: dict[int, tuple[int, FloatArray]] = {}
+        self._proper: ProperFaces | None = None
         self.number = number
-        if self._build(points, corners):
-            sides = self.arrays[0].view(np.float64).reshape(-1, 3, 4)
-            areas, longest = sides[:, 0, 0] * sides[:, 0, 2], sides[:, :, 0].max(axis=1)
-            proper = ProperFaces(points, corners, np.flatnonzero(~(areas > NO_HEIGHT * longest**2)))
-            self._parts, self._whole = proper.parts, proper.whole
+        if degenerate := self._build(points, corners):
+            self._proper = proper = ProperFaces(points, corners, self.sides, degenerate)
             self.number = proper.same[number]
             self._build(proper.points, proper.faces, proper.labels)
 
@@ -67,12 +63,12 @@ class UnfoldingMesh:
         """Returns how many faces are degenerate."""
         n, m = len(points), len(corners)
         self.vertices, self.faces = n, m
-        side = np.empty((3 * m, kernel.SIDE), np.uint8)
+        side = np.empty(3 * m, kernel.SIDE)
         first, corner, kind = np.empty(n + 1, np.int32), np.empty(3 * m, np.int32), np.empty(n, np.uint8)
         self.arrays = side, first, corner, kind
         self.structure = kernel.Mesh(n, m, *(kernel.at(array) for array in self.arrays))
         work = np.empty((2, 3 * m), np.int32)
-        self._first, self._corner = first, corner
+        self.sides, self.first, self.corner = side, first, corner
         degenerate = kernel.library().bih_geodesic_mesh(
             ctypes.byref(self.structure),
             points,
@@ -86,7 +82,7 @@ class UnfoldingMesh:
 
     def at_vertices(self, ids: IntArray) -> Places:
         """Vertices (k,) of the surface."""
-        corner = self._corner[self._first[self.number[ids]]]
+        corner = self.corner[self.first[self.number[ids]]]
         weights = np.eye(3)[corner % 3]
         return Places(np.arange(len(ids)), corner // 3, weights, weights)
 
@@ -95,14 +91,15 @@ class UnfoldingMesh:
         faces = self._face_number[pieces.faces]
         rows = np.arange(len(faces))
         begin, end = np.array(pieces.start, np.float64), np.array(pieces.stop, np.float64)
-        changed = np.isin(faces, list(self._parts)) if self._parts else np.zeros(len(faces), bool)
-        if not changed.any():
+        proper = self._proper
+        changed = np.zeros(len(faces), bool) if proper is None else proper.is_changed(faces)
+        if proper is None or not changed.any():
             return Places(rows, faces, begin, end)
         found = [
             (row, face, *ends)
             for row in rows.tolist()
             for face, *ends in (
-                in_parts(self._parts[faces[row]], begin[row], end[row])
+                proper.pieces(int(faces[row]), begin[row], end[row])
                 if changed[row]
                 else [(faces[row], begin[row], end[row])]
             )
@@ -113,9 +110,8 @@ class UnfoldingMesh:
     def outside(self, faces: AnyArray, begins: FloatArray, ends: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
         """Faces (p,) of the surface for the kernel's, with the weights (p, 3) there."""
         faces = faces.astype(np.int64)
-        for row in np.flatnonzero(np.isin(faces, list(self._whole))) if self._whole else ():
-            faces[row], back = self._whole[int(faces[row])]
-            begins[row], ends[row] = begins[row] @ back, ends[row] @ back
+        if self._proper is not None:
+            faces, begins, ends = self._proper.outside(faces, begins, ends)
         return self._face_order[faces], begins, ends
 
 

@@ -16,6 +16,7 @@ enum { TOO_MUCH = -6, LOST = -7 };
 
 #define NONE (-1)
 #define EQUAL 1e-12 /* ratio: distances nearer to each other than this count as equal, and nothing is dropped */
+#define NO_HEIGHT 2e-13 /* of a face's longest edge: with less, and with a shorter edge, a face is degenerate */
 #define CRACK 1e-9  /* of an edge: a point this near beside a window is seen by it, so that none falls between two */
 
 /* Whether paths may bend at a vertex: at a saddle or on the boundary only where both sides have an angle of pi or more.
@@ -99,6 +100,10 @@ typedef struct {
 static inline i32 next_side(i32 h) { return h % 3 == 2 ? h - 2 : h + 1; }
 static inline i32 previous_side(i32 h) { return h % 3 ? h - 1 : h + 2; }
 static inline double length_of(double x, double y) { return __builtin_sqrt(x * x + y * y); }
+static inline double apart(const double *p, const double *q) {
+  double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+  return __builtin_sqrt(x * x + y * y + z * z);
+}
 static inline double clamp(double x, double lo, double hi) { return x < lo ? lo : x > hi ? hi : x; }
 
 /* The cosine and sine of a face's corner at the beginning of a side. */

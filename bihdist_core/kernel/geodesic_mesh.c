@@ -1,14 +1,9 @@
 /* The mesh on which windows unfold: frames of its sides, rings of sides at edges, and where paths bend. */
 #include "geodesic.h"
 
-#define NO_HEIGHT 2e-13  /* of a face's longest edge: with less, and with a shorter edge, a face is degenerate */
 #define FLAT 1e-6        /* a corner whose sine is less is one of a flat face */
+#define NEEDLE 4e-3      /* a corner whose sine is less: its vertex sends, see kind_of */
 #define FULL_TURN 1e-10  /* radians by which a saddle's angle is more than 2 pi */
-
-static double apart(const double *p, const double *q) {
-  double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
-  return __builtin_sqrt(x * x + y * y + z * z);
-}
 
 static void frame(Side *side, const double *p, const double *q, const double *r) {
   double e[3], w[3], dot = 0;
@@ -64,6 +59,8 @@ static void turn_by(Turn *t, const Side *side) {
   if (t->s < 0) t->half++, t->c = -t->c, t->s = -t->s;
 }
 
+/* Rays beside a vertex that are too few to be kept (NARROW) are more than what is seen all the same (CRACK) once they
+ * have passed one of its needles: there it has to send, too. */
 static unsigned char kind_of(const Mesh *mesh, i32 v, int on_boundary) {
   i64 lo = mesh->first[v], hi = mesh->first[v + 1], seen = 1;
   Turn turn = {1, 0, 0};
@@ -71,7 +68,7 @@ static unsigned char kind_of(const Mesh *mesh, i32 v, int on_boundary) {
     i32 h = mesh->corner[i];
     for (int k = 0; k < 3; k++, h = next_side(h)) {
       const Side *side = &mesh->side[h];
-      if (!(side->y > FLAT * length_of(side->x, side->y))) return ANYWHERE;
+      if (!(side->y > (k ? FLAT : NEEDLE) * length_of(side->x, side->y))) return ANYWHERE;
     }
     turn_by(&turn, &mesh->side[mesh->corner[i]]);
   }

@@ -102,13 +102,37 @@ class Places(Structure):
     _fields_ = (("count", c_int64), *((name, c_void_p) for name in ("face", "begin", "end")))
 
 
+CELL_ARRAYS = ("points", "cell", "first", "next", "vertex_for", "edge_for", "divided", "wait", "found")
+"""The arrays of `Cells`, in their order."""
+
+CELL = np.dtype([
+    ("part", float), *((name, np.int32, 3) for name in ("corner", "edge")), ("face", np.int32), ("before", np.int32),
+    ("step", np.int32, 3), ("is_there", np.int32),
+])  # fmt: skip
+"""What a face, or a part of it, has become where degenerate faces are taken out."""
+
+
+class Cells(Structure):
+    """All cells of a mesh."""
+
+    _fields_ = (
+        *((name, c_int64) for name in ("cells", "edges", "waiting", "room", "edge_room")),
+        *((name, c_void_p) for name in CELL_ARRAYS),
+    )
+
+    cells: int
+
+
 RUN_ARRAYS = (
     "offset", "first_target", "next_target", "reached", "queue", "heap", "window", "order", "spare", "crossing"
 )  # fmt: skip
 """The arrays of `Run`, in their order."""
 
-SIDE, QUEUE, WAITING, WINDOW, CROSSING = 32, 8, 16, 56, 8
+QUEUE, WAITING, WINDOW, CROSSING = 8, 16, 56, 8
 """Bytes of its structures."""
+
+SIDE = np.dtype([*((name, float) for name in ("length", "x", "y")), *((name, np.int32) for name in ("vertex", "twin"))])
+"""A side of a face in its own frame."""
 
 REACHED = np.dtype([*((name, float) for name in ("distance", "px", "py")), ("rest", np.int32, 4)])
 """How a vertex or a place was reached."""
@@ -194,6 +218,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "check_faces": (c_int32, (_I, _I, _A, _I, _A)),
     "merge_points": (c_int64, (_I, _A, _I, _A, _A, _A)),
     "geodesic_mesh": (c_int64, (_P, _A, _A, _P, _A, _A, _A)),
+    "geodesic_cells": (c_int32, (_P, _I, _I, _I)),
     "geodesic_begin": (c_int32, (_P,)),
     "geodesic_run": (c_int32, (_P, _P)),
     "geodesic_path": (c_int64, (_P, _I, _I, _A, _A, _A)),
