@@ -91,11 +91,10 @@ class CompiledFactor:
         lib, tree, where = library(), ctypes.byref(self.tree.struct), np.empty(2, np.int64)
         rows = rows_of(matrix.indptr, matrix.indices, matrix.data)
         is_dual = self._areas is not None
-        diagonals = np.empty((2, self.tree.n)) if is_dual else (None, None)
-        work = np.empty(lib.bih_factor_room(tree, is_dual))
-        _check(lib.bih_factor(ctypes.byref(self._struct), ctypes.byref(rows), work, *diagonals, where), where)
         if is_dual:
-            self._diagonals = diagonals[0], diagonals[1]
+            self._diagonals = np.empty(self.tree.n), np.empty(self.tree.n)
+        both, work = self._diagonals or (None, None), np.empty(lib.bih_factor_room(tree, is_dual))
+        _check(lib.bih_factor(ctypes.byref(self._struct), ctypes.byref(rows), work, *both, where), where)
 
     def _elimination_room(self, task: tuple[int, int]) -> int:
         room = np.empty(3, np.int64)

@@ -15,7 +15,7 @@ const number = (structure, offset) => Number(view.getBigInt64(at(structure) + of
 const mesh = bytes(40);
 long(mesh, 0, n), long(mesh, 8, m);
 [bytes(SIDE * 3 * m), ints(n + 1), ints(3 * m), ints(n), bytes(n)].forEach((a, k) => integer(mesh, 16 + 4 * k, at(a)));
-kernel.bih_geodesic_mesh(at(mesh), at(doubles(given.x)), at(ints(given.faces)), at(ints(3 * m)), at(ints(3 * m)),
+kernel.bih_geodesic_mesh(at(mesh), at(doubles(given.x)), at(ints(given.faces)), 0, at(ints(3 * m)), at(ints(3 * m)),
   at(ints(n + 1)));
 
 const run = bytes(200);
