@@ -21,6 +21,10 @@ class ParameterError(BihdistError, ValueError):
     """A parameter outside its meaning: a negative time, an unknown method."""
 
 
+class MissingInputError(ParameterError, FileNotFoundError):
+    """A file of pins, maps, curves or numbers, or a recipe, that is not there."""
+
+
 class SolverError(BihdistError, RuntimeError):
     """A numerical result that cannot be trusted."""
 
@@ -34,3 +38,12 @@ class Cancelled(BihdistError):
 
     No failure: whoever catches BihdistError to report failures and stops work by it catches this one first.
     """
+
+
+def unreadable(what: str, error: Exception) -> ParameterError:
+    """The error for a file that was not read, such as "The pins in a.csv", with the reason."""
+    reason = getattr(error, "strerror", None) or error
+    if isinstance(error, UnicodeDecodeError):
+        reason = "it is not a text file"
+    kind = MissingInputError if isinstance(error, FileNotFoundError) else ParameterError
+    return kind(f"{what} cannot be read: {reason}.")

@@ -12,7 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from bihdist_core.errors import ParameterError
+from bihdist_core.errors import ParameterError, unreadable
 
 from .document import Document, MeshFile
 from .form import READERS, document_data, document_from, written
@@ -33,7 +33,7 @@ def checksum(path: str | os.PathLike[str]) -> str:
             while block := file.read(1 << 20):
                 digest.update(block)
     except (OSError, ValueError) as error:  # ValueError: a path with a zero in it
-        raise ParameterError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}.") from None
+        raise unreadable(str(path), error) from None
     return digest.hexdigest()
 
 
@@ -92,7 +92,7 @@ def read_recipe(path: str | os.PathLike[str]) -> Recipe:
     try:
         data = json.loads(Path(path).read_text(encoding="utf-8-sig"))
     except OSError as error:
-        raise ParameterError(f"The recipe {path} cannot be read: {error.strerror or error}.") from None
+        raise unreadable(f"The recipe {path}", error) from None
     except (ValueError, RecursionError):
         raise ParameterError(f"{path} is not a recipe: it is not JSON.") from None
     try:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bihdist_core.errors import ParameterError
+from bihdist_core.errors import ParameterError, unreadable
 
 from ..document.looks import Colours, Stops
 from .colour_maps import MAPS
@@ -36,7 +36,7 @@ def read_stops(path: str | os.PathLike[str]) -> Stops:
     try:
         text = Path(path).read_text(encoding="utf-8-sig")
     except OSError as error:
-        raise ParameterError(f"The colours {path} cannot be read: {error.strerror or error}.") from None
+        raise unreadable(f"The colours {path}", error) from None
     except ValueError:
         raise ParameterError(f"{path} is no text, and colours are {READ_AS}.") from None
     try:

@@ -13,6 +13,7 @@ from ..distances.distance import Distance
 from ..errors import ParameterError
 from ..number_arrays import array_of
 from ..progress import Progress, part, silent
+from ..scalars import real_number
 from ..sources.pieces import points_on
 from ..surface import Surface
 
@@ -93,7 +94,7 @@ def parcel_means(
     vertices = labelled(distance.surface, labels, mask)
     if reduce == "mean":
         return parcel_sums(distance, labels, mask, 0, len(vertices), memory, progress, weights).parcels
-    names, parcel, counts = np.unique(np.asarray(labels)[vertices], return_inverse=True, return_counts=True)
+    names, parcel, counts = np.unique(_as_labels(labels)[vertices], return_inverse=True, return_counts=True)
     members = [vertices[parcel == k] for k in range(len(names))]
     if reduce == "centroid":
         of_each = _weights(distance, weights)
@@ -144,11 +145,12 @@ def parcel_sums(
     """The sums over the columns begin to end of those that `labelled` lists."""
     surface = distance.surface
     vertices = labelled(surface, labels, mask)
-    names, parcel = np.unique(np.asarray(labels)[vertices], return_inverse=True)
+    names, parcel = np.unique(_as_labels(labels)[vertices], return_inverse=True)
     p, of_vertex = len(names), surface.component_of_vertex
     counts, of_each = np.bincount(parcel, minlength=p), _weights(distance, weights)
     sums = np.zeros((p, p))
     longest = int(np.bincount(of_vertex[of_vertex >= 0])[of_vertex[vertices]].max())
+    memory = real_number(memory, "The memory for a block")
     step = int(np.clip(memory / (longest * BYTES_PER_VALUE), 1, max(end - begin, 1)))
     for start in range(begin, end, step):
         some = slice(start, min(start + step, end))
@@ -172,12 +174,19 @@ def _sums_into(weights: FloatArray, rows: IntArray, columns: IntArray, shape: tu
     return sparse.csr_array((weights, (rows, columns)), shape=shape)
 
 
+def _as_labels(labels: npt.ArrayLike) -> AnyArray:
+    """Labels as an array, strings as NumPy's own where they are Python's, as pandas has them."""
+    array = array_of(labels, "Labels")
+    is_text = array.dtype.kind == "O" and all(isinstance(each, str) for each in array.flat)
+    return array.astype(np.str_) if is_text else array
+
+
 def labelled(surface: Surface, labels: npt.ArrayLike, mask: npt.ArrayLike | None = None) -> IntArray:
     """The vertices that have a label, belong to a face and are not masked, by component, by label, then by number.
 
     ParameterError for labels or a mask of another shape or kind, and if there is none.
     """
-    numbers, n = array_of(labels, "Labels"), len(surface.vertices)
+    numbers, n = _as_labels(labels), len(surface.vertices)
     if numbers.shape != (n,) or numbers.dtype.kind not in "iuU":
         raise ParameterError(
             f"Labels are whole numbers or strings, one for each of the {n:,} vertices of {surface.name}; "

@@ -234,6 +234,8 @@ def _checked_type(out: AnyArray | None, dtype: npt.DTypeLike) -> np.dtype[Any]:
     """The type of fields; ParameterError for an array or a type that cannot hold distances."""
     if not (out is None or isinstance(out, np.ndarray)):
         raise ParameterError(f"Fields are written into an array, not into {type(out).__name__}.")
+    if out is not None and not out.flags.writeable:
+        raise ParameterError("Fields cannot be written into `out`, which is read-only.")
     try:
         kind = np.dtype(dtype if out is None else out.dtype)
     except TypeError:

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
-from ..errors import ParameterError, VertexError
+from ..errors import ParameterError, VertexError, unreadable
 from ..mesh_like import MeshLike
 from ..number_arrays import array_of
 from ..surface import Surface
@@ -91,8 +91,7 @@ def picked_in(path: str | os.PathLike[str]) -> list[Picked]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is not a text file"
-        raise ParameterError(f"The pins in {path} cannot be read: {reason}.") from None
+        raise unreadable(f"The pins in {path}", error) from None
     found = reader(text, path.name)
     if not found:
         raise ParameterError(f"{path.name} holds no pins.")

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ..arrays import IntArray
-from ..errors import ParameterError
+from ..errors import ParameterError, unreadable
 
 NUMBER_FORMATS = (".npy", ".txt")
 WHOLE = re.compile("-?[0-9]{1,15}")
@@ -28,8 +28,7 @@ def _array_in(path: Path, what: str) -> IntArray:
     try:
         array = np.load(path, allow_pickle=False)
     except (OSError, ValueError, EOFError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise ParameterError(f"The {what} in {path} cannot be read: {reason}.") from None
+        raise unreadable(f"The {what} in {path}", error) from None
     if not isinstance(array, np.ndarray) or array.size != len(array.reshape(-1)) or array.ndim not in (1, 2):
         raise ParameterError(f"The {what} in {path} is no array of whole numbers.")
     if array.ndim == 2 and 1 not in array.shape:
@@ -70,6 +69,5 @@ def text_lines(path: Path, what: str) -> list[tuple[int, str]]:
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is not a text file"
-        raise ParameterError(f"The {what} in {path} cannot be read: {reason}.") from None
+        raise unreadable(f"The {what} in {path}", error) from None
     return [(number, line.strip()) for number, line in enumerate(lines, 1) if line.strip()]

@@ -13,7 +13,7 @@ from difflib import get_close_matches
 from types import MappingProxyType
 from typing import Any
 
-from ..errors import ParameterError
+from ..errors import ParameterError, unreadable
 from .source import BoundaryLoop, Curve, Member, Source, SourceSet, SurfacePoint
 
 HOW = "write a vertex (12), several (12+40+7), a place in a face (f311:0.2,0.5), a boundary loop (loop:0) or a curve's "
@@ -125,7 +125,7 @@ def read_curve(path: str | os.PathLike[str]) -> Curve:
         with open(path, encoding="utf-8-sig") as file:
             data = json.load(file)
     except OSError as error:
-        raise ParameterError(f"The curve {path} cannot be read: {error.strerror or error}.") from None
+        raise unreadable(f"The curve {path}", error) from None
     except (ValueError, RecursionError):
         raise ParameterError(f"{path} is not a curve: it is not JSON.") from None
     if not isinstance(data, dict) or "points" not in data:

@@ -11,6 +11,9 @@ from bihdist_core import (
     MissingFileError,
     ParameterError,
     Surface,
+    read_map,
+    read_pins,
+    source_from_words,
     write_mesh,
 )
 from tests.shapes import bumpy
@@ -38,8 +41,10 @@ def of_nibabel(vertices, faces):
 
 
 def of_open3d(vertices, faces):
-    open3d = pytest.importorskip("open3d")
-    return open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(vertices), open3d.utility.Vector3iVector(faces))
+    # Its import fails where the system lacks libusb.
+    open3d = pytest.importorskip("open3d", exc_type=ImportError)
+    arrays = open3d.utility.Vector3dVector(vertices.copy()), open3d.utility.Vector3iVector(faces.astype(np.int32))
+    return open3d.geometry.TriangleMesh(*arrays)
 
 
 def of_open3d_tensors(vertices, faces):
@@ -74,6 +79,26 @@ def test_paths_surfaces_and_two_arrays(tmp_path):
     with pytest.raises(FileNotFoundError, match=r"There is no file .*b.off"):
         Surface.of(tmp_path / "b.off")
     assert issubclass(MissingFileError, MeshError)
+
+
+@pytest.mark.parametrize(
+    "read",
+    [
+        lambda folder: read_pins(folder / "none.csv", BUMPY),
+        lambda folder: read_map(folder / "none.txt", BUMPY, BUMPY),
+        lambda folder: read_map(folder / "none.npy", BUMPY, BUMPY),
+        lambda folder: source_from_words(str(folder / "none.json")),
+        lambda folder: bihdist.figure_again(folder / "none.json"),
+    ],
+)
+def test_a_missing_file_is_a_wrong_parameter_and_a_missing_file(read, tmp_path):
+    with pytest.raises(FileNotFoundError, match=r"none\.\w+ cannot be read: No such file or directory\.$") as caught:
+        read(tmp_path)
+    assert isinstance(caught.value, ParameterError)
+    (tmp_path / "none.csv").mkdir()
+    with pytest.raises(ParameterError, match="cannot be read") as caught:
+        read_pins(tmp_path / "none.csv", BUMPY)
+    assert not isinstance(caught.value, FileNotFoundError)
 
 
 def test_polygons_are_divided_and_said():

@@ -86,6 +86,19 @@ def test_labels_may_be_strings():
     np.testing.assert_allclose(found.distances[np.ix_(place, place)], expected.distances, rtol=1e-12)
 
 
+def test_labels_may_be_strings_of_python_and_memory_is_a_number():
+    """As pandas and Python have them."""
+    distance = BiharmonicDistance(SURFACE)
+    words = np.array(["", *"abcdefg"])[LABELS // 10 + 1]
+    expected = parcel_means(distance, words)
+    for reduce in ("mean", "centroid"):
+        found = parcel_means(distance, words.astype(object), reduce=reduce)
+        assert np.array_equal(found.labels, expected.labels)
+    assert np.array_equal(parcel_means(distance, words.tolist()).distances, expected.distances)
+    with pytest.raises(ParameterError, match="The memory for a block is a number, not 'much'"):
+        parcel_means(distance, LABELS, memory="much")
+
+
 def test_between_components_there_is_no_mean():
     surface = two_pieces()
     # One vertex belongs to no face; it has a label all the same, and does not count.

@@ -79,6 +79,9 @@ def test_fields_of_many_sources_go_where_they_are_to(surface, monkeypatch, tmp_p
     for wrong, words in ((int, "float32 or float64, not int64"), ("text", "float32 or float64, not 'text'")):
         with pytest.raises(ParameterError, match=words):
             distance.from_sources(ids, dtype=wrong)
+    mapped.flags.writeable = False
+    with pytest.raises(ParameterError, match="`out`, which is read-only"):
+        distance.from_sources(ids, out=mapped)
     with pytest.raises(ParameterError, match="written into an array, not into list"):
         distance.from_sources(ids, out=[0.0])
 
