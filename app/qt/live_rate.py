@@ -49,5 +49,5 @@ class LiveRate:
         rate = len(self._shown) / min(now - self._begun, SPAN)
         shown = self._session.shown.values()
         quick = dict.fromkeys(each.answer.label for each in shown if each.is_preview)
-        ending = f"; {', '.join(quick)}, until it rests" if quick else ""
+        ending = f"; {', '.join(quick)}" if quick else ""
         return f"Live: {rate:.0f} fields a second{ending}"

@@ -168,16 +168,24 @@ class Words(QtWidgets.QWidget):
     def sizeHint(self) -> QtCore.QSize:
         return QtCore.QSize(round(number_width(LOOK.font(12.5), self.text)) + 2, HEIGHT - 4)
 
+    @property
+    def fitting(self) -> str:
+        """What there is room for, with dots for the rest."""
+        font = LOOK.font(12.5)
+        metrics, width = QtGui.QFontMetrics(font), number_width(font, self.text)
+        if width <= self.width():
+            return self.text
+        wider = width - metrics.horizontalAdvance(self.text)  # as digits of equal width are
+        room = int(self.width() - max(wider, 0))
+        return str(metrics.elidedText(self.text, QtCore.Qt.TextElideMode.ElideRight, room))
+
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         painter = QtGui.QPainter(self)
         painter.setFont(LOOK.font(12.5))
         painter.setPen(QtGui.QColor(getattr(LOOK.theme, self._colour)))
-        metrics, text = painter.fontMetrics(), self.text
+        metrics, text = painter.fontMetrics(), self.text if self._is_right else self.fitting
         width = number_width(painter.font(), text)
-        is_cut = width > self.width()
-        if is_cut and not self._is_right:
-            text = metrics.elidedText(text, QtCore.Qt.TextElideMode.ElideRight, self.width())
-        self.setToolTip(self.text if is_cut else "")
+        self.setToolTip(self.text if text != self.text or width > self.width() else "")
         baseline = (self.height() + metrics.ascent() - metrics.descent()) / 2
         paint_number(painter, self.width() - width if self._is_right else 0.0, baseline, text)
 

@@ -215,8 +215,18 @@ def test_what_auto_stands_for_is_said(head):
     (control,) = made.controls
     assert control.text() == "auto"
     made.show_method(made.shows.specs, "geodesic, heat method")
-    assert control.text() == "auto: heat"
+    assert control.text() == "auto: heat method"
     made.show_quantity(quantity("geodesic(method=exact)"))
     assert control.text() == "exact"
     made.show_quantity(quantity("geodesic"))
-    assert control.text() == "auto: heat"
+    assert control.text() == "auto: heat method"
+
+
+def test_a_stand_in_is_said_whatever_is_chosen(head):
+    for word, said in (("geodesic", "auto: heat method"), ("geodesic(method=exact)", "exact, now heat method")):
+        made = head(word, 600)
+        (control,) = made.controls
+        made.show_method(made.shows.specs, "geodesic, heat method", is_stand_in=True)
+        assert control.text() == said
+        made.show_method(made.shows.specs, "geodesic, exact")
+        assert control.text() == ("auto: exact" if word == "geodesic" else "exact")

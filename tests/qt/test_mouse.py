@@ -81,11 +81,12 @@ def test_dragging_the_mark_moves_the_source_and_not_the_view(loaded, monkeypatch
     s.settle()
     x0, y0 = corner(panel)
     point, camera = s.point_of(panel, front), panel.view.camera.GetPosition()
-    labels, tell = [], s.window.answer_changed
+    labels, heads, tell = [], {}, s.window.answer_changed
 
     def note(id):
         labels.append(s.session.shown[1].answer.label)
         tell(id)
+        heads[s.panels[1].answer.label] = s.panels[1].head.controls[0].text()
 
     s.window.answer_changed = note
     drag(x0 + point.x(), y0 + point.y(), 70, lambda: s.until(lambda: "geodesic, heat method" in labels))
@@ -95,6 +96,7 @@ def test_dragging_the_mark_moves_the_source_and_not_the_view(loaded, monkeypatch
     assert abs(there.x() - point.x() - 70) < 25
     assert abs(there.y() - point.y() - 8) < 25
     assert labels[-1] == "geodesic, exact"
+    assert heads == {"geodesic, heat method": "auto: heat method", "geodesic, exact": "auto: exact"}
     s.session.undo()
     assert s.source == front
 

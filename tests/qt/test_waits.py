@@ -227,13 +227,15 @@ def test_a_quick_look_stays_when_the_exact_answer_is_stopped(screen, mesh_file, 
     (panel,) = s.panels
     s.session.show(move_source(s.document, 0, 9))
     s.until(lambda: s.session.is_quick_look(0) and panel.waiting.isVisible())
+    (method,) = panel.head.controls
+    assert method.text() == "exact, now heat method"
     panel.waiting.stop.click()
     s.until(lambda: panel.stopped.is_saying("Stopped. Shown: geodesic, heat method, from vertex 9."))
     assert (panel.view._is_dimmed, "no values" in panel.bar.accessibleDescription()) == (False, False)
     gate.set()
     panel.stopped.button.click()
     s.until(lambda: s.session.is_complete)
-    assert panel.answer.label == "geodesic, exact"
+    assert (panel.answer.label, method.text()) == ("geodesic, exact", "exact")
 
 
 def test_what_auto_stood_for_on_another_mesh_is_not_said_after_a_stop(screen, mesh_file, gate):

@@ -18,7 +18,8 @@ from qtpy import QtCore, QtGui
 from qtpy.QtTest import QTest
 
 from app.qt.acts import ALL
-from app.qt.look.numbers import number, share
+from app.qt.look.look import LOOK
+from app.qt.look.numbers import number, number_width, share
 from tests.qt.parts import parts
 
 ROOT = Path(__file__).parents[2]
@@ -365,6 +366,22 @@ def test_long_words_do_not_make_the_window_wider(screen, mesh_file):
     s.settle()
     assert s.window.width() == width
     assert s.window.status.message.toolTip() == s.window.status.message.text
+
+
+def test_what_is_said_of_a_drag_fits_a_small_window_and_what_does_not_ends_in_dots(screen, mesh_file):
+    s = screen()
+    s.window.resize(900, 600)
+    s.open(mesh_file(bumpy(200)))
+    message = s.window.status.message
+    s.window.status.show_rate("Live: 12 fields a second; geodesic, heat method")
+    s.settle()
+    assert (message.fitting, message.toolTip()) == (message.text, "")
+    for text in ("1" * 400, "wide words " * 40):
+        s.window.context.tell(text)
+        s.settle()
+        assert message.fitting.endswith("…")
+        assert number_width(LOOK.font(12.5), message.fitting) <= message.width()
+        assert message.toolTip() == text
 
 
 def test_a_window_that_is_closed_takes_no_other_colours(screen, mesh_file, monkeypatch):

@@ -57,7 +57,7 @@ class PanelHead(QtWidgets.QWidget):
         self.controls: list[Control] = []
         self._choices = Choices()
         self._made_of: object = None
-        self._method: tuple[tuple[Spec, ...], str] = ((), "")
+        self._method: tuple[tuple[Spec, ...], str, bool] = ((), "", False)
         self._info = self._warning = self._dot = self.letter = self._plain = self._name = ""
         # Panels are equally wide whatever is in here.
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
@@ -113,7 +113,7 @@ class PanelHead(QtWidgets.QWidget):
 
     def show_surface(self, surface: Surface | None) -> None:
         """Which surface it is on, where parameters have their bounds; None for none any more."""
-        self._choices.surface, self._method = surface, ((), "")
+        self._choices.surface, self._method = surface, ((), "", False)
         if surface is not None:
             self.show_quantity(self.shows)
 
@@ -122,16 +122,17 @@ class PanelHead(QtWidgets.QWidget):
         for word, action in self.edits.items():
             action.setEnabled(word in words)
 
-    def show_method(self, specs: tuple[Spec, ...], label: str) -> None:
-        """What the field has been computed by, "geodesic, heat method", for the control that says "auto"."""
-        self._method = specs, label.partition(", ")[2].partition(" ")[0].rstrip(",")
+    def show_method(self, specs: tuple[Spec, ...], label: str, is_stand_in: bool = False) -> None:
+        """What the field has been computed by, "geodesic, heat method", for the control that says "auto", and of a
+        stand-in for any."""
+        self._method = specs, label.partition(", ")[2].partition(",")[0], is_stand_in
         self._show_method()
 
     def _show_method(self) -> None:
-        specs, method = self._method
+        specs, method, is_stand_in = self._method
         control = self._of_parameter.get((0, "method"))
         if isinstance(control, ChoiceControl) and not self.shows.is_difference:
-            control.show_meant(method if specs == self.shows.specs else "")
+            control.show_meant(method if specs == self.shows.specs else "", is_stand_in)
             self._lay_out()
 
     def show_info(self, text: str) -> None:

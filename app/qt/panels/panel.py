@@ -286,8 +286,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.answer, self._is_preview = shown.answer, shown.is_preview
         accuracy = shown.answer.accuracy
         self._warn()
-        if not shown.is_preview:
-            self.head.show_method(shown.asked.specs, shown.answer.label)
+        self.head.show_method(shown.asked.specs, shown.answer.label, shown.is_preview)
         texts = [shown.answer.label, self.head.shows.hint, accuracy.text]
         self.head.show_info("<br>".join(escape(f"{text[0].upper()}{text[1:]}.") for text in texts if text))
 

@@ -27,7 +27,7 @@ class ChoiceControl(FlatButton):
         super().__init__(parent, quiet=True)
         self.words, self.tip = words, tip
         self.value: Value = next(iter(words))
-        self._meant = ""
+        self._meant, self._is_stand_in = "", False
         menu = QtWidgets.QMenu(self)
         menu.aboutToShow.connect(lambda: fill_choices(menu, words, self.value, self._choose))
         self.setMenu(menu)
@@ -35,15 +35,16 @@ class ChoiceControl(FlatButton):
     def show_value(self, value: Value) -> None:
         """Without emitting."""
         self.value = value
-        meant = f": {self._meant}" if self._meant and value == "auto" else ""
-        self.setText(self.words.get(value, str(value)) + meant)
+        meant = self._meant and (f": {self._meant}" if value == "auto" else f", now {self._meant}")
+        is_said = value == "auto" or self._is_stand_in
+        self.setText(self.words.get(value, str(value)) + (meant if is_said else ""))
         self.setToolTip(self.tip)
         self.setAccessibleName(f"{self.tip}: {self.text()}")
 
-    def show_meant(self, meant: str) -> None:
-        """What "auto" stands for."""
-        if meant != self._meant:
-            self._meant = meant
+    def show_meant(self, meant: str, is_stand_in: bool = False) -> None:
+        """What "auto" stands for.  is_stand_in: it is shown in the place of what is chosen, whatever that is."""
+        if (meant, is_stand_in) != (self._meant, self._is_stand_in):
+            self._meant, self._is_stand_in = meant, is_stand_in
             self.show_value(self.value)
 
     def least(self, with_slider: bool) -> int:
