@@ -12,6 +12,7 @@ from typing import Any
 
 from .commands import batch, field, figure, info, isolines, movie, pairs, paper, view
 from .commands.mesh import check_mesh
+from .commands.parser import Parser
 from .commands.terminal import standard_output
 from .document.tools import tools
 from .version import version
@@ -24,7 +25,7 @@ COMMANDS = {
 """By word: each has its `WORDS` (what it does), `add_options(parser)` and `run(options)`; TEXT: the format in
 which it writes to standard output, for `-o -`."""
 
-FILES = re.compile(r"FILE|OUT|DIR|FOLDER|MAP|\.json|\.csv")
+FILES = re.compile(r"FILE|OUT|DIR|MAP|\.json|\.png")
 """Options whose values have such words are completed by names of files, as all that has no option."""
 
 NEGATIVE = re.compile(r"-[xyz]|-[\d.][-+.\deE]*,[-+.,\deE]*")
@@ -38,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     from bihdist_core.errors import BihdistError
 
     try:
-        options = _parser().parse_args(_with_values(_with_command(arguments)))
+        options = parser_of_all().parse_args(_with_values(_with_command(arguments)))
         module = COMMANDS[options.command]
         with standard_output(options, getattr(module, "TEXT", "")):
             status = module.run(options) or 0
@@ -81,8 +82,9 @@ def _with_values(arguments: list[str]) -> list[str]:
     return joined
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+def parser_of_all() -> argparse.ArgumentParser:
+    """The parser of the whole command line, with one for each command in it."""
+    parser = Parser(
         prog="bihdist",
         description="Biharmonic distance on triangle meshes, beside geodesic and diffusion distances.",
         epilog="`bihdist MESH` is short for `bihdist view MESH`.",

@@ -24,6 +24,7 @@ from bihdist_core.errors import BihdistError
 from bihdist_core.solver.blas import one_blas_thread
 from bihdist_core.solver.worker_threads import without_workers
 
+from ..document.sources import FILE
 from .layouts import NORMALISED, laid_out
 from .maps import evaluated
 from .memory import PART_BYTES, allowed, needed
@@ -79,7 +80,7 @@ def _do_mesh(task: Task) -> Report:
     except Exception as error:
         reason = failure_in_words(error)
         return Report(task, failures=tuple(Failure(task.name, *each, reason) for each in wanted.results()))
-    needs = needed(_vertices(task, mesh), wanted, _landmarks(mesh))
+    needs = needed(_vertices(task, mesh), wanted, _sources_from_file(mesh))
     if needs > allowed(is_expected=bool(task.needs)):
         return Report(task, needs=needs)
     rows, failures, more = [], [], []
@@ -106,9 +107,9 @@ def _vertices(task: Task, mesh: Mesh) -> int:
     return int(len(mesh.surface.vertices) * max(1.0, more))
 
 
-def _landmarks(mesh: Mesh) -> int:
+def _sources_from_file(mesh: Mesh) -> int:
     """How many there are; 0 if the sources are others, or a file of them is none, which is said where they are read."""
-    if mesh.wanted.sources.rule != "landmarks":
+    if mesh.wanted.sources.rule != FILE:
         return 0
     try:
         return len(mesh.sources(mesh.wanted.distances[0]))

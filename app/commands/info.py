@@ -20,7 +20,7 @@ WORDS = "what a mesh file holds and what would be repaired"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `info` to its parser."""
-    parser.add_argument("meshes", nargs="*", metavar="mesh", help="mesh files, or the names of samples")
+    parser.add_argument("meshes", nargs="*", metavar="MESH", help="mesh files, or the names of samples")
     parser.add_argument(
         "--accuracy", action="store_true", help="how accurate its exact distances are; factors the mesh"
     )

@@ -9,7 +9,7 @@ from bihdist_core.counts import counted
 from ..document.looks import TWENTY_STEPS, Isolines
 from ..figures.look_options import ISOLINES, isolines_with
 from .field_of import FieldOf, field_of
-from .options import SOURCE, add_areas, add_distance, add_rows, given, source
+from .options import add_areas, add_distance, add_mesh, add_output, add_rows, add_sources, given
 from .terminal import progress_line
 
 if TYPE_CHECKING:
@@ -22,17 +22,17 @@ TEXT = ".csv"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `isolines` to its parser."""
-    parser.add_argument("mesh", help="mesh file, or the name of a sample")
-    parser.add_argument("--source", type=source, metavar="V", required=True, help=SOURCE)
-    parser.add_argument("-o", "--output", metavar="OUT", help="the isolines: a .csv, .obj, .vtp or .json file")
-    add_rows(parser, ISOLINES)
+    add_mesh(parser)
+    add_sources(parser, "the one source where the distance starts")
+    add_output(parser, "the isolines: a .csv, .obj, .vtp or .json file", required=False)
+    parser.add_argument("--region-ids", metavar="OUT", help="vertices of --region: a .txt, .npy or .csv file")
+    parser.add_argument("--region-mesh", metavar="OUT", help="--region cut out along its isolines: a .ply or .vtp file")
+    add_distance(parser, is_field=True)
+    add_areas(parser)
     parser.add_argument(
         "--region", metavar="LOW:HIGH", help="between two values, or fractions of the maximum: 20%%:40%%"
     )
-    parser.add_argument("--region-ids", metavar="OUT", help="its vertices: a .txt, .npy or .csv file")
-    parser.add_argument("--region-mesh", metavar="OUT", help="cut out along its isolines: a .ply or .vtp file")
-    add_distance(parser)
-    add_areas(parser)
+    add_rows(parser, ISOLINES)
 
 
 def run(options: argparse.Namespace) -> None:

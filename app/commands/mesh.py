@@ -63,7 +63,7 @@ NAME = "{name}"
 
 def add_meshes(parser: argparse.ArgumentParser) -> None:
     """Several meshes, and what is said of them as JSON."""
-    parser.add_argument("meshes", nargs="+", metavar="mesh", help="mesh files, or the names of samples")
+    parser.add_argument("meshes", nargs="+", metavar="MESH", help="mesh files, or the names of samples")
     parser.add_argument(
         "--json", action="store_true", help="say what was done as JSON: a list, an object for each mesh"
     )

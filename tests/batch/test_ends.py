@@ -63,7 +63,7 @@ if __name__ == "__main__":
 
     Cluster.reports = without_scheduler
     try:
-        sys.exit(main(["batch", folder, "--out", out, "--do", "fields", "--dask", file]))
+        sys.exit(main(["batch", folder, "-o", out, "--do", "fields", "--dask", file]))
     finally:
         scheduler.kill()
 """
@@ -74,8 +74,8 @@ def test_an_interruption_from_the_terminal_ends_all_processes_in_silence(tmp_pat
     meshes.mkdir()
     write_mesh(meshes / "large.off", bumpy(20_000))
     write_mesh(meshes / "small.off", bumpy(150))
-    words = [sys.executable, "-m", "app", "batch", str(meshes), "--out", str(out), "--workers", "2"]
-    words += ["--do", "eigen", "--eigenpairs", "1000"]
+    words = [sys.executable, "-m", "app", "batch", str(meshes), "-o", str(out), "--workers", "2"]
+    words += ["--do", "eigen", "--k", "1000"]
     run = subprocess.Popen(words, cwd=ROOT, stderr=subprocess.PIPE, text=True, start_new_session=True)
     begin = time.monotonic()
     # One process has nothing to do then, the other has much.
@@ -100,7 +100,7 @@ def test_processes_leave_an_interruption_to_the_one_that_began_them(folder, tmp_
             os.kill(process, signal.SIGINT)
         time.sleep(0.1)
 
-    tasks, _ = tasks_for(found_meshes(str(folder)), WorkOrder(("fields",)), str(tmp_path), "1")
+    tasks, _ = tasks_for(found_meshes([str(folder)]).paths, WorkOrder(("fields",)), str(tmp_path), "1")
     try:
         outcome = drive(tasks, engine, interrupt)
     finally:
@@ -154,7 +154,7 @@ def test_an_interrupted_set_of_figures_says_which_are_missing(folder, tmp_path, 
 
 
 def test_what_has_no_room_is_said_of_its_part_alone(folder, tmp_path):
-    (task, *_), _ = tasks_for(found_meshes(str(folder)), WorkOrder(("fields", "eigen")), str(tmp_path), "1")
+    (task, *_), _ = tasks_for(found_meshes([str(folder)]).paths, WorkOrder(("fields", "eigen")), str(tmp_path), "1")
     part = replace(task, part=Part("fields", "biharmonic", 0, 10, 150))
     found = {each: refused(Report(each, needs=3 * 10**9), 10**9).failures for each in (task, part)}
     assert [(each.work, each.distance) for each in found[task]] == [("fields", "biharmonic"), ("eigen", "")]
@@ -168,9 +168,9 @@ def test_unfinished_work_of_another_command_stays_and_is_told_of(folder, tmp_pat
     begun = out / PARTS / "another" / "0-64.npy"
     begun.parent.mkdir(parents=True)
     begun.write_bytes(bytes(2_000_000))
-    assert batch(folder, out, "--do", "eigen", "--eigenpairs", "5") == 0
+    assert batch(folder, out, "--do", "eigen", "--k", "5") == 0
     assert begun.exists()
     assert "has 2.0 MB of unfinished work" in capsys.readouterr().err
     begun.unlink()
-    assert batch(folder, out, "--do", "eigen", "--eigenpairs", "5") == 0
+    assert batch(folder, out, "--do", "eigen", "--k", "5") == 0
     assert not (out / PARTS).exists()

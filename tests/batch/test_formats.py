@@ -10,7 +10,8 @@ from scipy.io import loadmat
 
 from app.batch.drive import found_meshes, tasks_for
 from app.batch.execution import do
-from app.batch.work_order import ARRAYS, LAYOUTS, Sources, WorkOrder, slug
+from app.batch.work_order import ARRAYS, LAYOUTS, WorkOrder, slug
+from app.document.sources import Sources
 from bihdist_core import (
     BiharmonicDistance,
     DiffusionDistance,
@@ -36,7 +37,7 @@ def mesh(tmp_path_factory):
 
 
 def made(mesh, out, **options):
-    (task,), failures = tasks_for(found_meshes(str(mesh.parent)), WorkOrder(**options), str(out), "1.2")
+    (task,), failures = tasks_for(found_meshes([str(mesh.parent)]).paths, WorkOrder(**options), str(out), "1.2")
     report = do(task)
     assert not failures
     assert not report.failures
@@ -165,7 +166,7 @@ def test_benchmarks_read_their_layouts_as_errors_over_the_root_of_the_area(mesh,
     for layout, normalise, readers in (("geodist", "", of_geodist), ("dist", "area", (read_by_ulrssm,))):
         out = tmp_path / layout
         wanted = WorkOrder(("pairs",), **options, layout=layout, normalise=normalise)
-        tasks, _ = tasks_for(found_meshes(str(mesh.parent)), wanted, str(out), "1")
+        tasks, _ = tasks_for(found_meshes([str(mesh.parent)]).paths, wanted, str(out), "1")
         if in_parts:
             monkeypatch.setattr("app.batch.execution.PART_BYTES", 8 * 128 * 50)
             parts = do(tasks[0]).more
@@ -187,7 +188,7 @@ def test_normalised_results_are_those_of_the_mesh_scaled_to_area_1(mesh, tmp_pat
     words = ("biharmonic", "diffusion(t=1/4)")
     options = {"distances": words, "sources": Sources("farthest", count=9), "eigenpairs": 7, "arrays": "npz"}
     (task,), _ = tasks_for(
-        found_meshes(str(mesh.parent)), WorkOrder(WORKS, **options, normalise="area"), str(tmp_path), "1"
+        found_meshes([str(mesh.parent)]).paths, WorkOrder(WORKS, **options, normalise="area"), str(tmp_path), "1"
     )
     sources = np.load(tmp_path / "bumpy.fps.biharmonic.npz")["vertices"] if not do(task).failures else None
     fields = {word: np.load(tmp_path / f"bumpy.fields.{slug(word)}.npz")["fields"] for word in words}
@@ -225,7 +226,10 @@ def test_other_files_have_checksums_of_their_own(mesh, tmp_path):
 def test_neighbours_of_a_large_mesh_are_put_together(mesh, tmp_path, monkeypatch):
     monkeypatch.setattr("app.batch.execution.PART_COLUMNS", 50)
     (task,), _ = tasks_for(
-        found_meshes(str(mesh.parent)), WorkOrder(("nearest",), sources=Sources("all"), nearest=5), str(tmp_path), "1"
+        found_meshes([str(mesh.parent)]).paths,
+        WorkOrder(("nearest",), sources=Sources("all"), nearest=5),
+        str(tmp_path),
+        "1",
     )
     parts = do(task).more
     assert [(each.part.begin, each.part.end) for each in parts] == [(0, 50), (50, 100), (100, 128)]

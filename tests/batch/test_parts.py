@@ -14,7 +14,8 @@ from app.batch.maps import found_maps
 from app.batch.memory import needed
 from app.batch.storage import Folder
 from app.batch.task import done_before
-from app.batch.work_order import Sources, WorkOrder
+from app.batch.work_order import WorkOrder
+from app.document.sources import Sources
 from bihdist_core import GeodesicDistance, read_surface, write_mesh
 from tests.shapes import bumpy, torus
 
@@ -28,9 +29,7 @@ def mesh(tmp_path):
 
 
 def task_for(mesh, out, *works, **options):
-    listed = mesh.parent / "list.txt"
-    listed.write_text(f"{mesh}\n")
-    (task,), failures = tasks_for(found_meshes(str(listed)), WorkOrder(works, **options), str(out), "1")
+    (task,), failures = tasks_for(found_meshes([str(mesh)]).paths, WorkOrder(works, **options), str(out), "1")
     assert not failures
     return task
 
@@ -165,16 +164,16 @@ def test_zarr_is_whole_or_absent(tmp_path):
 
 
 # ---------------------------------------------------------------------- memory
-def test_landmarks_count_as_sources():
-    wanted = WorkOrder(("fields",), sources=Sources("landmarks", file="x"), arrays="npz")
+def test_sources_of_a_file_count():
+    wanted = WorkOrder(("fields",), sources=Sources("file", file="x"), arrays="npz")
     farthest = WorkOrder(("fields",), sources=Sources("farthest", count=5000), arrays="npz")
     assert needed(20_000, wanted, 5000) == needed(20_000, farthest) > needed(20_000, wanted)
 
 
-def test_a_task_with_many_landmarks_asks_for_their_memory(mesh, tmp_path, monkeypatch):
+def test_a_task_with_many_sources_in_a_file_asks_for_their_memory(mesh, tmp_path, monkeypatch):
     marks = tmp_path / "marks.txt"
     marks.write_text("".join(f"{k}\n" for k in range(100)))
     asked = []
-    monkeypatch.setattr(execution, "needed", lambda n, wanted, landmarks: asked.append((n, landmarks)) or 0)
-    do(task_for(mesh, tmp_path / "out", "fields", sources=Sources("landmarks", file=str(marks))))
+    monkeypatch.setattr(execution, "needed", lambda n, wanted, from_file: asked.append((n, from_file)) or 0)
+    do(task_for(mesh, tmp_path / "out", "fields", sources=Sources("file", file=str(marks))))
     assert asked == [(128, 100)]

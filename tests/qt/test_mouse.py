@@ -154,7 +154,7 @@ def test_view_saves_a_picture_of_the_finished_window_and_exits(mesh_file, tmp_pa
     from PIL import Image
 
     picture = tmp_path / "window.png"
-    done = view(mesh_file(bumpy(800)), "--source", 12, "--screenshot", picture)
+    done = view(mesh_file(bumpy(800)), "--sources", 12, "--screenshot", picture)
     assert done.returncode == 0, done.stderr
     assert np.asarray(Image.open(picture).convert("RGB")).std() > 20
 
@@ -163,7 +163,7 @@ def test_view_saves_a_picture_of_the_finished_window_and_exits(mesh_file, tmp_pa
     ("arguments", "words"),
     [
         (["no-such-mesh.off", "--screenshot", "out.png"], r"no-such-mesh\.off"),
-        (["figure", "--source", "9999999", "--screenshot", "out.png"], "no vertex 9999999"),
+        (["figure", "--sources", "9999999", "--screenshot", "out.png"], "no vertex 9999999"),
         (["figure", "--screenshot", "missing-folder/out.png"], "missing-folder"),
     ],
 )
