@@ -9,7 +9,15 @@ from app.document.lists import pair_from_words, pairs_from_words, pairs_text, sp
 from app.document.sources import Sources, sources_from_words
 from app.main import main
 from app.session.chosen_sources import chosen_sources
-from bihdist_core import BiharmonicDistance, BoundaryLoop, ParameterError, SourceSet, SurfacePoint, read_surface
+from bihdist_core import (
+    BiharmonicDistance,
+    BihdistError,
+    BoundaryLoop,
+    ParameterError,
+    SourceSet,
+    SurfacePoint,
+    read_surface,
+)
 from bihdist_core.analysis.sampling import farthest_points
 from tests.shapes import bumpy, two_pieces
 
@@ -176,7 +184,7 @@ def test_ids_of_an_array_and_points_beside_the_mesh(tmp_path):
 )
 def test_a_file_that_is_wrong_is_named(tmp_path, text, said):
     (tmp_path / "a.txt").write_text(text)
-    with pytest.raises(ParameterError, match=said):
+    with pytest.raises(BihdistError, match=said):
         found(f"@{tmp_path}/a.txt", bumpy(60))
 
 

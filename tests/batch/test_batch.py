@@ -386,7 +386,7 @@ BOTH = ("--distance", "biharmonic,geodesic")
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--do", "dance", "--k", "3"), "no work 'dance'"),
+        (("--do", "dance", "--samples", "3"), "no work 'dance'"),
         (("--do", "pairs"), "Pairs are among several sources"),
         (("--do", "fps"), "Farthest points need a number"),
         (("--do", "evaluate"), "evaluated with --maps"),
