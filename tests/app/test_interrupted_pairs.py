@@ -35,10 +35,10 @@ def test_an_interrupted_run_says_what_it_leaves_and_the_next_goes_on(
     out = tmp_path / "all.npy"
     assert interrupted(mesh, out, monkeypatch, error, 2) == status
     (partial,) = tmp_path.glob(".all-*.npy.part")
-    known = f"{partial}, 40 of 200 rows (0.03 MB)"
+    known = f"{partial}, 40 of 200 rows (0.06 MB)"
     assert f"What is done is kept: {known}." in capsys.readouterr().err
-    assert main(["pairs", mesh, "--sources", "all", "--dtype", "float64", "-o", str(tmp_path / "all.npy")]) == 0
-    assert f"{partial} (0.03 MB) is left of a run with" in capsys.readouterr().err
+    assert main(["pairs", mesh, "--sources", "all", "--dtype", "float32", "-o", str(tmp_path / "all.npy")]) == 0
+    assert f"{partial} (0.06 MB) is left of a run with" in capsys.readouterr().err
     assert partial.exists()
     assert main(["pairs", mesh, "--sources", "all", "-o", str(out)]) == 0
     assert f"Going on from {known}; --fresh begins anew." in capsys.readouterr().err
