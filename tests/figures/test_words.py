@@ -185,7 +185,7 @@ def test_a_snippet_includes_the_figure_at_its_width_and_says_what_it_shows(mesh_
     ends = [float(end) for end in re.findall(r"0 to ([0-9.]+)", caption)]
     first, second = (f"{round_step(end, 9):g}" for end in ends)
     assert f"Isolines every {first} mesh units and {second}" in caption
-    assert main([*words, "--distance", "biharmonic - diffusion", "--range", "shares"]) == 0
+    assert main([*words[:-3], "biharmonic,diffusion,biharmonic - diffusion", *words[-2:], "--range", "shares"]) == 0
     assert re.search(r"Isolines every [0-9.]+ percentage points", (tmp_path / "my_figure.tex").read_text())
     assert "and at 10 equal steps." in (tmp_path / "my_figure.tex").read_text()
     assert main([*words, "--equal-isolines"]) == 0
