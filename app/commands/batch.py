@@ -3,7 +3,7 @@
 import argparse
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +12,9 @@ from bihdist_core.counts import counted
 from ..batch.work_kinds import KINDS, WORKS, works_of
 from ..version import version
 from .options import PARAMETERS, add_areas, add_distance, count, source, specs
-from .terminal import tell
+from .result import Facts, Result
+from .terminal import is_quiet, task_lines, tell, tell_failure
+from .termination import status_of, words_of
 
 if TYPE_CHECKING:
     from ..batch.drive import Outcome, Tell
@@ -21,9 +23,6 @@ if TYPE_CHECKING:
     from ..batch.storage import Folder
     from ..batch.task import Failure, Report, Row
     from ..batch.work_order import Sources, WorkOrder
-
-INTERRUPTED = 130
-"""The exit status, as everywhere."""
 
 RULES = ("source", "sources", "landmarks", "sample")
 OF_RECIPE = ("distance", "areas", *PARAMETERS)
@@ -78,6 +77,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--samples", type=count, metavar="K", help="for evaluate: of so many vertices")
     parser.add_argument("--format", choices=("npy", "npz", "mat", "zarr"), help="of arrays (default: npy)")
+    one_based = "with --format mat: vertex ids in files count from 1, as MATLAB's do, and files say so"
+    parser.add_argument("--one-based", action="store_true", default=None, help=one_based)
     parser.add_argument("--dtype", choices=("float32", "float64"), help="of arrays (default: float64)")
     parser.add_argument("--workers", type=count, metavar="K", help="processes here (default: as many as cores)")
     parser.add_argument("--dask", metavar="WHERE", help="a Dask cluster: tcp://HOST:PORT or its scheduler's .json")
@@ -85,7 +86,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> Result:
     """Do the chosen work for all meshes and write the tables; the exit status is 1 if some of it failed."""
     from ..batch.drive import Outcome, do_all, found_meshes, write_tables
     from ..batch.execution import PARTS
@@ -103,10 +104,10 @@ def run(options: argparse.Namespace) -> int:
     engine, outcome = _engine(options), Outcome(failures=unnamed)
     try:
         do_all(meshes, maps, wanted, address, version(), engine, _progress, outcome)
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as error:
         done = counted(len(outcome.rows), "result")
-        tell(f"interrupted; {done} in {folder}. The same command goes on from there.")
-        return INTERRUPTED
+        tell_failure(f"{words_of(error)}; {done} in {folder}. The same command goes on from there.")
+        return Result(_facts(folder, outcome, meshes), status_of(error))
     finally:
         # Whatever happened, and before the pages, which may fail: the tables say what is there.
         try:
@@ -131,9 +132,30 @@ def run(options: argparse.Namespace) -> int:
         print(f"{folder}/{page}")
     if outcome.failures:
         for line in _reasons(outcome)[:5]:
-            tell(line)
-        tell(f"{counted(len(outcome.failures), 'result')} missing; {folder}/failures.csv says why.")
-    return 1 if outcome.failures else 0
+            tell_failure(line)
+        tell_failure(f"{counted(len(outcome.failures), 'result')} missing; {folder}/failures.csv says why.")
+    return Result(_facts(folder, outcome, meshes, pages), 1 if outcome.failures else 0)
+
+
+def _facts(folder: "Folder", outcome: "Outcome", meshes: "dict[str, str]", pages: Sequence[str] = ()) -> Facts:
+    """What is there, what is missing, and the tables and pages about all of it."""
+    tables = ["summary.csv", *(["failures.csv"] if outcome.failures else [])]
+    return {
+        "out": str(folder),
+        "n_meshes": len(meshes),
+        "outputs": [f"{folder}/{name}" for name in (*tables, *pages)],
+        "results": [
+            {
+                "mesh": row.name, "work": row.work, "distance": row.distance, "file": row.facts["file"],
+                "seconds": row.facts.get("seconds"), "is_new": row.is_new,
+            }
+            for row in outcome.rows
+        ],
+        "failures": [
+            {"mesh": each.name, "work": each.work, "distance": each.distance, "reason": each.reason}
+            for each in outcome.failures
+        ],
+    }  # fmt: skip
 
 
 def _reasons(outcome: "Outcome") -> list[str]:
@@ -191,6 +213,7 @@ def _wanted(options: argparse.Namespace) -> "WorkOrder":
         nearest=options.nearest or 10,
         dtype=options.dtype or "float64",
         arrays=options.format or "npy",
+        one_based=bool(options.one_based),
         samples=options.samples or 0,
         layout=options.layout or "",
         normalise=options.normalise or "",
@@ -214,13 +237,19 @@ def _check_together(options: argparse.Namespace) -> None:
             continue
         counts = asked.intersection(works)
         if not counts:
-            raise ParameterError(f"--{name} goes with --do {_either(works)}.")
+            raise ParameterError(f"--{name.replace('_', '-')} goes with --do {_either(works)}.")
         if options.recipe and name in OF_RECIPE and counts == {"figure"}:
             raise ParameterError(f"--{name} has no effect on figures of a recipe, which says it; leave it out.")
         if options.labels and name in RULES and counts == {"pairs"}:
             raise ParameterError(f"--{name} has no effect on the means between parcels; leave it out.")
     if options.seed is not None and options.sample is None:
         raise ParameterError("--seed goes with --sample.")
+    if options.one_based and options.layout:
+        raise ParameterError(f"--one-based has no effect on --layout {options.layout}, whose files have no vertex ids.")
+    if options.one_based and options.format != "mat":
+        raise ParameterError(
+            f"--one-based goes with --format mat; vertex ids in .{options.format or 'npy'} files count from 0."
+        )
     takes_several = asked.intersection(works_of("sources")) - ({"pairs"} if options.labels else set())
     if len(options.source or ()) > 1 and not takes_several:
         raise ParameterError("Figures have one source; name one vertex after --source.")
@@ -282,15 +311,26 @@ def _engine(options: argparse.Namespace) -> "Engine":
     from ..batch.engines import Cluster, Processes
 
     if options.dask:
-        return Cluster(options.dask)
+        return Cluster(options.dask, tell)
     return Processes(options.workers or os.cpu_count() or 1)
 
 
 @contextmanager
 def _progress(total: int) -> "Iterator[Tell]":
-    """A bar with rate and time left on a terminal, a line for each task elsewhere."""
+    """A bar with rate and time left on a terminal, a line for each task elsewhere; nothing where that is asked for."""
+    if is_quiet():
+        yield lambda report, done, of: None
+        return
     if not sys.stderr.isatty():
-        yield _line
+        reached = (0, total)
+
+        def line(report: "Report", done: int, of: int) -> None:
+            nonlocal reached
+            reached = done, of
+            say(_line(report, done, of))
+
+        with task_lines(lambda: f"{reached[0]} of {reached[1]} done, others under way") as say:
+            yield line
         return
     from tqdm import tqdm
 
@@ -307,8 +347,8 @@ def _progress(total: int) -> "Iterator[Tell]":
         yield show
 
 
-def _line(report: "Report", done: int, of: int) -> None:
+def _line(report: "Report", done: int, of: int) -> str:
     remark = f"{len(report.failures)} failed" if report.failures else ""
     if not remark and report.rows and not any(row.is_new for row in report.rows):
         remark = "there before"
-    print(f"{done} of {of}: {report.task.words}{': ' if remark else ''}{remark}", file=sys.stderr)
+    return f"{done} of {of}: {report.task.words}{': ' if remark else ''}{remark}"

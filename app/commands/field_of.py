@@ -7,17 +7,20 @@ from typing import TYPE_CHECKING
 from ..document.quantities import Quantity
 from .mesh import read_laplacian
 from .options import quantities
+from .result import Facts, accuracy_facts
 from .terminal import accuracy
 
 if TYPE_CHECKING:
     from bihdist_core import Laplacian, Surface
     from bihdist_core.arrays import FloatArray
+    from bihdist_core.distances.accuracy import ErrorEstimate
     from bihdist_core.progress import Progress
 
 
 @dataclass(frozen=True, eq=False)
 class FieldOf:
-    """field: (n,), or (n, k) of several sources, NaN where there is none; estimate: how accurate it is, in words."""
+    """field: (n,), or (n, k) of several sources, NaN where there is none; estimate: how accurate it is, in words, and
+    error_estimate, of a difference that of both."""
 
     laplacian: "Laplacian"
     shows: Quantity
@@ -25,6 +28,13 @@ class FieldOf:
     label: str
     unit: str
     estimate: str
+    error_estimate: "ErrorEstimate"
+
+    @property
+    def facts(self) -> Facts:
+        """What is said of it beside its values."""
+        about = {"distance": str(self.shows), "label": self.label, "unit": self.unit}
+        return {**about, **accuracy_facts(self.error_estimate)}
 
     @property
     def word(self) -> str:
@@ -63,6 +73,7 @@ def field_of(
 
     laplacian: of the mesh if it is there.
     """
+    from bihdist_core.distances.accuracy import ErrorEstimate
     from bihdist_core.distances.answers import Distances
     from bihdist_core.distances.difference import difference_in_unit
     from bihdist_core.sources.pieces import pieces_of
@@ -81,4 +92,6 @@ def field_of(
         field, unit = difference_in_unit(fields[0], fields[1], (known[0].unit, known[1].unit), not chosen.in_percent)
     labels = [" or ".join(dict.fromkeys(distance.label_from(each) for each in pieces)) for distance in known]
     estimate = "".join(dict.fromkeys(accuracy(distance) for distance in known))
-    return FieldOf(laplacian, chosen, field, " − ".join(labels), unit, estimate)
+    estimates = [distance.error_estimate() for distance in known]
+    combined = estimates[0] if len(estimates) == 1 else ErrorEstimate.of_difference(estimates[0], estimates[1])
+    return FieldOf(laplacian, chosen, field, " − ".join(labels), unit, estimate, combined)

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 from bihdist_core.counts import counted
 
 from ..version import version
-from .mesh import NAME, Facts, add_meshes, found_mesh, into_each, read_laplacian
+from .mesh import NAME, add_meshes, found_mesh, into_each, read_laplacian
 from .options import add_areas, add_distance, add_output, count, positive, specs, vertex, vertices
-from .terminal import accuracy, progress_line, tell, tell_moved
+from .result import Facts, Result, distance_facts
+from .terminal import accuracy, progress_line, tell, tell_failure, tell_moved
 
 if TYPE_CHECKING:
     from bihdist_core.analysis.all_pairs import Begun
@@ -42,7 +43,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> Result:
     """Write the distances between pairs of vertices; the exit status is 1 if a mesh failed."""
     return into_each(options, _one)
 
@@ -83,11 +84,12 @@ def _one(options: argparse.Namespace) -> Facts:
             pairs = read_pairs(options.file) if options.file else np.array(options.pairs)
             laplacian.surface.check_vertices(np.unique(pairs))
         is_matrix = bool(options.vertices or pins) and extension == ".npy" and len(chosen) == 1
-        answers, lines = [], []
+        answers, lines, used = [], [], []
         for each in chosen:
             distance = distances.get(each, progress)
-            answers.append(distance.pairwise(among) if is_matrix else distance.of_pairs(pairs))
+            answers.append(distance.pairwise(among, progress) if is_matrix else distance.of_pairs(pairs, progress))
             lines.append(f"{distance.label}, {counted(len(pairs), 'pair')}{accuracy(distance)}")
+            used.append(distance_facts(distance, each))
     if is_matrix:
         write_array(options.output, answers[0])
     else:
@@ -97,7 +99,9 @@ def _one(options: argparse.Namespace) -> Facts:
             columns = [*(pins.ids[k] for k in np.triu_indices(len(pins), 1)), *columns]
             header = ["pin_i", "pin_j", *header]
         write_array(options.output, np.column_stack(columns), header)
-    return {"said": lines, "pairs": len(pairs), "distances": [str(each) for each in chosen]}
+    for line in lines:
+        print(f"{options.output}: {line}")
+    return {"n_pairs": len(pairs), "distances": used}
 
 
 def _write_nearest(options: argparse.Namespace, spec: "Spec") -> Facts:
@@ -124,8 +128,9 @@ def _write_nearest(options: argparse.Namespace, spec: "Spec") -> Facts:
     }  # fmt: skip
     write_nearest(options.output, sources, indices, values, facts)
     found = int((indices >= 0).sum())
-    line = f"{distance.label}, {counted(found, 'neighbour')} of {counted(len(sources), 'vertex', 'vertices')}{estimate}"
-    return {"said": [line], "pairs": found, "distances": [str(spec)]}
+    count = f"{counted(found, 'neighbour')} of {counted(len(sources), 'vertex', 'vertices')}"
+    print(f"{options.output}: {distance.label}, {count}{estimate}")
+    return {"n_pairs": found, "distances": [distance_facts(distance, spec)]}
 
 
 def _asked(words: list[str] | None) -> list[int] | None:
@@ -164,11 +169,11 @@ def _write_all(options: argparse.Namespace, spec: "Spec") -> Facts:
             write_all_pairs(distance, options.output, dtype, memory, progress, options.fresh)
     except (KeyboardInterrupt, OutputError, MemoryError):
         if left := begun(distance, options.output, dtype):
-            tell(f"What is done is kept: {_described(left)}. The same command goes on from there.")
+            tell_failure(f"What is done is kept: {_described(left)}. The same command goes on from there.")
         raise
     count = len(laplacian.surface.vertices)
-    said = [f"{distance.label}, all pairs of {count:,} vertices{estimate}"]
-    return {"said": said, "pairs": count**2, "distances": [str(spec)]}
+    print(f"{options.output}: {distance.label}, all pairs of {count:,} vertices{estimate}")
+    return {"n_pairs": count**2, "distances": [distance_facts(distance, spec, everywhere=True)]}
 
 
 def _described(known: "Begun") -> str:

@@ -6,6 +6,7 @@ from bihdist_core.counts import counted
 
 from ...commands.mesh import laplacian_of
 from ...commands.options import add_areas, add_distance, specs
+from ...commands.result import Facts, Result, distance_facts
 from ...commands.terminal import accuracy, progress_line
 
 WORDS = "from a few pairs of corresponding vertices, a map from one mesh to another"
@@ -31,14 +32,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Write the map of the first mesh to the second that corresponding points predict."""
     from bihdist_core.applications.correspondence import Correspondence
     from bihdist_core.distances.answers import Distances, same_on
     from bihdist_core.formats.vertex_maps import MAP_FORMATS, read_map, read_pairs, write_map
     from bihdist_core.whole_file import check_output
 
-    from .evaluate_command import judged
+    from .evaluate_command import curve_facts, judged
 
     check_output(options.output, MAP_FORMATS)
     (chosen,) = specs(options, [options.distance])
@@ -56,7 +57,13 @@ def run(options: argparse.Namespace) -> None:
     none = f", {missing} without one to compare" if missing else ""
     size = f"{len(found):,} vertices to {len(two.surface.vertices):,}"
     print(f"{options.output}: {on_one.label}, {counted(len(pairs), 'pair')}, {size}{none}{estimate}")
+    facts: Facts = {
+        "mesh": options.mesh, "other": options.other, **distance_facts(on_one, spec), "outputs": [options.output],
+        "n_pairs": len(pairs), "n_vertices": len(found), "n_missing": missing,
+    }  # fmt: skip
     if truth is not None:
         with progress_line() as progress:
-            (line,), _ = judged(two, found[:, None], truth, progress=progress)
+            (line,), (curve,) = judged(two, found[:, None], truth, progress=progress)
         print(f"{options.output}: {line}")
+        facts["errors"] = curve_facts(curve)
+    return Result(facts)

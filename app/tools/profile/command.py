@@ -6,6 +6,7 @@ import os
 from ...commands.mesh import check_mesh
 from ...commands.options import SOURCE, add_areas, add_distance, add_rows, quantities, source
 from ...commands.pairs import pins_in
+from ...commands.result import Result, panel_facts
 from ...commands.terminal import judged, progress_line, tell_repairs
 from .options import ACROSS, WAY
 from .part import Profile
@@ -42,7 +43,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--text", type=float, metavar="POINTS", help="the size of all text (default: 8)")
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> Result:
     """Write distances along a path as numbers or a chart; the exit status is 1 if one of them failed."""
     from dataclasses import replace
 
@@ -84,4 +85,10 @@ def run(options: argparse.Namespace) -> int:
         else:
             save_profile_figure(profile_figure(document, page, path, answers), output)
         print(f"{output}: {path.label}, {len(path.points):,} points, {path.length:.6g} long")
-    return judged(found, surface.name)
+    facts = {
+        "mesh": options.mesh,
+        "outputs": options.output,
+        "path": {"label": path.label, "n_points": len(path.points), "length": path.length},
+        "fields": [panel_facts(panel.shows, answers[panel.id]) for panel in document.panels],
+    }
+    return Result(facts, judged(found, surface.name))

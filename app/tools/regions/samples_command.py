@@ -7,6 +7,7 @@ from bihdist_core.counts import counted
 
 from ...commands.mesh import read_laplacian
 from ...commands.options import add_areas, add_distance, count, source, specs
+from ...commands.result import Result, distance_facts
 from ...commands.terminal import accuracy, progress_line
 
 WORDS = "vertices spread over a mesh, each the farthest from those before it"
@@ -34,7 +35,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Write vertices each of which is farthest from those before it."""
     from bihdist_core.analysis.sampling import SAMPLE_FORMATS, farthest_points, starts_of, write_samples
     from bihdist_core.analysis.upright import guess_up
@@ -56,3 +57,5 @@ def run(options: argparse.Namespace) -> None:
         estimate = accuracy(distance)
     write_samples(options.output, surface, found)
     print(f"{options.output}: {counted(len(found), 'sample')} by {distance.label}{estimate}")
+    about = {"mesh": options.mesh, **distance_facts(distance, chosen), "outputs": [options.output]}
+    return Result({**about, "vertices": found})

@@ -7,6 +7,7 @@ from bihdist_core.counts import counted
 
 from ...commands.mesh import laplacian_of
 from ...commands.options import add_distance, count, positive, source, specs, vertices
+from ...commands.result import Facts, Result, facts_of
 from ...commands.terminal import progress_line
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_distance(parser, "say how much it changes; repeat for more")
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Write a changed mesh, and print how much a distance on it differs."""
     from bihdist_core.applications.changes import Perturbation
     from bihdist_core.applications.perturbation import perturbed
@@ -74,14 +75,19 @@ def run(options: argparse.Namespace) -> None:
     write_mesh(options.output, after)
     size = f"{counted(len(after.vertices), 'vertex', 'vertices')}, {counted(len(after.faces), 'face')}"
     print(f"{options.output}: {size}; {change}")
+    facts: Facts = {
+        "mesh": options.mesh, "outputs": [options.output], "change": str(change), "n_vertices": after.n_vertices,
+        "n_faces": after.n_faces,
+    }  # fmt: skip
     if chosen:
-        _say_changes(before, Laplacian(after), kept, options.source, chosen)
+        facts["fields"] = _say_changes(before, Laplacian(after), kept, options.source, chosen)
+    return Result(facts)
 
 
 def _say_changes(
     before: "Laplacian", after: "Laplacian", kept: "np.ndarray", source: "Source | None", chosen: "list[Spec]"
-) -> None:
-    """How far the fields from one vertex differ, at the vertices that both meshes have."""
+) -> list[Facts]:
+    """How far the fields from one vertex differ, at the vertices that both meshes have, as fractions of maxima."""
     from bihdist_core.analysis.diagnostics import field_change
     from bihdist_core.applications.perturbation import image_of
     from bihdist_core.distances.answers import Distances, percent, same_on
@@ -90,6 +96,7 @@ def _say_changes(
 
     there = image_of(before.surface, kept, vertex_at(source, before.surface), after.surface)
     start, common = int(kept[there]), kept >= 0
+    said = []
     with progress_line() as progress:
         one, two = Distances(before), Distances(after)
         for asked in chosen:
@@ -97,11 +104,13 @@ def _say_changes(
             old = one.get(spec, progress).from_source(start, progress)[kept[common]]
             new = two.get(spec, progress).from_source(there, progress)[common]
             found = field_change(old, new)
+            said.append({"distance": str(spec), "source": start, **facts_of(found)})
             print(
                 f"{spec} from {start}: changes by {percent(found.normalised_mean)} of its maximum in the mean, at most "
                 f"{percent(found.normalised_largest)}; before each is divided by its own, {percent(found.mean)} and "
                 f"{percent(found.largest)}"
             )
+    return said
 
 
 def _faces(text: str) -> "Runs":
