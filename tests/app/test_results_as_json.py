@@ -139,6 +139,22 @@ def test_what_fails_is_said_in_it_and_on_standard_error(folder, capsys):
     assert [(each["mesh"], "no file none.off" in each["reason"]) for each in said["failures"]] == [("none.off", True)]
 
 
+def test_results_with_gaps_say_what_is_missing(folder, capsys, no_exact_geodesics):
+    by = "--distance biharmonic --distance geodesic --method exact"
+    said, status = said_by(capsys, f"figure a.off --source 3 {by} --size 300px -o figure.svg")
+    assert status == said["exit_status"] == 1
+    assert [bool(panel["failure"]) for panel in said["panels"]] == [False, True]
+    assert "no room for windows" in said["panels"][1]["failure"]
+    Path("meshes/torn.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n")
+    said, status = said_by(capsys, LINES["batch"])
+    assert status == said["exit_status"] == 1
+    (failure,) = said["failures"]
+    assert (failure["mesh"], failure["work"], failure["distance"]) == ("torn", "fields", "biharmonic")
+    assert [each["mesh"] for each in said["results"]] == ["a"]
+    assert all(Path(path).exists() for path in said["outputs"])
+    assert len(said["outputs"]) == 2
+
+
 def test_standard_output_has_one_of_both(folder, capsys):
     assert main(["field", "a.off", "--source", "3", "-o", "-", "--json"]) == 2
     assert "either the file or the JSON" in capsys.readouterr().err
