@@ -24,8 +24,8 @@ from .work_order import ALL, LAYOUTS, OWN, WorkOrder, result_name
 
 MESHES = (".obj", ".off", ".ply", ".stl", ".vtk", ".vtp")
 COLUMNS = (
-    "mesh", "work", "distance", "file", "shape", "dtype", "unit", "accuracy", "vertices", "faces", "components", "area",
-    "repairs", "mean", "median", "area_under_curve", "seconds",
+    "mesh", "work", "distance", "file", "shape", "dtype", "unit", "accuracy", "n_vertices", "n_faces", "n_components",
+    "area", "repairs", "mean", "median", "area_under_curve", "seconds",
 )  # fmt: skip
 REASONS = ("mesh", "work", "distance", "reason")
 
@@ -268,7 +268,7 @@ def write_tables(
     kept = [line for line in _lines(folder, "summary.csv", COLUMNS) if tuple(line[:3]) not in known]
     table = [tuple(map(str, _cells(row))) for row in rows]
     taken = {row[3] for row in table}  # the file of a layout is that of the last distance
-    table += [(*line[:-1], "") for line in kept if line[3] not in taken and _is_there(folder, line)]
+    table += [tuple(line) for line in kept if line[3] not in taken and _is_there(folder, line)]
     folder.write("summary.csv", _table(COLUMNS, sorted(table)))
     cells += [
         (line[0], line[1], line[2], line[3])
@@ -303,11 +303,14 @@ def _lines(folder: Folder, name: str, header: Sequence[str]) -> list[list[str]]:
 def _cells(row: Row) -> tuple[object, ...]:
     facts = row.facts
     shape = " x ".join(map(str, facts.get("shape", [])))
-    of_facts = [facts.get(name, "") for name in COLUMNS[7:12]]
+    of_mesh = [facts.get(name, "") for name in COLUMNS[8:12]]
     repairs = "; ".join(facts.get("repairs", []))
     own = (row.name, row.work, row.distance, facts["file"], shape, facts.get("dtype", ""), facts.get("unit", ""))
     of_maps = [_number(facts.get(name)) for name in COLUMNS[13:16]]
-    return (*own, *of_facts, repairs, *of_maps, f"{row.seconds:.3f}" if row.is_new else "")
+    seconds = facts.get("seconds")  # of all maps together there are none
+    return (
+        *own, _number(facts.get("accuracy")), *of_mesh, repairs, *of_maps, "" if seconds is None else f"{seconds:.3f}"
+    )  # fmt: skip
 
 
 def _number(value: float | None) -> str:

@@ -36,7 +36,8 @@ def _kind(
     return WorkKind(word, meaning, frozenset(fields.split()), by_distance, frozenset(options.split()), function)
 
 
-OF_SOURCES = "areas sources dtype arrays mask normalise"
+OF_IDS = "areas sources arrays one_based mask normalise"
+OF_SOURCES = f"{OF_IDS} dtype"
 
 KINDS = {
     kind.word: kind
@@ -45,7 +46,7 @@ KINDS = {
         _kind("pairs", "among the sources", f"{OF_SOURCES} labels layout", by_distance=True, function="pairs"),
         _kind("nearest", "their nearest vertices", f"{OF_SOURCES} nearest", by_distance=True, function="neighbours"),
         _kind("eigen", "eigenpairs", "areas eigenpairs dtype arrays normalise", function="eigen"),
-        _kind("fps", "farthest points", "areas sources arrays mask normalise", by_distance=True, function="fps"),
+        _kind("fps", "farthest points", OF_IDS, by_distance=True, function="fps"),
         _kind("figure", "a picture", "recipe range maxima", options="sources distance areas"),
         _kind("evaluate", "errors of maps", "areas samples arrays", options="maps truth symmetry"),
         _kind(MAXIMA, "", "recipe"),

@@ -24,10 +24,10 @@ ALL = "(all maps)"
 @dataclass(frozen=True)
 class WorkOrder:
     """works: of WORKS, in their order; distances: specs in words; nearest: as many neighbours; samples: of a map, that
-    many vertices or all; labels, mask and the sources' file: a path in which {name} stands for the mesh's.  layout: of
-    LAYOUTS, for pairs.  normalise: "area" for distances and eigenpairs of the mesh scaled to area 1.  recipe: the text
-    of that which figures are drawn from; range: of RANGES; maxima: where those of panels end, if they are not their
-    own."""
+    many vertices or all; labels, mask and the sources' file: a path in which {name} stands for the mesh's.  one_based:
+    whether vertex ids in .mat files count from 1.  layout: of LAYOUTS, for pairs.  normalise: "area" for distances and
+    eigenpairs of the mesh scaled to area 1.  recipe: the text of that which figures are drawn from; range: of RANGES;
+    maxima: where those of panels end, if they are not their own."""
 
     works: tuple[str, ...]
     distances: tuple[str, ...] = ("biharmonic",)
@@ -37,6 +37,7 @@ class WorkOrder:
     nearest: int = 10
     dtype: str = "float64"
     arrays: str = "npy"
+    one_based: bool = False
     samples: int = 0
     labels: str = ""
     mask: str = ""

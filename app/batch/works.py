@@ -212,8 +212,8 @@ def _facts_of_distance(distance: Distance) -> dict[str, Any]:
         "label": distance.label,
         "unit": distance.unit,
         "normalisation": "none",
-        "accuracy": error_estimate.text,
-        "accuracy_share": error_estimate.share,
+        "accuracy": error_estimate.share,
+        "accuracy_text": error_estimate.text,
     }
 
 

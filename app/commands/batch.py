@@ -3,7 +3,7 @@
 import argparse
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -27,7 +27,9 @@ from .options import (
     neighbour_count,
     specs,
 )
-from .terminal import tell
+from .result import Facts, Result
+from .terminal import is_quiet, task_lines, tell, tell_failure
+from .termination import status_of, words_of
 
 if TYPE_CHECKING:
     from ..batch.drive import Meshes, Outcome, Tell
@@ -36,9 +38,6 @@ if TYPE_CHECKING:
     from ..batch.storage import Folder
     from ..batch.task import Failure, Report, Row
     from ..batch.work_order import WorkOrder
-
-INTERRUPTED = 130
-"""The exit status, as everywhere."""
 
 EIGENPAIRS = 100
 """So many, unless `--k` says otherwise."""
@@ -71,6 +70,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_areas(parser)
     add_dtype(parser, "of arrays")
     parser.add_argument("--format", choices=("npy", "npz", "mat", "zarr"), help="of arrays (default: npy)")
+    one_based = "with --format mat: vertex ids in files count from 1, as MATLAB's do, and files say so"
+    parser.add_argument("--one-based", action="store_true", default=None, help=one_based)
     parser.add_argument("--normalise", choices=("area",), help="distances and eigenpairs of each mesh scaled to area 1")
     parser.add_argument("--mask", metavar="FILE", help="0 or 1 for each vertex: which count; {name} is the mesh's name")
     of_parcels = "for pairs: means between parcels; a number for each vertex, below 0 for none; {name} is the mesh's"
@@ -98,7 +99,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--dask", metavar="WHERE", help="a Dask cluster: tcp://HOST:PORT or its scheduler's FILE.json")
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> Result:
     """Do the chosen work for all meshes and write the tables; the exit status is 1 if some of it failed."""
     from ..batch.drive import Outcome, do_all, write_tables
     from ..batch.execution import PARTS
@@ -121,10 +122,10 @@ def run(options: argparse.Namespace) -> int:
     names = [*meshes, *found.missing]
     try:
         do_all(meshes, maps, wanted, address, version(), engine, _progress, outcome)
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as error:
         done = counted(len(outcome.rows), "result")
-        tell(f"interrupted; {done} in {folder}. The same command goes on from there.")
-        return INTERRUPTED
+        tell_failure(f"{words_of(error)}; {done} in {folder}. The same command goes on from there.")
+        return Result(_facts(folder, outcome, len(names)), status_of(error))
     finally:
         # Whatever happened, and before the pages, which may fail: the tables say what is there.
         try:
@@ -149,9 +150,30 @@ def run(options: argparse.Namespace) -> int:
         print(f"{folder}/{page}")
     if outcome.failures:
         for line in _reasons(outcome)[:5]:
-            tell(line)
-        tell(f"{counted(len(outcome.failures), 'result')} missing; {folder}/failures.csv says why.")
-    return 1 if outcome.failures else 0
+            tell_failure(line)
+        tell_failure(f"{counted(len(outcome.failures), 'result')} missing; {folder}/failures.csv says why.")
+    return Result(_facts(folder, outcome, len(names), pages), 1 if outcome.failures else 0)
+
+
+def _facts(folder: "Folder", outcome: "Outcome", n_meshes: int, pages: Sequence[str] = ()) -> Facts:
+    """What is there, what is missing, and the tables and pages about all of it."""
+    tables = ["summary.csv", *(["failures.csv"] if outcome.failures else [])]
+    return {
+        "output": str(folder),
+        "n_meshes": n_meshes,
+        "outputs": [f"{folder}/{name}" for name in (*tables, *pages)],
+        "results": [
+            {
+                "mesh": row.name, "work": row.work, "distance": row.distance, "file": row.facts["file"],
+                "seconds": row.facts.get("seconds"), "is_new": row.is_new,
+            }
+            for row in outcome.rows
+        ],
+        "failures": [
+            {"mesh": each.name, "work": each.work, "distance": each.distance, "reason": each.reason}
+            for each in outcome.failures
+        ],
+    }  # fmt: skip
 
 
 def _meshes(options: argparse.Namespace) -> "Meshes":
@@ -220,6 +242,7 @@ def _wanted(options: argparse.Namespace) -> "WorkOrder":
         nearest=neighbours,
         dtype=options.dtype or DTYPES[0],
         arrays=options.format or "npy",
+        one_based=bool(options.one_based),
         samples=options.samples or 0,
         layout=options.layout or "",
         normalise=options.normalise or "",
@@ -255,11 +278,17 @@ def _check_together(options: argparse.Namespace) -> None:
             continue
         counts = asked.intersection(works)
         if not counts:
-            raise ParameterError(f"--{name} goes with --do {_either(works)}.")
+            raise ParameterError(f"--{name.replace('_', '-')} goes with --do {_either(works)}.")
         if options.recipe and name in OF_RECIPE and counts == {"figure"}:
             raise ParameterError(f"--{name} has no effect on figures of a recipe, which says it; leave it out.")
         if options.labels and name == "sources" and counts == {"pairs"}:
             raise ParameterError(f"--{name} has no effect on the means between parcels; leave it out.")
+    if options.one_based and options.layout:
+        raise ParameterError(f"--one-based has no effect on --layout {options.layout}, whose files have no vertex ids.")
+    if options.one_based and options.format != "mat":
+        raise ParameterError(
+            f"--one-based goes with --format mat; vertex ids in .{options.format or 'npy'} files count from 0."
+        )
     takes_several = asked.intersection(works_of("sources")) - {"figure"} - ({"pairs"} if options.labels else set())
     if options.sources and options.sources.several and not takes_several:
         raise ParameterError("Figures have one source; name one vertex after --sources.")
@@ -308,15 +337,26 @@ def _engine(options: argparse.Namespace) -> "Engine":
     from ..batch.engines import Cluster, Processes
 
     if options.dask:
-        return Cluster(options.dask)
+        return Cluster(options.dask, tell)
     return Processes(options.workers or os.cpu_count() or 1)
 
 
 @contextmanager
 def _progress(total: int) -> "Iterator[Tell]":
-    """A bar with rate and time left on a terminal, a line for each task elsewhere."""
+    """A bar with rate and time left on a terminal, a line for each task elsewhere; nothing where that is asked for."""
+    if is_quiet():
+        yield lambda report, done, of: None
+        return
     if not sys.stderr.isatty():
-        yield _line
+        reached = (0, total)
+
+        def line(report: "Report", done: int, of: int) -> None:
+            nonlocal reached
+            reached = done, of
+            say(_line(report, done, of))
+
+        with task_lines(lambda: f"{reached[0]} of {reached[1]} done, others under way") as say:
+            yield line
         return
     from tqdm import tqdm
 
@@ -333,8 +373,8 @@ def _progress(total: int) -> "Iterator[Tell]":
         yield show
 
 
-def _line(report: "Report", done: int, of: int) -> None:
+def _line(report: "Report", done: int, of: int) -> str:
     remark = f"{len(report.failures)} failed" if report.failures else ""
     if not remark and report.rows and not any(row.is_new for row in report.rows):
         remark = "there before"
-    print(f"{done} of {of}: {report.task.words}{': ' if remark else ''}{remark}", file=sys.stderr)
+    return f"{done} of {of}: {report.task.words}{': ' if remark else ''}{remark}"

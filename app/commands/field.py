@@ -6,8 +6,9 @@ from bihdist_core.counts import counted
 
 from ..document.field_names import distinct, field_name
 from .field_of import field_of
-from .mesh import Facts, add_meshes, into_each
+from .mesh import add_meshes, into_each
 from .options import add_areas, add_distance, add_output, add_sources
+from .result import Facts, Result
 from .terminal import progress_line
 
 WORDS = "distances of all vertices from one or more sources"
@@ -23,7 +24,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> Result:
     """Write the distances of all vertices from each source; the exit status is 1 if a mesh failed."""
     return into_each(options, _one)
 
@@ -40,4 +41,5 @@ def _one(options: argparse.Namespace) -> Facts:
     names = distinct([field_name(it.shows, [each]) for each in it.sources])
     write_fields(options.output, it.surface, dict(zip(names, it.field.T, strict=True)))
     size = f"{it.field.shape[0]:,} vertices, {counted(it.field.shape[1], 'source')}"
-    return {"said": [f"{label}, {size}{it.estimate}"], "label": label, "shape": list(it.field.shape), "fields": names}
+    print(f"{options.output}: {label}, {size}{it.estimate}")
+    return {**it.facts, "shape": list(it.field.shape), "columns": names}

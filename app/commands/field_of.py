@@ -8,11 +8,13 @@ from ..document.quantities import Quantity
 from .mesh import read_laplacian
 from .mesh_sources import sources_on
 from .options import quantities
+from .result import Facts, accuracy_facts
 from .terminal import accuracy
 
 if TYPE_CHECKING:
     from bihdist_core import Laplacian, Surface
     from bihdist_core.arrays import FloatArray
+    from bihdist_core.distances.accuracy import ErrorEstimate
     from bihdist_core.progress import Progress
     from bihdist_core.sources.source import Source
 
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
 @dataclass(frozen=True, eq=False)
 class FieldOf:
     """field: (n,) from one source, or (n, k) from as many as there are, NaN where there is none; estimate: how accurate
-    it is, in words."""
+    it is, in words, and error_estimate, of a difference that of both."""
 
     laplacian: "Laplacian"
     sources: "list[Source]"
@@ -29,6 +31,13 @@ class FieldOf:
     label: str
     unit: str
     estimate: str
+    error_estimate: "ErrorEstimate"
+
+    @property
+    def facts(self) -> Facts:
+        """What is said of it beside its values."""
+        about = {"distance": str(self.shows), "label": self.label, "unit": self.unit}
+        return {**about, **accuracy_facts(self.error_estimate)}
 
     @property
     def word(self) -> str:
@@ -72,6 +81,7 @@ def field_of(
     before: another field of the same mesh from the same sources.  several: whether there may be several of them, a
     column each; ParameterError for several where there may not.
     """
+    from bihdist_core.distances.accuracy import ErrorEstimate
     from bihdist_core.distances.answers import Distances
     from bihdist_core.distances.difference import difference_in_unit
     from bihdist_core.sources.pieces import pieces_of
@@ -95,4 +105,6 @@ def field_of(
         field, unit = difference_in_unit(fields[0], fields[1], (known[0].unit, known[1].unit), not chosen.in_percent)
     labels = [" or ".join(dict.fromkeys(distance.label_from(each) for each in pieces)) for distance in known]
     estimate = "".join(dict.fromkeys(accuracy(distance) for distance in known))
-    return FieldOf(laplacian, sources, chosen, field, " − ".join(labels), unit, estimate)
+    estimates = [distance.error_estimate() for distance in known]
+    combined = estimates[0] if len(estimates) == 1 else ErrorEstimate.of_difference(estimates[0], estimates[1])
+    return FieldOf(laplacian, sources, chosen, field, " − ".join(labels), unit, estimate, combined)

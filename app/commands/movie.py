@@ -5,6 +5,7 @@ import os
 
 from .figure_options import add_figure_options, chosen_recipe
 from .options import add_workers
+from .result import Result, panel_facts
 from .terminal import judged, progress_line
 
 WORDS = "a figure that turns, or whose source wanders, as MP4 or GIF"
@@ -28,7 +29,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_workers(parser)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> Result:
     """Draw the movie and write its recipe; the exit status is 1 if a panel failed."""
     from bihdist_core import ParameterError
 
@@ -50,7 +51,15 @@ def run(options: argparse.Namespace) -> int:
     with progress_line() as progress:
         answers = write_movie(movie, options.output, progress, workers=options.workers)
     print(f"{options.output}: {movie.frames:,} frames, {movie.frames / movie.fps:.3g} s")
-    return judged(answers, os.path.basename(movie.recipe.document.surfaces[0].path))
+    document = movie.recipe.document
+    facts = {
+        "meshes": [{"mesh": mesh.path} for mesh in document.surfaces],
+        "outputs": [options.output],
+        "frames": movie.frames,
+        "seconds": movie.frames / movie.fps,
+        "panels": [panel_facts(p.shows, answer) for p, answer in zip(document.panels, answers, strict=True)],
+    }
+    return Result(facts, judged(answers, os.path.basename(document.surfaces[0].path)))
 
 
 def _path(text: str) -> tuple[int, ...]:

@@ -7,7 +7,7 @@ from bihdist_core.counts import counted
 
 from ..document.sources import ALL, Sources
 from ..version import version
-from .mesh import NAME, Facts, add_meshes, found_mesh, into_each, read_laplacian
+from .mesh import NAME, add_meshes, found_mesh, into_each, read_laplacian
 from .mesh_sources import sources_of_mesh, sources_on
 from .options import (
     DTYPES,
@@ -22,7 +22,8 @@ from .options import (
     positive,
     specs,
 )
-from .terminal import accuracy, progress_line, tell
+from .result import Facts, Result, distance_facts
+from .terminal import accuracy, progress_line, tell, tell_failure
 
 if TYPE_CHECKING:
     from bihdist_core.analysis.all_pairs import Begun
@@ -58,7 +59,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> Result:
     """Write the distances between pairs of vertices; the exit status is 1 if a mesh failed."""
     from bihdist_core.errors import ParameterError
 
@@ -117,11 +118,12 @@ def _write_pairs(options: argparse.Namespace, chosen: "list[Spec]", is_matrix: b
             found = sources_on(options, laplacian.surface, lambda: distances.get(chosen[0], progress), progress)
             pins, among = found.pins, found.vertices("Pairs")
             pairs = np.array([(i, j) for k, i in enumerate(among) for j in among[k + 1 :]]).reshape(-1, 2)
-        answers, lines = [], []
+        answers, lines, used = [], [], []
         for each in chosen:
             distance = distances.get(each, progress)
-            answers.append(distance.pairwise(among) if is_matrix else distance.of_pairs(pairs))
+            answers.append(distance.pairwise(among, progress) if is_matrix else distance.of_pairs(pairs, progress))
             lines.append(f"{distance.label}, {counted(len(pairs), 'pair')}{accuracy(distance)}")
+            used.append(distance_facts(distance, each))
     if is_matrix:
         write_array(options.output, answers[0].astype(options.dtype or DTYPES[0], copy=False))
     else:
@@ -131,7 +133,9 @@ def _write_pairs(options: argparse.Namespace, chosen: "list[Spec]", is_matrix: b
             columns = [*(pins.ids[k] for k in np.triu_indices(len(pins), 1)), *columns]
             header = ["pin_i", "pin_j", *header]
         write_array(options.output, np.column_stack(columns), header)
-    return {"said": lines, "pairs": len(pairs), "distances": [str(each) for each in chosen]}
+    for line in lines:
+        print(f"{options.output}: {line}")
+    return {"n_pairs": len(pairs), "distances": used}
 
 
 def _write_nearest(options: argparse.Namespace, spec: "Spec", count: int) -> Facts:
@@ -159,8 +163,9 @@ def _write_nearest(options: argparse.Namespace, spec: "Spec", count: int) -> Fac
     }  # fmt: skip
     write_nearest(options.output, sources, indices, values, facts)
     there = int((indices >= 0).sum())
-    line = f"{distance.label}, {counted(there, 'neighbour')} of {counted(len(sources), 'vertex', 'vertices')}{estimate}"
-    return {"said": [line], "pairs": there, "distances": [str(spec)]}
+    size = f"{counted(there, 'neighbour')} of {counted(len(sources), 'vertex', 'vertices')}"
+    print(f"{options.output}: {distance.label}, {size}{estimate}")
+    return {"n_pairs": there, "distances": [distance_facts(distance, spec)]}
 
 
 def _write_all(options: argparse.Namespace, spec: "Spec") -> Facts:
@@ -187,11 +192,11 @@ def _write_all(options: argparse.Namespace, spec: "Spec") -> Facts:
             write_all_pairs(distance, options.output, dtype, memory, progress, options.fresh)
     except (KeyboardInterrupt, OutputError, MemoryError):
         if left := begun(distance, options.output, dtype):
-            tell(f"What is done is kept: {_described(left)}. The same command goes on from there.")
+            tell_failure(f"What is done is kept: {_described(left)}. The same command goes on from there.")
         raise
     count = len(laplacian.surface.vertices)
-    said = [f"{distance.label}, all pairs of {count:,} vertices{estimate}"]
-    return {"said": said, "pairs": count**2, "distances": [str(spec)]}
+    print(f"{options.output}: {distance.label}, all pairs of {count:,} vertices{estimate}")
+    return {"n_pairs": count**2, "distances": [distance_facts(distance, spec, everywhere=True)]}
 
 
 def _described(known: "Begun") -> str:

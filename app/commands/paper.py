@@ -1,13 +1,13 @@
 """`bihdist paper`: the paper's figures, tables and claims, computed anew."""
 
 import argparse
-import sys
 from functools import partial
 
 from ..figures.view_options import UP, up_meaning
 from .mesh import found_mesh
 from .options import add_output, add_rows
-from .terminal import progress_line
+from .result import Result
+from .terminal import progress_line, tell_failure
 
 WORDS = "every figure and table of the paper, computed anew, as one page"
 
@@ -23,7 +23,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quick", action="store_true", help="smaller meshes and fewer samples, for a first look")
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> Result:
     """The exit status is 1 where a part could not be done; the page is written all the same."""
     from ..paper.reproduce import reproduce
 
@@ -35,5 +35,5 @@ def run(options: argparse.Namespace) -> int:
     print(f"{made.page}: open it in a browser")
     if made.not_done:
         parts = "One part" if made.not_done == 1 else f"{made.not_done} parts"
-        print(f"bihdist: {parts} could not be done; the reasons are on the page.", file=sys.stderr)
-    return int(made.not_done > 0)
+        tell_failure(f"{parts} could not be done; the reasons are on the page.")
+    return Result({"outputs": [str(made.page)], "n_not_done": made.not_done}, int(made.not_done > 0))

@@ -1,9 +1,7 @@
 """`bihdist view`: the window."""
 
 import argparse
-import os
-import sys
-from typing import NoReturn
+import signal
 
 from ..document.option import Row
 from ..document.page import Recipe
@@ -13,6 +11,7 @@ from ..figures.view_options import UP, up_meaning
 from .mesh import found_mesh
 from .mesh_sources import one_source, sources_of_document
 from .options import PANELS, add_distance, add_rows, add_sources, given, given_parameters, quantities
+from .result import Result
 
 WORDS = "open the viewer"
 
@@ -36,8 +35,8 @@ def _rows() -> list[Row]:
     return [VERTEX_AREAS, COLOURS, UP, *(row for row in tool_rows() if row not in of_pages)]
 
 
-def run(options: argparse.Namespace) -> NoReturn:
-    """Open the window, and end the process once it is closed."""
+def run(options: argparse.Namespace) -> Result:
+    """Open the window, until it is closed."""
     from ..document.beside_edits import open_beside
     from ..document.document import COMPARISON, Document, MeshFile, comparison
 
@@ -68,12 +67,17 @@ def run(options: argparse.Namespace) -> NoReturn:
     check_screen()
     from ..qt.start import run_viewer
 
+    # Qt's loop would not let Python see it: SIGTERM ends a window at once.
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     status = run_viewer(shown, is_choice, options.screenshot, options.save_session, options.theme)
+    files = (options.screenshot, options.save_session)
+    facts = {
+        "meshes": [{"mesh": mesh} for mesh in (options.mesh, options.beside) if mesh],
+        "outputs": [file for file in files if file],
+    }
     # All is saved and closed.  Left to the interpreter, Qt's and VTK's objects are taken down in an order that nobody
     # decides, which now and then, on a busy machine, ends in a crash.
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(status)
+    return Result(facts, status, ends_process=True)
 
 
 def _refuse_options(options: argparse.Namespace) -> None:

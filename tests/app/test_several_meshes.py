@@ -25,13 +25,13 @@ def meshes(tmp_path):
 def test_each_mesh_has_an_output_of_its_own(meshes, tmp_path, capsys, command):
     word, *options = command
     assert main([word, *meshes, *options, "-o", str(tmp_path / "{name}_out.npy"), "--json"]) == 0
-    said = json.loads(capsys.readouterr().out)
+    said = json.loads(capsys.readouterr().out)["meshes"]
     assert [each["mesh"] for each in said] == meshes
     for mesh, each in zip(meshes, said, strict=True):
-        assert each["output"] == mesh.replace(".off", "_out.npy")
+        assert each["outputs"] == [mesh.replace(".off", "_out.npy")]
         distance = BiharmonicDistance(read_surface(mesh))
         expected = distance.from_sources([3, 7]) if word == "field" else distance.pairwise([3, 7, 9])
-        np.testing.assert_array_equal(np.load(each["output"]), expected)
+        np.testing.assert_array_equal(np.load(*each["outputs"]), expected)
 
 
 def test_several_meshes_with_one_output_are_refused(meshes, tmp_path, capsys):
@@ -59,8 +59,8 @@ def test_a_mesh_that_is_missing_costs_no_other(meshes, tmp_path, capsys):
 
 def test_info_as_json_has_numbers(meshes, capsys):
     assert main(["info", *meshes, "--json"]) == 0
-    one, ring = json.loads(capsys.readouterr().out)
-    assert (one["vertices"], one["genus"], ring["genus"], ring["boundary loops"]) == (80, 0, 1, 0)
+    one, ring = json.loads(capsys.readouterr().out)["meshes"]
+    assert (one["n_vertices"], one["genus"], ring["genus"], ring["boundary_loop_count"]) == (80, 0, 1, 0)
     assert ring["area"] == pytest.approx(float(read_surface(meshes[1]).face_areas.sum()), rel=1e-12)
     assert ring["repairs"] == []
 

@@ -20,6 +20,8 @@ from bihdist_core import write_mesh
 from tests.batch.runs import ROOT, batch, rows
 from tests.shapes import bumpy
 
+GOES_ON = "The same command goes on from there."
+
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
@@ -69,7 +71,17 @@ if __name__ == "__main__":
 """
 
 
-def test_an_interruption_from_the_terminal_ends_all_processes_in_silence(tmp_path):
+@pytest.mark.parametrize(
+    ("number", "send", "status", "words_of_it"),
+    [
+        (signal.SIGINT, os.killpg, 130, "interrupted"),
+        # As clusters do, to all processes of a job; as one does by hand.
+        (signal.SIGTERM, os.killpg, 143, "ended by SIGTERM"),
+        (signal.SIGTERM, os.kill, 143, "ended by SIGTERM"),
+    ],
+    ids=["terminal", "cluster", "by hand"],
+)
+def test_what_ends_a_command_ends_all_its_processes_in_silence(tmp_path, number, send, status, words_of_it):
     meshes, out = tmp_path / "meshes", tmp_path / "out"
     meshes.mkdir()
     write_mesh(meshes / "large.off", bumpy(20_000))
@@ -82,12 +94,13 @@ def test_an_interruption_from_the_terminal_ends_all_processes_in_silence(tmp_pat
     while not (out / "small.eigen.json").exists() and time.monotonic() - begin < 60:
         time.sleep(0.02)
     time.sleep(0.3)
-    os.killpg(run.pid, signal.SIGINT)
+    send(run.pid, number)
     # Until all that hold the other end of the pipe have ended.
     _, said = run.communicate(timeout=60)
-    assert run.returncode == 130
-    assert "interrupted; 1 result in" in said
-    assert "Traceback" not in said
+    assert run.returncode == status
+    # No word of semaphores that somebody has left.
+    lines = [line for line in said.splitlines() if not line.endswith("others under way")]
+    assert lines == ["bihdist: 1 of 2: small", f"bihdist: {words_of_it}; 1 result in {out}. {GOES_ON}"]
     assert [row["mesh"] for row in rows(out)] == ["small"]
 
 

@@ -106,6 +106,35 @@ def expectations(mesh):
     }
 
 
+@pytest.mark.parametrize("one_based", [False, True])
+def test_mat_files_say_from_where_vertex_ids_count(mesh, tmp_path, one_based):
+    options = {"sources": Sources("farthest", count=9), "nearest": 128, "eigenpairs": 3}
+    made(mesh, tmp_path, works=WORKS, arrays="npz", **options)
+    facts = made(mesh, tmp_path / "mat", works=WORKS, arrays="mat", one_based=one_based, **options)
+    held = {"fields": ["sources"], "pairs": ["sources"], "nearest": ["indices", "sources"], "fps": ["vertices"]}
+    for work, said in facts.items():
+        found = loaded(tmp_path / "mat" / said["file"])
+        if work == "eigen":
+            assert "ids_count_from" not in found
+            continue
+        right = loaded(tmp_path / said["file"].replace(".mat", ".npz"))
+        assert int(found["ids_count_from"]) == said["mat_ids_count_from"] == one_based
+        for name in held[work]:
+            np.testing.assert_array_equal(found[name], right[name] + one_based)
+        for name in set(right) - set(held[work]):
+            np.testing.assert_allclose(found[name], right[name])
+    # The mesh has fewer vertices than are asked for.
+    assert loaded(tmp_path / "mat" / facts["nearest"]["file"])["indices"].min() == one_based - 1
+    assert facts["nearest"]["indices"] == f"{one_based - 1} where there is none"
+    # In JSON they count from 0.
+    assert facts["fields"]["sources"] == right["vertices"].tolist()
+
+
+def test_layouts_have_no_ids_and_nothing_that_benchmarks_do_not_know(mesh, tmp_path):
+    said = made(mesh, tmp_path, works=("pairs",), sources=Sources("all"), layout="dist")["pairs"]
+    assert set(loaded(tmp_path / said["file"])) == {"dist"}
+
+
 def test_zarr_is_read_lazily_by_dask(mesh, tmp_path, monkeypatch):
     zarr = pytest.importorskip("zarr")
     array = pytest.importorskip("dask.array")

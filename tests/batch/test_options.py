@@ -53,6 +53,10 @@ def folder(tmp_path_factory):
         ("--do pairs,figure --labels x.npy --sources 3,5", "Figures have one source"),
         ("--do pairs --labels x.npy --sources all", "--sources has no effect on the means"),
         ("--do pairs --labels x.npy --sources 3", "--sources has no effect on the means"),
+        ("--do eigen --format mat --one-based", f"--one-based {FROM_SOURCES}"),
+        ("--do fields --one-based", "--one-based goes with --format mat; vertex ids in .npy files count from 0."),
+        ("--do fields --format zarr --one-based", "vertex ids in .zarr files count from 0."),
+        ("--do pairs --sources all --layout dist --one-based", "--one-based has no effect on --layout dist"),
         ("--do eigen --distance diffusion", "--distance goes with"),
         ("--do eigen --method exact", "--method goes with"),
         (f"{EVALUATE} --distance geodesic", "--distance goes with"),
@@ -71,6 +75,7 @@ def test_what_would_have_no_effect_is_refused(folder, tmp_path, capsys, words, s
     "words",
     [
         "--do fields,pairs,eigen --sources farthest:400",
+        "--do fields,eigen --format mat --one-based",
         "--do fields --sources @{name}.txt --mask {name}.npy",
         "--do nearest --sources all --k 10 --distance diffusion(t=1/4)",
         "--do pairs --labels {name}.npy --mask {name}.npy",

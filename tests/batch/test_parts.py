@@ -70,6 +70,7 @@ def test_what_has_been_put_together_is_not_lost_when_it_is_asked_for_again(mesh,
     join = finish(first)
     (row,) = do(join).rows
     before = (tmp_path / "out" / row.facts["file"]).read_bytes()
+    assert row.facts["seconds"] > 0
     for again in (join, first.more[0], join):
         report = do(again)
         assert not report.failures
@@ -77,6 +78,21 @@ def test_what_has_been_put_together_is_not_lost_when_it_is_asked_for_again(mesh,
     assert (tmp_path / "out" / row.facts["file"]).read_bytes() == before
     assert done_before(task) is not None
     assert not list((tmp_path / "out").glob(".parts/*"))
+
+
+def test_what_is_put_together_has_the_seconds_of_all_its_parts(mesh, tmp_path, monkeypatch):
+    in_parts(monkeypatch)
+    task = task_for(mesh, tmp_path / "out", "fields", sources=Sources("all"))
+    finish(do(task))
+    kept = sorted((tmp_path / "out").glob(".parts/*/*.seconds"))
+    assert len(kept) == len(list((tmp_path / "out").glob(".parts/*/*.npy"))) > 3
+    for path in kept:
+        assert float(path.read_text()) >= 0
+        path.write_text("1000.25")
+    # Parts of an earlier run are not done again, and count.
+    (row,) = do(finish(do(task))).rows
+    assert row.facts["seconds"] == pytest.approx(1000.25 * len(kept), abs=60)
+    assert done_before(task).rows[0].facts == row.facts
 
 
 def test_meshes_of_one_content_have_parts_of_their_own(mesh, tmp_path, monkeypatch):

@@ -6,6 +6,7 @@ from bihdist_core.counts import counted
 
 from ...commands.mesh import laplacian_of
 from ...commands.options import add_areas, add_distance, add_output, add_pairs, add_two_meshes, specs
+from ...commands.result import Facts, Result, distance_facts
 from ...commands.terminal import accuracy, progress_line
 from .options import PAIRS_MEANING
 
@@ -23,7 +24,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--truth", metavar="MAP", help="what is right, to say the errors: `identity`, or a map's file")
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Write the map of the first mesh to the second that corresponding points predict."""
     import numpy as np
 
@@ -32,7 +33,7 @@ def run(options: argparse.Namespace) -> None:
     from bihdist_core.formats.vertex_maps import MAP_FORMATS, read_map, read_pairs, write_map
     from bihdist_core.whole_file import check_output
 
-    from .evaluate_command import judged
+    from .evaluate_command import curve_facts, judged
 
     check_output(options.output, MAP_FORMATS)
     (chosen,) = specs(options, [options.distance])
@@ -50,7 +51,13 @@ def run(options: argparse.Namespace) -> None:
     none = f", {missing} without one to compare" if missing else ""
     size = f"{len(found):,} vertices to {len(two.surface.vertices):,}"
     print(f"{options.output}: {on_one.label}, {counted(len(pairs), 'pair')}, {size}{none}{estimate}")
+    facts: Facts = {
+        "mesh": options.mesh, "other": options.other, **distance_facts(on_one, spec), "outputs": [options.output],
+        "n_pairs": len(pairs), "n_vertices": len(found), "n_missing": missing,
+    }  # fmt: skip
     if truth is not None:
         with progress_line() as progress:
-            (line,), _ = judged(two, found[:, None], truth, progress=progress)
+            (line,), (curve,) = judged(two, found[:, None], truth, progress=progress)
         print(f"{options.output}: {line}")
+        facts["errors"] = curve_facts(curve)
+    return Result(facts)

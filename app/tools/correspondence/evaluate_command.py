@@ -8,6 +8,7 @@ from bihdist_core.counts import counted
 
 from ...commands.mesh import laplacian_of
 from ...commands.options import add_output, add_two_meshes, count
+from ...commands.result import Facts, Result
 from ...commands.terminal import progress_line
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Print the errors of maps between two meshes, and write their curves where asked."""
     import numpy as np
 
@@ -62,7 +63,7 @@ def run(options: argparse.Namespace) -> None:
     maps = {path: read_map(path, one.surface, two.surface) for path in dict.fromkeys(options.maps)}
     partners = read_map(options.symmetry, two.surface, two.surface) if options.symmetry else None
     ids = sampled_vertices(len(truth), options.samples)
-    curves = {}
+    curves, facts = {}, []
     columns = np.stack([found[ids] for found in maps.values()], axis=1)
     for words, also in (("", None), *([(", partners count", partners)] if partners is not None else [])):
         with progress_line() as progress:
@@ -70,9 +71,17 @@ def run(options: argparse.Namespace) -> None:
         for path, line, curve in zip(maps, lines, found_curves, strict=True):
             curves[f"{Path(path).stem}{words}"] = curve
             print(f"{path}: {line}{words}")
+            facts.append({"map": path, "partners_count": also is not None, **curve_facts(curve)})
     if options.output:
         save_error_figure(ErrorFigure(curves), options.output)
         print(f"{options.output}: {counted(len(curves), 'curve')}")
+    outputs = [options.output] if options.output else []
+    return Result({"mesh": options.mesh, "other": options.other, "maps": facts, "outputs": outputs})
+
+
+def curve_facts(curve: "ErrorCurve") -> Facts:
+    """The errors of a map, over the root of the area; None for what is infinite, as a vertex is mapped nowhere."""
+    return {"mean": curve.mean, "median": curve.median, "area_under_curve": curve.area, "n_vertices": len(curve.errors)}
 
 
 def judged(

@@ -6,6 +6,7 @@ from bihdist_core.counts import counted
 
 from ...commands.mesh import read_laplacian
 from ...commands.options import add_areas, add_distance, add_mesh, add_output, as_argument, positive, share, specs
+from ...commands.result import Result, distance_facts
 from ...commands.terminal import accuracy, progress_line, tell_moved
 from .anchor_words import AnchorFile, anchors_from_words, anchors_on
 
@@ -38,7 +39,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Write the interpolant of values at a few vertices, and print its other extrema."""
     import numpy as np
 
@@ -52,7 +53,7 @@ def run(options: argparse.Namespace) -> None:
 
     check_output(options.output, FIELD_FORMATS)
     chosen = specs(options, list(dict.fromkeys(options.distance or ["biharmonic"])))
-    fields, lines = {}, []
+    fields, lines, facts = {}, [], []
     with progress_line() as progress:
         laplacian = read_laplacian(options)
         surface, distances = laplacian.surface, Distances(laplacian)
@@ -67,14 +68,19 @@ def run(options: argparse.Namespace) -> None:
             ).evaluate(progress)
             fields[str(spec)] = field
             others = "all of one value"
+            n_extrema = near = 0
             if np.ptp(known.values) > 0:
                 stray = other_extrema(surface, field, SourceSet(tuple(known.vertices))).vertices
-                near = int(at_tips(surface, stray, ends).sum())
-                others = f"{counted(len(stray), 'extremum', 'extrema')} besides the anchors, {near} at tips"
+                n_extrema, near = len(stray), int(at_tips(surface, stray, ends).sum())
+                others = f"{counted(n_extrema, 'extremum', 'extrema')} besides the anchors, {near} at tips"
             lines.append(f"{distance.label}, {counted(len(known), 'anchor')}, {others}{accuracy(distance)}")
             missing = int(np.isnan(field).sum())
             if missing:
                 lines[-1] += f"; {counted(missing, 'vertex', 'vertices')} on components without an anchor"
+            counts = {"n_extrema": n_extrema, "n_extrema_at_tips": near, "n_missing": missing}
+            facts.append({**distance_facts(distance, spec), **counts})
     write_fields(options.output, surface, fields)
     for line in lines:
         print(f"{options.output}: {line}")
+    about = {"mesh": options.mesh, "outputs": [options.output], "n_anchors": len(known)}
+    return Result({**about, "fields": facts})

@@ -16,6 +16,7 @@ from ...commands.options import (
     chart_page,
     quantities,
 )
+from ...commands.result import Result, panel_facts
 from ...commands.terminal import judged, progress_line, tell_repairs
 from ...document.document import COMPARISON
 from .options import ACROSS, WAY
@@ -44,7 +45,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_chart(parser)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> Result:
     """Write distances along a path as numbers or a chart; the exit status is 1 if one of them failed."""
     from dataclasses import replace
 
@@ -89,6 +90,13 @@ def run(options: argparse.Namespace) -> int:
         write_profile(options.output, path, profile_fields(document, answers))
     if options.chart:
         save_profile_figure(profile_figure(document, page, path, answers), options.chart)
-    for output in filter(None, (options.output, options.chart)):
+    outputs = [file for file in (options.output, options.chart) if file]
+    for output in outputs:
         print(f"{output}: {path.label}, {len(path.points):,} points, {path.length:.6g} long")
-    return judged(found, surface.name)
+    facts = {
+        "mesh": options.mesh,
+        "outputs": outputs,
+        "path": {"label": path.label, "n_points": len(path.points), "length": path.length},
+        "fields": [panel_facts(panel.shows, answers[panel.id]) for panel in document.panels],
+    }
+    return Result(facts, judged(found, surface.name))

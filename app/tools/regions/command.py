@@ -7,6 +7,7 @@ from bihdist_core.counts import counted
 from ...commands.mesh import read_laplacian
 from ...commands.mesh_sources import sources_on
 from ...commands.options import add_areas, add_distance, add_mesh, add_output, add_sources, specs
+from ...commands.result import Result, distance_facts
 from ...commands.terminal import accuracy, progress_line
 
 WORDS = "the part of a mesh that is nearest to each of some vertices, by a distance"
@@ -24,7 +25,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Write which of some vertices each vertex is nearest to, and print the areas of the regions."""
     from bihdist_core.analysis.region_boundaries import region_boundaries, write_boundaries
     from bihdist_core.analysis.region_mesh import region_mesh
@@ -65,5 +66,16 @@ def run(options: argparse.Namespace) -> None:
         write_boundaries(options.boundaries, curves, ids)
         print(f"{options.boundaries}: {counted(len(curves), 'curve')}, together {regions.lengths.sum():.6g} long")
     total = surface.face_areas.sum()
+    parts = []
     for id, name, vertex, area in zip(ids, pins.names, pins.vertices.tolist(), regions.areas.tolist(), strict=True):
+        parts.append({"pin": id, "name": name, "vertex": vertex, "area": area, "area_fraction": area / total})
         print(f"pin {id}{f', {name}' if name else ''}, vertex {vertex}: area {area:.6g}, {area / total:.1%}")
+    files = (options.output, options.region_mesh, options.boundaries)
+    facts = {
+        "mesh": options.mesh,
+        **distance_facts(distance, chosen),
+        "outputs": [file for file in files if file],
+        "boundary_length": regions.lengths.sum(),
+        "regions": parts,
+    }
+    return Result(facts)

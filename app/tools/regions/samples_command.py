@@ -7,6 +7,7 @@ from bihdist_core.counts import counted
 from ...commands.mesh import read_laplacian
 from ...commands.mesh_sources import sources_on
 from ...commands.options import add_areas, add_distance, add_mesh, add_output, add_sources, specs
+from ...commands.result import Result, distance_facts
 from ...commands.terminal import accuracy, progress_line
 
 WORDS = "vertices spread over a mesh, each the farthest from those before it, or at random"
@@ -22,7 +23,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Write the vertices that a rule chooses."""
     from bihdist_core.analysis.sampling import SAMPLE_FORMATS, write_samples
     from bihdist_core.distances.answers import Distances
@@ -40,3 +41,5 @@ def run(options: argparse.Namespace) -> None:
         estimate = accuracy(distance) if by else ""
     write_samples(options.output, laplacian.surface, found)
     print(f"{options.output}: {counted(len(found), 'sample')}{by}{estimate}")
+    about = {"mesh": options.mesh, **(distance_facts(distance, chosen) if by else {}), "outputs": [options.output]}
+    return Result({**about, "vertices": found})

@@ -9,6 +9,7 @@ from bihdist_core.counts import counted
 from ...commands.mesh import laplacian_of
 from ...commands.mesh_sources import sources_on
 from ...commands.options import add_distance, add_mesh, add_output, add_sources, count, pair, positive, specs
+from ...commands.result import Facts, Result, facts_of
 from ...commands.terminal import progress_line
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=_seed, default=0, metavar="N", help="of noise and holes (default: 0)")
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Write a changed mesh, and print how much a distance on it differs."""
     from bihdist_core.applications.changes import Perturbation
     from bihdist_core.applications.perturbation import perturbed
@@ -75,20 +76,26 @@ def run(options: argparse.Namespace) -> None:
     write_mesh(options.output, after)
     size = f"{counted(len(after.vertices), 'vertex', 'vertices')}, {counted(len(after.faces), 'face')}"
     print(f"{options.output}: {size}; {change}")
+    facts: Facts = {
+        "mesh": options.mesh, "outputs": [options.output], "change": str(change), "n_vertices": after.n_vertices,
+        "n_faces": after.n_faces,
+    }  # fmt: skip
     if chosen:
-        _say_changes(options, before, Laplacian(after), kept, chosen)
+        facts["fields"] = _say_changes(options, before, Laplacian(after), kept, chosen)
+    return Result(facts)
 
 
 def _say_changes(
     options: argparse.Namespace, before: "Laplacian", after: "Laplacian", kept: "np.ndarray", chosen: "list[Spec]"
-) -> None:
-    """How far the fields from each source differ, at the vertices that both meshes have."""
+) -> list[Facts]:
+    """How far the fields from each source differ, at the vertices that both meshes have, as fractions of maxima."""
     from bihdist_core.analysis.diagnostics import field_change
     from bihdist_core.applications.perturbation import image_of
     from bihdist_core.distances.answers import Distances, percent, same_on
 
     from ...session.questions import vertex_at
 
+    said = []
     with progress_line() as progress:
         one, two, common = Distances(before), Distances(after), kept >= 0
         sources = sources_on(options, before.surface, lambda: one.get(chosen[0], progress), progress).sources
@@ -99,11 +106,13 @@ def _say_changes(
             old = one.get(spec, progress).from_source(start, progress)[kept[common]]
             new = two.get(spec, progress).from_source(there, progress)[common]
             found = field_change(old, new)
+            said.append({"distance": str(spec), "source": start, **facts_of(found)})
             print(
                 f"{spec} from {start}: changes by {percent(found.normalised_mean)} of its maximum in the mean, at most "
                 f"{percent(found.normalised_largest)}; before each is divided by its own, {percent(found.mean)} and "
                 f"{percent(found.largest)}"
             )
+    return said
 
 
 def _faces(text: str) -> "Runs":

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from ...commands.field_of import FieldOf, field_of
 from ...commands.options import add_areas, add_chart, add_distance, add_mesh, add_sources, chart_page, eigenpair_count
+from ...commands.result import Facts, Result, facts_of
 from ...commands.terminal import progress_line
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_chart(parser)
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Print statistics of a field, or of the difference of two."""
     from bihdist_core.analysis.truncation import truncation_loss
     from bihdist_core.errors import ParameterError
@@ -53,21 +54,28 @@ def run(options: argparse.Namespace) -> None:
         loss = None
         if options.truncation:
             loss = truncation_loss(first.laplacian, first.sources[0], counts=[count], progress=progress)
-    for it in fields:
-        _tell(it)
+    facts: Facts = {
+        "mesh": options.mesh,
+        "outputs": [file for file in (options.histogram, options.scatter) if file],
+        "fields": [_say(it) for it in fields],
+    }
     if options.histogram:
         _save_histogram(options, first)
         print(f"{options.histogram}: histogram of {first.label}")
     if len(fields) == 2:
-        _compare(options, *fields)
+        facts["agreement"] = _compare(options, *fields)
     if loss is not None:
         print(
             f"biharmonic, the first {loss.counts[0]:,} eigenpairs: mean loss {loss.means[0]:.3%} of the maximum, "
             f"largest {loss.largest[0]:.3%} at vertex {loss.at[0]}"
         )
+        facts["truncation"] = {
+            "n_eigenpairs": loss.counts[0], "mean": loss.means[0], "largest": loss.largest[0], "largest_at": loss.at[0]
+        }  # fmt: skip
+    return Result(facts)
 
 
-def _tell(it: FieldOf) -> None:
+def _say(it: FieldOf) -> Facts:
     from bihdist_core import field_statistics
 
     found = field_statistics(it.surface, it.field)
@@ -79,13 +87,15 @@ def _tell(it: FieldOf) -> None:
         print(f"  mean size by area {_written(found.mean_size, it)}")
     parts = ", ".join(f"{s:.0%} {_written(q, it)}" for s, q in zip(found.shares, found.quantiles, strict=True))
     print(f"  quantiles by area: {parts}")
+    names = ("greatest", "greatest_at", "least", "least_at", "mean", "deviation", "mean_size", "shares", "quantiles")
+    return {**it.facts, **facts_of(found, *names)}
 
 
 def _written(value: float, it: FieldOf) -> str:
     return f"{value:.2f}%" if it.scale == 100 else f"{value:.6g}"
 
 
-def _compare(options: argparse.Namespace, one: FieldOf, other: FieldOf) -> None:
+def _compare(options: argparse.Namespace, one: FieldOf, other: FieldOf) -> Facts:
     from bihdist_core import field_agreement
     from bihdist_core.errors import ParameterError
 
@@ -104,6 +114,7 @@ def _compare(options: argparse.Namespace, one: FieldOf, other: FieldOf) -> None:
     if options.scatter:
         _save_scatter(options, one, other, found.spearman, at)
         print(f"{options.scatter}: scatter of {found.count:,} vertices")
+    return facts_of(found)
 
 
 def _save_histogram(options: argparse.Namespace, it: FieldOf) -> None:
