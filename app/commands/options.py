@@ -18,10 +18,11 @@ from ..document.sources import sources_from_words
 from ..figures.options import PAGE_ROWS, VERTEX_AREAS, with_rows
 
 PANELS = f"a panel each (default: {','.join(str(spec) for spec in COMPARISON)})"
-SOURCES = (
-    "12,40, with places in faces (f311:0.2,0.5), boundary loops (loop:0), curves (curve.json) and the nearest of "
-    "several (12+40+7) among them; farthest:K[:START], random:K[:SEED] or all; @FILE, or - for standard input"
+PLACES = (
+    ", with places in faces (f311:0.2,0.5), boundary loops (loop:0), curves (curve.json) and the nearest of several "
+    "(12+40+7) among them"
 )
+RULES = "farthest:K[:START], random:K[:SEED] or all; @FILE, or - for standard input"
 HIGHEST = "(default: the highest vertex)"
 NEIGHBOURS = 10
 """So many, unless `--k` says otherwise."""
@@ -43,9 +44,15 @@ def add_two_meshes(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("other", metavar="B", help="the mesh that it is mapped to")
 
 
-def add_sources(parser: argparse.ArgumentParser, what: str, default: str = HIGHEST, required: bool = False) -> None:
+def add_sources(
+    parser: argparse.ArgumentParser,
+    what: str,
+    default: str = HIGHEST,
+    required: bool = False,
+    are_vertices: bool = False,
+) -> None:
     """Add `--sources`, whose value is a `Sources`, or None; what: starts there, in words."""
-    text = f"{what}: {SOURCES}{f' {default}' if default else ''}"
+    text = f"{what}: 12,40{'' if are_vertices else PLACES}; {RULES}{f' {default}' if default else ''}"
     parser.add_argument("--sources", metavar="SOURCES", type=sources, required=required, help=text)
 
 

@@ -36,7 +36,8 @@ TEXT = ".csv"
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `pairs` to its parser."""
     add_meshes(parser)
-    add_sources(parser, "vertices, all pairs among which are written", default="(default for --nearest: all)")
+    what = "vertices, all pairs among which are written"
+    add_sources(parser, what, default="(default for --nearest: all)", are_vertices=True)
     add_pairs(
         parser,
         "these instead of --sources: 1:2,3:4; or a file with a line `i,j` for each, @FILE, or - for standard input",
@@ -104,6 +105,7 @@ def _write_pairs(options: argparse.Namespace, chosen: "list[Spec]", is_matrix: b
     import numpy as np
 
     from bihdist_core.distances.answers import Distances
+    from bihdist_core.errors import ParameterError
     from bihdist_core.formats.field_output import write_array
     from bihdist_core.formats.vertex_maps import read_pairs
 
@@ -117,6 +119,8 @@ def _write_pairs(options: argparse.Namespace, chosen: "list[Spec]", is_matrix: b
         else:
             found = sources_on(options, laplacian.surface, lambda: distances.get(chosen[0], progress), progress)
             pins, among = found.pins, found.vertices("Pairs")
+            if len(among) < 2:
+                raise ParameterError(f"Pairs are among several sources; name another beside {among[0]}.")
             pairs = np.array([(i, j) for k, i in enumerate(among) for j in among[k + 1 :]]).reshape(-1, 2)
         answers, lines, used = [], [], []
         for each in chosen:

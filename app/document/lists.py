@@ -8,6 +8,8 @@ from bihdist_core.errors import ParameterError
 
 _PLACE = re.compile(r"f[0-9]+:[^,+]*")
 """The first half of a place in a face, whose two weights have a comma between them."""
+_ENDING = re.compile(r"\.[A-Za-z]\w*\s*$")
+"""What names of files end in, and no number does."""
 
 
 def split_list(text: str) -> list[str]:
@@ -15,13 +17,16 @@ def split_list(text: str) -> list[str]:
 
     ParameterError for a comma with nothing beside it.
     """
-    pieces, words = _outside_brackets(text), list[str]()
-    while pieces:
-        count = next((k for k in range(len(pieces), 1, -1) if os.path.exists(",".join(pieces[:k]))), 1)
-        while count < len(pieces) and _PLACE.fullmatch(",".join(pieces[:count]).rpartition("+")[2].strip()):
-            count += 1
-        words.append(",".join(pieces[:count]).strip())
-        del pieces[:count]
+    pieces, words, start = _outside_brackets(text), list[str](), 0
+    # Long lists of numbers are not looked for on the disk.
+    ends = [k for k, piece in enumerate(pieces, 1) if _ENDING.search(piece)]
+    while start < len(pieces):
+        files = (end for end in reversed(ends) if end > start + 1 and os.path.exists(",".join(pieces[start:end])))
+        end = next(files, start + 1)
+        while end < len(pieces) and _PLACE.fullmatch(",".join(pieces[start:end]).rpartition("+")[2].strip()):
+            end += 1
+        words.append(",".join(pieces[start:end]).strip())
+        start = end
     if not all(words):
         raise ParameterError(f"A comma in {text!r} has nothing beside it; write several as 12,40.")
     return words
@@ -29,14 +34,13 @@ def split_list(text: str) -> list[str]:
 
 def _outside_brackets(text: str) -> list[str]:
     """What stands between those commas that no bracket holds: diffusion(t=1/4),mine(a=1,b=2)."""
-    pieces, depth = [""], 0
-    for letter in text:
+    pieces, depth, start = list[str](), 0, 0
+    for k, letter in enumerate(text):
         depth += (letter == "(") - (letter == ")")
         if letter == "," and depth <= 0:
-            pieces.append("")
-        else:
-            pieces[-1] += letter
-    return pieces
+            pieces.append(text[start:k])
+            start = k + 1
+    return [*pieces, text[start:]]
 
 
 def file_in(text: str) -> str:

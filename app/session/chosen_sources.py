@@ -91,8 +91,11 @@ def chosen_sources(
                 )
             vertices = np.sort(np.random.default_rng(asked.seed).choice(vertices, asked.count, replace=False))
         found = Chosen([*vertices.tolist()])
-    for each in found.sources if asked.rule in (FILE, LISTED) else ():
-        pieces_of(each, surface)
+    if asked.rule in (FILE, LISTED):
+        surface.check_vertices([each for each in found.sources if isinstance(each, int)])
+        for each in found.sources:
+            if not isinstance(each, int):
+                pieces_of(each, surface)
     return found
 
 

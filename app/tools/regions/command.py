@@ -17,7 +17,8 @@ TEXT = ".csv"
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `regions` to its parser."""
     add_mesh(parser)
-    add_sources(parser, "vertices with a region each, numbered from 1 or by the ids of pins", default="", required=True)
+    what = "vertices with a region each, numbered from 1 or by the ids of pins"
+    add_sources(parser, what, default="", required=True, are_vertices=True)
     add_output(parser, "for each vertex the number of its region: a .npy, .csv, .ply or .vtp file", required=False)
     parser.add_argument("--boundaries", metavar="OUT", help="of the regions: a .csv, .obj, .vtp or .json file")
     parser.add_argument("--region-mesh", metavar="OUT", help="the mesh cut along the boundaries: a .ply or .vtp file")

@@ -17,7 +17,7 @@ TEXT = ".txt"
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `samples` to its parser."""
     add_mesh(parser)
-    add_sources(parser, "what is written, mostly farthest:K", default="", required=True)
+    add_sources(parser, "what is written", default="", required=True, are_vertices=True)
     add_output(parser, "a .txt file, an id on each line, a .npy file, or pins as .csv, .json or MeshLab's .pp")
     add_distance(parser)
     add_areas(parser)
