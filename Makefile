@@ -1,4 +1,4 @@
-# Everything by one command each; `make` alone lists them.  ARGS is passed on: make run ARGS="mesh.off --source 12"
+# Everything by one command each; `make` alone lists them.  ARGS is passed on: make run ARGS="mesh.off --sources 12"
 # .ci/set-up makes the environment .venv and says what else it does (PYTHON=..., YES=1: see there).
 
 ARGS ?=

@@ -12,7 +12,10 @@ from typing import Any
 
 from .commands import batch, field, figure, info, isolines, movie, pairs, paper, view
 from .commands.mesh import check_mesh
-from .commands.terminal import standard_output
+from .commands.parser import Parser
+from .commands.result import as_json
+from .commands.terminal import add_telling, standard_output, tell_failure, telling
+from .commands.termination import status_of, termination_raised, words_of
 from .document.tools import tools
 from .version import version
 
@@ -21,10 +24,10 @@ COMMANDS = {
     **{word: tool.load(module) for tool in tools() for word, module in tool.commands.items()},
     **{module.__name__.rpartition(".")[2]: module for module in (batch, figure, movie, info, paper)},
 }
-"""By word: each has its `WORDS` (what it does), `add_options(parser)` and `run(options)`; TEXT: the format in
-which it writes to standard output, for `-o -`."""
+"""By word: each has its `WORDS` (what it does), `add_options(parser)` and `run(options)`, which returns a `Result`;
+TEXT: the format in which it writes to standard output, for `-o -`."""
 
-FILES = re.compile(r"FILE|OUT|DIR|FOLDER|MAP|\.json|\.csv")
+FILES = re.compile(r"FILE|OUT|DIR|MAP|\.json|\.png")
 """Options whose values have such words are completed by names of files, as all that has no option."""
 
 NEGATIVE = re.compile(r"-[xyz]|-[\d.][-+.\deE]*,[-+.,\deE]*")
@@ -33,30 +36,46 @@ NEGATIVE = re.compile(r"-[xyz]|-[\d.][-+.\deE]*,[-+.,\deE]*")
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit status: 0, 1 for a figure with a failed panel or a page
-    with a part that could not be done, 2 for what the user can mend, 130 when interrupted."""
+    with a part that could not be done, 2 for what the user can mend, 130 when interrupted, 143 by SIGTERM."""
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     from bihdist_core.errors import BihdistError
 
+    options: argparse.Namespace | None = None
     try:
-        options = _parser().parse_args(_with_values(_with_command(arguments)))
-        module = COMMANDS[options.command]
-        with standard_output(options, getattr(module, "TEXT", "")):
-            status = module.run(options) or 0
-        sys.stdout.flush()
-        return status
+        with termination_raised():
+            options = parser_of_all().parse_args(_with_values(_with_command(arguments)))
+            return _run(options)
     except BihdistError as error:
-        print(f"bihdist: {error}", file=sys.stderr)
-        return 2
+        return _failed(options, str(error), 2)
     except MemoryError:
-        print("bihdist: there is not enough memory for this.", file=sys.stderr)
-        return 2
+        return _failed(options, "there is not enough memory for this.", 2)
     except BrokenPipeError:
         # Whoever read the output has seen enough; Python would complain again when it closes the pipe.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
-    except KeyboardInterrupt:
-        print("bihdist: interrupted.", file=sys.stderr)
-        return 130
+    except KeyboardInterrupt as error:
+        return _failed(options, f"{words_of(error)}.", status_of(error))
+
+
+def _run(options: argparse.Namespace) -> int:
+    module = COMMANDS[options.command]
+    with telling(options.quiet) as notes, standard_output(options, getattr(module, "TEXT", "")):
+        result = module.run(options)
+    if options.json:
+        print(as_json(options.command, result.status, {**result.facts, "notes": notes}))
+    sys.stdout.flush()
+    sys.stderr.flush()
+    if result.ends_process:
+        os._exit(result.status)
+    return int(result.status)
+
+
+def _failed(options: argparse.Namespace | None, sentence: str, status: int) -> int:
+    """options: nothing while they are not known."""
+    tell_failure(sentence)
+    if options is not None and options.json:
+        print(as_json(options.command, status, {"error": sentence}))
+    return status
 
 
 def _with_command(arguments: list[str]) -> list[str]:
@@ -81,8 +100,9 @@ def _with_values(arguments: list[str]) -> list[str]:
     return joined
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+def parser_of_all() -> argparse.ArgumentParser:
+    """The parser of the whole command line, with one for each command in it."""
+    parser = Parser(
         prog="bihdist",
         description="Biharmonic distance on triangle meshes, beside geodesic and diffusion distances.",
         epilog="`bihdist MESH` is short for `bihdist view MESH`.",
@@ -93,7 +113,9 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for word, module in COMMANDS.items():
         words = module.WORDS
-        module.add_options(commands.add_parser(word, help=words, description=f"{words[0].upper()}{words[1:]}."))
+        command = commands.add_parser(word, help=words, description=f"{words[0].upper()}{words[1:]}.")
+        module.add_options(command)
+        add_telling(command)
     return parser
 
 

@@ -42,7 +42,7 @@ def write_curves(folder: Folder, rows: Sequence[Row]) -> tuple[list[str], list[R
         "file": files[0], "shape": [len(curves)], "unit": "no unit",
         "mean": overall.mean, "median": overall.median, "area_under_curve": overall.area,
     }  # fmt: skip
-    return files, [Row(ALL, "evaluate", "", 0.0, False, facts)]
+    return files, [Row(ALL, "evaluate", "", False, facts)]
 
 
 def _curve(errors: FloatArray | None) -> ErrorCurve | None:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from bihdist_core.errors import ParameterError
+from bihdist_core.formats.whole_numbers import numbered_lines, text_of
 
 from ..document.file import checksum
 from ..samples import mesh_path
@@ -23,8 +24,8 @@ from .work_order import ALL, LAYOUTS, OWN, WorkOrder, result_name
 
 MESHES = (".obj", ".off", ".ply", ".stl", ".vtk", ".vtp")
 COLUMNS = (
-    "mesh", "work", "distance", "file", "shape", "dtype", "unit", "accuracy", "vertices", "faces", "components", "area",
-    "repairs", "mean", "median", "area_under_curve", "seconds",
+    "mesh", "work", "distance", "file", "shape", "dtype", "unit", "accuracy", "n_vertices", "n_faces", "n_components",
+    "area", "repairs", "mean", "median", "area_under_curve", "seconds",
 )  # fmt: skip
 REASONS = ("mesh", "work", "distance", "reason")
 
@@ -32,46 +33,60 @@ Tell = Callable[[Report, int, int], None]
 """Called after each task: what has become of it, how many are done, and of how many."""
 
 
-def found_meshes(where: str) -> dict[str, str]:
-    """The paths of meshes by name: those in a folder, or in a list, a path or the name of a sample on each line.
+@dataclass(frozen=True)
+class Meshes:
+    """The paths of meshes by name; missing: of those that are not there, by name, why."""
 
-    The name is that of the file, with that of its folder before it where several files have the same.
+    paths: dict[str, str]
+    missing: dict[str, str]
 
-    ParameterError if there is none, a file of a list is missing, or two have the same name.
+
+def found_meshes(words: Sequence[str], list_file: str = "", list_text: str = "") -> Meshes:
+    """The meshes that words name: files, samples, and folders of files; then those of a list with one on each line.
+
+    The name is that of the file, with that of its folder before it where several files have the same.  list_file: its
+    paths are taken from its folder first; list_text: what it holds where it cannot be read again.
+
+    ParameterError if there is none at all, the list cannot be read, or two have the same name.
     """
-    path = Path(where)
-    if path.is_dir():
-        paths = sorted(each for each in path.iterdir() if each.suffix.lower() in MESHES and each.is_file())
-        if not paths:
-            raise ParameterError(f"There is no mesh in the folder {where}; meshes are {', '.join(MESHES)} files.")
-    else:
-        try:
-            lines = path.read_text(encoding="utf-8-sig").splitlines()
-        except (OSError, UnicodeDecodeError):
-            raise ParameterError(
-                f"{where} is no folder with meshes, and no list of them, a path on each line."
-            ) from None
-        paths = []
-        for number, line in enumerate(lines, 1):
-            words = line.strip()
-            if not words or words.startswith("#"):
-                continue
-            beside = path.parent / words
-            each = beside if beside.exists() else Path(mesh_path(words))
-            if not each.is_file():
-                raise ParameterError(f"{where}, line {number}: there is no file {words}, nor a sample of that name.")
-            paths.append(each)
-        if not paths:
-            raise ParameterError(f"{where} names no mesh; it has a path on each line.")
+    found: list[tuple[Path, str]] = []
+    for word in words:
+        found += _meshes_of(word, Path())
+    if list_file:
+        lines = numbered_lines(list_text or text_of(Path(list_file), "list of meshes"))
+        known = [(number, line) for number, line in lines if not line.startswith("#")]
+        if not known:
+            raise ParameterError(f"{list_file} names no mesh; it has a path on each line.")
+        for number, line in known:
+            for path, reason in _meshes_of(line, Path(list_file).parent):
+                found.append((path, f"{list_file}, line {number}: {reason}" if reason else ""))
+    reasons = [reason for _, reason in found if reason]
+    if len(reasons) == len(found):
+        raise ParameterError(reasons[0] if reasons else "Which meshes? Name files, folders, or a list with --list.")
+    paths = {Path(os.path.abspath(path)): reason for path, reason in found}
     stems = Counter(each.stem for each in paths)
-    found: dict[str, str] = {}
-    for each in map(Path, map(os.path.abspath, paths)):
+    meshes = Meshes({}, {})
+    for each, reason in paths.items():
         # One folder for each subject, with the same names in all of them.
         name = each.stem if stems[each.stem] == 1 else f"{each.parent.name}_{each.stem}"
-        if name in found:
-            raise ParameterError(f"{found[name]} and {each} have the same name, {name}; rename one.")
-        found[name] = str(each)
-    return found
+        if name in meshes.paths or name in meshes.missing:
+            raise ParameterError(f"{meshes.paths.get(name, name)} and {each} have the same name, {name}; rename one.")
+        if reason:
+            meshes.missing[name] = reason
+        else:
+            meshes.paths[name] = str(each)
+    return meshes
+
+
+def _meshes_of(word: str, folder: Path) -> list[tuple[Path, str]]:
+    """The paths that a word means, and why one is none, "" where it is."""
+    beside = folder / word
+    path = beside if beside.exists() else Path(mesh_path(word))
+    if path.is_dir():
+        paths = sorted(each for each in path.iterdir() if each.suffix.lower() in MESHES and each.is_file())
+        reason = f"There is no mesh in the folder {word}; meshes are {', '.join(MESHES)} files."
+        return [(each, "") for each in paths] or [(path, reason)]
+    return [(path, "" if path.is_file() else f"There is no file or folder {word}, nor a sample of that name.")]
 
 
 def tasks_for(
@@ -253,7 +268,7 @@ def write_tables(
     kept = [line for line in _lines(folder, "summary.csv", COLUMNS) if tuple(line[:3]) not in known]
     table = [tuple(map(str, _cells(row))) for row in rows]
     taken = {row[3] for row in table}  # the file of a layout is that of the last distance
-    table += [(*line[:-1], "") for line in kept if line[3] not in taken and _is_there(folder, line)]
+    table += [tuple(line) for line in kept if line[3] not in taken and _is_there(folder, line)]
     folder.write("summary.csv", _table(COLUMNS, sorted(table)))
     cells += [
         (line[0], line[1], line[2], line[3])
@@ -288,11 +303,14 @@ def _lines(folder: Folder, name: str, header: Sequence[str]) -> list[list[str]]:
 def _cells(row: Row) -> tuple[object, ...]:
     facts = row.facts
     shape = " x ".join(map(str, facts.get("shape", [])))
-    of_facts = [facts.get(name, "") for name in COLUMNS[7:12]]
+    of_mesh = [facts.get(name, "") for name in COLUMNS[8:12]]
     repairs = "; ".join(facts.get("repairs", []))
     own = (row.name, row.work, row.distance, facts["file"], shape, facts.get("dtype", ""), facts.get("unit", ""))
     of_maps = [_number(facts.get(name)) for name in COLUMNS[13:16]]
-    return (*own, *of_facts, repairs, *of_maps, f"{row.seconds:.3f}" if row.is_new else "")
+    seconds = facts.get("seconds")  # of all maps together there are none
+    return (
+        *own, _number(facts.get("accuracy")), *of_mesh, repairs, *of_maps, "" if seconds is None else f"{seconds:.3f}"
+    )  # fmt: skip
 
 
 def _number(value: float | None) -> str:

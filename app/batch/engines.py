@@ -5,11 +5,10 @@ import logging
 import multiprocessing
 import os
 import signal
-import sys
 import threading
 import time
 from collections import Counter, deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
 from typing import Any, Protocol
@@ -165,11 +164,11 @@ WAIT = 60.0
 """Seconds in which a scheduler that has just been started writes its file."""
 
 
-def _wait_for(file: str) -> None:
+def _wait_for(file: str, say: Callable[[str], None]) -> None:
     """ParameterError if the file does not appear; Dask would wait for ever."""
     end = time.monotonic() + WAIT
     if not os.path.exists(file):
-        print(f"Waiting for the scheduler's file {file}, at most {WAIT:.0f} seconds.", file=sys.stderr)
+        say(f"Waiting for the scheduler's file {file}, at most {WAIT:.0f} seconds.")
     while not os.path.exists(file):
         if time.monotonic() > end:
             raise ParameterError(f"No scheduler has written {file}; start it with --scheduler-file {file}.")
@@ -179,8 +178,8 @@ def _wait_for(file: str) -> None:
 class Cluster:
     """A Dask cluster: whatever `distributed.Client` reaches.  Scheduling, retries and memory are Dask's."""
 
-    def __init__(self, where: str) -> None:
-        """where: an address (tcp://…), or the scheduler's file (….json).
+    def __init__(self, where: str, say: Callable[[str], None]) -> None:
+        """where: an address (tcp://…), or the scheduler's file (….json).  say: gets a sentence if that is waited for.
 
         ParameterError if it cannot be reached, or has not this version, and if Dask is missing.
         """
@@ -191,7 +190,7 @@ class Cluster:
         # It would print where it was for each connection that is closed.
         logging.getLogger("distributed.batched").setLevel(logging.WARNING)
         if where.endswith(".json"):
-            _wait_for(where)
+            _wait_for(where, say)
         try:
             options: dict[str, Any] = {"scheduler_file": where} if where.endswith(".json") else {"address": where}
             self._client = Client(**options, timeout="20s", set_as_default=False)

@@ -24,8 +24,10 @@ from bihdist_core.errors import BihdistError
 from bihdist_core.solver.blas import one_blas_thread
 from bihdist_core.solver.worker_threads import without_workers
 
+from ..document.sources import FILE
 from .layouts import NORMALISED, laid_out
 from .maps import evaluated
+from .matlab_ids import for_matlab
 from .memory import PART_BYTES, allowed, needed
 from .results import Blocks, facts_of, write_facts, write_result
 from .storage import Folder
@@ -45,6 +47,8 @@ from .works import (
 
 PARTS = ".parts"
 """The folder of parts, until they are put together."""
+SECONDS = "seconds"
+"""The ending of the file beside a part with the time that it took."""
 PART_COLUMNS = 8192
 """Columns of a part of the means between parcels, or of neighbours, which keep little of them."""
 
@@ -62,7 +66,7 @@ def do(task: Task) -> Report:
             name = task.result_name(part.work, part.distance)
             facts = facts_of(Folder(task.out), name, task.key(part.work, part.distance))
             if facts is not None:
-                row = Row(task.name, part.work, part.distance, 0.0, True, facts)
+                row = Row(task.name, part.work, part.distance, True, facts)
                 return Report(task, (row,) if part.is_whole else ())
             return (_join if part.is_whole else _do_part)(task, part)
         except Exception as error:
@@ -79,22 +83,20 @@ def _do_mesh(task: Task) -> Report:
     except Exception as error:
         reason = failure_in_words(error)
         return Report(task, failures=tuple(Failure(task.name, *each, reason) for each in wanted.results()))
-    needs = needed(_vertices(task, mesh), wanted, _landmarks(mesh))
+    needs = needed(_vertices(task, mesh), wanted, _sources_from_file(mesh))
     if needs > allowed(is_expected=bool(task.needs)):
         return Report(task, needs=needs)
     rows, failures, more = [], [], []
     for work, distance in wanted.results():
-        name, key = task.result_name(work, distance), task.key(work, distance)
-        facts, begin = facts_of(folder, name, key), time.monotonic()
+        facts = facts_of(folder, task.result_name(work, distance), task.key(work, distance))
         if facts is not None:
-            rows.append(Row(task.name, work, distance, 0.0, False, facts))
+            rows.append(Row(task.name, work, distance, False, facts))
             continue
         try:
             if parts := _parts(task, mesh, work, distance):
                 more += [replace(task, part=part, needs=needs) for part in parts]
                 continue
-            facts = _made(task, mesh, work, distance, folder, name, key)
-            rows.append(Row(task.name, work, distance, time.monotonic() - begin, True, facts))
+            rows.append(Row(task.name, work, distance, True, _made(task, mesh, work, distance)))
         except Exception as error:
             failures.append(Failure(task.name, work, distance, failure_in_words(error)))
     return Report(task, tuple(rows), tuple(failures), tuple(more))
@@ -106,9 +108,9 @@ def _vertices(task: Task, mesh: Mesh) -> int:
     return int(len(mesh.surface.vertices) * max(1.0, more))
 
 
-def _landmarks(mesh: Mesh) -> int:
+def _sources_from_file(mesh: Mesh) -> int:
     """How many there are; 0 if the sources are others, or a file of them is none, which is said where they are read."""
-    if mesh.wanted.sources.rule != "landmarks":
+    if mesh.wanted.sources.rule != FILE:
         return 0
     try:
         return len(mesh.sources(mesh.wanted.distances[0]))
@@ -116,12 +118,14 @@ def _landmarks(mesh: Mesh) -> int:
         return 0
 
 
-def _made(task: Task, mesh: Mesh, work: str, distance: str, folder: Folder, name: str, key: str) -> dict[str, Any]:
+def _made(task: Task, mesh: Mesh, work: str, distance: str) -> dict[str, Any]:
+    begin = time.monotonic()
     if work == "figure":
         from .figures import figure_made
 
-        facts = figure_made(task.mesh, mesh, folder, f"{name}.png")
-        return write_facts(folder, name, key, f"{name}.png", {**facts, **_facts_of_mesh(task, mesh, work)})
+        folder, name = Folder(task.out), task.result_name(work, distance)
+        facts = {**figure_made(task.mesh, mesh, folder, f"{name}.png"), **_facts_of_mesh(task, mesh, work)}
+        return write_facts(folder, name, task.key(work, distance), f"{name}.png", facts, begin)
     if task.map is not None:
         made = evaluated(mesh, task.map)
     elif work == MAXIMA:
@@ -130,23 +134,27 @@ def _made(task: Task, mesh: Mesh, work: str, distance: str, folder: Folder, name
         made = maxima_made(task.mesh, mesh)
     else:
         made = WORK[work](mesh, distance)
-    return _written(task, mesh, work, folder, name, key, made)
+    return _written(task, mesh, work, distance, made, begin)
 
 
-def _written(task: Task, mesh: Mesh, work: str, folder: Folder, name: str, key: str, made: Made) -> dict[str, Any]:
+def _written(task: Task, mesh: Mesh, work: str, distance: str, made: Made, begin: float) -> dict[str, Any]:
+    which = Folder(task.out), task.result_name(work, distance), task.key(work, distance)
     facts = {**made.facts, **_facts_of_mesh(task, mesh, work)}
-    if facts.get("accuracy") and work != "fps" and task.wanted.dtype == "float32":
-        facts["accuracy"] += ", written in single precision: within 6e-8 of each value"
+    if facts.get("accuracy_text") and work != "fps" and task.wanted.dtype == "float32":
+        facts["accuracy_text"] += ", written in single precision: within 6e-8 of each value"
     layout = task.wanted.layout if work == "pairs" else ""
     if not layout:
         format = task.wanted.arrays if work != MAXIMA else "npy"
         # Files of several arrays say themselves what rows and columns are.
-        beside = _numbers(made.facts) if format in ("npz", "mat") else {}
-        return write_result(folder, name, key, {**made.arrays, **beside}, facts, format)
-    arrays = laid_out(layout, made.arrays["dist"], made.facts["sqrt_area"])
+        arrays = {**made.arrays, **(_numbers(made.facts) if format in ("npz", "mat") else {})}
+        if format == "mat":
+            arrays, of_ids = for_matlab(arrays, task.wanted.one_based)
+            facts |= of_ids
+        return write_result(*which, arrays, facts, begin, format)
     if layout == "dist" and not task.wanted.normalise:
         facts["note"] = NORMALISED
-    return write_result(folder, name, key, arrays, facts, "mat", f"{layout}/{task.name}.mat")
+    arrays = dict(laid_out(layout, made.arrays["dist"], made.facts["sqrt_area"]))
+    return write_result(*which, arrays, facts, begin, "mat", f"{layout}/{task.name}.mat")
 
 
 def _numbers(facts: dict[str, Any]) -> dict[str, FloatArray]:
@@ -171,10 +179,10 @@ def _facts_of_mesh(task: Task, mesh: Mesh, work: str) -> dict[str, Any]:
         "mesh": surface.name,
         "checksum": own,
         **({"checksums": others} if others else {}),
-        "vertices": len(surface.vertices),
-        "faces": len(surface.faces),
-        "components": surface.n_components,
-        "area": float(surface.face_areas.sum()),
+        "n_vertices": surface.n_vertices,
+        "n_faces": surface.n_faces,
+        "n_components": surface.n_components,
+        "area": surface.area,
         **scaled,
         "repairs": list(notes.repairs),
         "warnings": list(notes.warnings),
@@ -202,8 +210,8 @@ def _parts(task: Task, mesh: Mesh, work: str, distance: str) -> list[Part]:
     return [Part(work, distance, begin, min(begin + step, total), total) for begin in range(0, total, step)]
 
 
-def _part_name(task: Task, part: Part) -> str:
-    return f"{_parts_folder(task, part)}/{part.begin}-{part.end}.npy"
+def _part_name(task: Task, part: Part, ending: str = "npy") -> str:
+    return f"{_parts_folder(task, part)}/{part.begin}-{part.end}.{ending}"
 
 
 def _parts_folder(task: Task, part: Part) -> str:
@@ -215,7 +223,7 @@ def _parts_folder(task: Task, part: Part) -> str:
 def _do_part(task: Task, part: Part) -> Report:
     folder, name = Folder(task.out), _part_name(task, part)
     if folder.size(name) is None:
-        mesh = mesh_of(task)
+        mesh, begin = mesh_of(task), time.monotonic()
         if task.wanted.labels and part.work == "pairs":
             sums = parcel_sums(mesh.distance(part.distance), mesh.labels, mesh.mask, part.begin, part.end)
             columns: Any = sums.sums
@@ -228,16 +236,19 @@ def _do_part(task: Task, part: Part) -> Report:
             columns = made["fields"]
             if part.work == "pairs":
                 columns = columns[np.array(mesh.sources(part.distance))].T
-        with folder.writing(name) as path, path.open("wb") as file:
-            np.save(file, columns)
+        with folder.writing(name) as path:
+            with path.open("wb") as file:
+                np.save(file, columns)
+            # First, so that no part is there without.
+            folder.write(_part_name(task, part, SECONDS), f"{time.monotonic() - begin:.3f}".encode())
     return Report(task)
 
 
 def _join(task: Task, part: Part) -> Report:
     """The result of which all parts are there."""
-    begin, folder, mesh = time.monotonic(), Folder(task.out), mesh_of(task)
+    folder, mesh = Folder(task.out), mesh_of(task)
     parts = _parts(task, mesh, part.work, part.distance)
-    name, key = task.result_name(part.work, part.distance), task.key(part.work, part.distance)
+    begin = time.monotonic() - sum(_seconds(folder, task, each) for each in parts)
     if part.work == "pairs" and task.wanted.labels:
         names, of_each = np.unique(mesh.labels[labelled(mesh.surface, mesh.labels, mesh.mask)], return_counts=True)
         sums = sum(_read_part(folder, task, each) for each in parts)
@@ -261,9 +272,13 @@ def _join(task: Task, part: Part) -> Report:
             made = Made({"fields": blocks}, facts_of_fields(distance, sources, task.wanted.sources.rule))
         else:
             made = Made(*pairs_made(mesh, distance, sources, blocks))
-    facts = _written(task, mesh, part.work, folder, name, key, made)
+    facts = _written(task, mesh, part.work, part.distance, made, begin)
     folder.remove(_parts_folder(task, part))
-    return Report(task, (Row(task.name, part.work, part.distance, time.monotonic() - begin, True, facts),))
+    return Report(task, (Row(task.name, part.work, part.distance, True, facts),))
+
+
+def _seconds(folder: Folder, task: Task, part: Part) -> float:
+    return float(folder.read(_part_name(task, part, SECONDS)) or 0)
 
 
 def _read_part(folder: Folder, task: Task, part: Part) -> FloatArray:

@@ -117,7 +117,8 @@ def figure_made(path: str, mesh: Mesh, folder: Folder, file: str) -> dict[str, A
             "maximum": float(answer.maximum),
             "colours_end_at": float(answer.maximum if panel.maximum is None else panel.maximum * answer.scale),
             "of_set": end_in_words(end, answer.unit, mesh.wanted.range, answer.is_signed),
-            "accuracy": answer.accuracy.text,
+            "accuracy": answer.accuracy.share,
+            "accuracy_text": answer.accuracy.text,
         }
         for panel, answer, end in zip(document.panels, answers, ends, strict=True)
     ]

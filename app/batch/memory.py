@@ -5,6 +5,7 @@ import os
 import sys
 from contextlib import suppress
 
+from ..document.sources import ALL
 from .work_order import WorkOrder
 
 BASE = 2.5e8
@@ -17,10 +18,10 @@ FIELDS, PAIRS = 3, 6
 """Times the bytes of a part that are there at once while it is computed, of fields and of all pairs among sources."""
 
 
-def needed(n: int, wanted: WorkOrder, landmarks: int = 0) -> int:
-    """Bytes for a mesh with n vertices and so many landmarks, at most at a time."""
-    counts = (wanted.sources.count, len(wanted.sources.words), landmarks, 1)
-    sources = n if wanted.sources.rule == "all" else max(counts)
+def needed(n: int, wanted: WorkOrder, from_file: int = 0) -> int:
+    """Bytes for a mesh with n vertices and so many sources from a file, at most at a time."""
+    counts = (wanted.sources.count, len(wanted.sources.members), from_file, 1)
+    sources = n if wanted.sources.rule == ALL else max(counts)
     has_pairs = "pairs" in wanted.works and not wanted.labels
     fields = min(n * sources * 8.0, PART_BYTES) * (PAIRS if has_pairs else FIELDS)
     # Formats that are written at once are joined in memory.

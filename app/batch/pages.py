@@ -75,7 +75,7 @@ def _figure(cell: Cell, drawn: dict[str, Row]) -> str:
     return (
         f'<figure><a href="{file}"><img src="{quote(thumbnail_name(cell.name))}" alt="{name}" loading="lazy" '
         f'width="{wide}" height="{high}"></a><figcaption><b>{name}</b> <a href="{beside}">JSON</a><br>'
-        f"{facts['vertices']:,} vertices · {html.escape(' · '.join(parts))}</figcaption></figure>"
+        f"{facts['n_vertices']:,} vertices · {html.escape(' · '.join(parts))}</figcaption></figure>"
     )
 
 

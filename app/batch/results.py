@@ -7,6 +7,7 @@ it says.
 import io
 import json
 import os
+import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -78,12 +79,13 @@ def write_result(
     key: str,
     arrays: Mapping[str, Array],
     facts: Mapping[str, Any],
+    begin: float,
     format: str = "npy",
     file: str = "",
 ) -> dict[str, Any]:
     """Arrays by name, the first of which is the result, and what is to be said of them; what was written.
 
-    file: where the arrays go, if not beside the JSON.
+    begin: as of `write_facts`.  file: where the arrays go, if not beside the JSON.
 
     Raises OutputError if it cannot be written; then no JSON says that it is there.
     """
@@ -96,7 +98,7 @@ def write_result(
         with folder.writing(file) as path:
             _write(path, format, arrays)
     first = next(iter(arrays.values()))
-    return write_facts(folder, name, key, file, {"shape": list(first.shape), "dtype": str(first.dtype), **facts})
+    return write_facts(folder, name, key, file, {"shape": list(first.shape), "dtype": str(first.dtype), **facts}, begin)
 
 
 def _forget(folder: Folder, name: str, file: str) -> None:
@@ -107,9 +109,15 @@ def _forget(folder: Folder, name: str, file: str) -> None:
         folder.remove(before)
 
 
-def write_facts(folder: Folder, name: str, key: str, file: str, facts: Mapping[str, Any]) -> dict[str, Any]:
-    """The JSON beside a file that is complete."""
-    facts_in_file = {"file": file, "bytes": folder.size(file), **facts, "key": key}
+def write_facts(
+    folder: Folder, name: str, key: str, file: str, facts: Mapping[str, Any], begin: float
+) -> dict[str, Any]:
+    """The JSON beside a file that is complete.
+
+    begin: the `time.monotonic()` from which its seconds count; of what was put together, earlier by those of its parts.
+    """
+    seconds = round(time.monotonic() - begin, 3)
+    facts_in_file = {"file": file, "bytes": folder.size(file), **facts, "seconds": seconds, "key": key}
     text = json.dumps(facts_in_file, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
     folder.write(f"{name}.json", text.encode())
     return facts_in_file

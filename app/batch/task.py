@@ -77,7 +77,6 @@ class Row:
     name: str
     work: str
     distance: str
-    seconds: float
     is_new: bool
     facts: dict[str, Any] = field(hash=False)
 
@@ -111,7 +110,7 @@ def done_before(task: Task) -> Report | None:
         facts = facts_of(folder, task.result_name(work, distance), task.key(work, distance))
         if facts is None:
             return None
-        rows.append(Row(task.name, work, distance, 0.0, False, facts))
+        rows.append(Row(task.name, work, distance, False, facts))
     return Report(task, tuple(rows))
 
 

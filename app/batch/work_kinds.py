@@ -5,7 +5,7 @@ from functools import cached_property
 
 MAXIMA = "maxima"
 """A work that is done before figures that share their range: the largest value of each panel."""
-FILES = frozenset({"labels", "mask"})
+FILES = frozenset({"labels", "mask", "sources"})
 """Fields that name what is read beside a mesh."""
 
 
@@ -27,7 +27,7 @@ class WorkKind:
     @cached_property
     def reads(self) -> frozenset[str]:
         """What it reads beside the mesh: a change of it is one of its results."""
-        return (FILES & self.fields) | ({"landmarks"} if "sources" in self.fields else set())
+        return FILES & self.fields
 
 
 def _kind(
@@ -36,7 +36,8 @@ def _kind(
     return WorkKind(word, meaning, frozenset(fields.split()), by_distance, frozenset(options.split()), function)
 
 
-OF_SOURCES = "areas sources dtype arrays mask normalise"
+OF_IDS = "areas sources arrays one_based mask normalise"
+OF_SOURCES = f"{OF_IDS} dtype"
 
 KINDS = {
     kind.word: kind
@@ -45,8 +46,8 @@ KINDS = {
         _kind("pairs", "among the sources", f"{OF_SOURCES} labels layout", by_distance=True, function="pairs"),
         _kind("nearest", "their nearest vertices", f"{OF_SOURCES} nearest", by_distance=True, function="neighbours"),
         _kind("eigen", "eigenpairs", "areas eigenpairs dtype arrays normalise", function="eigen"),
-        _kind("fps", "farthest points", "areas sources arrays mask normalise", by_distance=True, function="fps"),
-        _kind("figure", "a picture", "recipe range maxima", options="source distance areas"),
+        _kind("fps", "farthest points", OF_IDS, by_distance=True, function="fps"),
+        _kind("figure", "a picture", "recipe range maxima", options="sources distance areas"),
         _kind("evaluate", "errors of maps", "areas samples arrays", options="maps truth symmetry"),
         _kind(MAXIMA, "", "recipe"),
     )
@@ -55,12 +56,16 @@ KINDS = {
 WORKS = tuple(word for word in KINDS if word != MAXIMA)
 """Those that can be asked for."""
 
-OPTIONS = {"format": "arrays", "source": "sources", "landmarks": "sources", "sample": "sources"}
+OPTIONS = {"format": "arrays"}
 """Options of the command that say a field of a `WorkOrder` by another name."""
+COUNTS = {"nearest": "nearest", "eigen": "eigenpairs"}
+"""Works that `--k` counts for, and the field that it says."""
 
 
 def works_of(option: str) -> tuple[str, ...]:
     """The works that an option of the command has an effect on."""
+    if option == "k":
+        return tuple(work for work in WORKS if work in COUNTS or KINDS[work].by_distance or work == "figure")
     field = OPTIONS.get(option, option)
     return tuple(
         word

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 
 from bihdist_core.errors import ParameterError
 
+from ..document.sources import FARTHEST, HIGHEST, Sources
 from .work_kinds import KINDS, MAXIMA, WORKS
 
 SIZE, SHARED, OWN = RANGES = ("size", "shared", "own")
@@ -18,42 +19,25 @@ LAYOUTS = ("dist", "geodist")
 """Folders of .mat files as benchmarks of shape matching read them (see `layouts`)."""
 ALL = "(all maps)"
 """The name in the tables of what is of all maps together."""
-RULES = ("vertices", "farthest", "sample", "landmarks", "all")
-
-
-@dataclass(frozen=True)
-class Sources:
-    """Where distances start: a rule with its words (vertices), count (farthest, sample), seed (sample) or file
-    (landmarks).  Nothing is the highest vertex."""
-
-    rule: str = "vertices"
-    words: tuple[str, ...] = ()
-    count: int = 0
-    seed: int = 0
-    file: str = ""
-
-    @property
-    def several(self) -> bool:
-        """Whether they are more than one, so that there are pairs among them."""
-        return self.rule != "vertices" or len(self.words) > 1
 
 
 @dataclass(frozen=True)
 class WorkOrder:
     """works: of WORKS, in their order; distances: specs in words; nearest: as many neighbours; samples: of a map, that
-    many vertices or all; labels, mask and the sources' file: a path in which {name} stands for the mesh's.  layout: of
-    LAYOUTS, for pairs.  normalise: "area" for distances and eigenpairs of the mesh scaled to area 1.  recipe: the text
-    of that which figures are drawn from; range: of RANGES; maxima: where those of panels end, if they are not their
-    own."""
+    many vertices or all; labels, mask and the sources' file: a path in which {name} stands for the mesh's.  one_based:
+    whether vertex ids in .mat files count from 1.  layout: of LAYOUTS, for pairs.  normalise: "area" for distances and
+    eigenpairs of the mesh scaled to area 1.  recipe: the text of that which figures are drawn from; range: of RANGES;
+    maxima: where those of panels end, if they are not their own."""
 
     works: tuple[str, ...]
     distances: tuple[str, ...] = ("biharmonic",)
     areas: str = "voronoi"
-    sources: Sources = Sources()
+    sources: Sources = HIGHEST
     eigenpairs: int = 100
     nearest: int = 10
     dtype: str = "float64"
     arrays: str = "npy"
+    one_based: bool = False
     samples: int = 0
     labels: str = ""
     mask: str = ""
@@ -71,14 +55,14 @@ class WorkOrder:
                 raise ParameterError(f"There is no work {work!r}; it is one of {', '.join(WORKS)}.")
         if "pairs" in self.works and not (self.labels or self.sources.several):
             raise ParameterError(
-                "Pairs are among several sources: name them, such as --sources farthest:400, --landmarks or --sources "
-                "all; or --labels for the mean distances between parcels."
+                "Pairs are among several sources: name them, such as --sources farthest:400 or --sources all; or "
+                "--labels for the mean distances between parcels."
             )
         if self.layout and (self.layout not in LAYOUTS or "pairs" not in self.works or len(self.distances) > 1):
             raise ParameterError(
                 f"A layout ({', '.join(LAYOUTS)}) is of the pairs of one distance: --do pairs --sources all."
             )
-        if "fps" in self.works and self.sources.rule != "farthest":
+        if "fps" in self.works and self.sources.rule != FARTHEST:
             raise ParameterError("Farthest points need a number of them: --sources farthest:400.")
 
     def results(self) -> list[tuple[str, str]]:
@@ -98,7 +82,8 @@ class WorkOrder:
     @property
     def files(self) -> dict[str, str]:
         """What is read beside the mesh, by what it is."""
-        named = {"landmarks": self.sources.file, "labels": self.labels, "mask": self.mask}
+        sources = "" if self.sources.text else self.sources.file
+        named = {"sources": sources, "labels": self.labels, "mask": self.mask}
         return {what: path for what, path in named.items() if path}
 
     def file_for(self, pattern: str, name: str) -> str:

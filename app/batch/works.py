@@ -11,19 +11,19 @@ import numpy as np
 from bihdist_core import Laplacian, Surface, read_surface
 from bihdist_core.analysis.neighbours import nearest
 from bihdist_core.analysis.parcels import Parcels, checked_mask, parcel_means
-from bihdist_core.analysis.sampling import farthest_points
 from bihdist_core.analysis.upright import axis_of, guess_up
 from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.distance import Distance
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
-from bihdist_core.formats.pins import PIN_FORMATS, read_pins
 from bihdist_core.formats.whole_numbers import read_whole_numbers
 from bihdist_core.laplacian import eigenpairs
 from bihdist_core.sources.source import Source
-from bihdist_core.sources.words import short_words_of, source_from_words
+from bihdist_core.sources.words import short_words_of
 
+from ..document.sources import FARTHEST
+from ..session.chosen_sources import chosen_sources
 from .results import Array
 from .work_kinds import KINDS
 from .work_order import WorkOrder
@@ -74,22 +74,12 @@ class Mesh:
         """
         # A mask that does not fit is refused whatever the rule.
         asked, surface, counts = self.wanted.sources, self.surface, self.counts
-        if asked.rule == "farthest":
-            if words not in self._sources:
-                found = farthest_points(self.distance(words), self.highest, asked.count, among=counts)
-                self._sources[words] = [*found.tolist()]
-            return self._sources[words]
-        if asked.rule == "landmarks":
-            return _landmarks(self.wanted.file_for(asked.file, self.name), surface)
-        if asked.rule == "vertices":
-            return [source_from_words(words) for words in asked.words] or [self.highest]
-        chosen = np.flatnonzero(counts)
-        if asked.rule == "all":
-            return [*chosen.tolist()]
-        if asked.count > len(chosen):
-            what = "vertices" if self.mask is None else "vertices that are not masked"
-            raise ParameterError(f"{surface.name} has {len(chosen)} {what}, fewer than the sample of {asked.count}.")
-        return [*np.sort(np.random.default_rng(asked.seed).choice(chosen, asked.count, replace=False)).tolist()]
+        by = words if asked.rule == FARTHEST else ""
+        if by not in self._sources:
+            among = None if self.mask is None else counts
+            found = chosen_sources(asked, surface, lambda: self.distance(words), self.name, among, lambda: self.highest)
+            self._sources[by] = found.sources
+        return self._sources[by]
 
     @cached_property
     def mask(self) -> BoolArray | None:
@@ -119,16 +109,6 @@ class Mesh:
     def labels(self) -> IntArray:
         """(n,) the parcel of each vertex."""
         return read_whole_numbers(self.wanted.file_for(self.wanted.labels, self.name), "labels")
-
-
-def _landmarks(file: str, surface: Surface) -> list[Source]:
-    if file.lower().endswith(PIN_FORMATS):
-        found = read_pins(file, surface).vertices
-    else:
-        found = surface.check_vertices(read_whole_numbers(file, "list of landmarks"))
-    if not len(found):
-        raise ParameterError(f"There is no landmark in {file}.")
-    return [*found.tolist()]
 
 
 # ---------------------------------------------------------------------- works
@@ -232,8 +212,8 @@ def _facts_of_distance(distance: Distance) -> dict[str, Any]:
         "label": distance.label,
         "unit": distance.unit,
         "normalisation": "none",
-        "accuracy": error_estimate.text,
-        "accuracy_share": error_estimate.share,
+        "accuracy": error_estimate.share,
+        "accuracy_text": error_estimate.text,
     }
 
 

@@ -3,29 +3,45 @@
 import argparse
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from bihdist_core.counts import counted
 
-from ..batch.work_kinds import KINDS, WORKS, works_of
+from ..batch.work_kinds import COUNTS, KINDS, WORKS, works_of
+from ..document.sources import HIGHEST, Sources
 from ..version import version
-from .options import PARAMETERS, add_areas, add_distance, count, source, specs
-from .terminal import tell
+from .options import (
+    DTYPES,
+    NEIGHBOURS,
+    PARAMETERS,
+    add_areas,
+    add_distance,
+    add_dtype,
+    add_output,
+    add_sources,
+    add_workers,
+    count,
+    eigenpair_count,
+    neighbour_count,
+    specs,
+)
+from .result import Facts, Result
+from .terminal import is_quiet, task_lines, tell, tell_failure
+from .termination import status_of, words_of
 
 if TYPE_CHECKING:
-    from ..batch.drive import Outcome, Tell
+    from ..batch.drive import Meshes, Outcome, Tell
     from ..batch.engines import Engine
     from ..batch.maps import Map
     from ..batch.storage import Folder
     from ..batch.task import Failure, Report, Row
-    from ..batch.work_order import Sources, WorkOrder
+    from ..batch.work_order import WorkOrder
 
-INTERRUPTED = 130
-"""The exit status, as everywhere."""
+EIGENPAIRS = 100
+"""So many, unless `--k` says otherwise."""
 
-RULES = ("source", "sources", "landmarks", "sample")
 OF_RECIPE = ("distance", "areas", *PARAMETERS)
 """Options that a recipe says itself."""
 WORDS = "the same work on many meshes: fields, pairs, neighbours, eigenpairs, farthest points, figures, into a folder"
@@ -33,86 +49,89 @@ WORDS = "the same work on many meshes: fields, pairs, neighbours, eigenpairs, fa
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `batch` to its parser."""
-    parser.add_argument("meshes", help="a folder with meshes, or a list of paths or samples, one a line")
-    parser.add_argument("--out", metavar="DIR", required=True, help="a folder, or s3://... and what else fsspec knows")
+    parser.add_argument("meshes", metavar="MESH", nargs="*", help="mesh files, names of samples, or folders of meshes")
+    parser.add_argument(
+        "--list", metavar="FILE", help="meshes besides, a path or a sample on each line; - for standard input"
+    )
     parser.add_argument(
         "--do",
-        metavar="WORKS",
+        metavar="WORK,…",
         required=True,
         type=lambda text: tuple(word.strip() for word in text.split(",") if word.strip()),
         help=f"some of {', '.join(WORKS)}, with commas: {'; '.join(KINDS[word].meaning for word in WORKS)}",
     )
-    which = parser.add_mutually_exclusive_group()
-    which.add_argument("--source", type=source, metavar="V", nargs="+", help="vertices, as of `field`, on each mesh")
-    which.add_argument(
-        "--sources", metavar="RULE", help="farthest:K, K vertices each farthest from those before it; or all"
+    add_sources(parser, "where distances start on each mesh, whose name stands for {name} in @FILE")
+    add_output(parser, "a folder, or s3://... and what else fsspec knows", metavar="DIR")
+    add_distance(
+        parser,
+        "for fields, pairs, nearest, fps and figure (default: biharmonic)",
+        k=f"the neighbours of nearest (default: {NEIGHBOURS}), the eigenpairs of eigen (default: {EIGENPAIRS})",
     )
-    which.add_argument(
-        "--landmarks", metavar="FILE", help="vertices from a .npy, .txt or file of pins; {name} is the mesh's name"
-    )
-    which.add_argument("--sample", type=count, metavar="K", help="K random vertices, the same each time")
-    parser.add_argument("--seed", type=int, metavar="N", help="of --sample (default: 0)")
-    parser.add_argument("--nearest", type=count, metavar="K", help="for nearest (default: 10)")
-    parser.add_argument("--eigenpairs", type=count, metavar="K", help="for eigen (default: 100)")
-    of_parcels = "for pairs: means between parcels; a number for each vertex, below 0 for none"
+    add_areas(parser)
+    add_dtype(parser, "of arrays")
+    parser.add_argument("--format", choices=("npy", "npz", "mat", "zarr"), help="of arrays (default: npy)")
+    one_based = "with --format mat: vertex ids in files count from 1, as MATLAB's do, and files say so"
+    parser.add_argument("--one-based", action="store_true", default=None, help=one_based)
+    parser.add_argument("--normalise", choices=("area",), help="distances and eigenpairs of each mesh scaled to area 1")
+    parser.add_argument("--mask", metavar="FILE", help="0 or 1 for each vertex: which count; {name} is the mesh's name")
+    of_parcels = "for pairs: means between parcels; a number for each vertex, below 0 for none; {name} is the mesh's"
     parser.add_argument("--labels", metavar="FILE", help=of_parcels)
-    parser.add_argument("--mask", metavar="FILE", help="0 or 1 for each vertex: which count")
-    parser.add_argument("--recipe", metavar="NAME.json", help="for figure: drawn of each mesh, from its highest vertex")
-    parser.add_argument(
-        "--range",
-        choices=("size", "shared", "own"),
-        help="for figure: colours end at one value by the size of each mesh, the root of its area (default); at one "
-        "value in mesh units; at each mesh's own maximum",
-    )
     parser.add_argument(
         "--layout",
         choices=("dist", "geodist"),
         help="for pairs: .mat files in a folder as benchmarks of shape matching read them: dist for ULRSSM and others "
         "that divide by nothing and want --normalise area; geodist for GeomFmaps, DUO-FM and AttentiveFMaps",
     )
-    parser.add_argument("--normalise", choices=("area",), help="distances and eigenpairs of each mesh scaled to area 1")
-    parser.add_argument("--maps", metavar="FOLDER", help="for evaluate: maps called cat-dog.npy, from cat to dog")
-    parser.add_argument("--truth", metavar="WHAT", help="for evaluate: identity, or a folder of maps of the same names")
+    parser.add_argument("--recipe", metavar="FILE.json", help="for figure: drawn of each mesh, from its highest vertex")
     parser.add_argument(
-        "--symmetry", metavar="FILE", help="for evaluate: partners of vertices that count as right, too"
+        "--range",
+        choices=("size", "shared", "own"),
+        help="for figure: colours end at one value by the size of each mesh, the root of its area (default); at one "
+        "value in mesh units; at each mesh's own maximum",
     )
-    parser.add_argument("--samples", type=count, metavar="K", help="for evaluate: of so many vertices")
-    parser.add_argument("--format", choices=("npy", "npz", "mat", "zarr"), help="of arrays (default: npy)")
-    parser.add_argument("--dtype", choices=("float32", "float64"), help="of arrays (default: float64)")
-    parser.add_argument("--workers", type=count, metavar="K", help="processes here (default: as many as cores)")
-    parser.add_argument("--dask", metavar="WHERE", help="a Dask cluster: tcp://HOST:PORT or its scheduler's .json")
-    add_distance(parser, "repeat for more (default: biharmonic)")
-    add_areas(parser)
+    parser.add_argument("--maps", metavar="DIR", help="for evaluate: maps called cat-dog.npy, from cat to dog")
+    parser.add_argument("--truth", metavar="MAP", help="for evaluate: `identity`, or a folder of maps so called")
+    parser.add_argument(
+        "--symmetry", metavar="MAP", help="for evaluate: partners of vertices that count as right, too; {name}: of whom"
+    )
+    parser.add_argument("--samples", type=count, metavar="N", help="for evaluate: of so many vertices (default: all)")
+    add_workers(parser)
+    parser.add_argument("--dask", metavar="WHERE", help="a Dask cluster: tcp://HOST:PORT or its scheduler's FILE.json")
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> Result:
     """Do the chosen work for all meshes and write the tables; the exit status is 1 if some of it failed."""
-    from ..batch.drive import Outcome, do_all, found_meshes, write_tables
+    from ..batch.drive import Outcome, do_all, write_tables
     from ..batch.execution import PARTS
     from ..batch.results import check_format
     from ..batch.storage import Folder
+    from ..batch.task import Failure
 
     wanted = _wanted(options)
     check_format(wanted.arrays)
-    meshes = found_meshes(options.meshes)
-    address = options.out if "://" in options.out else os.path.abspath(options.out)
+    found = _meshes(options)
+    meshes = found.paths
+    address = options.output if "://" in options.output else os.path.abspath(options.output)
     folder = Folder(address)
     folder.make()
-    maps, unnamed = _maps(options, meshes)
+    maps, failures = _maps(options, meshes)
+    unnamed = [*failures]
+    failures += [Failure(name, *each, why) for name, why in found.missing.items() for each in wanted.results()]
     evaluated = [*(map.name for map in maps), *(each.name for each in unnamed)] if "evaluate" in wanted.works else None
-    engine, outcome = _engine(options), Outcome(failures=unnamed)
+    engine, outcome = _engine(options), Outcome(failures=failures)
+    names = [*meshes, *found.missing]
     try:
         do_all(meshes, maps, wanted, address, version(), engine, _progress, outcome)
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as error:
         done = counted(len(outcome.rows), "result")
-        tell(f"interrupted; {done} in {folder}. The same command goes on from there.")
-        return INTERRUPTED
+        tell_failure(f"{words_of(error)}; {done} in {folder}. The same command goes on from there.")
+        return Result(_facts(folder, outcome, len(names)), status_of(error))
     finally:
         # Whatever happened, and before the pages, which may fail: the tables say what is there.
         try:
             engine.close()
         finally:
-            write_tables(folder, outcome, meshes, evaluated)
+            write_tables(folder, outcome, names, evaluated)
     folder.sweep()
     left = folder.size(PARTS)
     if left:
@@ -122,18 +141,48 @@ def run(options: argparse.Namespace) -> int:
         folder.remove(PARTS)
     pages, lines = _pages(folder, outcome)
     if lines:
-        write_tables(folder, outcome, meshes, evaluated, lines)
+        write_tables(folder, outcome, names, evaluated, lines)
     new = sum(row.is_new for row in outcome.rows)
     kept = len(outcome.rows) - new
     there = f", {kept} of them there before" if kept else ""
-    print(f"{folder}: {counted(len(outcome.rows), 'result')} of {counted(len(meshes), 'mesh', 'meshes')}{there}")
+    print(f"{folder}: {counted(len(outcome.rows), 'result')} of {counted(len(names), 'mesh', 'meshes')}{there}")
     for page in pages:
         print(f"{folder}/{page}")
     if outcome.failures:
         for line in _reasons(outcome)[:5]:
-            tell(line)
-        tell(f"{counted(len(outcome.failures), 'result')} missing; {folder}/failures.csv says why.")
-    return 1 if outcome.failures else 0
+            tell_failure(line)
+        tell_failure(f"{counted(len(outcome.failures), 'result')} missing; {folder}/failures.csv says why.")
+    return Result(_facts(folder, outcome, len(names), pages), 1 if outcome.failures else 0)
+
+
+def _facts(folder: "Folder", outcome: "Outcome", n_meshes: int, pages: Sequence[str] = ()) -> Facts:
+    """What is there, what is missing, and the tables and pages about all of it."""
+    tables = ["summary.csv", *(["failures.csv"] if outcome.failures else [])]
+    return {
+        "output": str(folder),
+        "n_meshes": n_meshes,
+        "outputs": [f"{folder}/{name}" for name in (*tables, *pages)],
+        "results": [
+            {
+                "mesh": row.name, "work": row.work, "distance": row.distance, "file": row.facts["file"],
+                "seconds": row.facts.get("seconds"), "is_new": row.is_new,
+            }
+            for row in outcome.rows
+        ],
+        "failures": [
+            {"mesh": each.name, "work": each.work, "distance": each.distance, "reason": each.reason}
+            for each in outcome.failures
+        ],
+    }  # fmt: skip
+
+
+def _meshes(options: argparse.Namespace) -> "Meshes":
+    from ..batch.drive import found_meshes
+    from ..document.lists import standard_input
+
+    if options.list != "-":
+        return found_meshes(options.meshes, options.list or "")
+    return found_meshes(options.meshes, "standard input", standard_input("meshes"))
 
 
 def _reasons(outcome: "Outcome") -> list[str]:
@@ -180,17 +229,20 @@ def _wanted(options: argparse.Namespace) -> "WorkOrder":
     from ..batch.work_order import WorkOrder
 
     _check_together(options)
-    chosen = tuple(str(each) for each in specs(options, list(dict.fromkeys(options.distance or ["biharmonic"]))))
+    words = list(dict.fromkeys(options.distance or ["biharmonic"]))
+    eigenpairs, neighbours = _counts(options, words)
+    chosen = tuple(str(each) for each in specs(options, words))
     recipe = _recipe(options, chosen) if "figure" in options.do else ""
     return WorkOrder(
         works=options.do,
         distances=chosen,
         areas=options.areas or "voronoi",
         sources=_sources(options),
-        eigenpairs=options.eigenpairs or 100,
-        nearest=options.nearest or 10,
-        dtype=options.dtype or "float64",
+        eigenpairs=eigenpairs,
+        nearest=neighbours,
+        dtype=options.dtype or DTYPES[0],
         arrays=options.format or "npy",
+        one_based=bool(options.one_based),
         samples=options.samples or 0,
         layout=options.layout or "",
         normalise=options.normalise or "",
@@ -201,6 +253,18 @@ def _wanted(options: argparse.Namespace) -> "WorkOrder":
     )
 
 
+def _counts(options: argparse.Namespace, words: list[str]) -> tuple[int, int]:
+    """How many eigenpairs and neighbours `--k` says; ParameterError where it may be either."""
+    from bihdist_core.errors import ParameterError
+
+    counted = [work for work in COUNTS if work in options.do]
+    if len(counted) > 1 and options.k is not None:
+        raise ParameterError(f"--k {options.k} may be that of nearest or of eigen; do each by a command.")
+    if "nearest" in counted:
+        return EIGENPAIRS, neighbour_count(options, words)
+    return (eigenpair_count(options, words, EIGENPAIRS) if counted else EIGENPAIRS), NEIGHBOURS
+
+
 def _check_together(options: argparse.Namespace) -> None:
     """ParameterError for options that would be left without effect."""
     from bihdist_core.errors import ParameterError
@@ -209,21 +273,25 @@ def _check_together(options: argparse.Namespace) -> None:
     if not asked or not asked <= {*WORKS}:
         return  # a work that there is not is refused before its options
     for name in vars(options):
-        works = works_of("distance" if name in PARAMETERS else name)
+        works = works_of("distance" if name in PARAMETERS and name != "k" else name)
         if not works or getattr(options, name) is None:
             continue
         counts = asked.intersection(works)
         if not counts:
-            raise ParameterError(f"--{name} goes with --do {_either(works)}.")
+            raise ParameterError(f"--{name.replace('_', '-')} goes with --do {_either(works)}.")
         if options.recipe and name in OF_RECIPE and counts == {"figure"}:
             raise ParameterError(f"--{name} has no effect on figures of a recipe, which says it; leave it out.")
-        if options.labels and name in RULES and counts == {"pairs"}:
+        if options.labels and name == "sources" and counts == {"pairs"}:
             raise ParameterError(f"--{name} has no effect on the means between parcels; leave it out.")
-    if options.seed is not None and options.sample is None:
-        raise ParameterError("--seed goes with --sample.")
-    takes_several = asked.intersection(works_of("sources")) - ({"pairs"} if options.labels else set())
-    if len(options.source or ()) > 1 and not takes_several:
-        raise ParameterError("Figures have one source; name one vertex after --source.")
+    if options.one_based and options.layout:
+        raise ParameterError(f"--one-based has no effect on --layout {options.layout}, whose files have no vertex ids.")
+    if options.one_based and options.format != "mat":
+        raise ParameterError(
+            f"--one-based goes with --format mat; vertex ids in .{options.format or 'npy'} files count from 0."
+        )
+    takes_several = asked.intersection(works_of("sources")) - {"figure"} - ({"pairs"} if options.labels else set())
+    if options.sources and options.sources.several and not takes_several:
+        raise ParameterError("Figures have one source; name one vertex after --sources.")
     if options.layout and options.format not in (None, "npy"):
         raise ParameterError(f"--layout {options.layout} writes .mat files; leave out --format {options.format}.")
 
@@ -250,47 +318,45 @@ def _recipe(options: argparse.Namespace, distances: tuple[str, ...]) -> str:
     else:
         shows = tuple(Spec.parse(each) for each in distances)
         recipe = Recipe(comparison("mesh", shows, areas=options.areas or "voronoi"))
-    document = recipe.document
-    points = tuple(replace(p, at=options.source[0] if options.source else None) for p in document.points)
+    document, members = recipe.document, options.sources.members if options.sources else ()
+    first = members[0] if members else None
+    points = tuple(replace(p, at=first) for p in document.points)
     surface = replace(document.surfaces[0], path="mesh", sha256="")
     document = replace(document, surfaces=(surface,), points=points)
     return recipe_text(replace(recipe, document=document), version())
 
 
-def _sources(options: argparse.Namespace) -> "Sources":
-    from bihdist_core.errors import ParameterError
-    from bihdist_core.sources.words import short_words_of
+def _sources(options: argparse.Namespace) -> Sources:
+    from dataclasses import replace
 
-    from ..batch.work_order import Sources
-
-    if options.landmarks:
-        return Sources("landmarks", file=os.path.abspath(options.landmarks))
-    if options.sample:
-        return Sources("sample", count=options.sample, seed=options.seed or 0)
-    if options.sources:
-        rule, _, number = options.sources.partition(":")
-        if rule == "all" and not number:
-            return Sources("all")
-        if rule == "farthest" and number.isdigit() and int(number) > 0:
-            return Sources("farthest", count=int(number))
-        raise ParameterError(f"{options.sources!r} is no rule for sources; it is farthest:400, say, or all.")
-    words = tuple(short_words_of(each) for each in options.source or ())
-    return Sources("vertices", words)
+    asked = options.sources or HIGHEST
+    return replace(asked, file=os.path.abspath(asked.file)) if asked.file and not asked.text else asked
 
 
 def _engine(options: argparse.Namespace) -> "Engine":
     from ..batch.engines import Cluster, Processes
 
     if options.dask:
-        return Cluster(options.dask)
+        return Cluster(options.dask, tell)
     return Processes(options.workers or os.cpu_count() or 1)
 
 
 @contextmanager
 def _progress(total: int) -> "Iterator[Tell]":
-    """A bar with rate and time left on a terminal, a line for each task elsewhere."""
+    """A bar with rate and time left on a terminal, a line for each task elsewhere; nothing where that is asked for."""
+    if is_quiet():
+        yield lambda report, done, of: None
+        return
     if not sys.stderr.isatty():
-        yield _line
+        reached = (0, total)
+
+        def line(report: "Report", done: int, of: int) -> None:
+            nonlocal reached
+            reached = done, of
+            say(_line(report, done, of))
+
+        with task_lines(lambda: f"{reached[0]} of {reached[1]} done, others under way") as say:
+            yield line
         return
     from tqdm import tqdm
 
@@ -307,8 +373,8 @@ def _progress(total: int) -> "Iterator[Tell]":
         yield show
 
 
-def _line(report: "Report", done: int, of: int) -> None:
+def _line(report: "Report", done: int, of: int) -> str:
     remark = f"{len(report.failures)} failed" if report.failures else ""
     if not remark and report.rows and not any(row.is_new for row in report.rows):
         remark = "there before"
-    print(f"{done} of {of}: {report.task.words}{': ' if remark else ''}{remark}", file=sys.stderr)
+    return f"{done} of {of}: {report.task.words}{': ' if remark else ''}{remark}"

@@ -6,8 +6,9 @@ from bihdist_core.counts import counted
 
 from ..document.field_names import distinct, field_name
 from .field_of import field_of
-from .mesh import Facts, add_meshes, into_each
-from .options import SOURCE, add_areas, add_distance, add_output, source
+from .mesh import add_meshes, into_each
+from .options import add_areas, add_distance, add_output, add_sources
+from .result import Facts, Result
 from .terminal import progress_line
 
 WORDS = "distances of all vertices from one or more sources"
@@ -17,15 +18,13 @@ TEXT = ".csv"
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `field` to its parser."""
     add_meshes(parser)
-    parser.add_argument(
-        "--source", type=source, metavar="V", nargs="+", required=True, help=f"{SOURCE}; several words, several fields"
-    )
+    add_sources(parser, "where distances start, a field each")
     add_output(parser, "a .npy, .csv, .ply or .vtp file; {name} is that of each mesh")
-    add_distance(parser)
+    add_distance(parser, is_field=True)
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> Result:
     """Write the distances of all vertices from each source; the exit status is 1 if a mesh failed."""
     return into_each(options, _one)
 
@@ -37,9 +36,10 @@ def _one(options: argparse.Namespace) -> Facts:
 
     check_output(options.output, FIELD_FORMATS)
     with progress_line() as progress:
-        it = field_of(options, options.distance, progress)
+        it = field_of(options, options.distance, progress, several=True)
     label = f"{it.label}, {it.unit}" if it.unit == PERCENTAGE_POINTS else it.label
-    names = distinct([field_name(it.shows, [each]) for each in options.source])
+    names = distinct([field_name(it.shows, [each]) for each in it.sources])
     write_fields(options.output, it.surface, dict(zip(names, it.field.T, strict=True)))
     size = f"{it.field.shape[0]:,} vertices, {counted(it.field.shape[1], 'source')}"
-    return {"said": [f"{label}, {size}{it.estimate}"], "label": label, "shape": list(it.field.shape), "fields": names}
+    print(f"{options.output}: {label}, {size}{it.estimate}")
+    return {**it.facts, "shape": list(it.field.shape), "columns": names}

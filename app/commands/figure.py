@@ -1,11 +1,13 @@
 """`bihdist figure`: the window's comparison as a picture, without a window."""
 
 import argparse
+from pathlib import Path
 
 from bihdist_core.sources.words import short_words_of
 
 from ..version import version
 from .figure_options import add_figure_options, chosen_recipe
+from .result import Result, panel_facts
 from .terminal import judged, progress_line, tell, tell_repairs
 
 WORDS = "the window's comparison as a picture, without a window"
@@ -17,12 +19,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--tex", action="store_true", help="a LaTeX snippet beside it, with a caption")
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> Result:
     """Draw the figure and write its recipe; the exit status is 1 if a panel failed."""
     from ..document.document import starting_points
     from ..figures.draw import described
     from ..figures.export import export
+    from ..figures.tex import tex_path
     from ..session.questions import source_at
+    from ..session.recipe_file import written_recipe
 
     recipe = chosen_recipe(options)
     remarks: list[str] = []
@@ -39,4 +43,11 @@ def run(options: argparse.Namespace) -> int:
     starts = list(dict.fromkeys(source_at(point.at, surface) for point in points))
     what = ", source vertex " if all(isinstance(each, int) for each in starts) else ", source "
     print(f"{options.output}: {described(figure)}{what if starts else ''}{', '.join(map(short_words_of, starts))}")
-    return judged(answers, surface.name)
+    document, snippet = recipe.document, str(tex_path(Path(options.output)))
+    facts = {
+        "meshes": [{"mesh": mesh.path} for mesh in document.surfaces],
+        "outputs": [options.output, str(written_recipe(options.output)), *([snippet] if options.tex else [])],
+        "sources": [each if isinstance(each, int) else short_words_of(each) for each in starts],
+        "panels": [panel_facts(p.shows, answer) for p, answer in zip(document.panels, answers, strict=True)],
+    }
+    return Result(facts, judged(answers, surface.name))

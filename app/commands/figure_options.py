@@ -10,21 +10,24 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from ..figures.options import made_from, rows, with_options, with_rows
+from .mesh_sources import sources_of_document
 from .options import (
+    MESH,
     PANELS,
-    SOURCE,
     add_distance,
     add_output,
     add_rows,
+    add_sources,
     check_parameters,
     given,
     given_parameters,
     quantities,
-    source,
 )
 from .terminal import progress_line, tell
 
 if TYPE_CHECKING:
+    from bihdist_core.sources.source import Source
+
     from ..document.document import Document
     from ..document.page import Recipe
     from ..document.quantities import Quantity
@@ -32,19 +35,16 @@ if TYPE_CHECKING:
 
 def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     """All but what only one of the two has.  None stands for what is not given."""
-    parser.add_argument("mesh", nargs="?", help="mesh file, or the name of a sample")
-    parser.add_argument("beside", nargs="?", help="a second mesh B, to stand beside the first, A")
+    parser.add_argument("mesh", metavar="MESH", nargs="?", help=MESH)
+    parser.add_argument("beside", metavar="BESIDE", nargs="?", help="a second mesh B, to stand beside the first, A")
+    add_sources(parser, "where distances start, a row of panels each")
     add_output(parser, files)
-    parser.add_argument("--recipe", metavar="NAME.json", help="draw this again; all other options change it")
+    add_distance(parser, PANELS, is_field=True)
+    parser.add_argument("--recipe", metavar="FILE.json", help="draw this again; all other options change it")
     parser.add_argument(
-        "--mesh", dest="other_mesh", metavar="OTHER", help="with --recipe: the same of another mesh with these vertices"
+        "--mesh", dest="other_mesh", metavar="MESH", help="with --recipe: the same of another mesh with these vertices"
     )
-    parser.add_argument(
-        "--source", type=source, metavar="V", action="append", help=f"{SOURCE}; repeat for a row of panels each"
-    )
-    add_distance(parser, PANELS)
     add_rows(parser, *rows())
-    parser.add_argument("--two-views", action="store_true", help="front and back, side by side")
 
 
 def chosen_recipe(options: argparse.Namespace) -> "Recipe":
@@ -71,12 +71,10 @@ def chosen_recipe(options: argparse.Namespace) -> "Recipe":
 
 def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     values = given(options, *rows())
-    if options.two_views:
-        values["views"] = [*values.get("views", ()), "front", "back"]
     document, made = made_from(recipe.document)
     if options.other_mesh is not None:
         document = _with_other_mesh(document, options.other_mesh)
-    document, columns = _with_panels(document, options)
+    document, columns = _with_panels(document, options, _sources(document, options))
     if columns is not None and not made:
         recipe = replace(recipe, page=replace(recipe.page, columns=columns))
     recipe = with_rows(replace(recipe, document=document), made, rows())
@@ -118,7 +116,21 @@ def _with_other_mesh(document: "Document", path: str) -> "Document":
     return replace(document, surfaces=(replace(document.surfaces[0], path=path, sha256=""),))
 
 
-def _with_panels(document: "Document", options: argparse.Namespace) -> "tuple[Document, int | None]":
+def _sources(document: "Document", options: argparse.Namespace) -> "list[Source]":
+    """Those that the options name on the first mesh, none if they name none."""
+    if options.sources is None:
+        return []
+    words = options.distance
+    shows = quantities(options, words, [field.name for field in document.fields]) if words else []
+    shown = shows or [panel.shows for panel in document.panels]
+    mesh, areas = document.surfaces[0].path, options.areas or document.areas
+    with progress_line() as progress:
+        return sources_of_document(options.sources, mesh, shown, areas, progress)
+
+
+def _with_panels(
+    document: "Document", options: argparse.Namespace, asked: "list[Source]"
+) -> "tuple[Document, int | None]":
     """Other distances, parameters or sources; and how many panels a row then has, if they stand in rows."""
     from bihdist_core import ParameterError
 
@@ -126,16 +138,16 @@ def _with_panels(document: "Document", options: argparse.Namespace) -> "tuple[Do
     from ..document.edits import put_point, show_in
     from ..document.quantities import from_point
 
-    if options.distance or (options.source and len(options.source) != len(document.sources)):
+    if options.distance or (asked and len(asked) != len(document.sources)):
         words = options.distance
         shows = tuple(quantities(options, words, [field.name for field in document.fields])) if words else ()
         shows = shows or tuple(
             dict.fromkeys(from_point(_respecified(panel.shows, options), "") for panel in document.panels)
         )
         if len(document.surfaces) != 1:
-            what = "--distance" if words else f"{len(options.source)} times --source"
+            what = "--distance" if words else f"--sources with {len(asked)}"
             raise ParameterError(f"{what} makes the panels of one mesh, and this recipe has {len(document.surfaces)}.")
-        surface, sources = document.surfaces[0].name, tuple(options.source or document.sources)
+        surface, sources = document.surfaces[0].name, tuple(asked or document.sources)
         used = {*document.isolines.through, *(name for part in document.parts for name in part.points)}
         kept = [point for point in document.points if point.name in used]
         names = free_names("source", len(sources), [point.name for point in kept])
@@ -147,8 +159,8 @@ def _with_panels(document: "Document", options: argparse.Namespace) -> "tuple[Do
     for panel in document.panels:
         document = show_in(document, panel.id, _respecified(panel.shows, options))
     check_parameters(options, [spec for panel in document.panels for spec in panel.shows.specs])
-    if options.source:
-        moved = dict(zip(document.sources, options.source, strict=True))
+    if asked:
+        moved = dict(zip(document.sources, asked, strict=True))
         shown = dict.fromkeys(name for panel in document.panels for name in panel.shows.points)
         for name, point in [(name, document.point(name)) for name in shown]:
             document = put_point(document, name, moved[point.at], point.surface)

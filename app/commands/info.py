@@ -1,12 +1,12 @@
 """`bihdist info`: what a mesh file holds."""
 
 import argparse
-import json
 from typing import TYPE_CHECKING, Any
 
 from ..document.document import AREAS
 from .mesh import each_mesh, found_mesh
 from .options import add_areas
+from .result import Facts, Result, distance_facts, facts_of
 from .terminal import accuracy, progress_line
 
 if TYPE_CHECKING:
@@ -14,90 +14,84 @@ if TYPE_CHECKING:
 
 MOST_LOOPS = 4
 """So many boundary loops are described."""
+COUNTS = {
+    "n_vertices": "vertices",
+    "n_faces": "faces",
+    "n_components": "components",
+    "boundary_loop_count": "boundary loops",
+    "genus": "genus",
+    "nonmanifold_edge_count": "non-manifold edges",
+    "nonmanifold_vertex_count": "non-manifold vertices",
+    "unreferenced_count": "vertices without a face",
+}
+"""Attributes of a surface, and the words for them."""
+SENTENCES = ("facts", "repairs", "warnings")
 
 WORDS = "what a mesh file holds and what would be repaired"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `info` to its parser."""
-    parser.add_argument("meshes", nargs="*", metavar="mesh", help="mesh files, or the names of samples")
+    parser.add_argument("meshes", nargs="*", metavar="MESH", help="mesh files, or the names of samples")
     parser.add_argument(
         "--accuracy", action="store_true", help="how accurate its exact distances are; factors the mesh"
     )
     parser.add_argument("--solver", action="store_true", help="whether the solver runs compiled; needs no mesh")
-    parser.add_argument("--json", action="store_true", help="as JSON: a list with an object for each mesh")
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> int:
-    """Print what is known of each mesh; the exit status is 1 if one could not be read."""
-    if options.meshes:
-        return each_mesh(options.meshes, lambda mesh: _facts(mesh, options), options.json, _print)
-    if not options.solver:
-        from bihdist_core.errors import ParameterError
+def run(options: argparse.Namespace) -> Result:
+    """Print what is known of each mesh; the exit status is 2 if one of several could not be read."""
+    from bihdist_core.errors import ParameterError
+    from bihdist_core.kernel.library import description
 
+    solver = {"solver": description()} if options.solver else {}
+    if not (options.meshes or options.solver):
         raise ParameterError("There is nothing to describe; name a mesh.")
-    if options.json:
-        print(json.dumps([_solver()], indent=2))
-    else:
-        _print_rows(_solver())
-    return 0
+    if not options.meshes:
+        _print_rows(solver)
+        return Result({"meshes": [], "failures": [], **solver})
+    done = each_mesh(options.meshes, lambda mesh: _described(mesh, options, solver))
+    return Result({**done.facts, **solver}, done.status)
 
 
-def _facts(mesh: str, options: argparse.Namespace) -> dict[str, Any]:
+def _described(mesh: str, options: argparse.Namespace, solver: dict[str, str]) -> Facts:
+    """Print what is known of a mesh, and give it in plain values."""
     from bihdist_core import read_surface
     from bihdist_core.analysis.surface_notes import surface_notes
 
     s = read_surface(found_mesh(mesh))
     notes = surface_notes(s)
-    facts: dict[str, Any] = {
-        "mesh": s.name,
-        "vertices": len(s.vertices),
-        "faces": len(s.faces),
-        "components": s.n_components,
-        "boundary loops": s.boundary_loop_count if options.json else _loops(s),
-        "genus": s.genus,
-        "non-manifold edges": s.nonmanifold_edge_count,
-        "non-manifold vertices": s.nonmanifold_vertex_count,
-        "vertices without a face": s.unreferenced_count,
-        "degenerate faces": len(s.degenerate_faces),
-        "mean edge length": s.mean_edge_length,
-        "area": float(s.face_areas.sum()),
-        "facts": list(notes.facts),
-        "repairs": list(notes.repairs),
-        "warnings": list(notes.warnings),
+    facts = {
+        "mesh": mesh,
+        **facts_of(s, *COUNTS),
+        "n_degenerate_faces": len(s.degenerate_faces),
+        **facts_of(s, "mean_edge_length", "area", "bounds", "is_manifold"),
+        **facts_of(notes, *SENTENCES),
     }
-    if options.solver:
-        facts |= _solver()
+    rows = {
+        **({"mesh": s.name} if len(options.meshes) > 1 else {}),
+        **{words: facts[name] for name, words in COUNTS.items()},
+        "boundary loops": _loops(s),
+        "genus": "not defined (not manifold or not orientable)" if s.genus is None else s.genus,
+        "degenerate faces": len(s.degenerate_faces),
+        "mean edge length": f"{s.mean_edge_length:.6g}",
+        "area": f"{s.area:.6g}",
+        **{name: "; ".join(facts[name]) or "none" for name in SENTENCES},
+        **solver,
+    }
     if options.accuracy:
-        facts |= dict(_accuracies(s, options.areas or AREAS[0]))
+        facts["distances"] = _accuracies(s, options.areas or AREAS[0])
+        rows |= {each["label"]: each["failure"] or each["accuracy_text"] for each in facts["distances"]}
+    _print_rows(rows)
+    if len(options.meshes) > 1:
+        print()
     return facts
 
 
-def _print(facts: dict[str, Any], several: bool) -> None:
-    shown = {
-        **facts,
-        "genus": "not defined (not manifold or not orientable)" if facts["genus"] is None else facts["genus"],
-        "mean edge length": f"{facts['mean edge length']:.6g}",
-        "area": f"{facts['area']:.6g}",
-        **{name: "; ".join(facts[name]) or "none" for name in ("facts", "repairs", "warnings")},
-    }
-    if not several:
-        del shown["mesh"]
-    _print_rows(shown)
-    if several:
-        print()
-
-
-def _print_rows(facts: dict[str, Any]) -> None:
-    for name, value in facts.items():
+def _print_rows(rows: dict[str, Any]) -> None:
+    for name, value in rows.items():
         print(f"{name:<26}{f'{value:,}' if isinstance(value, int) else value}")
-
-
-def _solver() -> dict[str, str]:
-    from bihdist_core.kernel.library import description
-
-    return {"solver": description()}
 
 
 def _loops(surface: "Surface") -> str:
@@ -116,19 +110,21 @@ def _loops(surface: "Surface") -> str:
     return f"{count} ({', '.join(lines)})" if lines else "0"
 
 
-def _accuracies(surface: "Surface", areas: str) -> list[tuple[str, str]]:
-    """Label and words for each exact distance."""
+def _accuracies(surface: "Surface", areas: str) -> list[Facts]:
+    """For each exact distance how accurate it is on all components, or why it is not given."""
     from bihdist_core import Laplacian, SolverError
     from bihdist_core.distances.answers import Distances
     from bihdist_core.distances.kinds import Spec
 
-    lines = []
+    found = []
     with progress_line() as progress:
         distances = Distances(Laplacian(surface, areas))
         for word in ("biharmonic", "commute-time"):
             try:
                 distance = distances.get(Spec.of(word), progress)
-                lines.append((distance.label, accuracy(distance, everywhere=True).removeprefix(", ")))
+                accuracy(distance, everywhere=True)  # warns
+                found.append({**distance_facts(distance, word, everywhere=True), "failure": ""})
             except SolverError as error:
-                lines.append((f"{word}, exact", str(error)))
-    return lines
+                nothing = {"accuracy": None, "accuracy_text": "", "failure": str(error)}
+                found.append({"distance": word, "label": f"{word}, exact", "unit": "", **nothing})
+    return found

@@ -9,7 +9,8 @@ from bihdist_core.counts import counted
 from ..document.looks import TWENTY_STEPS, Isolines
 from ..figures.look_options import ISOLINES, isolines_with
 from .field_of import FieldOf, field_of
-from .options import SOURCE, add_areas, add_distance, add_rows, given, source
+from .options import add_areas, add_distance, add_mesh, add_output, add_rows, add_sources, given
+from .result import Facts, Result
 from .terminal import progress_line
 
 if TYPE_CHECKING:
@@ -22,20 +23,20 @@ TEXT = ".csv"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `isolines` to its parser."""
-    parser.add_argument("mesh", help="mesh file, or the name of a sample")
-    parser.add_argument("--source", type=source, metavar="V", required=True, help=SOURCE)
-    parser.add_argument("-o", "--output", metavar="OUT", help="the isolines: a .csv, .obj, .vtp or .json file")
-    add_rows(parser, ISOLINES)
+    add_mesh(parser)
+    add_sources(parser, "the one source where the distance starts")
+    add_output(parser, "the isolines: a .csv, .obj, .vtp or .json file", required=False)
+    parser.add_argument("--region-ids", metavar="OUT", help="vertices of --region: a .txt, .npy or .csv file")
+    parser.add_argument("--region-mesh", metavar="OUT", help="--region cut out along its isolines: a .ply or .vtp file")
+    add_distance(parser, is_field=True)
+    add_areas(parser)
     parser.add_argument(
         "--region", metavar="LOW:HIGH", help="between two values, or fractions of the maximum: 20%%:40%%"
     )
-    parser.add_argument("--region-ids", metavar="OUT", help="its vertices: a .txt, .npy or .csv file")
-    parser.add_argument("--region-mesh", metavar="OUT", help="cut out along its isolines: a .ply or .vtp file")
-    add_distance(parser)
-    add_areas(parser)
+    add_rows(parser, ISOLINES)
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Print the lengths of isolines, and write them and the region between two values where asked."""
     from bihdist_core.analysis.bands import band
     from bihdist_core.analysis.isoline_output import ISOLINE_FORMATS, write_isolines
@@ -59,6 +60,8 @@ def run(options: argparse.Namespace) -> None:
     with progress_line() as progress:
         it = field_of(options, options.distance, progress)
     wanted = wanted.scaled(it.scale)
+    files = (options.output, options.region_ids, options.region_mesh)
+    facts: Facts = {"mesh": options.mesh, **it.facts, "outputs": [file for file in files if file]}
     if options.output:
         values = _values(it, wanted, options.isoline_through or ())
         lines = isolines(it.surface, it.field, values)
@@ -66,6 +69,7 @@ def run(options: argparse.Namespace) -> None:
         length = sum(line.length for line in lines)
         size = f"{counted(len(lines), 'curve')} at {counted(len(values), 'value')}, together {length:.6g} long"
         print(f"{options.output}: {it.label}, {size}{it.estimate}")
+        facts |= {"values": values, "n_curves": len(lines), "length": length}
     if options.region:
         # Of a difference 5 % are five percentage points, and not a fraction of its largest value.
         ends = region_from_words(options.region, 1.0 if it.scale != 1 else it.top)
@@ -79,6 +83,11 @@ def run(options: argparse.Namespace) -> None:
         part = found.area / it.surface.face_areas.sum()
         held = counted(len(found.vertices), "vertex", "vertices")
         print(f"region {options.region}: area {found.area:.6g}, {part:.1%}, {held}")
+        low, high = (it.scale * end for end in ends)
+        facts["region"] = {
+            "low": low, "high": high, "area": found.area, "area_fraction": part, "n_vertices": len(found.vertices)
+        }  # fmt: skip
+    return Result(facts)
 
 
 def _values(it: FieldOf, wanted: Isolines, through: Sequence[int]) -> "FloatArray":

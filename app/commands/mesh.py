@@ -4,11 +4,12 @@ import argparse
 import os
 from collections.abc import Callable, Iterable, Sequence
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..document.document import AREAS
 from ..samples import mesh_path, sample_names
-from .terminal import tell, tell_repairs
+from .result import Facts, Result
+from .terminal import tell_failure, tell_repairs
 
 if TYPE_CHECKING:
     from bihdist_core import Laplacian
@@ -56,24 +57,20 @@ def laplacian_of(mesh: str, areas: str | None = None) -> "Laplacian":
     return Laplacian(surface, areas or AREAS[0])
 
 
-Facts = dict[str, Any]
 NAME = "{name}"
 """In an output it stands for the name of each mesh."""
 
 
 def add_meshes(parser: argparse.ArgumentParser) -> None:
-    """Several meshes, and what is said of them as JSON."""
-    parser.add_argument("meshes", nargs="+", metavar="mesh", help="mesh files, or the names of samples")
-    parser.add_argument(
-        "--json", action="store_true", help="say what was done as JSON: a list, an object for each mesh"
-    )
+    """Add the argument of several meshes."""
+    parser.add_argument("meshes", nargs="+", metavar="MESH", help="mesh files, or the names of samples")
 
 
-def into_each(options: argparse.Namespace, do: Callable[[argparse.Namespace], Facts]) -> int:
+def into_each(options: argparse.Namespace, do: Callable[[argparse.Namespace], Facts]) -> Result:
     """Do something with each mesh, into an output of its own.
 
-    do: gets the options with `mesh` and `output`; what it returns has the mesh, the output and, as `said`, a line or
-    several.  ParameterError if several meshes had one output.
+    do: gets the options with `mesh` and `output`, says what it has done and returns it.  ParameterError if several
+    meshes had one output.
     """
     from bihdist_core.errors import ParameterError
 
@@ -93,40 +90,25 @@ def into_each(options: argparse.Namespace, do: Callable[[argparse.Namespace], Fa
 
     def one(mesh: str) -> Facts:
         own = {**vars(options), "mesh": mesh, "output": output(mesh)}
-        return {"mesh": mesh, "output": own["output"], **do(argparse.Namespace(**own))}
+        return {"mesh": mesh, "outputs": [own["output"]], **do(argparse.Namespace(**own))}
 
-    def say(facts: Facts, several: bool) -> None:
-        for line in facts["said"]:
-            print(f"{facts['output']}: {line}")
-
-    return each_mesh(options.meshes, one, options.json, say)
+    return each_mesh(options.meshes, one)
 
 
-def each_mesh(
-    meshes: Sequence[str], do: Callable[[str], Facts], as_json: bool, say: Callable[[Facts, bool], None]
-) -> int:
-    """Do something with each mesh and say what is to be said of it, as JSON when all are done.
+def each_mesh(meshes: Sequence[str], do: Callable[[str], Facts]) -> Result:
+    """Do something with each mesh.
 
-    say: gets whether there are several.  The exit status: 2 if one of several failed, which costs no other; what is
-    wrong with a single one is raised.
+    The exit status is 2 if one of several failed, which costs no other; what is wrong with a single one is raised.
     """
-    import json
-
     from bihdist_core.errors import BihdistError
 
-    done, failed = [], 0
+    done, failures = [], []
     for mesh in meshes:
         try:
-            facts = do(mesh)
+            done.append(do(mesh))
         except BihdistError as error:
             if len(meshes) == 1:
                 raise
-            tell(str(error))
-            failed += 1
-            continue
-        done.append(facts)
-        if not as_json:
-            say(facts, len(meshes) > 1)
-    if as_json:
-        print(json.dumps(done, indent=2, ensure_ascii=False))
-    return 2 if failed else 0
+            tell_failure(str(error))
+            failures.append({"mesh": mesh, "reason": str(error)})
+    return Result({"meshes": done, "failures": failures}, 2 if failures else 0)

@@ -4,6 +4,8 @@ import argparse
 import os
 
 from .figure_options import add_figure_options, chosen_recipe
+from .options import add_workers
+from .result import Result, panel_facts
 from .terminal import judged, progress_line
 
 WORDS = "a figure that turns, or whose source wanders, as MP4 or GIF"
@@ -16,14 +18,18 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--turn", type=float, metavar="DEGREES", help="how far the shape turns (default: 360, or 0 with --path)"
     )
     parser.add_argument(
-        "--path", type=_path, default=(), metavar="V,W,…", help="the source goes through these vertices"
+        "--path",
+        type=_path,
+        default=(),
+        metavar="V,…",
+        help="the source goes through these, instead of --sources",
     )
     parser.add_argument("--frames", type=int, default=120, metavar="N", help="how many pictures (default: 120)")
     parser.add_argument("--fps", type=float, default=25.0, metavar="N", help="how many of them a second (default: 25)")
-    parser.add_argument("--jobs", type=int, metavar="N", help="how many processes draw (default: one a processor)")
+    add_workers(parser)
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> Result:
     """Draw the movie and write its recipe; the exit status is 1 if a panel failed."""
     from bihdist_core import ParameterError
 
@@ -33,21 +39,27 @@ def run(options: argparse.Namespace) -> int:
     check_movie(options.output)
     check_offscreen()
     for given, name in (
-        (options.path and options.source, "--source beside --path, whose first vertex is the source"),
+        (options.path and options.sources, "--sources beside --path, whose first vertex is the source"),
         (options.transparent, "--transparent"),
         (options.crop, "--crop"),
-        (options.two_views or len(options.views or ()) > 1, "more than one view"),
+        (len(options.views or ()) > 1, "more than one view"),
     ):
         if given:
             raise ParameterError(f"A movie takes no {name.removeprefix('no ')}.")
-    if options.jobs is not None and options.jobs < 1:
-        raise ParameterError(f"At least one process draws, not {options.jobs}.")
     turn = options.turn if options.turn is not None else 0.0 if options.path else 360.0
     movie = Movie(chosen_recipe(options), turn, options.path, options.frames, options.fps)
     with progress_line() as progress:
-        answers = write_movie(movie, options.output, progress, jobs=options.jobs)
+        answers = write_movie(movie, options.output, progress, workers=options.workers)
     print(f"{options.output}: {movie.frames:,} frames, {movie.frames / movie.fps:.3g} s")
-    return judged(answers, os.path.basename(movie.recipe.document.surfaces[0].path))
+    document = movie.recipe.document
+    facts = {
+        "meshes": [{"mesh": mesh.path} for mesh in document.surfaces],
+        "outputs": [options.output],
+        "frames": movie.frames,
+        "seconds": movie.frames / movie.fps,
+        "panels": [panel_facts(p.shows, answer) for p, answer in zip(document.panels, answers, strict=True)],
+    }
+    return Result(facts, judged(answers, os.path.basename(document.surfaces[0].path)))
 
 
 def _path(text: str) -> tuple[int, ...]:

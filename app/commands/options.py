@@ -1,4 +1,4 @@
-"""Options that several commands have: the distance with its parameters, the vertex areas, vertex ids."""
+"""Options that several commands have: sources, the output, the distance with its parameters, the vertex areas."""
 
 import argparse
 import math
@@ -8,39 +8,153 @@ from typing import Any
 
 from bihdist_core.distances.kinds import OURS, Spec, kinds
 from bihdist_core.errors import ParameterError
-from bihdist_core.sources.words import source_from_words
 
-from ..document.document import COMPARISON
-from ..document.option import Option, Row, vertex as vertex_from_words
+from ..document.document import COMPARISON, Document
+from ..document.lists import pair_from_words, pairs_from_words, split_list
+from ..document.option import Option, Row
+from ..document.page import Page, Recipe
 from ..document.quantities import Quantity, quantity
-from ..figures.options import VERTEX_AREAS
+from ..document.sources import sources_from_words
+from ..figures.options import PAGE_ROWS, VERTEX_AREAS, with_rows
 
-PANELS = f"a panel; repeat for more (default: {', '.join(str(spec) for spec in COMPARISON)})"
-SOURCE = "vertex (12), several (12+40+7), place in a face (f311:0.2,0.5), boundary loop (loop:0) or curve (curve.json)"
+PANELS = f"a panel each (default: {','.join(str(spec) for spec in COMPARISON)})"
+PLACES = (
+    ", with places in faces (f311:0.2,0.5), boundary loops (loop:0), curves (curve.json) and the nearest of several "
+    "(12+40+7) among them"
+)
+RULES = "farthest:K[:START], random:K[:SEED] or all; @FILE, or - for standard input"
+HIGHEST = "(default: the highest vertex)"
+NEIGHBOURS = 10
+"""So many, unless `--k` says otherwise."""
+DTYPES = ("float64", "float32")
+"""Of arrays that are written, the usual one first."""
+MESH = "mesh file, or the name of a sample"
 PARAMETERS = {p.name: p for kind in OURS for p in kind.parameters}
 """By name: the parameters of our distances, each of which is an option."""
 
 
-def add_distance(parser: argparse.ArgumentParser, several: str = "") -> None:
-    """`--distance`, and an option for each parameter of ours, which holds where the distance does not say otherwise."""
-    words = f"{', '.join(kinds())}; with parameters like 'diffusion(t=1/4)', or two like 'biharmonic - geodesic'"
+def add_mesh(parser: argparse.ArgumentParser) -> None:
+    """Add the mesh that a command is about."""
+    parser.add_argument("mesh", metavar="MESH", help=MESH)
+
+
+def add_two_meshes(parser: argparse.ArgumentParser) -> None:
+    """Add the two meshes between which a map leads."""
+    parser.add_argument("mesh", metavar="A", help=f"the mesh that is mapped: {MESH}")
+    parser.add_argument("other", metavar="B", help="the mesh that it is mapped to")
+
+
+def add_sources(
+    parser: argparse.ArgumentParser,
+    what: str,
+    default: str = HIGHEST,
+    required: bool = False,
+    are_vertices: bool = False,
+) -> None:
+    """Add `--sources`, whose value is a `Sources`, or None; what: starts there, in words."""
+    text = f"{what}: 12,40{'' if are_vertices else PLACES}; {RULES}{f' {default}' if default else ''}"
+    parser.add_argument("--sources", metavar="SOURCES", type=sources, required=required, help=text)
+
+
+def add_pins(parser: argparse.ArgumentParser) -> None:
+    """Add `--pins`, whose value is a `Sources`, or None."""
+    text = "points with numbers, as --sources names them: 12,40, or those in a file, @FILE, or - for standard input"
+    parser.add_argument("--pins", metavar="V,…|@FILE", type=sources, help=text)
+
+
+def add_pairs(parser: argparse._ActionsContainer, what: str, required: bool = False) -> None:
+    """Add `--pairs`, whose value is a list of pairs, or the path of a file of them."""
+    parser.add_argument("--pairs", metavar="I:J,…|@FILE", type=pairs, required=required, help=what)
+
+
+def add_output(parser: argparse.ArgumentParser, files: str, required: bool = True, metavar: str = "OUT") -> None:
+    """Add the option of what is written."""
+    parser.add_argument("-o", "--output", metavar=metavar, required=required, help=files)
+
+
+def add_dtype(parser: argparse.ArgumentParser, of: str) -> None:
+    """Add the option of how exactly numbers are written."""
+    parser.add_argument("--dtype", choices=DTYPES, help=f"{of} (default: {DTYPES[0]})")
+
+
+def add_workers(parser: argparse.ArgumentParser) -> None:
+    """Add the option of how many processes share the work."""
+    parser.add_argument("--workers", type=count, metavar="N", help="processes (default: as many as cores)")
+
+
+def add_distance(parser: argparse.ArgumentParser, several: str = "", k: str = "", is_field: bool = False) -> None:
+    """`--distance`, and an option for each parameter of ours, which holds where the distance does not say otherwise.
+
+    several: what several are, with commas; without it there is one, biharmonic if none is named.  k: what else the
+    command counts by `--k`.  is_field: whether it may be the difference of two.
+    """
+    two = ", or two like 'biharmonic - geodesic'" if is_field else ""
+    words = f"{', '.join(kinds())}; with parameters like 'diffusion(t=1/4)'{two}"
     if several:
-        parser.add_argument("--distance", metavar="NAME", action="append", help=f"{words}: {several}")
+        parser.add_argument(
+            "--distance",
+            metavar="NAME,…",
+            type=as_argument(split_list),
+            help=f"{words}; with commas: {several}",
+        )
     else:
         text = f"{words} (default: biharmonic)"
         parser.add_argument("--distance", metavar="NAME", default="biharmonic", help=text)
     for name, parameter in PARAMETERS.items():
         of = ", ".join(kind.word for kind in OURS if parameter in kind.parameters)
+        also = f"{k}; or " if k and name == "k" else ""
         parser.add_argument(
             f"--{name}",
             metavar="{" + ",".join(parameter.choices) + "}" if parameter.choices else name.upper()[:1],
-            help=f"{parameter.meaning}, for {of} (default: {parameter.written(parameter.default)})",
+            help=f"{also}{parameter.meaning}, for {of} (default: {parameter.written(parameter.default)})",
         )
 
 
-def add_output(parser: argparse.ArgumentParser, files: str) -> None:
-    """Add the option of the file that is written."""
-    parser.add_argument("-o", "--output", metavar="OUT", required=True, help=files)
+def eigenpair_count(options: argparse.Namespace, texts: Sequence[str], usual: int) -> int:
+    """How many eigenpairs the command itself takes by `--k`; so do distances that say no number."""
+    count = _k(options, usual)
+    if not any(map(_counts_eigenpairs, texts)):
+        options.k = None
+    return count
+
+
+def neighbour_count(options: argparse.Namespace, texts: Sequence[str], usual: int = NEIGHBOURS) -> int:
+    """How many neighbours `--k` says, which no distance then has; ParameterError where it may mean eigenpairs."""
+    unclear = [text for text in texts if _counts_eigenpairs(text)]
+    if options.k is not None and unclear:
+        raise ParameterError(
+            f"--k {options.k} counts the nearest vertices; say how many eigenpairs {unclear[0]} has in its words, such "
+            "as truncated(k=200)."
+        )
+    count, options.k = _k(options, usual), None
+    return count
+
+
+def _k(options: argparse.Namespace, usual: int) -> int:
+    return usual if options.k is None else int(PARAMETERS["k"].parsed(options.k))
+
+
+def _counts_eigenpairs(text: str) -> bool:
+    """Whether a distance in words is a sum of eigenpairs and does not say of how many."""
+    sums = [spec for spec in quantity(text).specs if any(each.name == "k" for each in spec.kind.parameters)]
+    return len(sums) > text.replace(" ", "").count("k=")
+
+
+def add_chart(parser: argparse.ArgumentParser) -> None:
+    """Add the options of how a chart looks."""
+    add_rows(
+        parser,
+        *PAGE_ROWS,
+        size="of a chart: such as 85mm; or column (85 mm), double (178 mm)",
+        style="of a chart: paper, uniform, lines or dark (default: paper)",
+        font="of all words of a chart (default: DejaVu Sans)",
+        text="size of the text of a chart (default: 8)",
+    )
+
+
+def chart_page(options: argparse.Namespace) -> Page:
+    """The page of a chart."""
+    return with_rows(Recipe(Document()), given(options, *PAGE_ROWS), PAGE_ROWS).page
 
 
 def add_rows(parser: argparse.ArgumentParser, *rows: Row | Option, **meanings: str) -> None:
@@ -54,8 +168,7 @@ def add_rows(parser: argparse.ArgumentParser, *rows: Row | Option, **meanings: s
             parser.add_argument(option.word, action=argparse.BooleanOptionalAction, default=None, **how)
             continue
         how |= {"nargs": "?", "const": option.bare} if option.bare is not None else {}
-        how |= {"action": "append"} if option.repeats else {}
-        how |= {"metavar": option.metavar, "choices": option.choices, "type": _argument(option.read)}
+        how |= {"metavar": option.metavar, "choices": option.choices, "type": as_argument(option.from_text)}
         parser.add_argument(option.word, **how)
 
 
@@ -70,8 +183,8 @@ def given(options: argparse.Namespace, *known: Row | Option) -> dict[str, Any]:
     return {name: value for name, value in found.items() if value is not None}
 
 
-def _argument(read: Callable[[str], Any]) -> Callable[[str], Any]:
-    """How argparse reads it; what is wrong is the same sentence."""
+def as_argument(read: Callable[[str], Any]) -> Callable[[str], Any]:
+    """A reader of texts as argparse takes it; what is wrong is the same sentence."""
     if read in (int, float, str):
         return read
 
@@ -80,12 +193,14 @@ def _argument(read: Callable[[str], Any]) -> Callable[[str], Any]:
             return read(text)
         except ParameterError as error:
             raise argparse.ArgumentTypeError(str(error)) from None
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
 
     return read_argument
 
 
-source, vertex = _argument(source_from_words), _argument(vertex_from_words)
-"""A source from its words, and a vertex id."""
+sources, pair, pairs = as_argument(sources_from_words), as_argument(pair_from_words), as_argument(pairs_from_words)
+"""What `--sources` says, a pair of vertex ids, and what `--pairs` says."""
 
 
 def add_areas(parser: argparse.ArgumentParser) -> None:
@@ -123,11 +238,6 @@ def check_parameters(options: argparse.Namespace, specs: Sequence[Spec]) -> None
         if name not in known:
             shown = ", ".join(dict.fromkeys(each.word for each in specs))
             raise ParameterError(f"--{name} {getattr(options, name)} is no parameter of {shown}.")
-
-
-def vertices(text: str) -> list[int]:
-    """Vertex ids from a text such as "3,17,42"; argparse.ArgumentTypeError for another text."""
-    return [vertex(word) for word in text.split(",")]
 
 
 def count(text: str) -> int:

@@ -1,29 +1,29 @@
 """`bihdist paper`: the paper's figures, tables and claims, computed anew."""
 
 import argparse
-import sys
 from functools import partial
 
 from ..figures.view_options import UP, up_meaning
 from .mesh import found_mesh
-from .options import add_rows
-from .terminal import progress_line
+from .options import add_output, add_rows
+from .result import Result
+from .terminal import progress_line, tell_failure
 
 WORDS = "every figure and table of the paper, computed anew, as one page"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `paper` to its parser."""
-    parser.add_argument("--out", metavar="DIR", required=True, help="folder for index.html, pictures and numbers")
-    parser.add_argument("--only", metavar="IDS", default="", help="a choice, such as fig4,table2")
+    add_output(parser, "a folder for index.html, pictures and numbers", metavar="DIR")
+    parser.add_argument("--only", metavar="ID,…", default="", help="a choice, such as fig4,table2")
     parser.add_argument(
-        "--mesh", metavar="PATH", help="your own mesh, or a folder of meshes (claims and a picture each)"
+        "--mesh", metavar="MESH", help="your own mesh, or a folder of meshes (claims and a picture each)"
     )
     add_rows(parser, UP, up=up_meaning("y on the bundled meshes, guessed for yours"))
     parser.add_argument("--quick", action="store_true", help="smaller meshes and fewer samples, for a first look")
 
 
-def run(options: argparse.Namespace) -> int:
+def run(options: argparse.Namespace) -> Result:
     """The exit status is 1 where a part could not be done; the page is written all the same."""
     from ..paper.reproduce import reproduce
 
@@ -31,9 +31,9 @@ def run(options: argparse.Namespace) -> int:
     mesh = found_mesh(options.mesh) if options.mesh else None
     say, up = partial(print, flush=True), options.up or "auto"
     with progress_line() as progress:
-        made = reproduce(options.out, only, mesh, options.quick, progress, say, up)
+        made = reproduce(options.output, only, mesh, options.quick, progress, say, up)
     print(f"{made.page}: open it in a browser")
     if made.not_done:
         parts = "One part" if made.not_done == 1 else f"{made.not_done} parts"
-        print(f"bihdist: {parts} could not be done; the reasons are on the page.", file=sys.stderr)
-    return int(made.not_done > 0)
+        tell_failure(f"{parts} could not be done; the reasons are on the page.")
+    return Result({"outputs": [str(made.page)], "n_not_done": made.not_done}, int(made.not_done > 0))

@@ -4,9 +4,11 @@ import argparse
 import io
 import os
 import sys
+import threading
 import time
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager, redirect_stdout
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext, redirect_stdout
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from bihdist_core.counts import counted
@@ -17,12 +19,76 @@ if TYPE_CHECKING:
     from bihdist_core.distances.answers import Answer
     from bihdist_core.progress import Progress
 
+EVERY = 10.0
+"""Seconds from one line of progress to the next where there is no terminal."""
+
+
+@dataclass
+class _Telling:
+    """What is said beside the result of the command that runs: a process has one standard error."""
+
+    quiet: bool = False
+    clock: Callable[[], float] = time.monotonic
+    notes: list[str] = field(default_factory=list)
+    last: float = 0.0
+
+    def __post_init__(self) -> None:
+        self.last = self.clock()
+
+    def note(self, text: str, before: str = "bihdist: ") -> None:
+        """A sentence that is kept, and said unless nothing is to be said."""
+        self.notes.append(text)
+        if not self.quiet:
+            print(f"{before}{text}", file=sys.stderr)
+
+    def line(self, text: str) -> None:
+        """A line of progress."""
+        self.last = self.clock()
+        print(f"bihdist: {text}", file=sys.stderr, flush=True)
+
+    def line_if_due(self, words: Callable[[], str]) -> None:
+        """A line of progress if there has been none for long."""
+        if self.clock() - self.last >= EVERY:
+            self.line(words())
+
+    def report(self, fraction: float, text: str) -> None:
+        """Progress, as a line of its own now and then."""
+        self.line_if_due(lambda: f"{fraction:.0%} {text}")
+
+
+_telling = _Telling()
+
+
+def add_telling(parser: argparse.ArgumentParser) -> None:
+    """Add the options that all commands have."""
+    parser.add_argument("--json", action="store_true", help="print the result as one JSON object, and nothing else")
+    parser.add_argument("--quiet", action="store_true", help="say what fails, but no notes and no progress")
+
+
+@contextmanager
+def telling(quiet: bool = False, clock: Callable[[], float] = time.monotonic) -> Iterator[list[str]]:
+    """While a command runs: whether notes and progress are left out; all notes, said or not."""
+    global _telling
+    before, _telling = _telling, _Telling(quiet, clock)
+    try:
+        yield _telling.notes
+    finally:
+        _telling = before
+
+
+def is_quiet() -> bool:
+    """Whether neither notes nor progress are said."""
+    return _telling.quiet
+
 
 @contextmanager
 def progress_line() -> "Iterator[Progress | None]":
-    """A line of progress on a terminal, nothing elsewhere."""
-    if not sys.stderr.isatty():
+    """A line of progress on a terminal, a new line every ten seconds elsewhere."""
+    if _telling.quiet:
         yield None
+        return
+    if not sys.stderr.isatty():
+        yield _telling.report
         return
     last = 0.0
 
@@ -40,13 +106,33 @@ def progress_line() -> "Iterator[Progress | None]":
 
 
 @contextmanager
+def task_lines(words: Callable[[], str]) -> Iterator[Callable[[str], None]]:
+    """Where there is no terminal: says a line for each task that is done, and `words` where none ends for long."""
+    telling, ended = _telling, threading.Event()
+
+    def watch() -> None:
+        while not ended.wait(EVERY / 10):
+            telling.line_if_due(words)
+
+    watching = threading.Thread(target=watch, name="progress", daemon=True)
+    watching.start()
+    try:
+        yield telling.line
+    finally:
+        ended.set()
+        watching.join()
+
+
+@contextmanager
 def standard_output(options: argparse.Namespace, text: str) -> Iterator[None]:
-    """Where the output is `-`, the file goes to standard output, and what is said to standard error.
+    """Where the output is `-`, the file goes to standard output, and what is said to standard error; with `--json`
+    nothing is said there but the JSON.
 
     text: the extension of the format, nothing if the command has none that is text: then OutputError.
     """
     if getattr(options, "output", None) != "-":
-        yield
+        with redirect_stdout(io.StringIO()) if options.json else nullcontext():
+            yield
         return
     import shutil
     import tempfile
@@ -55,6 +141,8 @@ def standard_output(options: argparse.Namespace, text: str) -> Iterator[None]:
 
     if not text:
         raise OutputError(f"`bihdist {options.command}` writes no text; name a file instead of -.")
+    if options.json:
+        raise OutputError("Standard output has either the file or the JSON; name a file instead of -.")
     with tempfile.TemporaryDirectory() as folder:
         path, printed = os.path.join(folder, f"output{text}"), io.StringIO()
         options.output = path
@@ -64,19 +152,25 @@ def standard_output(options: argparse.Namespace, text: str) -> Iterator[None]:
         except BihdistError as error:
             raise type(error)(str(error).replace(path, "-")) from error
         finally:
-            sys.stderr.write(printed.getvalue().replace(path, "-"))
+            if not _telling.quiet:
+                sys.stderr.write(printed.getvalue().replace(path, "-"))
         with open(path, encoding="utf-8") as file:
             shutil.copyfileobj(file, sys.stdout)
 
 
 def tell(text: str) -> None:
     """A sentence beside the result."""
+    _telling.note(text)
+
+
+def tell_failure(text: str) -> None:
+    """A sentence on what could not be done, which is always said."""
     print(f"bihdist: {text}", file=sys.stderr)
 
 
 def warn(text: str) -> None:
-    """Print a warning to standard error."""
-    print(f"bihdist: warning: {text}", file=sys.stderr)
+    """A warning beside the result."""
+    _telling.note(f"warning: {text}")
 
 
 def tell_repairs(surface: "Surface") -> None:
@@ -85,7 +179,7 @@ def tell_repairs(surface: "Surface") -> None:
 
     notes = surface_notes(surface)
     for text in (*notes.repairs, *notes.warnings):
-        print(f"{surface.name}: {text}", file=sys.stderr)
+        _telling.note(f"{surface.name}: {text}", before="")
 
 
 def accuracy(distance: "Distance", everywhere: bool = False) -> str:
@@ -104,7 +198,7 @@ def judged(answers: "Iterable[Answer]", name: str) -> int:
     answers = list(answers)
     failures = dict.fromkeys(f"{answer.label}: {answer.failure}" for answer in answers if answer.failure)
     for failure in failures:
-        print(f"bihdist: {failure}", file=sys.stderr)
+        tell_failure(failure)
     for label, text in dict.fromkeys((a.label, a.accuracy.text) for a in answers if a.accuracy.is_poor):
         warn(f"{label} on {name} is only {text}.")
     return 1 if failures else 0

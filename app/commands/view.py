@@ -1,9 +1,7 @@
 """`bihdist view`: the window."""
 
 import argparse
-import os
-import sys
-from typing import NoReturn
+import signal
 
 from ..document.option import Row
 from ..document.page import Recipe
@@ -11,7 +9,9 @@ from ..figures.look_options import COLOURS
 from ..figures.options import VERTEX_AREAS, tool_rows, with_rows
 from ..figures.view_options import UP, up_meaning
 from .mesh import found_mesh
-from .options import PANELS, SOURCE, add_distance, add_rows, given, given_parameters, quantities, source
+from .mesh_sources import one_source, sources_of_document
+from .options import PANELS, add_distance, add_rows, add_sources, given, given_parameters, quantities
+from .result import Result
 
 WORDS = "open the viewer"
 
@@ -19,24 +19,24 @@ WORDS = "open the viewer"
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `view` to its parser."""
     what = "mesh file, the name of a sample, or a session or recipe (default: choose in the window)"
-    parser.add_argument("mesh", nargs="?", help=what)
-    parser.add_argument("beside", nargs="?", help="a second mesh, to stand beside the first")
-    parser.add_argument("--source", type=source, metavar="V", help=f"what distances start from: {SOURCE}")
+    parser.add_argument("mesh", metavar="MESH", nargs="?", help=what)
+    parser.add_argument("beside", metavar="BESIDE", nargs="?", help="a second mesh, to stand beside the first")
+    add_sources(parser, "the one source where distances start")
     parser.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")
     parser.add_argument("--save-session", metavar="OUT.json", help="save the session once the window is complete")
+    add_distance(parser, PANELS, is_field=True)
     parser.add_argument("--theme", choices=("light", "dark", "desktop"), default="", help="of the window, this time")
-    add_distance(parser, PANELS)
     add_rows(parser, *_rows(), up=up_meaning("as it was chosen for this mesh before, or guessed"))
 
 
 def _rows() -> list[Row]:
     """Of the options of figures those of tools, as far as they are not about the page, and some more."""
     of_pages = [row for row in tool_rows() if row.is_late or any(part.startswith("Page.") for part in row.parts)]
-    return [COLOURS, UP, VERTEX_AREAS, *(row for row in tool_rows() if row not in of_pages)]
+    return [VERTEX_AREAS, COLOURS, UP, *(row for row in tool_rows() if row not in of_pages)]
 
 
-def run(options: argparse.Namespace) -> NoReturn:
-    """Open the window, and end the process once it is closed."""
+def run(options: argparse.Namespace) -> Result:
+    """Open the window, until it is closed."""
     from ..document.beside_edits import open_beside
     from ..document.document import COMPARISON, Document, MeshFile, comparison
 
@@ -54,31 +54,37 @@ def run(options: argparse.Namespace) -> NoReturn:
             raise ParameterError(f"A session says which meshes it has; leave out {options.beside}.")
     else:
         chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
-        shown = comparison(path, tuple(chosen), (options.source,))
+        sources = sources_of_document(options.sources, path, chosen, options.areas)
+        shown = comparison(path, tuple(chosen), (one_source(sources),))
         shown = with_rows(Recipe(shown), given(options, *_rows()), _rows()).document
         if options.beside is not None:
             shown = open_beside(shown, MeshFile("", found_mesh(options.beside)))
-    if is_choice and options.source is not None:
-        raise ParameterError("A source needs a mesh; name one.")
+    if is_choice and options.sources is not None:
+        raise ParameterError("Sources need a mesh; name one.")
     from ..qt.screen import check_screen
 
     # Before anything imports Qt.
     check_screen()
     from ..qt.start import run_viewer
 
+    # Qt's loop would not let Python see it: SIGTERM ends a window at once.
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     status = run_viewer(shown, is_choice, options.screenshot, options.save_session, options.theme)
+    files = (options.screenshot, options.save_session)
+    facts = {
+        "meshes": [{"mesh": mesh} for mesh in (options.mesh, options.beside) if mesh],
+        "outputs": [file for file in files if file],
+    }
     # All is saved and closed.  Left to the interpreter, Qt's and VTK's objects are taken down in an order that nobody
     # decides, which now and then, on a busy machine, ends in a crash.
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(status)
+    return Result(facts, status, ends_process=True)
 
 
 def _refuse_options(options: argparse.Namespace) -> None:
     """ParameterError for what a session says itself."""
     from bihdist_core import ParameterError
 
-    named = {f"--{name}": getattr(options, name) for name in ("source", "distance")}
+    named = {f"--{name}": getattr(options, name) for name in ("sources", "distance")}
     named |= {f"--{name}": value for name, value in given_parameters(options).items()}
     values = given(options, *_rows())
     named |= {option.word: values.get(option.name) for row in _rows() for option in row.options}

@@ -8,6 +8,7 @@ from typing import Any
 from bihdist_core.errors import ParameterError
 
 from .document import Document, Point
+from .lists import split_list
 from .page import Recipe
 from .starts import Starts
 
@@ -43,8 +44,9 @@ class Option:
     name: the argument's, and with hyphens the option's if it has no `flag`.  default: the argument's.  meaning: the
     help; metavar, choices: as argparse takes them.  read: the text behind the option as a value, ParameterError if it
     is none; write: the inverse, where None is an option without text.  bare: the value of the option without text.
-    repeats: the value is a list, and the option is given for each of its elements; may_be_lone: the argument takes one
-    of them without a list, too.  replaces_panels: whether other panels than those of the distances are shown.
+    is_list: the value is a list, and the option has commas between what `read` and `write` know; may_be_lone: the
+    argument takes one of them without a list, too.  replaces_panels: whether other panels than those of the distances
+    are shown.
     """
 
     name: str
@@ -56,7 +58,7 @@ class Option:
     read: Callable[[str], Any] = str
     write: "Callable[[Any], str | Starts | None]" = lambda value: value if isinstance(value, str) else digits(value)
     bare: Any = None
-    repeats: bool = False
+    is_list: bool = False
     may_be_lone: bool = False
     replaces_panels: bool = False
 
@@ -70,11 +72,16 @@ class Option:
         """Whether the option has no value: given or not."""
         return self.default is False and self.bare is None
 
-    def words(self, value: Any) -> "list[tuple[str, str | Starts | None]]":
-        """The option as it is typed, with its text, for each time that it is given."""
+    def from_text(self, text: str) -> Any:
+        """The value that the text behind the option means; ParameterError, or ValueError of a number, for none."""
+        return [self.read(word) for word in split_list(text)] if self.is_list else self.read(text)
+
+    def words(self, value: Any) -> "tuple[str, list[str | Starts] | None]":
+        """The option as it is typed, and what its text has between commas; None for an option without text."""
         if self.is_switch:
-            return [(self.word if value else f"--no-{self.word[2:]}", None)]
-        return [(self.word, self.write(each)) for each in (value if self.repeats else [value])]
+            return self.word if value else f"--no-{self.word[2:]}", None
+        texts = [self.write(each) for each in (value if self.is_list else [value])]
+        return self.word, None if None in texts else [text for text in texts if text is not None]
 
 
 @dataclass(frozen=True)

@@ -26,15 +26,10 @@ def ids_of(runs: Runs) -> IntArray:
     return ids
 
 
-def runs_in_words(runs: Runs) -> str:
-    """ "3,5-9"."""
-    return ",".join(f"{first}" if first == last else f"{first}-{last}" for first, last in runs)
-
-
 def runs_from_words(text: str) -> Runs:
     """Vertex ids and ranges of them, both ends included, in any order; ParameterError for other words."""
     runs: list[tuple[int, int]] = []
-    for word in text.split(","):
+    for word in text.split("+"):
         ends = word.strip().split("-")
         if len(ends) > 2 or not all(end.strip().isdecimal() for end in ends):
             raise ParameterError(f"{word!r} is no vertex id or range of them, such as 12 or 40-77.")

@@ -38,13 +38,13 @@ NOTICED = 0.1
 
 
 def drawn_frames(
-    figures: Iterator[Figure], count: int, mode: str, jobs: int | None, progress: Progress
+    figures: Iterator[Figure], count: int, mode: str, workers: int | None, progress: Progress
 ) -> Generator[Any, None, None]:
     """The pictures of so many figures: arrays (height, width, 3) uint8 for the mode "RGB", images of PIL for "P".
 
-    jobs: how many processes draw, one for each processor if None; few frames are drawn in this one.
+    workers: how many processes draw, one for each processor if None; few frames are drawn in this one.
     """
-    number = min(jobs or processors(), count // EACH)
+    number = min(workers or processors(), count // EACH)
     if number < 2:
         yield from _drawn_here(figures, count, mode, progress)
     else:

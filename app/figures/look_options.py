@@ -17,6 +17,7 @@ from ..document.option import (
     Row,
     digits,
     numbers,
+    vertex,
     vertex_of,
     with_attribute,
     with_commas,
@@ -85,9 +86,7 @@ ISOLINES = Row(
         Option("equal_isolines", "as many equal steps from 0 to the maximum, instead of round values", False),
         Option("isoline_spacing", "isolines at multiples of this, in the field's unit", metavar="STEP", read=float),
         Option("isoline_values", "isolines at these values", (), metavar="A,B,…", read=numbers, write=with_commas),
-        Option(
-            "isoline_through", "one more through a vertex; repeat for more", (), metavar="V", read=int, repeats=True
-        ),
+        Option("isoline_through", "one more through each of these vertices", (), "", "V,…", read=vertex, is_list=True),
     ),
     ("Document.isolines", *(f"Isolines.{name}" for name in ("count", "spacing", "values", "through", "round"))),
     _isolines_of,
@@ -120,7 +119,8 @@ COLOURS = Row(
     (
         Option(
             "colours",
-            "a colour map: paper, uniform, ember, safe (also in grey), diverging; or a .txt, .csv or ParaView's .json",
+            "a colour map: paper (default), uniform, ember, safe (also in grey), diverging; or a .txt, .csv or "
+            "ParaView's .json",
             "",
             metavar="NAME|FILE",
         ),
@@ -161,15 +161,14 @@ RANGE = Row(
     (
         Option(
             "range",
-            "where colour bars end: own (own maximum), shared (one for all panels of a unit), shares (fraction of "
-            "the maximum), a number, or one or `own` for each panel such as 0.8,own,2; or a session or recipe, whose "
-            "ends are taken",
+            "where colour bars end: own (own maximum, the default), shared (one for all panels of a unit), shares "
+            "(fraction of the maximum), a number, or one or `own` for each panel such as 0.8,own,2; or a session or "
+            "recipe, whose ends are taken",
             "own",
             metavar="RANGE",
             read=_ends,
             write=_ends_text,
         ),
-        Option("shared_range", "the same as --range shared", False),
     ),
     ("Document.range", "Panel.maximum"),
     _range_of,
@@ -182,12 +181,6 @@ def with_range(
 ) -> Recipe:
     """The recipe with the range of colours that the options say."""
     document, range = recipe.document, values.get("range")
-    if "shared_range" in values:
-        word = "shared" if values["shared_range"] else "own"
-        if range not in (None, word):
-            other = "--shared-range" if values["shared_range"] else "--no-shared-range"
-            raise ParameterError(f"--range {range} and {other} differ; leave one out.")
-        document = replace(document, range=word)
     if range is not None:
         from .ends import ranged
 
@@ -215,7 +208,7 @@ SHADING = Row(
             "auto, smooth, creased or flat (default: creased where there are sharp edges)",
             metavar="NAME",
         ),
-        Option("crease", "where faces meet at more is an edge (40)", metavar="DEGREES", read=float),
+        Option("crease", "where faces meet at more is an edge (default: 40)", metavar="DEGREES", read=float),
         Option("wireframe", "the edges of the mesh", False),
     ),
     ("Document.shading", "Shading.normals", "Shading.crease", "Shading.wireframe"),

@@ -217,7 +217,7 @@ def hidden_words(page: Composition) -> list[str]:
         ]
         for what in ("ring", "pin marker"):
             some = [mark for mark in marks if (mark.number is None) == (what == "ring")]
-            rest = f"hidden in {views}: a dashed {what}; try --view source or --two-views."
+            rest = f"hidden in {views}: a dashed {what}; try --view source or --view front,back."
             if len(some) > MOST_NAMED:
                 others = "marked places" if what == "ring" else "numbered points" if some[0].name else "pins"
                 found[f"{_named(some[0])} and {len(some) - 1} other {others} are {rest}"] = None
@@ -226,7 +226,7 @@ def hidden_words(page: Composition) -> list[str]:
                 found[f"{_named(mark)} is {rest}"] = None
         for name in dict.fromkeys(line.name for line in panel.lines if line.name):
             if not any(name in shot.seen for shot in shots):
-                found[f"{name} is hidden in {views}; try --view source or --two-views."] = None
+                found[f"{name} is hidden in {views}; try --view source or --view front,back."] = None
     return list(found)
 
 

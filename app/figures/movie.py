@@ -87,12 +87,12 @@ def write_movie(
     path: str | os.PathLike[str],
     progress: Progress | None = None,
     given: ArrayStore | None = None,
-    jobs: int | None = None,
+    workers: int | None = None,
 ) -> list[Answer]:
     """Compute and draw a movie into a .mp4 or .gif file, whole or not at all.  Returns an answer of each panel.
 
-    given: what the document has from Python, in the recipe's archive if None.  jobs: how many processes draw, one for
-    each processor if None.
+    given: what the document has from Python, in the recipe's archive if None.  workers: how many processes draw, one
+    for each processor if None.
     """
     check_movie(path)
     if not movie.recipe.document.panels:
@@ -103,7 +103,7 @@ def write_movie(
     with whole_file(path) as temporary:
         is_mp4 = temporary.suffix.lower() == ".mp4"
         frames = drawn_frames(
-            _figures(movie, fields), movie.frames, "RGB" if is_mp4 else "P", jobs, part(progress, SETTING_UP, 1.0)
+            _figures(movie, fields), movie.frames, "RGB" if is_mp4 else "P", workers, part(progress, SETTING_UP, 1.0)
         )
         with closing(frames):
             (_write_mp4 if is_mp4 else _write_gif)(temporary, frames, movie)

@@ -34,9 +34,12 @@ def command_line(recipe: Recipe, output: str, files: Mapping[Curve, str] = NONE)
     """
     words = ["bihdist", "figure", mesh_word(recipe.document.surfaces[0].path)]
     for option, value in _options_of(recipe):
-        for word, start in option.words(value):
-            text = start.words(files) if isinstance(start, Starts) else start
-            words += [word] if text is None else [f"{word}={text}"] if text[:1] == "-" else [word, text]
+        word, texts = option.words(value)
+        if texts is None:
+            words.append(word)
+            continue
+        text = ",".join(each.words(files) if isinstance(each, Starts) else each for each in texts)
+        words += [f"{word}={text}"] if text[:1] == "-" else [word, text]
     return _joined([*words, "-o", output])
 
 
@@ -129,8 +132,8 @@ def _panels_of(recipe: Recipe) -> dict[str, Any]:
 
 PANELS = Row(
     (
-        Option("distances", "", flag="distance", repeats=True),
-        Option("source", "", write=lambda start: start, repeats=True, may_be_lone=True),
+        Option("distances", "", flag="distance", is_list=True),
+        Option("source", "", flag="sources", write=lambda start: start, is_list=True, may_be_lone=True),
     ),
     ("Document.surfaces", "Document.fields", "Document.points", "Document.panels", "Panel.shows"),
     _panels_of,

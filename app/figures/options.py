@@ -27,6 +27,18 @@ from .view_options import UP, VIEWS, ZOOMS
 
 VERTEX_AREAS = attribute("document.areas", "vertex areas (default: voronoi)", choices=AREAS)
 
+PAGE_ROWS = (
+    attribute("page.font", "of all words (default: DejaVu Sans)", "FAMILY"),
+    attribute("page.text", "size of labels, other words in proportion (default: by the size)", "POINTS", read=float),
+    attribute(
+        "page.size",
+        "such as 85mm, 1680x640, 160mm@300dpi, 160x80mm; or column (85 mm), double (178 mm), slide, A0",
+        "SIZE",
+    ),
+    attribute("page.style", "paper, uniform, lines or dark (default: paper)", "NAME"),
+)
+"""Of a page, with panels or with a chart."""
+
 
 # ---------------------------------------------------------------------- columns
 def rows_of_sources(recipe: Recipe) -> int | None:
@@ -45,12 +57,15 @@ def _columns_of(recipe: Recipe) -> dict[str, Any]:
 
 # ---------------------------------------------------------------------- all of them
 ROWS = (
+    VERTEX_AREAS,
     ISOLINES,
-    attribute("document.isolines.bold", "every fifth, or Nth, is bolder", "N", name="bold_isolines", read=int, bare=5),
+    attribute(
+        "document.isolines.bold", "each of so many is bolder (nothing: 5)", "N", name="bold_isolines", read=int, bare=5
+    ),
     attribute("document.isolines.labels", "the values stand on the lines", name="isoline_labels"),
     UP,
     VIEWS,
-    attribute("document.projection", "default: perspective", choices=PROJECTIONS),
+    attribute("document.projection", "how depth is drawn (default: perspective)", choices=PROJECTIONS),
     attribute("document.axes", "where x, y and z point to, in a corner (default: no)"),
     Row(
         (Option("columns", "panels side by side (default: all, or one row a source)", metavar="N", read=int),),
@@ -62,7 +77,7 @@ ROWS = (
     attribute("document.extrema", "triangles at maxima and at minima away from the source (default: no)"),
     attribute(
         "document.height",
-        "a flat mesh becomes a height field, its highest point at this fraction of its extent",
+        "a flat mesh becomes a height field, its highest point at this fraction of its extent (nothing: 0.35)",
         "FRACTION",
         read=float,
         bare=0.35,
@@ -70,19 +85,11 @@ ROWS = (
     COLOURS,
     RANGE,
     attribute("page.hints", "what to look for, under the headings (default: no)"),
-    attribute("page.title", "names as heading, as caption at the bars, or none", "WHERE"),
-    attribute("page.font", "of all words (default: DejaVu Sans)", "FAMILY"),
-    attribute("page.text", "size of labels; other words in proportion", "POINTS", read=float),
-    attribute(
-        "page.size",
-        "such as 85mm, 1680x640, 160mm@300dpi, 160x80mm; or column (85 mm), double (178 mm), slide, A0",
-        "SIZE",
-    ),
-    attribute("page.style", "paper, uniform, lines or dark (default: paper)", "NAME"),
+    attribute("page.title", "names as heading (default), as caption at the bars, or none", "WHERE"),
+    *PAGE_ROWS,
     attribute("page.transparent", "no background"),
     attribute("page.crop", "without the empty margins"),
     SHADING,
-    VERTEX_AREAS,
     unsaid("for panels that are still to come", "Document.next_id"),
     unsaid("where instruments stand in the window", "Document.dock_places"),
     unsaid("what the pointer does in the window", "Document.snap"),
@@ -145,7 +152,7 @@ def with_options(
     first = [row for row in rows() if not row.is_late]
     recipe = with_rows(replace(recipe, document=document), values, first)
     ends = values.get("range")
-    is_ranged = bool({"range", "shared_range"} & {*values})
+    is_ranged = "range" in values
     # What replaces the panels has colour bars of its own.
     is_of_all = any(option.replaces_panels for name, option in arguments().items() if name in values) or (
         isinstance(ends, list | tuple) and len(ends) not in (1, len(document.panels))

@@ -98,7 +98,6 @@ def figure(
     reversed: bool = False,
     bands: bool = False,
     range: str | float | Sequence[float | None] = "own",
-    shared_range: bool = False,
     views: View | Sequence[View] = "auto",
     up: str = "auto",
     projection: str = "perspective",
@@ -140,13 +139,13 @@ def figure(
     value; anchor_values: written beside them.  pins: vertices, or places in faces, with numbers, in their order.
     extrema: triangles at maxima, and at minima away from the source, that persist over a thousandth of the range.
     regions: the panels, numbered from 1, or "all", that show lines around what is nearest to each pin. selections: ids
-    (k,) of vertices that stand out together, or words such as "12,40-77", a colour each. profile: True for the path
+    (k,) of vertices that stand out together, or words such as "12+40-77", a colour each. profile: True for the path
     through the pins, or the points it goes through: vertices, places in faces, "source" and "pin:1"; way: how it goes
     from one to the next, "auto", "exact" or "edges", or by a "section" whose plane holds the direction
     `across`, "section-longer" or "section-whole". shading: "smooth", "creased" at more than `crease` degrees, or
     "flat"; "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own",
     "shared" (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or
-    the session or recipe whose ends are taken; shared_range: the same as "shared".  size: "85mm", "1680x640", "column",
+    the session or recipe whose ends are taken.  size: "85mm", "1680x640", "column",
     "slide", as the command takes it.  title: names as "heading", as "caption" at the colour bars, or "none".  font: a
     family; text: the size of labels in points.  Raises BihdistError, as the command says its sentences.
 

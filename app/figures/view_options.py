@@ -10,7 +10,7 @@ from ..document.camera import Camera, View
 from ..document.document import Zoom
 from ..document.edits import stand
 from ..document.looks import UPS
-from ..document.option import NotExpressible, Option, Row, attribute, numbers, with_commas
+from ..document.option import NotExpressible, Option, Row, attribute, digits, numbers, with_commas
 from ..document.page import Recipe
 
 
@@ -50,17 +50,17 @@ VIEWS = Row(
         Option(
             "views",
             "home and high, each also with -right, -back or -left, front, back, left, right, top, bottom, source, or "
-            "auto, the one of the first eight that shows most of the shape (default); repeat",
+            "auto, the one of the first eight that shows most of the shape (default); with commas for several",
             "auto",
             flag="view",
-            metavar="NAME",
-            repeats=True,
+            metavar="NAME,…",
+            is_list=True,
             may_be_lone=True,
         ),
         Option(
             "camera",
             "position, focal point, up, extent: 11 numbers",
-            metavar="NUMBERS",
+            metavar="X,Y,…",
             read=_camera_numbers,
             write=with_commas,
         ),
@@ -99,7 +99,7 @@ def _with_zooms(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
 
 
 def _zoom(text: str) -> tuple[Any, ...]:
-    words = text.split(",")
+    words = text.split(":")
     try:
         vertex, factor, steps, *others = *words, *[""] * (3 - len(words))
         if others:
@@ -107,7 +107,7 @@ def _zoom(text: str) -> tuple[Any, ...]:
         return int(vertex), float(factor or 3), int(steps) if steps else None
     except ValueError:
         raise ParameterError(
-            f"{text!r} is not a vertex id, or an id and a factor such as 12,3, or these and a number of steps: 12,3,60"
+            f"{text!r} is not a vertex id, or an id and a factor such as 12:3, or these and a number of steps: 12:3:60"
         ) from None
 
 
@@ -115,13 +115,13 @@ ZOOMS = Row(
     (
         Option(
             "zooms",
-            "enlarge the place of a vertex, perhaps with N isolines",
+            "enlarge the places of vertices, perhaps so many times, and with N isolines",
             (),
             flag="zoom",
-            metavar="V[,FACTOR[,N]]",
+            metavar="V[:FACTOR[:N]],…",
             read=_zoom,
-            write=with_commas,
-            repeats=True,
+            write=lambda zoom: ":".join(map(digits, zoom)),
+            is_list=True,
         ),
     ),
     ("Document.zooms", "Zoom.vertex", "Zoom.factor", "Zoom.corner", "Zoom.isolines"),

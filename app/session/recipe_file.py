@@ -23,6 +23,12 @@ def recipe_paths(figure: str | os.PathLike[str]) -> tuple[Path, Path]:
     return figure.with_suffix(".json"), figure.with_name(f"{figure.name}.json")
 
 
+def written_recipe(figure: str | os.PathLike[str]) -> Path:
+    """Where the recipe of a figure that has been written is."""
+    usual, own = recipe_paths(figure)
+    return own if own.exists() else usual
+
+
 def check_recipe_beside(document: Document, figure: str | os.PathLike[str]) -> None:
     """Before long work: that a figure's recipe can be written; OutputError if not."""
     usual, own = recipe_paths(figure)

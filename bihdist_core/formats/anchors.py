@@ -16,7 +16,7 @@ from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
-from .pins import PIN_FORMATS, picked_in, placed, written_points
+from .pins import PIN_FORMATS, Picked, picked_in, placed, written_points
 
 COLUMNS = ("vertex", "value", "x", "y", "z", "name")
 
@@ -48,11 +48,15 @@ def read_anchors(path: str | os.PathLike[str], surface: Surface) -> Anchors:
     Raises ParameterError, a sentence with the file, the place in it and the value, for anything else, and for the same
     vertex twice.
     """
-    found = picked_in(path)
+    return anchors_at(picked_in(path), surface, Path(path).suffix.lower() == ".pp")
+
+
+def anchors_at(found: list[Picked], surface: Surface, are_named: bool = False) -> Anchors:
+    """Anchors as a file says them, at vertices of a surface; are_named: where no value is, the name is one."""
     values = []
     for pin in found:
         value = pin.value
-        if value is None and Path(path).suffix.lower() == ".pp":
+        if value is None and are_named:
             try:
                 value = float(pin.name)
             except ValueError:

@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import os
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -85,17 +86,30 @@ def read_pins(path: str | os.PathLike[str], surface: MeshLike) -> Pins:
 def picked_in(path: str | os.PathLike[str]) -> list[Picked]:
     """What a file of pins says, as it stands there; at least one.  Raises ParameterError as `read_pins`."""
     path = Path(path)
-    reader = _READERS.get(path.suffix.lower())
-    if reader is None:
+    if path.suffix.lower() not in PIN_FORMATS:
         raise ParameterError(f"{path} is no file of pins; these are {', '.join(PIN_FORMATS)}.")
     try:
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise unreadable(f"The pins in {path}", error) from None
-    found = reader(text, path.name)
+    return picked_from(text, path.name, path.suffix.lower())
+
+
+def picked_from(text: str, name: str, format: str) -> list[Picked]:
+    """What the text of a file of pins says; name: how messages call it; format: one of PIN_FORMATS."""
+    found = _READERS[format](text, name)
     if not found:
-        raise ParameterError(f"{path.name} holds no pins.")
+        raise ParameterError(f"{name} holds no pins.")
     return found
+
+
+def pins_format(text: str) -> str:
+    """Which of PIN_FORMATS a text has by how it begins, "" if none of them."""
+    begins = text.lstrip()
+    if begins[:1] in ("{", "<"):
+        return ".json" if begins[0] == "{" else ".pp"
+    first = re.split("[,;]", begins.partition("\n")[0])[0].strip().lower()
+    return ".csv" if first in WITH_VALUES else ""
 
 
 def write_pins(path: str | os.PathLike[str], surface: MeshLike, pins: Pins) -> None:

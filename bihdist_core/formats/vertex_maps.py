@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -75,8 +76,15 @@ def read_pairs(path: str | os.PathLike[str], source: Surface | None = None, targ
 
     Raises ParameterError, a sentence with the file, the line and the value, for anything else.
     """
+    return pairs_in(text_lines(Path(path), "pairs"), str(path), source, target)
+
+
+def pairs_in(
+    lines: Sequence[tuple[int, str]], path: str, source: Surface | None = None, target: Surface | None = None
+) -> IntArray:
+    """(k, 2) ids from numbered lines such as `read_pairs` reads; path: how messages call the file."""
     pairs = []
-    for number, line in text_lines(Path(path), "pairs"):
+    for number, line in lines:
         words = [word.strip() for word in line.replace(";", ",").split(",")]
         if number == 1 and not WHOLE.fullmatch(words[0]):
             continue

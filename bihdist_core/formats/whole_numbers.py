@@ -66,8 +66,17 @@ def _whole(word: str, where: str) -> int:
 
 def text_lines(path: Path, what: str) -> list[tuple[int, str]]:
     """The lines that are not empty, with their numbers; ParameterError if the file cannot be read."""
+    return numbered_lines(text_of(path, what))
+
+
+def text_of(path: Path, what: str) -> str:
+    """The whole text of a file; ParameterError if it cannot be read."""
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
+        return path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise unreadable(f"The {what} in {path}", error) from None
-    return [(number, line.strip()) for number, line in enumerate(lines, 1) if line.strip()]
+
+
+def numbered_lines(text: str) -> list[tuple[int, str]]:
+    """The lines of a text that are not empty, with their numbers."""
+    return [(number, line.strip()) for number, line in enumerate(text.splitlines(), 1) if line.strip()]

@@ -35,8 +35,8 @@ def meshes(tmp_path):
 def test_interpolate_writes_what_python_has(meshes, tmp_path, capsys):
     anchors, out = tmp_path / "anchors.csv", tmp_path / "field.npy"
     anchors.write_text("vertex,value\n3,1\n200,-2\n350,0.5\n")
-    words = ["--exponent", "2", "--smoothness", "0.1", "--distance", "biharmonic", "--distance", "geodesic"]
-    assert main(["interpolate", meshes[0], "--anchors", str(anchors), *words, "-o", str(out)]) == 0
+    words = ["--exponent", "2", "--smoothness", "0.1", "--distance", "biharmonic,geodesic"]
+    assert main(["interpolate", meshes[0], "--anchors", f"@{anchors}", *words, "-o", str(out)]) == 0
     surface = read_surface(meshes[0])
     for column, kind in zip(np.load(out).T, (BiharmonicDistance, GeodesicDistance), strict=True):
         alone = ShepardInterpolant(kind(surface), [3, 200, 350], [1, -2, 0.5], 2, 0.1).evaluate()
@@ -50,7 +50,7 @@ def test_interpolate_writes_what_python_has(meshes, tmp_path, capsys):
 def test_correspond_and_evaluate_say_what_python_has(meshes, tmp_path, capsys):
     pairs, out, curve = tmp_path / "pairs.csv", tmp_path / "map.txt", tmp_path / "curve.csv"
     pairs.write_text("i,j\n3,3\n200,200\n350,350\n90,90\n")
-    assert main(["correspond", *meshes, "--pairs", str(pairs), "--truth", "identity", "-o", str(out)]) == 0
+    assert main(["correspond", *meshes, "--pairs", f"@{pairs}", "--truth", "identity", "-o", str(out)]) == 0
     said = capsys.readouterr().out.splitlines()
     one, two = map(read_surface, meshes)
     known = [[3, 3], [200, 200], [350, 350], [90, 90]]
@@ -77,7 +77,7 @@ def test_evaluate_counts_partners_and_draws_the_curve(meshes, tmp_path, capsys):
         "identity",
         "--samples",
         "50",
-        "--geodesic",
+        "--method",
         "dijkstra",
         "--symmetry",
         str(tmp_path / "half.txt"),
@@ -93,7 +93,7 @@ def test_evaluate_counts_partners_and_draws_the_curve(meshes, tmp_path, capsys):
 
 def test_perturb_writes_the_mesh_and_says_the_change(meshes, tmp_path, capsys):
     out = tmp_path / "noisy.off"
-    words = ["--noise", "0.4", "--along", "normals", "--seed", "1", "--distance", "biharmonic", "--source", "9"]
+    words = ["--noise", "0.4", "--along", "normals", "--seed", "1", "--distance", "biharmonic", "--sources", "9"]
     assert main(["perturb", meshes[0], *words, "-o", str(out)]) == 0
     one, two = read_surface(meshes[0]), read_surface(out)
     assert np.array_equal(two.vertices, noisy(one, 0.4, 1, "normals").vertices)
@@ -130,8 +130,10 @@ def test_perturb_takes_another_pose_and_cuts_faces_out(meshes, tmp_path, capsys)
         (["perturb", "hand", "--pose", "figure", "-o", "x.off"], "another pose has the same"),
         (["perturb", "hand", "--cut", "9999999", "-o", "x.off"], "none is 9999999"),
         (["perturb", "hand", "--noise", "1", "-o", "x.stl"], ".off, .obj, .ply, .vtp"),
-        (["interpolate", "hand", "--anchors", "gone.csv", "-o", "x.npy"], "gone.csv"),
-        (["correspond", "hand", "hand", "--pairs", "gone.csv", "-o", "x.npy"], "gone.csv"),
+        (["interpolate", "hand", "--anchors", "@gone.csv", "-o", "x.npy"], "gone.csv"),
+        (["interpolate", "hand", "--anchors", "3=1,4", "-o", "x.npy"], "Anchor 4 has no value; write 4=0.5"),
+        (["interpolate", "hand", "--anchors", "3=1,3=2", "-o", "x.npy"], "Vertex 3 is an anchor twice"),
+        (["correspond", "hand", "hand", "--pairs", "@gone.csv", "-o", "x.npy"], "gone.csv"),
         (["evaluate", "hand", "figure", "identity", "--truth", "identity"], "are no map between them"),
     ],
 )

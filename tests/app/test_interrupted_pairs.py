@@ -1,4 +1,4 @@
-"""`bihdist pairs --all` that is interrupted: what it says it leaves, what the next run makes of that."""
+"""`bihdist pairs --sources all` that is interrupted: what it says it leaves, what the next run makes of that."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def interrupted(mesh, out, monkeypatch, error, after):
 
     with monkeypatch.context() as patch:
         patch.setattr(BiharmonicDistance, "from_sources", from_sources)
-        return main(["pairs", mesh, "--all", "--memory", "0.16", "-o", str(out)])
+        return main(["pairs", mesh, "--sources", "all", "--memory", "0.16", "-o", str(out)])
 
 
 @pytest.mark.parametrize(("error", "status"), [(KeyboardInterrupt(), 130), (MemoryError(), 2)])
@@ -35,15 +35,15 @@ def test_an_interrupted_run_says_what_it_leaves_and_the_next_goes_on(
     out = tmp_path / "all.npy"
     assert interrupted(mesh, out, monkeypatch, error, 2) == status
     (partial,) = tmp_path.glob(".all-*.npy.part")
-    known = f"{partial}, 40 of 200 rows (0.03 MB)"
+    known = f"{partial}, 40 of 200 rows (0.06 MB)"
     assert f"What is done is kept: {known}." in capsys.readouterr().err
-    assert main(["pairs", mesh, "--all", "--dtype", "float64", "-o", str(tmp_path / "all.npy")]) == 0
-    assert f"{partial} (0.03 MB) is left of a run with" in capsys.readouterr().err
+    assert main(["pairs", mesh, "--sources", "all", "--dtype", "float32", "-o", str(tmp_path / "all.npy")]) == 0
+    assert f"{partial} (0.06 MB) is left of a run with" in capsys.readouterr().err
     assert partial.exists()
-    assert main(["pairs", mesh, "--all", "-o", str(out)]) == 0
+    assert main(["pairs", mesh, "--sources", "all", "-o", str(out)]) == 0
     assert f"Going on from {known}; --fresh begins anew." in capsys.readouterr().err
     assert not partial.exists()
-    assert main(["pairs", mesh, "--all", "-o", str(out)]) == 0
+    assert main(["pairs", mesh, "--sources", "all", "-o", str(out)]) == 0
     assert capsys.readouterr().err == ""
 
 
@@ -55,7 +55,7 @@ def test_what_an_interrupted_run_has_left_may_be_discarded(mesh, tmp_path, capsy
         file.seek(200)
         file.write(100 * b"\0")  # what --fresh must not use
     capsys.readouterr()
-    assert main(["pairs", mesh, "--all", "--fresh", "-o", str(out)]) == 0
+    assert main(["pairs", mesh, "--sources", "all", "--fresh", "-o", str(out)]) == 0
     assert f"Discarding {partial}, 40 of 200 rows" in capsys.readouterr().err
     assert (np.load(out)[0, 1:] > 0).all()
     assert not partial.exists()

@@ -29,21 +29,21 @@ def test_curves_are_those_of_python(mesh, tmp_path, capsys):
     surface = read_surface(mesh)
     field = BiharmonicDistance(surface).from_source(7)
     out = str(tmp_path / "lines.csv")
-    assert main(["isolines", mesh, "--source", "7", "--isolines", "5", "--equal-isolines", "-o", out]) == 0
+    assert main(["isolines", mesh, "--sources", "7", "--isolines", "5", "--equal-isolines", "-o", out]) == 0
     expected = isolines(surface, field, field.max() * np.arange(1, 5) / 5)
     found = rows(out)
     points = np.concatenate([line.points for line in expected])
     assert np.allclose(np.column_stack([found[k] for k in "xyz"]), points, atol=1e-12)
     assert f"{len(expected)} curve" in capsys.readouterr().out
     # At round values where nothing else is said.
-    assert main(["isolines", mesh, "--source", "7", "--isolines", "5", "-o", out]) == 0
+    assert main(["isolines", mesh, "--sources", "7", "--isolines", "5", "-o", out]) == 0
     step = round_step(field.max(), 5)
     assert np.unique(rows(out)["value"]).tolist() == pytest.approx(np.arange(step, field.max(), step))
 
 
 def test_values_may_be_named_and_lie_on_both_sides_of_0(mesh, tmp_path):
     surface, out = read_surface(mesh), str(tmp_path / "lines.csv")
-    words = ["isolines", mesh, "--source", "7+90", "--distance", "biharmonic - geodesic", "-o", out]
+    words = ["isolines", mesh, "--sources", "7+90", "--distance", "biharmonic - geodesic", "-o", out]
     assert main([*words, "--isoline-values", "-0.01,0.01"]) == 0
     fields = [kind(surface).from_source("7+90") for kind in (BiharmonicDistance, GeodesicDistance)]
     expected = isolines(surface, difference(*fields), [-0.01, 0.01])
@@ -53,7 +53,7 @@ def test_values_may_be_named_and_lie_on_both_sides_of_0(mesh, tmp_path):
 
 
 def test_percent_of_a_difference_are_points_and_not_shares_of_its_largest(mesh, capsys):
-    words = ["isolines", mesh, "--source", "7+90", "--distance", "biharmonic - geodesic"]
+    words = ["isolines", mesh, "--sources", "7+90", "--distance", "biharmonic - geodesic"]
     said = []
     for region in ("1%:", "0.01:"):
         assert main([*words, "--region", region]) == 0
@@ -67,7 +67,7 @@ def test_a_region_between_two_values(mesh, tmp_path, capsys):
     surface = read_surface(mesh)
     field = BiharmonicDistance(surface).from_source(7)
     ids, part = tmp_path / "ids.txt", tmp_path / "part.ply"
-    words = ["isolines", mesh, "--source", "7", "--region", "20%:40%"]
+    words = ["isolines", mesh, "--sources", "7", "--region", "20%:40%"]
     assert main([*words, "--region-ids", str(ids), "--region-mesh", str(part)]) == 0
     expected = band(surface, field, 0.2 * field.max(), 0.4 * field.max())
     assert np.loadtxt(ids, dtype=int).tolist() == expected.vertices.tolist()
@@ -91,7 +91,7 @@ def test_a_region_between_two_values(mesh, tmp_path, capsys):
 )
 def test_what_cannot_be_done_says_why(mesh, words, said, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    assert main(["isolines", mesh, "--source", "7", *words]) == 2
+    assert main(["isolines", mesh, "--sources", "7", *words]) == 2
     assert said in capsys.readouterr().err
     assert not list(tmp_path.glob("l.*"))
 

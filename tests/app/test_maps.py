@@ -211,15 +211,13 @@ def test_what_makes_no_sense_is_refused(two, tmp_path):
 def test_a_figure_of_two_meshes_shows_maps(meshes, tmp_path, capsys):
     pairs, found = tmp_path / "pairs.csv", tmp_path / "found.txt"
     pairs.write_text("i,j\n" + "".join(f"{i},{j}\n" for i, j in PLACES))
-    assert main(["correspond", *meshes, "--pairs", str(pairs), "-o", str(found)]) == 0
+    assert main(["correspond", *meshes, "--pairs", f"@{pairs}", "-o", str(found)]) == 0
     capsys.readouterr()
     words = [
         "--map",
-        "pairs",
-        "--map",
-        str(found),
+        f"pairs,{found}",
         "--pairs",
-        str(pairs),
+        f"@{pairs}",
         "--distance",
         "biharmonic",
         "--size",
@@ -240,7 +238,7 @@ def test_a_figure_of_two_meshes_shows_maps(meshes, tmp_path, capsys):
 
 
 def test_a_figure_of_two_meshes_shows_both(meshes, tmp_path):
-    words = ["--distance", "biharmonic", "--source", "3", "--size", "400x200"]
+    words = ["--distance", "biharmonic", "--sources", "3", "--size", "400x200"]
     assert main(["figure", *meshes, *words, "-o", str(tmp_path / "both.png")]) == 0
     document = read_recipe(tmp_path / "both.json").document
     assert [(panel.surface, str(panel.shows)) for panel in document.panels] == [
@@ -253,7 +251,7 @@ def test_a_figure_of_two_meshes_shows_both(meshes, tmp_path):
     ("words", "said"),
     [
         (["A", "--map", "identity"], "name a second one"),
-        (["A", "B", "--map", "pairs"], "name their file with --pairs"),
+        (["A", "B", "--map", "pairs"], "name them with --pairs"),
         (["A", "B", "--map", "gone.npy"], "gone.npy"),
         (["A", "gone.off"], "gone.off"),
     ],

@@ -9,7 +9,7 @@ from app.document.docks import DockPlaces
 from app.document.document import FieldArray, Panel, comparison
 from app.document.edits import open_mesh, remove_panel, show_dock
 from app.document.quantities import OwnField
-from app.document.runs import ids_of, runs_from_words, runs_in_words, runs_of
+from app.document.runs import ids_of, runs_from_words, runs_of
 from app.document.shared_parts.pins import MOST_PINS, Pin, Pins, add_pins, change_pin, move_pin, remove_pins
 from app.document.shared_parts.selections import Selection, Selections, select, select_instead
 from app.tools.interpolation.part import Anchor, Anchors
@@ -18,6 +18,7 @@ from app.tools.profile.part import Profile
 from app.tools.regions.part import DividedPanels, divide, divided_panels, show_regions
 from app.tools.scatter.part import Scatter
 from bihdist_core import BoundaryLoop, ParameterError, SurfacePoint
+from bihdist_core.applications.changes import words_of_runs
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import grid
 
@@ -136,9 +137,9 @@ def test_panels_show_regions_by_their_numbers():
 
 def test_selected_vertices_in_words():
     runs = runs_of(np.array([3, 5, 6, 7, 12]))
-    assert runs_in_words(runs) == "3,5-7,12"
-    assert runs_from_words("3,5-7,12") == runs
-    assert runs_from_words(" 12, 6-7,3 ,5-6") == runs
+    assert words_of_runs(runs) == "3+5-7+12"
+    assert runs_from_words("3+5-7+12") == runs
+    assert runs_from_words(" 12+ 6-7+3 +5-6") == runs
     for words in ("", "ear", "3-", "-3", "1-2-3", "7-5"):
         with pytest.raises(ParameterError):
             runs_from_words(words)

@@ -411,6 +411,6 @@ def test_interpolants_alone_are_said_without_a_source(mesh):
     points = (Point("a", 3), Point("b", 9))
     document = replace(comparison(mesh, shows), points=points).with_part(Anchors((Anchor("a", 0.0), Anchor("b", 1.0))))
     line = one_line.command_line(Recipe(document), "f.png")
-    assert "--distance 'interpolant by biharmonic' --distance 'weights by geodesic'" in line
+    assert "--distance 'interpolant by biharmonic,weights by geodesic'" in line
     assert "--anchors 3=0.0,9=1.0" in line
-    assert "--source" not in line
+    assert "--sources" not in line

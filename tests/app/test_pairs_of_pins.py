@@ -1,4 +1,4 @@
-"""`bihdist pairs --pins`: distances among the pins of a file."""
+"""`bihdist pairs --sources @pins.csv`: distances among the pins of a file."""
 
 import json
 
@@ -19,9 +19,7 @@ def test_the_command_writes_distances_among_pins(tmp_path, capsys):
     entries = [{"id": k + 10, "position": p.tolist()} for k, p in enumerate(at)]
     pins = tmp_path / "pins.json"
     pins.write_text(json.dumps({"pins": entries}))
-    assert (
-        main(["pairs", mesh, "--pins", str(pins), "--distance", "biharmonic", "--distance", "geodesic", "-o", out]) == 0
-    )
+    assert main(["pairs", mesh, "--sources", f"@{pins}", "--distance", "biharmonic,geodesic", "-o", out]) == 0
     said = capsys.readouterr().err
     assert "1 pin moved to a vertex; the farthest, 12, by 0.001" in said
     table = np.loadtxt(out, delimiter=",", skiprows=1)
@@ -30,6 +28,6 @@ def test_the_command_writes_distances_among_pins(tmp_path, capsys):
     assert table[:, 4] == pytest.approx(BiharmonicDistance(rough).of_pairs(pairs), rel=1e-9)
     assert table[:, 5] == pytest.approx(GeodesicDistance(rough).of_pairs(pairs), rel=1e-9)
     matrix = str(tmp_path / "out.npy")
-    assert main(["pairs", mesh, "--pins", str(pins), "-o", matrix]) == 0
+    assert main(["pairs", mesh, "--sources", f"@{pins}", "-o", matrix]) == 0
     assert np.load(matrix) == pytest.approx(BiharmonicDistance(rough).pairwise([5, 17, 120]), rel=1e-9)
-    assert main(["pairs", mesh, "--pins", str(tmp_path / "no.csv"), "-o", out]) == 2
+    assert main(["pairs", mesh, "--sources", f"@{tmp_path}/no.csv", "-o", out]) == 2

@@ -35,7 +35,7 @@ def paper(mesh_file, tmp_path, monkeypatch, capsys):
     def made(surface, sizes=(250, 300, 350)):
         monkeypatch.setattr(_claims_growth, "QUICK_SIZES", sizes)
         out = tmp_path / "out"
-        status = main(["paper", "--mesh", mesh_file(surface), "--quick", "--only", "claims", "--out", str(out)])
+        status = main(["paper", "--mesh", mesh_file(surface), "--quick", "--only", "claims", "-o", str(out)])
         said = capsys.readouterr()
         return status, said.out, said.err, (out / "index.html").read_text(encoding="utf-8")
 
@@ -108,7 +108,7 @@ def test_what_fails_beside_the_experiments_leaves_the_page(mesh_file, tmp_path, 
     folder, out = tmp_path / "meshes", tmp_path / "out"
     folder.mkdir()
     Path(mesh_file(bumpy(120))).rename(folder / "a.off")
-    assert main(["paper", "--mesh", str(folder), "--quick", "--only", "fig3", "--out", str(out)]) == 1
+    assert main(["paper", "--mesh", str(folder), "--quick", "--only", "fig3", "-o", str(out)]) == 1
     said = capsys.readouterr()
     assert "2 parts could not be done" in said.err
     page = (out / "index.html").read_text(encoding="utf-8")
@@ -126,7 +126,7 @@ def test_a_folder_has_its_page_with_each_mesh_and_what_cannot_be_read(mesh_file,
     write_mesh(folder / "c.ply", bumpy(120))
     (folder / "b.off").write_text("OFF\n1 1 0\n")
     out = tmp_path / "out"
-    assert main(["paper", "--mesh", str(folder), "--quick", "--only", "fig3", "--out", str(out)]) == 1
+    assert main(["paper", "--mesh", str(folder), "--quick", "--only", "fig3", "-o", str(out)]) == 1
     assert "not done" in capsys.readouterr().out
     page = (out / "index.html").read_text(encoding="utf-8")
     assert page.count("Not done") == 1

@@ -219,16 +219,16 @@ def from_words(*words):
 
 
 def test_a_line_of_it_means_the_same_and_options_change_what_it_is_made_from(mesh, tmp_path):
-    words = [mesh, "--distance", "biharmonic", "--distance", "diffusion", "--source", "5"]
+    words = [mesh, "--distance", "biharmonic,diffusion", "--sources", "5"]
     recipe = from_words(*words, "--perturb", "simplify=150,weld=3:200", "--size", "300x100")
     again = from_words(*shlex.split(one_line.command_line(recipe, "out.png"))[2:-2])
     assert (again.document, again.page) == (recipe.document, recipe.page)
-    several = from_words(*words, "--source", "9", "--perturb", "noise=1")
+    several = from_words(*words[:-1], "5,9", "--perturb", "noise=1")
     assert len(several.document.panels) == 12
     line = shlex.split(one_line.command_line(several, "out.png"))
     assert from_words(*line[2:-2]).document == several.document
     (tmp_path / "r.json").write_text(recipe_text(recipe, "1"))
-    other = from_words("--recipe", str(tmp_path / "r.json"), "--source", "17", "--perturb", "noise=2")
+    other = from_words("--recipe", str(tmp_path / "r.json"), "--sources", "17", "--perturb", "noise=2")
     assert other.document.surfaces[1].change == Perturbation(noise=2)
     assert (other.document.point("source").at, other.document.point("source after").at) == (17, None)
     plain = from_words("--recipe", str(tmp_path / "r.json"), "--up", "z")
@@ -272,13 +272,13 @@ def test_a_source_is_not_moved_onto_what_is_new(mesh, desk):
 
 
 def test_the_command_says_the_numbers(mesh, tmp_path, capsys):
-    words = ["figure", mesh, "--distance", "biharmonic", "--source", "5", "--size", "300x100"]
+    words = ["figure", mesh, "--distance", "biharmonic", "--sources", "5", "--size", "300x100"]
     assert main([*words, "--perturb", "noise=0.3,seed=2", "-o", str(tmp_path / "f.png")]) == 0
     said = capsys.readouterr().out
     (answer,) = bihdist.figure(mesh, ["biharmonic"], 5, perturb="noise=0.3,seed=2").answers[2:]
     assert f"change of biharmonic, exact: {answer.remark}" in said
     assert "source vertex 5" in said
-    noise = ["--noise", "0.3", "--seed", "2", "--distance", "biharmonic", "--source", "5"]
+    noise = ["--noise", "0.3", "--seed", "2", "--distance", "biharmonic", "--sources", "5"]
     main(["perturb", mesh, *noise, "-o", str(tmp_path / "m.off")])
     mean = answer.remark.removeprefix("mean ").split(", largest ")[0]
     assert f"changes by {mean} of its maximum" in capsys.readouterr().out

@@ -14,7 +14,7 @@ from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.kinds import Spec
 from tests.shapes import bumpy
 
-TWO = ["--distance", "biharmonic", "--distance", "geodesic(method=dijkstra)"]
+TWO = ["--distance", "biharmonic,geodesic(method=dijkstra)"]
 
 
 @pytest.fixture(scope="module")
@@ -28,10 +28,12 @@ def field(surface, spec):
 
 def test_numbers_are_the_fields_along_the_path(surface, tmp_path, capsys):
     csv, array = tmp_path / "p.csv", tmp_path / "p.npy"
-    options = ["--source", "17", "--through", "source,f40:0.2,0.5,300", *TWO]
-    assert main(["profile", "part", *options, "-o", str(csv), "-o", str(array)]) == 0
     path = GeodesicPaths(surface).path([17, "f40:0.2,0.5", 300])
-    assert f"{path.label}, {len(path.points):,} points, {path.length:.6g} long" in capsys.readouterr().out
+    for out in (csv, array):
+        options = ["--sources", "17", "--through", "source,f40:0.2,0.5,300", *TWO]
+        assert main(["profile", "part", *options, "-o", str(out)]) == 0
+        said = capsys.readouterr().out
+        assert said == f"{out}: {path.label}, {len(path.points):,} points, {path.length:.6g} long\n"
     assert csv.read_text().startswith("arc,x,y,z,face,b0,b1,b2,biharmonic,geodesic(method=dijkstra)\n")
     table = np.load(array)
     assert np.array_equal(table, np.loadtxt(csv, delimiter=",", skiprows=1))
@@ -49,7 +51,7 @@ def test_numbers_are_the_fields_along_the_path(surface, tmp_path, capsys):
 def test_pins_from_a_file_and_sections(surface, tmp_path):
     (tmp_path / "pins.csv").write_text("id,vertex,x,y,z,name\n4,17,,,,a\n9,6000,,,,b\n")
     out = tmp_path / "p.json"
-    words = ["--pins", str(tmp_path / "pins.csv"), "--way", "section-whole", "--across", "-0.5,1,0.2"]
+    words = ["--pins", f"@{tmp_path}/pins.csv", "--way", "section-whole", "--across", "-0.5,1,0.2"]
     assert main(["profile", "part", *words, "--distance", "biharmonic", "-o", str(out)]) == 0
     said = json.loads(out.read_text())
     path = plane_section(surface, [17, 6000], (-0.5, 1, 0.2), "whole")
@@ -68,8 +70,8 @@ def mesh(mesh_file):
 def test_charts(mesh, tmp_path, extension, capsys):
     files = [tmp_path / f"{name}{extension}" for name in ("shares", "values")]
     for file, words in zip(files, ([], ["--values", "--size", "column"]), strict=True):
-        options = ["--source", "17", "--through", "source,300", *TWO, *words]
-        assert main(["profile", mesh, *options, "-o", str(file)]) == 0
+        options = ["--sources", "17", "--through", "source,300", *TWO, *words]
+        assert main(["profile", mesh, *options, "--chart", str(file)]) == 0
     assert files[0].read_bytes() != files[1].read_bytes()
     # Nothing of fonts, say, which the formats treat differently.
     assert all("Dijkstra" in line for line in capsys.readouterr().err.splitlines())
@@ -87,13 +89,21 @@ def test_charts(mesh, tmp_path, extension, capsys):
         (["--through", "3,900000"], "900000"),
         (["--through", "3,pin:1"], "no pin 1"),
         (["--through", "3,4", "--way", "section"], "--across"),
+        (["--through", "3,4", "--chart", "p.csv"], ".png"),
     ],
 )
 def test_what_makes_no_path_is_refused(mesh, tmp_path, capsys, words, said):
     out = tmp_path / "p.csv"
-    assert main(["profile", mesh, "--source", "17", "--distance", "biharmonic", *words, "-o", str(out)]) == 2
+    assert main(["profile", mesh, "--sources", "17", "--distance", "biharmonic", *words, "-o", str(out)]) == 2
     assert said in capsys.readouterr().err
     assert not out.exists()
+
+
+def test_a_profile_goes_somewhere_and_starts_from_one_source(mesh, tmp_path, capsys):
+    assert main(["profile", mesh, "--through", "3,4"]) == 2
+    assert "name a file of numbers with -o, or one with --chart" in capsys.readouterr().err
+    assert main(["profile", mesh, "--through", "3,4", "--sources", "random:3", "-o", str(tmp_path / "p.csv")]) == 2
+    assert "starts from one source, and --sources names 3" in capsys.readouterr().err
 
 
 def test_another_extension_is_refused_first(tmp_path, capsys):

@@ -21,21 +21,21 @@ def meshes(tmp_path):
     return [str(tmp_path / name) for name in ("one.off", "ring.off")]
 
 
-@pytest.mark.parametrize("command", [["field", "--source", "3", "7"], ["pairs", "--vertices", "3,7,9"]])
+@pytest.mark.parametrize("command", [["field", "--sources", "3,7"], ["pairs", "--sources", "3,7,9"]])
 def test_each_mesh_has_an_output_of_its_own(meshes, tmp_path, capsys, command):
     word, *options = command
     assert main([word, *meshes, *options, "-o", str(tmp_path / "{name}_out.npy"), "--json"]) == 0
-    said = json.loads(capsys.readouterr().out)
+    said = json.loads(capsys.readouterr().out)["meshes"]
     assert [each["mesh"] for each in said] == meshes
     for mesh, each in zip(meshes, said, strict=True):
-        assert each["output"] == mesh.replace(".off", "_out.npy")
+        assert each["outputs"] == [mesh.replace(".off", "_out.npy")]
         distance = BiharmonicDistance(read_surface(mesh))
         expected = distance.from_sources([3, 7]) if word == "field" else distance.pairwise([3, 7, 9])
-        np.testing.assert_array_equal(np.load(each["output"]), expected)
+        np.testing.assert_array_equal(np.load(*each["outputs"]), expected)
 
 
 def test_several_meshes_with_one_output_are_refused(meshes, tmp_path, capsys):
-    assert main(["field", *meshes, "--source", "3", "-o", str(tmp_path / "out.npy")]) == 2
+    assert main(["field", *meshes, "--sources", "3", "-o", str(tmp_path / "out.npy")]) == 2
     assert "write -o {name}.npy" in capsys.readouterr().err
     assert not (tmp_path / "out.npy").exists()
     # So are two of one name, which `{name}` does not tell apart.
@@ -43,13 +43,13 @@ def test_several_meshes_with_one_output_are_refused(meshes, tmp_path, capsys):
     other.mkdir()
     shutil.copy(meshes[0], other)
     named = [meshes[0], str(other / "one.off")]
-    assert main(["field", *named, "--source", "3", "-o", str(tmp_path / "{name}.npy")]) == 2
+    assert main(["field", *named, "--sources", "3", "-o", str(tmp_path / "{name}.npy")]) == 2
     assert "would both be written to" in capsys.readouterr().err
     assert not (tmp_path / "one.npy").exists()
 
 
 def test_a_mesh_that_is_missing_costs_no_other(meshes, tmp_path, capsys):
-    options = ["--source", "3", "-o", str(tmp_path / "{name}.npy")]
+    options = ["--sources", "3", "-o", str(tmp_path / "{name}.npy")]
     assert main(["field", meshes[0], "missing.off", meshes[1], *options]) == 2
     said = capsys.readouterr()
     assert "missing.off" in said.err
@@ -59,14 +59,14 @@ def test_a_mesh_that_is_missing_costs_no_other(meshes, tmp_path, capsys):
 
 def test_info_as_json_has_numbers(meshes, capsys):
     assert main(["info", *meshes, "--json"]) == 0
-    one, ring = json.loads(capsys.readouterr().out)
-    assert (one["vertices"], one["genus"], ring["genus"], ring["boundary loops"]) == (80, 0, 1, 0)
+    one, ring = json.loads(capsys.readouterr().out)["meshes"]
+    assert (one["n_vertices"], one["genus"], ring["genus"], ring["boundary_loop_count"]) == (80, 0, 1, 0)
     assert ring["area"] == pytest.approx(float(read_surface(meshes[1]).face_areas.sum()), rel=1e-12)
     assert ring["repairs"] == []
 
 
 def test_text_goes_to_standard_output_and_words_beside_it(meshes, capsys):
-    assert main(["field", meshes[0], "--source", "3", "-o", "-"]) == 0
+    assert main(["field", meshes[0], "--sources", "3", "-o", "-"]) == 0
     said = capsys.readouterr()
     lines = said.out.splitlines()
     assert lines[0] == "vertex,biharmonic_from_3"
@@ -74,9 +74,9 @@ def test_text_goes_to_standard_output_and_words_beside_it(meshes, capsys):
     values = [float(line.split(",")[1]) for line in lines[1:]]
     np.testing.assert_array_equal(values, BiharmonicDistance(read_surface(meshes[0])).from_source(3))
     assert said.err.startswith("-: biharmonic, exact, 80 vertices")
-    assert main(["samples", meshes[0], "--count", "4", "-o", "-"]) == 0
+    assert main(["samples", meshes[0], "--sources", "farthest:4", "-o", "-"]) == 0
     assert len(capsys.readouterr().out.split()) == 4
-    assert main(["pairs", meshes[0], "--all", "-o", "-"]) == 2
+    assert main(["pairs", meshes[0], "--sources", "all", "-o", "-"]) == 2
     assert capsys.readouterr().err.startswith("bihdist: - has the extension '.csv'")
 
 
@@ -101,7 +101,7 @@ def test_bash_completes_commands_and_options(capsys, tmp_path):
         )
         return subprocess.run(["bash", "-c", ask], capture_output=True, text=True).stdout.split()
 
-    assert completed("bihdist", "field", "--sou") == ["--source"]
+    assert completed("bihdist", "field", "--sou") == ["--sources"]
     assert completed("bihdist", "fie") == ["field"]
     assert completed("bihdist", "field", "sha") == ["shape_12.obj"]
     assert completed("bihdist", "batch", "list.txt", "--labels", "sha") == ["shape_12.obj"]
@@ -110,7 +110,7 @@ def test_bash_completes_commands_and_options(capsys, tmp_path):
 
 @pytest.mark.parametrize("ending", ["csv", "npy", "npz", "json"])
 def test_nearest_vertices_of_several_meshes(meshes, tmp_path, ending):
-    options = ["--nearest", "4", "--source", "3", "7", "--distance", "commute-time"]
+    options = ["--nearest", "--k", "4", "--sources", "3,7", "--distance", "commute-time"]
     assert main(["pairs", *meshes, *options, "-o", str(tmp_path / f"{{name}}.{ending}")]) == 0
     for mesh in meshes:
         distance = CommuteTimeDistance(read_surface(mesh))
@@ -135,10 +135,9 @@ def test_nearest_vertices_of_several_meshes(meshes, tmp_path, ending):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--nearest", "2", "--source", "some"], "'some' is not a vertex id"),
-        (["--nearest", "2", "--source", "80"], "has no vertex 80"),
-        (["--nearest", "2", "--distance", "biharmonic", "--distance", "geodesic"], "of one distance; name one"),
-        (["--vertices", "1,2", "--source", "3"], "--source goes with --nearest"),
+        (["--nearest", "--k", "2", "--sources", "80"], "has no vertex 80"),
+        (["--nearest", "--k", "2", "--distance", "biharmonic,geodesic"], "of one distance; name one"),
+        (["--nearest", "--k", "0"], "k must be a whole number above 0"),
     ],
 )
 def test_neighbours_that_cannot_be_are_refused(meshes, capsys, options, words):
@@ -149,9 +148,9 @@ def test_neighbours_that_cannot_be_are_refused(meshes, capsys, options, words):
 @pytest.mark.parametrize(
     "command",
     [
-        ["field", "--source", "3", "7"],
-        ["pairs", "--vertices", "3,7,9", "--distance", "biharmonic", "--distance", "diffusion(t=1/4)"],
-        ["pairs", "--nearest", "3"],
+        ["field", "--sources", "3,7"],
+        ["pairs", "--sources", "3,7,9", "--distance", "biharmonic,diffusion(t=1/4)"],
+        ["pairs", "--nearest", "--k", "3"],
     ],
     ids=["field", "pairs", "nearest"],
 )

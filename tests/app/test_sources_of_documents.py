@@ -124,7 +124,7 @@ def flat(mesh_file):
 def test_fields_from_words(flat, tmp_path, capsys):
     (tmp_path / "way.json").write_text('{"points": [[3, 0.2, 0.3], [40, 0.3, 0.3]]}')
     words = ["3", "3+40", "f17:0.2,0.5", "loop:0", str(tmp_path / "way.json")]
-    assert main(["field", flat, "--source", *words, "-o", str(tmp_path / "d.csv")]) == 0
+    assert main(["field", flat, "--sources", ",".join(words), "-o", str(tmp_path / "d.csv")]) == 0
     sources = [3, SourceSet((3, 40)), PLACE, BoundaryLoop(0), CURVE]
     expected = BiharmonicDistance(read_surface(flat)).from_sources(sources)
     rows = (tmp_path / "d.csv").read_text().splitlines()
@@ -136,7 +136,7 @@ def test_fields_from_words(flat, tmp_path, capsys):
 
 
 def test_the_exact_geodesic_is_exact_from_a_line_too(flat, tmp_path, capsys):
-    words = ["field", flat, "--distance", "geodesic(method=exact)", "-o", str(tmp_path / "d.npy"), "--source"]
+    words = ["field", flat, "--distance", "geodesic(method=exact)", "-o", str(tmp_path / "d.npy"), "--sources"]
     assert main([*words, "loop:0"]) == 0
     assert "geodesic, exact, 63 vertices" in capsys.readouterr().out
 
@@ -145,7 +145,7 @@ def test_the_exact_geodesic_is_exact_from_a_line_too(flat, tmp_path, capsys):
 def test_words_that_are_no_source_are_refused_before_anything_is_read(command, capsys):
     output = [] if command == "view" else ["-o", "out.png"]
     with pytest.raises(SystemExit):
-        main([command, "no mesh.off", *output, "--source", "lop:0"])
+        main([command, "no mesh.off", *output, "--sources", "lop:0"])
     assert "did you mean loop:0?" in capsys.readouterr().err
 
 
@@ -158,20 +158,20 @@ def test_sources_that_the_mesh_does_not_have_are_refused(mesh_file, tmp_path, ca
         ("60", "belongs to no face"),
     ]:
         for command in (["field", mesh, "-o", tmp_path / "d.npy"], ["figure", mesh, "-o", tmp_path / "f.png"]):
-            assert main([*map(str, command), "--source", word]) == 2
+            assert main([*map(str, command), "--sources", word]) == 2
             assert said in capsys.readouterr().err
 
 
 def test_a_figure_with_rows_of_sources_and_its_recipe(flat, tmp_path, capsys):
     words = ["figure", flat, "--distance", "biharmonic", "--size", "300x500"]
-    assert main([*words, "--source", "3+40", "--source", "loop:0", "-o", str(tmp_path / "a.png")]) == 0
+    assert main([*words, "--sources", "3+40,loop:0", "-o", str(tmp_path / "a.png")]) == 0
     assert "source 3+40, loop:0" in capsys.readouterr().out
     recipe = read_recipe(tmp_path / "a.json")
     assert recipe.document.sources == (SourceSet((3, 40)), BoundaryLoop(0))
     assert main(["figure", "--recipe", str(tmp_path / "a.json"), "-o", str(tmp_path / "b.png")]) == 0
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
     # Another source for the same recipe.
-    more = ["--source", "f17:0.2,0.5", "--source", "4", "-o", str(tmp_path / "c.png")]
+    more = ["--sources", "f17:0.2,0.5,4", "-o", str(tmp_path / "c.png")]
     assert main(["figure", "--recipe", str(tmp_path / "a.json"), *more]) == 0
     assert read_recipe(tmp_path / "c.json").document.sources == (PLACE, 4)
 
@@ -187,7 +187,7 @@ def test_python_draws_from_all_of_them(flat):
 
 
 def test_a_movie_turns_about_a_set(flat, tmp_path):
-    words = ["--source", "3+40", "--distance", "biharmonic", "--size", "120x120", "--frames", "2"]
+    words = ["--sources", "3+40", "--distance", "biharmonic", "--size", "120x120", "--frames", "2"]
     assert main(["movie", flat, *words, "-o", str(tmp_path / "m.gif")]) == 0
     assert (tmp_path / "m.gif").stat().st_size > 0
 
@@ -235,11 +235,11 @@ def test_what_is_hidden_is_said_in_few_sentences(mesh_file, tmp_path, capsys):
     face = int(np.argmin(surface.vertices[surface.faces, 2].max(axis=1)))
 
     def said(source):
-        assert main([*words, "--source", source]) == 0
+        assert main([*words, "--sources", source]) == 0
         return [line for line in capsys.readouterr().err.splitlines() if "hidden" in line]
 
     assert said(f"{back[0]}+{back[-1]}") == [
-        f"bihdist: Vertex {back[0]} is hidden in the view front: a dashed ring; try --view source or --two-views."
+        f"bihdist: Vertex {back[0]} is hidden in the view front: a dashed ring; try --view source or --view front,back."
     ]
     assert f"The place f{face}:0.3,0.3 is hidden" in said(f"f{face}:0.3,0.3")[0]
     (line,) = said("+".join(map(str, back[:5])))
@@ -247,5 +247,5 @@ def test_what_is_hidden_is_said_in_few_sentences(mesh_file, tmp_path, capsys):
     way = tmp_path / "way.json"
     way.write_text(f'{{"points": [[{face}, 0.3, 0.3], [{face}, 0.1, 0.1]]}}')
     assert said(str(way)) == [
-        "bihdist: The curve of 2 points is hidden in the view front; try --view source or --two-views."
+        "bihdist: The curve of 2 points is hidden in the view front; try --view source or --view front,back."
     ]

@@ -10,7 +10,8 @@ ROOT = Path(__file__).parents[2]
 
 def batch(meshes, out, *options):
     """The exit status; by one process, which is begun sooner than two, unless the options say otherwise."""
-    return main(["batch", str(meshes), "--out", str(out), "--workers", "1", *map(str, options)])
+    workers = [] if "--workers" in options else ["--workers", "1"]
+    return main(["batch", str(meshes), "-o", str(out), *workers, *map(str, options)])
 
 
 def rows(out, table="summary"):

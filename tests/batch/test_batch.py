@@ -1,6 +1,7 @@
 """`bihdist batch` on folders of small meshes, in processes."""
 
 import csv
+import io
 import json
 import os
 import shutil
@@ -15,6 +16,7 @@ from scipy.io import loadmat
 
 from app.batch.drive import found_meshes
 from app.batch.engines import Processes
+from app.main import main
 from bihdist_core import BiharmonicDistance, Laplacian, ParameterError, read_surface, write_mesh
 from bihdist_core.analysis.sampling import farthest_points
 from bihdist_core.laplacian import eigenpairs
@@ -36,7 +38,7 @@ def folder(tmp_path_factory):
 def done(folder, tmp_path_factory):
     """A whole run: where its results are."""
     out = tmp_path_factory.mktemp("out")
-    options = ("--sources", "farthest:12", "--eigenpairs", "9", "--workers", "2")
+    options = ("--sources", "farthest:12", "--k", "9", "--workers", "2")
     assert batch(folder, out, "--do", "fields,pairs,eigen,fps", *options) == 0
     return out
 
@@ -63,7 +65,7 @@ def test_what_a_result_is_stands_beside_it(folder, done):
     assert facts["shape"] == [200, 12]
     assert (facts["distance"], facts["unit"], facts["normalisation"]) == ("biharmonic", "mesh units", "none")
     assert facts["sources"] == np.load(done / "bumpy.fps.biharmonic.npy").tolist()
-    assert (facts["mesh"], facts["vertices"], facts["areas"]) == ("bumpy.off", 200, "voronoi")
+    assert (facts["mesh"], facts["n_vertices"], facts["areas"]) == ("bumpy.off", 200, "voronoi")
     assert len(facts["checksum"]) == 64
     assert facts["version"]
 
@@ -76,7 +78,7 @@ def test_the_summary_has_a_line_for_each_result(done):
 
 
 def test_several_distances_have_a_file_each(folder, tmp_path):
-    options = ("--do", "fields", "--source", "3", "5", "--distance", "diffusion(t=1/4)", "--distance", "commute-time")
+    options = ("--do", "fields", "--sources", "3,5", "--distance", "diffusion(t=1/4),commute-time")
     assert batch(folder, tmp_path, *options, "--dtype", "float32") == 0
     names = {path.name for path in tmp_path.glob("ring.fields.*.npy")}
     assert names == {"ring.fields.diffusion_t_1_4.npy", "ring.fields.commute-time.npy"}
@@ -108,7 +110,7 @@ def test_benchmarks_find_their_folders(folder, tmp_path, layout):
     np.testing.assert_allclose(found[layout], expected, atol=1e-12)
 
 
-def test_parcels_masks_and_landmarks_are_named_by_the_mesh(folder, tmp_path):
+def test_parcels_masks_and_sources_are_named_by_the_mesh(folder, tmp_path):
     for name in ("bumpy", "ring", "pieces"):
         n = len(read_surface(folder / f"{name}.off").vertices)
         np.save(tmp_path / f"{name}_labels.npy", np.arange(n) % 4)
@@ -116,7 +118,7 @@ def test_parcels_masks_and_landmarks_are_named_by_the_mesh(folder, tmp_path):
         (tmp_path / f"{name}.txt").write_text("3\n1\n2\n")
     out = tmp_path / "out"
     options = ("--labels", tmp_path / "{name}_labels.npy", "--mask", tmp_path / "{name}_mask.npy")
-    assert batch(folder, out, "--do", "pairs,fields", "--landmarks", tmp_path / "{name}.txt", *options) == 0
+    assert batch(folder, out, "--do", "pairs,fields", "--sources", f"@{tmp_path}/{{name}}.txt", *options) == 0
     distance = BiharmonicDistance(read_surface(folder / "bumpy.off"))
     rows_of, mask = distance.from_sources(np.arange(200)), np.arange(200) % 5 > 0
     of = [mask & (np.arange(200) % 4 == k) for k in range(4)]
@@ -170,16 +172,16 @@ def test_maps_are_evaluated(folder, tmp_path):
 def test_tables_keep_what_other_commands_have_left(folder, tmp_path):
     meshes, out = tmp_path / "meshes", tmp_path / "out"
     shutil.copytree(folder, meshes)
-    assert batch(meshes, out, "--do", "fields", "--source", "150") == 1
-    assert batch(meshes, out, "--do", "eigen", "--eigenpairs", "3") == 0
+    assert batch(meshes, out, "--do", "fields", "--sources", "150") == 1
+    assert batch(meshes, out, "--do", "eigen", "--k", "3") == 0
     assert [(row["mesh"], row["work"]) for row in rows(out)] == [
         ("bumpy", "eigen"), ("bumpy", "fields"), ("pieces", "eigen"), ("ring", "eigen")
     ]  # fmt: skip
-    assert [row["seconds"] != "" for row in rows(out)] == [True, False, True, True]
+    assert [row["seconds"] != "" for row in rows(out)] == [True, True, True, True]
     assert {(row["mesh"], row["work"]) for row in rows(out, "failures")} == {("pieces", "fields"), ("ring", "fields")}
     (out / "bumpy.eigen.npz").unlink()
     (meshes / "ring.off").unlink()
-    assert batch(meshes, out, "--do", "fields", "--source", "3") == 0
+    assert batch(meshes, out, "--do", "fields", "--sources", "3") == 0
     assert [(row["mesh"], row["work"]) for row in rows(out)] == [
         ("bumpy", "fields"), ("pieces", "eigen"), ("pieces", "fields"), ("ring", "eigen")
     ]  # fmt: skip
@@ -204,7 +206,7 @@ def test_tables_keep_failures_of_maps_until_maps_are_evaluated_again(folder, tmp
     assert batch(folder, out, *evaluate) == 1
     both = [("bumpy-ring", "evaluate"), ("ring-bumpy", "evaluate")]
     assert [(row["mesh"], row["work"]) for row in rows(out, "failures")] == both
-    assert batch(folder, out, "--do", "eigen", "--eigenpairs", "3") == 0
+    assert batch(folder, out, "--do", "eigen", "--k", "3") == 0
     assert [(row["mesh"], row["work"]) for row in rows(out, "failures")] == both
     (maps / "ring-bumpy.npy").unlink()
     assert batch(folder, out, *evaluate) == 1
@@ -214,7 +216,7 @@ def test_tables_keep_failures_of_maps_until_maps_are_evaluated_again(folder, tmp
 # ---------------------------------------------------------------------- again
 def test_what_is_there_is_not_done_again(folder, done, capsys):
     before = {path: path.stat().st_mtime_ns for path in done.glob("*.npy")}
-    assert batch(folder, done, "--do", "fields,pairs,eigen,fps", "--sources", "farthest:12", "--eigenpairs", "9") == 0
+    assert batch(folder, done, "--do", "fields,pairs,eigen,fps", "--sources", "farthest:12", "--k", "9") == 0
     assert {path: path.stat().st_mtime_ns for path in done.glob("*.npy")} == before
     assert "12 results of 3 meshes, 12 of them there before" in capsys.readouterr().out
 
@@ -222,7 +224,7 @@ def test_what_is_there_is_not_done_again(folder, done, capsys):
 def test_what_has_changed_is_done_again_and_no_more(folder, tmp_path):
     meshes, out = tmp_path / "meshes", tmp_path / "out"
     shutil.copytree(folder, meshes)
-    options = ("--do", "fields", "--source", "3")
+    options = ("--do", "fields", "--sources", "3")
     assert batch(meshes, out, *options) == 0
     first = {path.name: path.stat().st_mtime_ns for path in out.glob("*.npy")}
     write_mesh(meshes / "ring.off", torus(20, 8))
@@ -234,24 +236,26 @@ def test_what_has_changed_is_done_again_and_no_more(folder, tmp_path):
     # Other options are other work, from the same folder moved elsewhere as from here.
     moved = tmp_path / "moved"
     meshes.rename(moved)
+    before = rows(out)
     assert batch(moved, out, *options) == 0
-    assert not any(row["seconds"] for row in rows(out))
+    assert rows(out) == before
+    assert all(float(row["seconds"]) > 0 for row in before)
     assert batch(moved, out, *options, "--areas", "barycentric") == 0
-    assert all(row["seconds"] for row in rows(out))
+    assert [row["seconds"] for row in rows(out)] != [row["seconds"] for row in before]
 
 
 def test_one_mesh_that_cannot_be_done_costs_no_other(folder, tmp_path, capsys):
     meshes, out = tmp_path / "meshes", tmp_path / "out"
     shutil.copytree(folder, meshes)
     (meshes / "torn.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n")
-    assert batch(meshes, out, "--do", "fields", "--source", "150") == 1
+    assert batch(meshes, out, "--do", "fields", "--sources", "150") == 1
     assert [row["mesh"] for row in rows(out)] == ["bumpy"]
     reasons = {row["mesh"]: row["reason"] for row in rows(out, "failures")}
     assert set(reasons) == {"torn", "ring", "pieces"}
     assert "has no vertex 150" in reasons["ring"]
     assert "failures.csv says why" in capsys.readouterr().err
     (meshes / "torn.off").unlink()
-    assert batch(meshes, out, "--do", "fields", "--source", "3") == 0
+    assert batch(meshes, out, "--do", "fields", "--sources", "3") == 0
     assert not (out / "failures.csv").exists()
 
 
@@ -260,7 +264,7 @@ def test_a_run_that_was_killed_goes_on_where_it_was(folder, tmp_path):
     meshes.mkdir()
     for k in range(12):
         write_mesh(meshes / f"m{k:02}.off", bumpy(2000, k))
-    words = [sys.executable, "-m", "app", "batch", str(meshes), "--out", str(out), "--do", "fields,eigen"]
+    words = [sys.executable, "-m", "app", "batch", str(meshes), "-o", str(out), "--do", "fields,eigen"]
     words += ["--sources", "farthest:40", "--workers", "2"]
     run = subprocess.Popen(words, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     begin = time.monotonic()
@@ -268,12 +272,15 @@ def test_a_run_that_was_killed_goes_on_where_it_was(folder, tmp_path):
         time.sleep(0.02)
     run.send_signal(signal.SIGKILL)
     run.wait()
-    there = set(out.glob("*.json"))
+    there = {path.name: json.loads(path.read_text()) for path in out.glob("*.json")}
     assert 3 <= len(there) < 24
     assert subprocess.run(words, cwd=ROOT, capture_output=True).returncode == 0
-    kept = [row for row in rows(out) if not row["seconds"]]
     assert len(rows(out)) == 24
-    assert len(kept) >= 3
+    # Also those of the first run, which has written no table.
+    seconds = {row["file"]: float(row["seconds"]) for row in rows(out)}
+    assert {facts["file"]: seconds[facts["file"]] for facts in there.values()} == {
+        facts["file"]: facts["seconds"] for facts in there.values()
+    }
     for path in out.glob("*.npy"):
         np.load(path)
     # The processes of the first run have ended with it.
@@ -303,40 +310,90 @@ def test_files_of_the_same_name_are_called_by_their_folders(tmp_path):
             write_mesh(tmp_path / subject / f"{mesh}.off", bumpy(50))
     path = tmp_path / "list.txt"
     path.write_text("one/left.off\ntwo/left.off\none/one.off\n")
-    assert list(found_meshes(str(path))) == ["one_left", "two_left", "one"]
+    assert list(found_meshes([], str(path)).paths) == ["one_left", "two_left", "one"]
+    # A mesh that is named twice is one.
     path.write_text("one/left.off\none/left.off\n")
+    assert list(found_meshes([str(tmp_path / "one")], str(path)).paths) == ["left", "one"]
+    shutil.copytree(tmp_path / "one", tmp_path / "more" / "one")
+    path.write_text("one/left.off\nmore/one/left.off\n")
     with pytest.raises(ParameterError, match="the same name, one_left"):
-        found_meshes(str(path))
+        found_meshes([], str(path))
 
 
-def test_a_list_names_files_and_samples(folder, tmp_path):
+def test_meshes_are_named_by_files_folders_samples_and_lists(folder, tmp_path):
     path = tmp_path / "list.txt"
     path.write_text(f"# two\n{os.path.relpath(folder / 'ring.off', tmp_path)}\nhand\n")
-    assert list(found_meshes(str(path))) == ["ring", "hand"]
+    assert list(found_meshes([], str(path)).paths) == ["ring", "hand"]
+    assert list(found_meshes([str(folder / "ring.off"), "part"], str(path)).paths) == ["ring", "part", "hand"]
+    found = found_meshes(["gone.off", str(folder)])
+    assert list(found.paths) == ["bumpy", "pieces", "ring"]
+    assert found.missing == {"gone": "There is no file or folder gone.off, nor a sample of that name."}
+    (tmp_path / "empty").mkdir()
+    assert "no mesh in the folder" in found_meshes([str(tmp_path / "empty"), "hand"]).missing["empty"]
 
 
 @pytest.mark.parametrize(
     ("text", "words"),
-    [("", "names no mesh"), ("missing.off\n", "line 1: there is no file missing.off"), (None, "no folder with meshes")],
+    [
+        ("", "names no mesh"),
+        ("gone.off\n", "line 1: There is no file or folder gone.off"),
+        (None, "cannot be read"),
+    ],
 )
 def test_a_list_that_is_wrong_is_refused(tmp_path, text, words):
     path = tmp_path / "list.txt"
     if text is not None:
         path.write_text(text)
     with pytest.raises(ParameterError, match=words):
-        found_meshes(str(path))
+        found_meshes([], str(path))
 
 
-BOTH = ("--distance", "biharmonic", "--distance", "geodesic")
+def test_no_mesh_at_all_is_refused():
+    with pytest.raises(ParameterError, match="Which meshes"):
+        found_meshes([])
+    with pytest.raises(ParameterError, match=r"no file or folder gone\.off"):
+        found_meshes(["gone.off"])
+
+
+def test_a_mesh_that_is_missing_costs_only_itself(folder, tmp_path, capsys):
+    words = [str(folder / "ring.off"), "gone.off", "--do", "fields,eigen", "--k", "5", "--workers", "1"]
+    assert main(["batch", *words, "-o", str(tmp_path)]) == 1
+    assert [(row["mesh"], row["work"]) for row in rows(tmp_path)] == [("ring", "eigen"), ("ring", "fields")]
+    failures = rows(tmp_path, "failures")
+    assert [(row["mesh"], row["work"]) for row in failures] == [("gone", "eigen"), ("gone", "fields")]
+    assert all("no file or folder gone.off" in row["reason"] for row in failures)
+    assert "2 results of 2 meshes" in capsys.readouterr().out
+    # Once it is there, so is its result.
+    write_mesh(tmp_path / "gone.off", bumpy(50))
+    words = [str(folder / "ring.off"), str(tmp_path / "gone.off"), *words[2:]]
+    assert main(["batch", *words, "-o", str(tmp_path)]) == 0
+    assert not (tmp_path / "failures.csv").exists()
+
+
+def test_a_list_from_standard_input(folder, tmp_path, monkeypatch):
+    monkeypatch.setattr("sys.stdin", io.StringIO(f"{folder / 'ring.off'}\n"))
+    words = ["--list", "-", "--do", "fields", "--sources", "3", "--workers", "1", "-o", str(tmp_path)]
+    assert main(["batch", *words]) == 0
+    assert [row["mesh"] for row in rows(tmp_path)] == ["ring"]
+
+
+def test_sources_from_standard_input(folder, tmp_path, monkeypatch):
+    monkeypatch.setattr("sys.stdin", io.StringIO("3\n1 # the second\n"))
+    words = ["--do", "fields", "--sources", "-", "--workers", "2", "-o", str(tmp_path)]
+    assert main(["batch", str(folder / "ring.off"), str(folder / "bumpy.off"), *words]) == 0
+    facts = json.loads((tmp_path / "bumpy.fields.biharmonic.json").read_text())
+    assert facts["sources"] == [3, 1]
+
+
+BOTH = ("--distance", "biharmonic,geodesic")
 
 
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--do", "dance", "--seed", "3"), "no work 'dance'"),
+        (("--do", "dance", "--samples", "3"), "no work 'dance'"),
         (("--do", "pairs"), "Pairs are among several sources"),
         (("--do", "fps"), "Farthest points need a number"),
-        (("--do", "fields", "--sources", "some"), "no rule for sources"),
         (("--do", "evaluate"), "evaluated with --maps"),
         (("--do", "pairs", "--sources", "all", *BOTH, "--layout", "dist"), "A layout"),
         (("--do", "pairs", "--sources", "all", "--layout", "dist", "--format", "npz"), "leave out --format npz"),

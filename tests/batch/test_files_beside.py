@@ -1,4 +1,4 @@
-"""Landmarks, samples, masks and labels: what counts, and what is said of files that do not fit."""
+"""Sources from files and by rules, masks and labels: what counts, and what is said of files that do not fit."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,8 @@ import pytest
 from app.batch.drive import found_meshes, tasks_for
 from app.batch.execution import do
 from app.batch.task import done_before
-from app.batch.work_order import Sources, WorkOrder
+from app.batch.work_order import WorkOrder
+from app.document.sources import Sources
 from bihdist_core import BiharmonicDistance, Surface, write_mesh
 from tests.shapes import bumpy
 
@@ -23,7 +24,7 @@ def mesh(tmp_path_factory):
 
 
 def report(mesh, out, *works, **options):
-    (task,), failures = tasks_for(found_meshes(str(mesh)), WorkOrder(works, **options), str(out), "1")
+    (task,), failures = tasks_for(found_meshes([str(mesh)]).paths, WorkOrder(works, **options), str(out), "1")
     assert not failures
     return do(task)
 
@@ -40,7 +41,7 @@ MASK = np.append(np.arange(N) % 3 > 0, True)
 
 
 @pytest.mark.parametrize(
-    ("rule", "count"), [("all", 60), ("sample", 20), ("farthest", 20)], ids=["all", "sample", "farthest"]
+    ("rule", "count"), [("all", 60), ("random", 20), ("farthest", 20)], ids=["all", "random", "farthest"]
 )
 def test_sources_by_a_rule_are_not_masked(mesh, tmp_path, rule, count):
     mask = written(tmp_path / "mask.npy", MASK)
@@ -69,8 +70,8 @@ def test_all_says_which_they_are_where_some_are_left_out(mesh, tmp_path):
 
 
 FILES = {
-    "landmarks": lambda path: {"sources": Sources("landmarks", file=path)},
-    "mask": lambda path: {"mask": path, "sources": Sources("vertices", ("1", "2"))},
+    "sources": lambda path: {"sources": Sources("file", file=path)},
+    "mask": lambda path: {"mask": path, "sources": Sources(members=(1, 2))},
     "labels": lambda path: {"labels": path},
 }
 
@@ -78,13 +79,13 @@ FILES = {
 @pytest.mark.parametrize(
     ("what", "name", "values", "words"),
     [
-        ("landmarks", "a.txt", [1, N + 1], f"has no vertex {N + 1}; ids run from 0 to {N}"),
-        ("landmarks", "a.txt", [-1], "has no vertex -1"),
-        ("landmarks", "a.txt", [N], f"vertex {N} "),
-        ("landmarks", "a.txt", ["one"], "line 1: 'one' is not a whole number"),
-        ("landmarks", "a.txt", [], "There is no landmark in"),
-        ("landmarks", "a.csv", None, "cannot be read"),
-        ("landmarks", "a.npy", None, "cannot be read: No such file"),
+        ("sources", "a.txt", [1, N + 1], f"has no vertex {N + 1}; ids run from 0 to {N}"),
+        ("sources", "a.txt", [-1], "vertex ids start at 0"),
+        ("sources", "a.txt", [N], f"vertex {N} "),
+        ("sources", "a.txt", ["one"], "line 1: 'one' is no source"),
+        ("sources", "a.txt", [], "There is no source in"),
+        ("sources", "a.csv", None, "cannot be read"),
+        ("sources", "a.npy", None, "cannot be read: No such file"),
         ("mask", "a.npy", np.ones(N, bool), f"for each of the {N + 1:,} vertices of shape.off; this one has the shape"),
         ("mask", "a.npy", np.arange(N + 1) % 3, "vertex 2 has 2"),
         ("mask", "a.npy", np.arange(N + 1) == N, "leaves no vertex of shape.off"),
@@ -108,7 +109,7 @@ def test_files_that_do_not_fit_are_failures_of_what_reads_them_alone(mesh, tmp_p
 @pytest.mark.parametrize("text", ["# three\n0 7\n12 # the last\n", "0,7,12", "0.0e+00\n7.000000000000000000e+00\n12\n"])
 def test_numbers_may_be_written_as_other_programs_do(mesh, tmp_path, text):
     (tmp_path / "a.txt").write_text(text)
-    found = report(mesh, tmp_path, "fields", **FILES["landmarks"](str(tmp_path / "a.txt")))
+    found = report(mesh, tmp_path, "fields", **FILES["sources"](str(tmp_path / "a.txt")))
     assert found.rows[0].facts["sources"] == [0, 7, 12]
 
 
@@ -122,12 +123,14 @@ def test_labels_without_vertices_are_no_parcels(mesh, tmp_path):
 
 
 def test_a_change_of_a_file_is_one_of_what_reads_it_alone(mesh, tmp_path):
-    path = tmp_path / "landmarks.txt"
-    options = {"sources": Sources("landmarks", file=str(path)), "eigenpairs": 5}
+    path = tmp_path / "sources.txt"
+    options = {"sources": Sources("file", file=str(path)), "eigenpairs": 5}
     written(path, [3, 4])
     assert [row.is_new for row in report(mesh, tmp_path, "fields", "eigen", **options).rows] == [True, True]
     written(path, [4, 3])
     found = {row.work: row.is_new for row in report(mesh, tmp_path, "fields", "eigen", **options).rows}
     assert found == {"fields": True, "eigen": False}
-    (task,), _ = tasks_for(found_meshes(str(mesh)), WorkOrder(("fields", "eigen"), **options), str(tmp_path), "1")
+    (task,), _ = tasks_for(
+        found_meshes([str(mesh)]).paths, WorkOrder(("fields", "eigen"), **options), str(tmp_path), "1"
+    )
     assert done_before(task) is not None

@@ -10,7 +10,8 @@ from scipy.io import loadmat
 
 from app.batch.drive import found_meshes, tasks_for
 from app.batch.execution import do
-from app.batch.work_order import ARRAYS, LAYOUTS, Sources, WorkOrder, slug
+from app.batch.work_order import ARRAYS, LAYOUTS, WorkOrder, slug
+from app.document.sources import Sources
 from bihdist_core import (
     BiharmonicDistance,
     DiffusionDistance,
@@ -36,7 +37,7 @@ def mesh(tmp_path_factory):
 
 
 def made(mesh, out, **options):
-    (task,), failures = tasks_for(found_meshes(str(mesh.parent)), WorkOrder(**options), str(out), "1.2")
+    (task,), failures = tasks_for(found_meshes([str(mesh.parent)]).paths, WorkOrder(**options), str(out), "1.2")
     report = do(task)
     assert not failures
     assert not report.failures
@@ -105,6 +106,35 @@ def expectations(mesh):
     }
 
 
+@pytest.mark.parametrize("one_based", [False, True])
+def test_mat_files_say_from_where_vertex_ids_count(mesh, tmp_path, one_based):
+    options = {"sources": Sources("farthest", count=9), "nearest": 128, "eigenpairs": 3}
+    made(mesh, tmp_path, works=WORKS, arrays="npz", **options)
+    facts = made(mesh, tmp_path / "mat", works=WORKS, arrays="mat", one_based=one_based, **options)
+    held = {"fields": ["sources"], "pairs": ["sources"], "nearest": ["indices", "sources"], "fps": ["vertices"]}
+    for work, said in facts.items():
+        found = loaded(tmp_path / "mat" / said["file"])
+        if work == "eigen":
+            assert "ids_count_from" not in found
+            continue
+        right = loaded(tmp_path / said["file"].replace(".mat", ".npz"))
+        assert int(found["ids_count_from"]) == said["mat_ids_count_from"] == one_based
+        for name in held[work]:
+            np.testing.assert_array_equal(found[name], right[name] + one_based)
+        for name in set(right) - set(held[work]):
+            np.testing.assert_allclose(found[name], right[name])
+    # The mesh has fewer vertices than are asked for.
+    assert loaded(tmp_path / "mat" / facts["nearest"]["file"])["indices"].min() == one_based - 1
+    assert facts["nearest"]["indices"] == f"{one_based - 1} where there is none"
+    # In JSON they count from 0.
+    assert facts["fields"]["sources"] == right["vertices"].tolist()
+
+
+def test_layouts_have_no_ids_and_nothing_that_benchmarks_do_not_know(mesh, tmp_path):
+    said = made(mesh, tmp_path, works=("pairs",), sources=Sources("all"), layout="dist")["pairs"]
+    assert set(loaded(tmp_path / said["file"])) == {"dist"}
+
+
 def test_zarr_is_read_lazily_by_dask(mesh, tmp_path, monkeypatch):
     zarr = pytest.importorskip("zarr")
     array = pytest.importorskip("dask.array")
@@ -165,7 +195,7 @@ def test_benchmarks_read_their_layouts_as_errors_over_the_root_of_the_area(mesh,
     for layout, normalise, readers in (("geodist", "", of_geodist), ("dist", "area", (read_by_ulrssm,))):
         out = tmp_path / layout
         wanted = WorkOrder(("pairs",), **options, layout=layout, normalise=normalise)
-        tasks, _ = tasks_for(found_meshes(str(mesh.parent)), wanted, str(out), "1")
+        tasks, _ = tasks_for(found_meshes([str(mesh.parent)]).paths, wanted, str(out), "1")
         if in_parts:
             monkeypatch.setattr("app.batch.execution.PART_BYTES", 8 * 128 * 50)
             parts = do(tasks[0]).more
@@ -187,7 +217,7 @@ def test_normalised_results_are_those_of_the_mesh_scaled_to_area_1(mesh, tmp_pat
     words = ("biharmonic", "diffusion(t=1/4)")
     options = {"distances": words, "sources": Sources("farthest", count=9), "eigenpairs": 7, "arrays": "npz"}
     (task,), _ = tasks_for(
-        found_meshes(str(mesh.parent)), WorkOrder(WORKS, **options, normalise="area"), str(tmp_path), "1"
+        found_meshes([str(mesh.parent)]).paths, WorkOrder(WORKS, **options, normalise="area"), str(tmp_path), "1"
     )
     sources = np.load(tmp_path / "bumpy.fps.biharmonic.npz")["vertices"] if not do(task).failures else None
     fields = {word: np.load(tmp_path / f"bumpy.fields.{slug(word)}.npz")["fields"] for word in words}
@@ -225,7 +255,10 @@ def test_other_files_have_checksums_of_their_own(mesh, tmp_path):
 def test_neighbours_of_a_large_mesh_are_put_together(mesh, tmp_path, monkeypatch):
     monkeypatch.setattr("app.batch.execution.PART_COLUMNS", 50)
     (task,), _ = tasks_for(
-        found_meshes(str(mesh.parent)), WorkOrder(("nearest",), sources=Sources("all"), nearest=5), str(tmp_path), "1"
+        found_meshes([str(mesh.parent)]).paths,
+        WorkOrder(("nearest",), sources=Sources("all"), nearest=5),
+        str(tmp_path),
+        "1",
     )
     parts = do(task).more
     assert [(each.part.begin, each.part.end) for each in parts] == [(0, 50), (50, 100), (100, 128)]

@@ -11,6 +11,7 @@ from tests.shapes import torus
 
 EVALUATE = "--do evaluate --maps maps --truth identity"
 FROM_SOURCES = "goes with --do fields, pairs, nearest or fps."
+ALSO_FIGURES = "--sources goes with --do fields, pairs, nearest, fps or figure."
 
 
 @pytest.fixture(scope="module")
@@ -32,22 +33,30 @@ def folder(tmp_path_factory):
         ("--do fields --range size", "--range goes with --do figure."),
         ("--do figure --dtype float32", "--dtype goes with --do fields, pairs, nearest or eigen."),
         ("--do figure --format zarr", "--format goes with --do fields, pairs, nearest, eigen, fps or evaluate."),
-        ("--do fields --nearest 10", "--nearest goes with --do nearest."),
-        ("--do fields --eigenpairs 100", "--eigenpairs goes with --do eigen."),
+        (
+            f"{EVALUATE} --k 10",
+            "--k goes with --do fields, pairs, nearest, eigen, fps or figure.",
+        ),
+        ("--do fields --k 100", "--k 100 is no parameter of biharmonic."),
+        ("--do nearest,eigen --sources 3,5 --k 10", "--k 10 may be that of nearest or of eigen"),
+        ("--do nearest --sources 3,5 --distance power --k 10", "say how many eigenpairs power has in its words"),
         ("--do fields --layout dist", "--layout goes with --do pairs."),
         ("--do figure --normalise area", "--normalise goes with --do fields, pairs, nearest, eigen or fps."),
         ("--do fields --labels x.npy", "--labels goes with --do pairs."),
         ("--do eigen,figure --mask x.npy", f"--mask {FROM_SOURCES}"),
-        ("--do eigen --sources all", f"--sources {FROM_SOURCES}"),
-        ("--do figure --sources all", f"--sources {FROM_SOURCES}"),
-        ("--do figure --landmarks x.txt", f"--landmarks {FROM_SOURCES}"),
-        ("--do figure --sample 3", f"--sample {FROM_SOURCES}"),
-        ("--do eigen --source 3", "--source goes with --do fields, pairs, nearest, fps or figure."),
-        ("--do figure --source 3 5", "Figures have one source"),
-        ("--do pairs,figure --labels x.npy --source 3 5", "Figures have one source"),
+        ("--do eigen --sources all", ALSO_FIGURES),
+        ("--do eigen --sources 3", ALSO_FIGURES),
+        ("--do figure --sources all", "Figures have one source"),
+        ("--do figure --sources @x.txt", "Figures have one source"),
+        ("--do figure --sources random:3", "Figures have one source"),
+        ("--do figure --sources 3,5", "Figures have one source"),
+        ("--do pairs,figure --labels x.npy --sources 3,5", "Figures have one source"),
         ("--do pairs --labels x.npy --sources all", "--sources has no effect on the means"),
-        ("--do pairs --labels x.npy --source 3", "--source has no effect on the means"),
-        ("--do fields --seed 0", "--seed goes with --sample."),
+        ("--do pairs --labels x.npy --sources 3", "--sources has no effect on the means"),
+        ("--do eigen --format mat --one-based", f"--one-based {FROM_SOURCES}"),
+        ("--do fields --one-based", "--one-based goes with --format mat; vertex ids in .npy files count from 0."),
+        ("--do fields --format zarr --one-based", "vertex ids in .zarr files count from 0."),
+        ("--do pairs --sources all --layout dist --one-based", "--one-based has no effect on --layout dist"),
         ("--do eigen --distance diffusion", "--distance goes with"),
         ("--do eigen --method exact", "--method goes with"),
         (f"{EVALUATE} --distance geodesic", "--distance goes with"),
@@ -57,7 +66,7 @@ def folder(tmp_path_factory):
     ],
 )
 def test_what_would_have_no_effect_is_refused(folder, tmp_path, capsys, words, said):
-    assert main(["batch", str(folder), "--out", str(tmp_path / "out"), *words.split()]) == 2
+    assert main(["batch", str(folder), "-o", str(tmp_path / "out"), *words.split()]) == 2
     assert said in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
 
@@ -66,17 +75,18 @@ def test_what_would_have_no_effect_is_refused(folder, tmp_path, capsys, words, s
     "words",
     [
         "--do fields,pairs,eigen --sources farthest:400",
-        "--do fields --landmarks {name}.txt --mask {name}.npy",
-        "--do nearest --sources all --nearest 10 --distance diffusion(t=1/4)",
+        "--do fields,eigen --format mat --one-based",
+        "--do fields --sources @{name}.txt --mask {name}.npy",
+        "--do nearest --sources all --k 10 --distance diffusion(t=1/4)",
         "--do pairs --labels {name}.npy --mask {name}.npy",
         "--do pairs --sources all --distance geodesic --layout dist --normalise area",
-        "--do fields,pairs --labels {name}.npy --source 3 5",
-        "--do pairs,figure --labels {name}.npy --source 3",
-        "--do figure --range shared --source 3 --distance diffusion --t 1/4 --areas barycentric",
-        "--do figure --recipe x.json --range own --source 3",
-        "--do fields,figure --recipe x.json --source 3 5 --distance geodesic",
-        "--do eigen,figure --recipe x.json --areas barycentric --eigenpairs 3",
-        "--do fields --sample 5 --seed 0",
+        "--do fields,pairs --labels {name}.npy --sources 3,5",
+        "--do pairs,figure --labels {name}.npy --sources 3",
+        "--do figure --range shared --sources 3 --distance diffusion --t 1/4 --areas barycentric",
+        "--do figure --recipe x.json --range own --sources 3",
+        "--do fields,figure --recipe x.json --sources 3,5 --distance geodesic",
+        "--do eigen,figure --recipe x.json --areas barycentric --k 3",
+        "--do fields --sources random:5:0",
         f"{EVALUATE} --symmetry x.npy --samples 10 --areas barycentric",
         f"{EVALUATE} --areas barycentric",
     ],
@@ -84,12 +94,12 @@ def test_what_would_have_no_effect_is_refused(folder, tmp_path, capsys, words, s
 def test_what_has_an_effect_is_not(words):
     parser = argparse.ArgumentParser()
     batch.add_options(parser)
-    batch._check_together(parser.parse_args(["meshes", "--out", "out", *words.split()]))
+    batch._check_together(parser.parse_args(["meshes", "-o", "out", *words.split()]))
 
 
 def test_what_is_not_given_is_what_the_help_says():
     parser = argparse.ArgumentParser()
     batch.add_options(parser)
-    words = ["meshes", "--out", "out", "--do", "fields,nearest,eigen,figure", "--sample", "5"]
+    words = ["meshes", "-o", "out", "--do", "fields,nearest,eigen,figure", "--sources", "random:5"]
     wanted = batch._wanted(parser.parse_args(words))
     assert (wanted.nearest, wanted.eigenpairs, wanted.range, wanted.sources.seed) == (10, 100, "size", 0)

@@ -49,7 +49,7 @@ def drawn(meshes, out, range, document):
     wanted = WorkOrder((MAXIMA,), recipe=recipe, range=range)
 
     def rows(asked):
-        tasks, _ = tasks_for(found_meshes(str(meshes)), asked, str(out), "1")
+        tasks, _ = tasks_for(found_meshes([str(meshes)]).paths, asked, str(out), "1")
         reports = [do(task) for task in tasks]
         assert not [each.failures for each in reports if each.failures]
         return sorted((row for each in reports for row in each.rows), key=lambda row: row.name)

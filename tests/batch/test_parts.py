@@ -14,7 +14,8 @@ from app.batch.maps import found_maps
 from app.batch.memory import needed
 from app.batch.storage import Folder
 from app.batch.task import done_before
-from app.batch.work_order import Sources, WorkOrder
+from app.batch.work_order import WorkOrder
+from app.document.sources import Sources
 from bihdist_core import GeodesicDistance, read_surface, write_mesh
 from tests.shapes import bumpy, torus
 
@@ -28,9 +29,7 @@ def mesh(tmp_path):
 
 
 def task_for(mesh, out, *works, **options):
-    listed = mesh.parent / "list.txt"
-    listed.write_text(f"{mesh}\n")
-    (task,), failures = tasks_for(found_meshes(str(listed)), WorkOrder(works, **options), str(out), "1")
+    (task,), failures = tasks_for(found_meshes([str(mesh)]).paths, WorkOrder(works, **options), str(out), "1")
     assert not failures
     return task
 
@@ -71,6 +70,7 @@ def test_what_has_been_put_together_is_not_lost_when_it_is_asked_for_again(mesh,
     join = finish(first)
     (row,) = do(join).rows
     before = (tmp_path / "out" / row.facts["file"]).read_bytes()
+    assert row.facts["seconds"] > 0
     for again in (join, first.more[0], join):
         report = do(again)
         assert not report.failures
@@ -78,6 +78,21 @@ def test_what_has_been_put_together_is_not_lost_when_it_is_asked_for_again(mesh,
     assert (tmp_path / "out" / row.facts["file"]).read_bytes() == before
     assert done_before(task) is not None
     assert not list((tmp_path / "out").glob(".parts/*"))
+
+
+def test_what_is_put_together_has_the_seconds_of_all_its_parts(mesh, tmp_path, monkeypatch):
+    in_parts(monkeypatch)
+    task = task_for(mesh, tmp_path / "out", "fields", sources=Sources("all"))
+    finish(do(task))
+    kept = sorted((tmp_path / "out").glob(".parts/*/*.seconds"))
+    assert len(kept) == len(list((tmp_path / "out").glob(".parts/*/*.npy"))) > 3
+    for path in kept:
+        assert float(path.read_text()) >= 0
+        path.write_text("1000.25")
+    # Parts of an earlier run are not done again, and count.
+    (row,) = do(finish(do(task))).rows
+    assert row.facts["seconds"] == pytest.approx(1000.25 * len(kept), abs=60)
+    assert done_before(task).rows[0].facts == row.facts
 
 
 def test_meshes_of_one_content_have_parts_of_their_own(mesh, tmp_path, monkeypatch):
@@ -165,16 +180,16 @@ def test_zarr_is_whole_or_absent(tmp_path):
 
 
 # ---------------------------------------------------------------------- memory
-def test_landmarks_count_as_sources():
-    wanted = WorkOrder(("fields",), sources=Sources("landmarks", file="x"), arrays="npz")
+def test_sources_of_a_file_count():
+    wanted = WorkOrder(("fields",), sources=Sources("file", file="x"), arrays="npz")
     farthest = WorkOrder(("fields",), sources=Sources("farthest", count=5000), arrays="npz")
     assert needed(20_000, wanted, 5000) == needed(20_000, farthest) > needed(20_000, wanted)
 
 
-def test_a_task_with_many_landmarks_asks_for_their_memory(mesh, tmp_path, monkeypatch):
+def test_a_task_with_many_sources_in_a_file_asks_for_their_memory(mesh, tmp_path, monkeypatch):
     marks = tmp_path / "marks.txt"
     marks.write_text("".join(f"{k}\n" for k in range(100)))
     asked = []
-    monkeypatch.setattr(execution, "needed", lambda n, wanted, landmarks: asked.append((n, landmarks)) or 0)
-    do(task_for(mesh, tmp_path / "out", "fields", sources=Sources("landmarks", file=str(marks))))
+    monkeypatch.setattr(execution, "needed", lambda n, wanted, from_file: asked.append((n, from_file)) or 0)
+    do(task_for(mesh, tmp_path / "out", "fields", sources=Sources("file", file=str(marks))))
     assert asked == [(128, 100)]

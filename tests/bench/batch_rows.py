@@ -171,7 +171,7 @@ def _cortex(vertices: int, parcels: int) -> tuple[Surface, np.ndarray]:
 
 # ---------------------------------------------------------------------- what is timed
 def _batch(meshes: Path, out: Path, sources: int, workers: int) -> float:
-    words = [sys.executable, "-m", "app", "batch", str(meshes), "--out", str(out), "--do", "fields"]
+    words = [sys.executable, "-m", "app", "batch", str(meshes), "-o", str(out), "--do", "fields"]
     words += ["--sources", f"farthest:{sources}", "--dtype", "float32", "--workers", str(workers)]
     begin = time.perf_counter()
     subprocess.run(words, cwd=ROOT, check=True, capture_output=True)

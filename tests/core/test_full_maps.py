@@ -73,7 +73,7 @@ def test_maps_that_were_not_made_here_are_evaluated(lions, tmp_path, capsys):
     np.savetxt(tmp_path / "partial.txt", partial, "%d")
     names = ["column.npy", "lines.txt", "partial.txt"]
     meshes = [str(MESHES / name) for name in ("lion_ref.obj", "lion_pose05.obj")]
-    words = ["--truth", "identity", "--samples", "60", "--geodesic", "dijkstra", "-o", str(tmp_path / "curves.csv")]
+    words = ["--truth", "identity", "--samples", "60", "--method", "dijkstra", "-o", str(tmp_path / "curves.csv")]
     assert main(["evaluate", *meshes, *(str(tmp_path / name) for name in names), *words]) == 0
     said = capsys.readouterr().out.splitlines()
     assert "mean 0, median 0, area under the curve to 0.25 1;" in said[0]

@@ -160,7 +160,7 @@ def test_a_distance_of_somebody_else_joins(package, mesh_file, tmp_path):
     status, said = run(
         package,
         "from app.main import main\nraise SystemExit(main(["
-        f"'field', {str(mesh)!r}, '--source', '3', '--distance', 'straight(stretch=2)', '-o', {str(out)!r}]))",
+        f"'field', {str(mesh)!r}, '--sources', '3', '--distance', 'straight(stretch=2)', '-o', {str(out)!r}]))",
     )
     assert status == 0, said
     assert "straight, 60 vertices" in said

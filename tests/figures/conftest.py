@@ -14,6 +14,6 @@ def mesh(mesh_file):
 
 @pytest.fixture
 def drawn(mesh, tmp_path):
-    words = ["--distance", "biharmonic", "--distance", "diffusion", "--source", "4", "--isolines", "9", "--crop"]
+    words = ["--distance", "biharmonic,diffusion", "--sources", "4", "--isolines", "9", "--crop"]
     assert main(["figure", mesh, *words, *SMALL, "-o", str(tmp_path / "f.png")]) == 0
     return tmp_path

@@ -67,13 +67,10 @@ def test_the_options_of_colours_and_ranges():
     assert recipe_of("--colours", "ember", "--bands", "--reversed").document.colours == Colours("ember", (), True, True)
     assert recipe_of("--bands", "--no-bands").document.colours == Colours()
     assert recipe_of("--range", "shares").document.range == "shares"
-    assert recipe_of("--shared-range").document.range == "shared"
-    assert recipe_of("--shared-range", "--range", "shared").document.range == "shared"
+    assert recipe_of("--range", "shared").document.range == "shared"
     assert maxima(recipe_of("--range", "0.8").document) == [0.8, 0.8, 0.8]
     assert maxima(recipe_of("--range", "0.8,own,2").document) == [0.8, None, 2.0]
     for words, sentence in [
-        (["--range", "shares", "--shared-range"], "--range shares and --shared-range differ"),
-        (["--range", "own", "--shared-range"], "differ"),
         (["--range", "1,2"], "2 ends of colour bars for 3 panels"),
         (["--range", "gone.json"], r"'gone\.json' is none of"),
         (["--range", "nan"], "not nan"),
@@ -116,10 +113,20 @@ def test_ends_are_taken_by_quantity_and_else_by_place():
 def test_two_figures_have_one_scale(tmp_path, capsys):
     first, second = tmp_path / "first.png", tmp_path / "second.png"
     words = ["--distance", "biharmonic", *SMALL]
-    assert main(["figure", "hand", "--source", "12", *words, "-o", str(first)]) == 0
+    assert main(["figure", "hand", "--sources", "12", *words, "-o", str(first)]) == 0
     assert (
         main(
-            ["figure", "hand", "--source", "900", *words, "--range", str(first.with_suffix(".json")), "-o", str(second)]
+            [
+                "figure",
+                "hand",
+                "--sources",
+                "900",
+                *words,
+                "--range",
+                str(first.with_suffix(".json")),
+                "-o",
+                str(second),
+            ]
         )
         == 0
     )
@@ -142,10 +149,9 @@ def test_ends_are_those_of_a_figure_that_shares_them(tmp_path):
                 "figure",
                 "hand",
                 "--distance",
-                "biharmonic",
-                "--distance",
-                "geodesic",
-                "--shared-range",
+                "biharmonic,geodesic",
+                "--range",
+                "shared",
                 *SMALL,
                 "-o",
                 str(path),
@@ -181,6 +187,6 @@ def test_python_says_the_same():
     )
     assert picture.document.colours == Colours("safe", (), True, True)
     assert maxima(picture.document) == [0.5, None]
-    assert app.figure("hand", ["biharmonic"], size="300x200", shared_range=True).document.range == "shared"
+    assert app.figure("hand", ["biharmonic"], size="300x200", range="shared").document.range == "shared"
     own = Colours("mine", ((0.0, (0.0, 0.0, 0.0)), (1.0, (1.0, 1.0, 1.0))), bands=True)
     assert app.figure("hand", ["biharmonic"], size="300x200", colours=own).document.colours == own

@@ -171,7 +171,7 @@ def test_a_hidden_mark_is_a_ghost_and_is_spoken_of(ball, tmp_path):
         assert bool(said) == (not seen)
         if said:
             assert said == [
-                f"Vertex {vertex} is hidden in the view back: a dashed ring; try --view source or --two-views."
+                f"Vertex {vertex} is hidden in the view back: a dashed ring; try --view source or --view front,back."
             ]
 
 
@@ -183,7 +183,7 @@ def test_a_line_that_is_hidden_all_along_is_spoken_of(ball, tmp_path):
     for views, said in (
         (("front",), []),
         (("back", "front"), []),
-        (("back",), ["The curve of 2 points is hidden in the view back; try --view source or --two-views."]),
+        (("back",), ["The curve of 2 points is hidden in the view back; try --view source or --view front,back."]),
     ):
         panel = FigurePanel(ball, field, views=views, lines=lines, heading="a name")
         assert save_figure(Figure((panel,), size=SIZE), tmp_path / "f.png") == said

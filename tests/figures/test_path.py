@@ -19,7 +19,7 @@ from tests.shapes import bumpy, two_pieces
 SEEN = [
     "--distance",
     "biharmonic",
-    "--source",
+    "--sources",
     "4",
     "--view",
     "front",

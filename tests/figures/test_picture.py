@@ -21,21 +21,15 @@ def test_it_is_the_picture_of_the_command(mesh_file, tmp_path):
     mesh = mesh_file(bumpy(300))
     words = [
         "--distance",
-        "biharmonic",
-        "--distance",
-        "biharmonic - diffusion(t=1/4)",
-        "--source",
-        "4",
-        "--source",
-        "9",
+        "biharmonic,biharmonic - diffusion(t=1/4)",
+        "--sources",
+        "4,9",
     ]
     looks = [
         "--view",
-        "left",
-        "--view",
-        "top",
+        "left,top",
         "--zoom",
-        "7,4",
+        "7:4",
         "--anchors",
         "3=0.2,8",
         "--isolines",
@@ -91,7 +85,7 @@ def test_a_field_can_be_named_where_a_recipe_is_drawn_again_and_a_movie_made(tmp
     surface = bumpy(100)
     drawn = app.figure(surface, ["biharmonic"], 4, fields={"height": surface.vertices[:, 1]}, size="300x200")
     drawn.save(tmp_path / "f.png")
-    words = ["--recipe", str(tmp_path / "f.json"), "--distance", "geodesic - height", "--distance", "height"]
+    words = ["--recipe", str(tmp_path / "f.json"), "--distance", "geodesic - height,height"]
     assert main(["figure", *words, "-o", str(tmp_path / "g.png")]) == 0
     again = [str(panel.shows) for panel in read_recipe(tmp_path / "g.json").document.panels]
     assert again == ["geodesic - height", "height"]

@@ -69,18 +69,18 @@ def test_a_recipe_keeps_its_pins_and_the_option_puts_others(tmp_path, capsys):
 
     first, second = str(tmp_path / "a.png"), str(tmp_path / "b.png")
     small = ["--size", "200x200"]
-    assert main(["figure", "hand", "--distance", "biharmonic", "--pin", "9", "--pin", "40", *small, "-o", first]) == 0
+    assert main(["figure", "hand", "--distance", "biharmonic", "--pins", "9,40", *small, "-o", first]) == 0
     recipe = str(tmp_path / "a.json")
     assert [read_recipe(recipe).document.point(pin.point).at for pin in read_recipe(recipe).document[Pins].pins] == [
         9,
         40,
     ]
     # Another distance, and the pins stay; then others.
-    for options, expected in ((["--distance", "diffusion"], [9, 40]), (["--pin", "7"], [7])):
+    for options, expected in ((["--distance", "diffusion"], [9, 40]), (["--pins", "7"], [7])):
         assert main(["figure", "--recipe", recipe, *options, "-o", second]) == 0
         document = read_recipe(str(tmp_path / "b.json")).document
         assert [document.point(pin.point).at for pin in document[Pins].pins] == expected
-    assert main(["figure", "hand", "--pin", "100000", *small, "-o", first]) != 0
+    assert main(["figure", "hand", "--pins", "100000", *small, "-o", first]) != 0
     assert "100000" in capsys.readouterr().err
 
 

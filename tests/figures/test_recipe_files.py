@@ -18,14 +18,14 @@ from tests.figures.recipes import SMALL, refused
 
 def test_a_failure_keeps_the_old_figure_and_the_old_recipe(mesh, tmp_path, capsys, monkeypatch):
     out = tmp_path / "f.png"
-    assert main(["figure", mesh, "--source", "4", *SMALL, "-o", str(out)]) == 0
+    assert main(["figure", mesh, "--sources", "4", *SMALL, "-o", str(out)]) == 0
     before = {name: (tmp_path / name).read_bytes() for name in os.listdir(tmp_path)}
 
     def full(*_, **__):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(Image.Image, "save", full)
-    assert "No space left" in refused(capsys, "figure", mesh, "--source", "9", *SMALL, "-o", out)
+    assert "No space left" in refused(capsys, "figure", mesh, "--sources", "9", *SMALL, "-o", out)
     assert {name: (tmp_path / name).read_bytes() for name in os.listdir(tmp_path)} == before
 
 
@@ -94,7 +94,7 @@ def test_a_session_is_not_replaced_by_a_figure_of_its_name(mesh, tmp_path, capsy
     before = session.read_bytes()
     (tmp_path / "f.png").write_bytes(b"a picture from elsewhere")
     for _ in range(2):
-        said = drawn_as(tmp_path, capsys, mesh, "f.png", "--source", "9")
+        said = drawn_as(tmp_path, capsys, mesh, "f.png", "--sources", "9")
         assert session.read_bytes() == before
         assert read_recipe(tmp_path / "f.png.json").document.sources == (9,)
     assert said == ""
@@ -139,8 +139,8 @@ def test_where_both_places_are_taken_nothing_is_written(mesh, tmp_path, capsys):
 
 def test_svg_has_text_paths_and_one_image_for_each_panel(mesh, tmp_path):
     out = tmp_path / "f.svg"
-    words = ["--distance", "biharmonic", "--distance", "diffusion", "--size", "600x300@96dpi"]
-    assert main(["figure", mesh, "--source", "4", *words, "-o", str(out)]) == 0
+    words = ["--distance", "biharmonic,diffusion", "--size", "600x300@96dpi"]
+    assert main(["figure", mesh, "--sources", "4", *words, "-o", str(out)]) == 0
     text = out.read_text()
     assert text.count("<image") == 2
     assert re.search(r"<text[^>]*>biharmonic, exact</text>", text)
@@ -153,7 +153,7 @@ def test_svg_has_text_paths_and_one_image_for_each_panel(mesh, tmp_path):
 
 def test_pdf_has_its_fonts_in_it(mesh, tmp_path):
     out = tmp_path / "f.pdf"
-    assert main(["figure", mesh, "--source", "4", "--distance", "biharmonic", *SMALL, "-o", str(out)]) == 0
+    assert main(["figure", mesh, "--sources", "4", "--distance", "biharmonic", *SMALL, "-o", str(out)]) == 0
     content = out.read_bytes()
     assert content.count(b"/FontDescriptor /FontName") == content.count(b"/FontFile2") > 0
     assert content.count(b"/Subtype /Image") == 1

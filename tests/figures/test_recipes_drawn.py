@@ -19,18 +19,18 @@ from tests.shapes import bumpy
 
 
 def test_a_recipe_draws_the_same_bytes(mesh, tmp_path):
-    words = ["--distance", "biharmonic", "--distance", "diffusion", "--t", "0.25", "--view", "left", "--zoom", "9,4"]
+    words = ["--distance", "biharmonic,diffusion", "--t", "0.25", "--view", "left", "--zoom", "9:4"]
     looks = ["--style", "uniform", "--crop", "--transparent", "--isolines", "12", "--anchors", "3=0.2,8", *SMALL]
     for extension in ("png", "svg"):
         first, again = tmp_path / f"first.{extension}", tmp_path / f"again.{extension}"
-        assert main(["figure", mesh, "--source", "4", *words, *looks, "-o", str(first)]) == 0
+        assert main(["figure", mesh, "--sources", "4", *words, *looks, "-o", str(first)]) == 0
         assert main(["figure", "--recipe", str(tmp_path / "first.json"), "-o", str(again)]) == 0
         assert first.read_bytes() == again.read_bytes()
     assert read_recipe(tmp_path / "first.json") == read_recipe(tmp_path / "again.json")
 
 
 def test_a_recipe_and_its_mesh_may_move_together_and_meet_another_mesh(mesh, mesh_file, tmp_path, capsys):
-    assert main(["figure", mesh, "--source", "4", *SMALL, "-o", str(tmp_path / "f.png")]) == 0
+    assert main(["figure", mesh, "--sources", "4", *SMALL, "-o", str(tmp_path / "f.png")]) == 0
     moved = tmp_path / "moved"
     moved.mkdir()
     for name in ("f.json", "mesh.off"):
@@ -61,15 +61,15 @@ def changed(tmp_path, *words):
     ("words", "found", "wanted"),
     [
         (["--isolines", "3"], lambda r: r.document.isolines.count, 3),
-        (["--source", "8"], lambda r: r.document.sources, (8,)),
+        (["--sources", "8"], lambda r: r.document.sources, (8,)),
         (["--t", "1/4"], lambda r: [str(p.shows.spec) for p in r.document.panels], ["biharmonic", "diffusion(t=1/4)"]),
         (["--distance", "commute-time"], lambda r: [str(p.shows.spec) for p in r.document.panels], ["commute-time"]),
         (["--areas", "barycentric"], lambda r: r.document.areas, "barycentric"),
         (["--view", "top"], lambda r: (r.document.camera, r.page.views), ("top", ())),
-        (["--two-views"], lambda r: r.page.views, ("front", "back")),
+        (["--view", "front,back"], lambda r: r.page.views, ("front", "back")),
         (["--camera=0,0,9,0,0,0,0,1,0,0.4,0.3"], lambda r: getattr(r.document.camera, "position", None), (0, 0, 9)),
         (["--columns", "1"], lambda r: r.page.columns, 1),
-        (["--zoom", "7,5"], lambda r: r.document.zooms, (Zoom(7, 5.0),)),
+        (["--zoom", "7:5"], lambda r: r.document.zooms, (Zoom(7, 5.0),)),
         (
             ["--anchors", "3=0.2"],
             lambda r: anchors(r.document),
@@ -91,7 +91,7 @@ def test_options_beside_a_recipe_change_it_and_leave_the_rest(drawn, words, foun
 
 
 def test_sources_beside_a_recipe_make_rows_as_they_do_without(drawn):
-    recipe = changed(drawn, "--source", "8", "--source", "9")
+    recipe = changed(drawn, "--sources", "8,9")
     shown = [(p.shows.spec.word, recipe.document.point(p.shows.point).at) for p in recipe.document.panels]
     assert shown == [("biharmonic", 8), ("diffusion", 8), ("biharmonic", 9), ("diffusion", 9)]
     assert recipe.page.columns == 2
@@ -100,16 +100,16 @@ def test_sources_beside_a_recipe_make_rows_as_they_do_without(drawn):
 def test_options_that_cannot_apply_are_refused_by_name(drawn, mesh, capsys):
     figure = ["figure", "--recipe", drawn / "f.json", "-o", drawn / "x.png"]
     assert "--k 5 is no parameter of biharmonic, diffusion" in refused(capsys, *figure, "--k", "5")
-    assert "cannot share a range" in refused(capsys, *figure, "--shared-range")
+    assert "cannot share a range" in refused(capsys, *figure, "--range", "shared")
     assert "at least one column" in refused(capsys, *figure, "--columns", "0")
     assert "another mesh is named as --mesh" in refused(capsys, *figure, mesh)
     assert "flat surface" in refused(capsys, *figure, "--height")
-    field = ["field", mesh, "--source", "3", "-o", drawn / "f.npy"]
+    field = ["field", mesh, "--sources", "3", "-o", drawn / "f.npy"]
     assert "--t 0.5 is no parameter of biharmonic" in refused(capsys, *field, "--t", "0.5")
     movie = ["movie", "--recipe", drawn / "f.json", "-o", drawn / "m.gif"]
-    assert "--source beside --path" in refused(capsys, *movie, "--path", "1,5", "--source", "3")
+    assert "--sources beside --path" in refused(capsys, *movie, "--path", "1,5", "--sources", "3")
     assert "takes no --transparent" in refused(capsys, *movie, "--transparent")
-    assert "more than one view" in refused(capsys, *movie, "--two-views")
+    assert "more than one view" in refused(capsys, *movie, "--view", "front,back")
 
 
 def test_anchors_and_panels_may_have_a_point_in_common(drawn):
@@ -117,7 +117,7 @@ def test_anchors_and_panels_may_have_a_point_in_common(drawn):
     document = recipe.document.with_part(Anchors(anchors=(Anchor("source", 0.5),)))
     (drawn / "f.json").write_text(recipe_text(replace(recipe, document=document), "0.1"))
     assert anchors(changed(drawn, "--anchors", "5").document) == [(5, None)]
-    other = changed(drawn, "--distance", "commute-time", "--source", "9").document
+    other = changed(drawn, "--distance", "commute-time", "--sources", "9").document
     assert (anchors(other), other.sources) == ([(4, 0.5)], (9,))
 
 
@@ -141,11 +141,11 @@ def test_two_meshes_are_drawn_and_options_for_one_are_refused(mesh, mesh_file, t
     (tmp_path / "f.json").write_text(recipe_text(Recipe(two_meshes(mesh, mesh_file)), "0.1"))
     assert changed(tmp_path, *SMALL).document.sources == (4, 9)
     figure = ["figure", "--recipe", tmp_path / "f.json", "-o", tmp_path / "x.png"]
-    for words in (["--distance", "geodesic"], ["--source", "3"], ["--anchors", "3"], ["--mesh", mesh]):
+    for words in (["--distance", "geodesic"], ["--sources", "3"], ["--anchors", "3"], ["--mesh", mesh]):
         assert f"{words[0]}" in refused(capsys, *figure, *words)
     single = replace(two_meshes(mesh, mesh_file), panels=(), points=(), surfaces=(MeshFile("left", mesh),))
     (tmp_path / "f.json").write_text(recipe_text(Recipe(single), "0.1"))
-    document = changed(tmp_path, "--distance", "geodesic", "--source", "3", "--anchors", "8", *SMALL).document
+    document = changed(tmp_path, "--distance", "geodesic", "--sources", "3", "--anchors", "8", *SMALL).document
     assert (document.sources, anchors(document)) == ((3,), [(8, None)])
 
 

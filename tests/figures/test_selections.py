@@ -17,7 +17,7 @@ from app.scene.style import PINS
 from tests.figures.recipes import SMALL
 from tests.shapes import bumpy
 
-PLAIN = ["--distance", "biharmonic", "--source", "4", "--isolines", "0", *SMALL]
+PLAIN = ["--distance", "biharmonic", "--sources", "4", "--isolines", "0", *SMALL]
 GREEN = np.array([int(PINS[0][k : k + 2], 16) for k in (1, 3, 5)])
 
 
@@ -37,7 +37,7 @@ def test_what_is_selected_has_a_rim_and_hatching_and_the_field_is_seen_between(m
     top = np.flatnonzero(bumpy(300).vertices[:, 1] > 0.3)
     np.savetxt(tmp_path / "top.txt", top, fmt="%d")
     assert main(["figure", mesh, *PLAIN, "-o", str(tmp_path / "plain.png")]) == 0
-    words = ["--select", str(tmp_path / "top.txt")]
+    words = ["--select", f"@{tmp_path}/top.txt"]
     assert main(["figure", mesh, *PLAIN, *words, "-o", str(tmp_path / "top.png")]) == 0
     plain, shown = (picture(tmp_path / f"{name}.png") for name in ("plain", "top"))
     differs = (plain != shown).any(axis=2)
@@ -51,10 +51,10 @@ def test_what_is_selected_has_a_rim_and_hatching_and_the_field_is_seen_between(m
 
 
 def test_python_and_the_command_draw_the_same(mesh, tmp_path):
-    words = ["--select", "3,5-90", "--select", "200-299"]
+    words = ["--select", "3+5-90,200-299"]
     assert main(["figure", mesh, *PLAIN, *words, "-o", str(tmp_path / "a.png")]) == 0
     size = SMALL[SMALL.index("--size") + 1]
-    for chosen in (["3,5-90", "200-299"], [[3, *range(5, 91)], np.arange(200, 300)]):
+    for chosen in (["3+5-90", "200-299"], [[3, *range(5, 91)], np.arange(200, 300)]):
         drawn = figure(mesh, ["biharmonic"], source=4, isolines=0, size=size, selections=chosen)
         assert np.array_equal(drawn.pixels, picture(tmp_path / "a.png"))
 

@@ -174,8 +174,8 @@ def test_eps_has_letters_and_no_transparency(ball, tmp_path):
 
 def test_a_snippet_includes_the_figure_at_its_width_and_says_what_it_shows(mesh_file, tmp_path, capsys):
     out = tmp_path / "my_figure.pdf"
-    words = ["figure", mesh_file(bumpy(200)), "--source", "4", "--size", "column", "--tex", "--isolines", "9"]
-    words += ["--distance", "biharmonic", "--distance", "diffusion", "-o", str(out)]
+    words = ["figure", mesh_file(bumpy(200)), "--sources", "4", "--size", "column", "--tex", "--isolines", "9"]
+    words += ["--distance", "biharmonic,diffusion", "-o", str(out)]
     assert main(words) == 0
     text = (tmp_path / "my_figure.tex").read_text()
     assert r"\includegraphics[width=85mm]{\detokenize{my_figure.pdf}}" in text
@@ -185,7 +185,7 @@ def test_a_snippet_includes_the_figure_at_its_width_and_says_what_it_shows(mesh_
     ends = [float(end) for end in re.findall(r"0 to ([0-9.]+)", caption)]
     first, second = (f"{round_step(end, 9):g}" for end in ends)
     assert f"Isolines every {first} mesh units and {second}" in caption
-    assert main([*words, "--distance", "biharmonic - diffusion", "--range", "shares"]) == 0
+    assert main([*words[:-3], "biharmonic,diffusion,biharmonic - diffusion", *words[-2:], "--range", "shares"]) == 0
     assert re.search(r"Isolines every [0-9.]+ percentage points", (tmp_path / "my_figure.tex").read_text())
     assert "and at 10 equal steps." in (tmp_path / "my_figure.tex").read_text()
     assert main([*words, "--equal-isolines"]) == 0
@@ -226,7 +226,7 @@ def test_lines_stand_on_the_bar_however_near_the_last_one_is_to_its_end(ball, to
 
 def test_a_caption_names_no_vertex_where_a_place_is_the_source(mesh_file, tmp_path):
     out = tmp_path / "a.pdf"
-    words = ["figure", mesh_file(bumpy(200)), "--source", "f7:0.25,0.5", "--distance", "biharmonic", "--tex"]
+    words = ["figure", mesh_file(bumpy(200)), "--sources", "f7:0.25,0.5", "--distance", "biharmonic", "--tex"]
     assert main([*words, "--size", "200x200", "-o", str(out)]) == 0
     assert "Distances on mesh.off from the place f7:0.25,0.5. " in out.with_suffix(".tex").read_text()
 

@@ -148,7 +148,7 @@ def test_opens_a_sample_by_its_name(environment, tmp_path):
 
 
 def test_writes_a_field(environment, tmp_path):
-    command = [sys.executable, "-m", "bihdist", "field", "figure", "--source", "0", "-o", "field.csv"]
+    command = [sys.executable, "-m", "bihdist", "field", "figure", "--sources", "0", "-o", "field.csv"]
     run(*command, cwd=tmp_path, env=environment)
     assert (tmp_path / "field.csv").stat().st_size > 10_000
 

@@ -20,7 +20,7 @@ def run(*arguments, folder, has_tool=True):
 
 
 def test_its_option_part_and_marks_are_in_figures(tmp_path):
-    shown = ["figure", "hand", "--source", "12", "--distance", "geodesic", "--size", "300x300", "-o"]
+    shown = ["figure", "hand", "--sources", "12", "--distance", "geodesic", "--size", "300x300", "-o"]
     plain = run("-m", "bihdist", *shown, "plain.png", folder=tmp_path)
     told = run("-m", "bihdist", *shown, "circle.png", "--circle", "2665", folder=tmp_path)
     assert (plain.returncode, told.returncode) == (0, 0), plain.stderr + told.stderr

@@ -64,6 +64,6 @@ def check_fields(s, words, tmp_path):
     for panel, answer in zip(s.document.panels, s.answers, strict=True):
         out = tmp_path / f"{panel.id}.csv"
         spec = str(panel.shows)
-        assert main(["field", str(s.path), "--distance", spec, "--source", words, "-o", str(out)]) == 0
+        assert main(["field", str(s.path), "--distance", spec, "--sources", words, "-o", str(out)]) == 0
         field = np.loadtxt(out, delimiter=",", skiprows=1)[:, -1]
         assert np.abs(field - answer.field).max() <= 1e-9 * answer.maximum, spec

@@ -177,7 +177,7 @@ def test_a_drawn_curve_is_saved_and_the_copied_lines_name_its_file(loaded, tmp_p
 def test_a_loop_stands_in_the_copied_lines(sheet):
     s = sheet
     typed(s, "loop:0+7")
-    assert "--source loop:0+7" in copied(s, "command")
+    assert "--sources loop:0+7" in copied(s, "command")
     assert "source='loop:0+7'" in copied(s, "python")
 
 

@@ -46,7 +46,7 @@ def test_the_window_exports_the_pixels_of_the_command_line(screen, mesh_file, tm
     recipe = read_recipe(tmp_path / "window.json")
     camera = recipe.document.camera
     numbers = [*camera.position, *camera.focal_point, *camera.up, *camera.extent]
-    words = ["--source", "5", "--camera=" + ",".join(map(repr, numbers)), "--size", "600x300"]
+    words = ["--sources", "5", "--camera=" + ",".join(map(repr, numbers)), "--size", "600x300"]
     assert main(["figure", recipe.document.mesh().path, *words, "-o", str(tmp_path / "options.png")]) == 0
     assert (tmp_path / "options.png").read_bytes() == window
 
@@ -128,11 +128,11 @@ def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
     from app.main import main
 
     mesh = mesh_file(bumpy(300))
-    words = ["--distance", "diffusion", "--t", "0.25", "--distance", "commute-time", "--distance", "geodesic"]
+    words = ["--distance", "diffusion,commute-time,geodesic", "--t", "0.25"]
     out = tmp_path / "f.png"
     camera = "--camera=3,1,2,0,0,0,0,1,0,0.4,0.3"
     assert (
-        main(["figure", mesh, *words, "--source", "7", camera, "--isolines", "12", "--style", "dark", "-o", str(out)])
+        main(["figure", mesh, *words, "--sources", "7", camera, "--isolines", "12", "--style", "dark", "-o", str(out)])
         == 0
     )
     s = screen()

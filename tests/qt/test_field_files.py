@@ -49,7 +49,7 @@ def said(s):
 def written_by_the_command(mesh, source, panel, out):
     from app.main import main
 
-    assert main(["field", mesh, "--source", source, "--distance", str(panel.shows), "-o", str(out)]) == 0
+    assert main(["field", mesh, "--sources", source, "--distance", str(panel.shows), "-o", str(out)]) == 0
     return Path(out).read_bytes()
 
 

@@ -1,5 +1,6 @@
 """A real pointer moved by xdotool over the real program."""
 
+import json
 import re
 import shutil
 import subprocess
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 
 from app.document.edits import move_source
+from app.version import version
 from bihdist_core.distances import kinds
 from tests.qt.parts import parts
 from tests.shapes import bumpy
@@ -156,8 +158,14 @@ def test_view_saves_a_picture_of_the_finished_window_and_exits(mesh_file, tmp_pa
     from PIL import Image
 
     picture = tmp_path / "window.png"
-    done = view(mesh_file(bumpy(800)), "--source", 12, "--screenshot", picture)
+    mesh = mesh_file(bumpy(800))
+    done = view(mesh, "--sources", 12, "--screenshot", picture, "--json", "--quiet")
     assert done.returncode == 0, done.stderr
+    said = json.loads(done.stdout)
+    assert said == {
+        "command": "view", "version": version(), "exit_status": 0, "notes": [],
+        "meshes": [{"mesh": mesh}], "outputs": [str(picture)],
+    }  # fmt: skip
     assert np.asarray(Image.open(picture).convert("RGB")).std() > 20
 
 
@@ -165,7 +173,7 @@ def test_view_saves_a_picture_of_the_finished_window_and_exits(mesh_file, tmp_pa
     ("arguments", "words"),
     [
         (["no-such-mesh.off", "--screenshot", "out.png"], r"no-such-mesh\.off"),
-        (["figure", "--source", "9999999", "--screenshot", "out.png"], "no vertex 9999999"),
+        (["figure", "--sources", "9999999", "--screenshot", "out.png"], "no vertex 9999999"),
         (["figure", "--screenshot", "missing-folder/out.png"], "missing-folder"),
     ],
 )

@@ -47,7 +47,7 @@ def dock(s, word):
 
 
 def fields(written):
-    return [written("field", "--source", SOURCE, "--distance", spec).ravel() for spec in SHOWN]
+    return [written("field", "--sources", SOURCE, "--distance", spec).ravel() for spec in SHOWN]
 
 
 @needs_meshes
@@ -74,10 +74,10 @@ def test_pins_and_their_distances(loaded, written):
             else:
                 assert float(value_said) == pytest.approx(value, abs=EXACT * np.nanmax(field))
                 assert float(share_said) == pytest.approx(value / np.nanmax(field), abs=EXACT)
-        matrix = written("pairs", "--vertices", ",".join(map(str, at[:4])), "--distance", SHOWN[k])
+        matrix = written("pairs", "--sources", ",".join(map(str, at[:4])), "--distance", SHOWN[k])
         assert np.array_equal(np.isnan(matrix), np.isnan(pins.distances.known(specs[k])[:4, :4]))
         assert np.nanmax(np.abs(matrix - pins.distances.known(specs[k])[:4, :4])) <= EXACT * np.nanmax(field)
-        place = written("field", "--source", f"f{face}:0.2,0.3", "--distance", SHOWN[k]).ravel()[at[:4]]
+        place = written("field", "--sources", f"f{face}:0.2,0.3", "--distance", SHOWN[k]).ravel()[at[:4]]
         assert np.array_equal(np.isnan(place), np.isnan(pins.distances.known(specs[k])[4, :4]))
         assert np.nanmax(np.abs(place - pins.distances.known(specs[k])[4, :4])) <= EXACT * np.nanmax(field)
 
@@ -105,7 +105,7 @@ def test_regions_and_farthest_points(loaded, written, tmp_path):
     s.until(lambda: parts(s.window).regions.is_complete)
     for panel, spec in zip(s.document.panels, SHOWN, strict=True):
         cut, lines = tmp_path / "cut.ply", tmp_path / "lines.csv"
-        words = ("--vertices", ",".join(map(str, at)), "--distance", spec, "--mesh-output", cut, "--boundaries", lines)
+        words = ("--sources", ",".join(map(str, at)), "--distance", spec, "--region-mesh", cut, "--boundaries", lines)
         labels = written("regions", *words, name=f"{panel.id}.npy")
         found = parts(s.window).regions.divided(panel.id).regions
         assert np.array_equal(np.where(found.labels < 0, np.nan, found.labels + 1), labels, equal_nan=True)
@@ -129,7 +129,7 @@ def test_regions_and_farthest_points(loaded, written, tmp_path):
     regions.sampler.count.setValue(9)
     regions.sampler.save_to(str(tmp_path / "window.npy"))
     s.until((tmp_path / "window.npy").exists)
-    assert np.array_equal(np.load(tmp_path / "window.npy"), written("samples", "--source", SOURCE, "--count", 9))
+    assert np.array_equal(np.load(tmp_path / "window.npy"), written("samples", "--sources", f"farthest:9:{SOURCE}"))
 
 
 @needs_meshes
@@ -176,7 +176,7 @@ def test_statistics_scatter_and_quality(loaded, written):
     both = np.isfinite(a) & np.isfinite(b)
     assert facts["rank correlation"] == number(spearmanr(a[both], b[both]).statistic)
     # Circles are those of the geodesic distance that the mesh allows.
-    near = written("field", "--source", SOURCE, "--distance", "geodesic").ravel()
+    near = written("field", "--sources", SOURCE, "--distance", "geodesic").ravel()
     table = [line.split("\t")[1:] for line in quality.text().splitlines()[1:]]
     for k, field in enumerate((a, b, c)):
         judged = field_quality(surface, field, near, SOURCE)

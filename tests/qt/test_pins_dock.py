@@ -100,7 +100,7 @@ def test_the_matrix_is_what_the_command_writes(loaded, tmp_path, capsys):
     for spec in specs:
         out = tmp_path / f"{spec.word}.npy"
         path = s.document.surfaces[0].path
-        main(["pairs", path, "--vertices", "12,40,700,3,1200", "--distance", str(spec), "-o", str(out)])
+        main(["pairs", path, "--sources", "12,40,700,3,1200", "--distance", str(spec), "-o", str(out)])
         expected = np.load(out)
         found = dock.distances.known(spec)
         assert np.abs(found - expected).max() <= 1e-9 * expected.max()

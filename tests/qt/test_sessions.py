@@ -139,7 +139,7 @@ def test_recent_files_are_listed_the_last_first(screen, mesh_file, tmp_path):
 
 
 def test_view_saves_its_session(mesh_file, tmp_path):
-    words = ["view", mesh_file(bumpy(300)), "--source", "7", "--distance", "biharmonic - geodesic"]
+    words = ["view", mesh_file(bumpy(300)), "--sources", "7", "--distance", "biharmonic - geodesic"]
     words += ["--colours", "safe", "--bands"]
     outputs = ["--screenshot", str(tmp_path / "w.png"), "--save-session", str(tmp_path / "s.json")]
     done = subprocess.run([sys.executable, "-m", "app", *words, *outputs], cwd=ROOT, capture_output=True, text=True)
@@ -173,7 +173,7 @@ def test_a_session_is_opened_as_it_is_and_options_beside_it_are_refused(mesh_fil
 
     path = tmp_path / "s.json"
     path.write_text(recipe_text(Recipe(comparison(mesh_file(bumpy(60)))), "9"))
-    for words in (["--source", "3"], ["--distance", "geodesic"], ["--areas", "voronoi"], ["--t", "0.5"]):
+    for words in (["--sources", "3"], ["--distance", "geodesic"], ["--areas", "voronoi"], ["--t", "0.5"]):
         assert main(["view", str(path), *words]) == 2
         assert f"leave out {words[0]}" in capsys.readouterr().err
 

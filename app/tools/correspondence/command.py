@@ -5,8 +5,10 @@ import argparse
 from bihdist_core.counts import counted
 
 from ...commands.mesh import laplacian_of
-from ...commands.options import add_areas, add_distance, specs
+from ...commands.options import add_areas, add_distance, add_output, add_pairs, add_two_meshes, specs
+from ...commands.result import Facts, Result, distance_facts
 from ...commands.terminal import accuracy, progress_line
+from .options import PAIRS_MEANING
 
 WORDS = "from a few pairs of corresponding vertices, a map from one mesh to another"
 TEXT = ".txt"
@@ -14,35 +16,28 @@ TEXT = ".txt"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `correspond` to its parser."""
-    parser.add_argument("mesh", help="the mesh A that is mapped: a file, or the name of a sample")
-    parser.add_argument("other", help="the mesh B that it is mapped to")
-    parser.add_argument(
-        "--pairs", metavar="FILE", required=True, help="known pairs, a line `i,j` for each: vertex i of A is j of B"
-    )
-    parser.add_argument("--truth", metavar="MAP", help="what is right, to say the errors: `identity`, or a map's file")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="MAP",
-        required=True,
-        help="a .npy or .txt file: for each vertex of A one of B, -1 where none can be compared",
-    )
+    add_two_meshes(parser)
+    add_pairs(parser, PAIRS_MEANING, required=True)
+    add_output(parser, "a .npy or .txt file: for each vertex of A one of B, -1 where none can be compared")
     add_distance(parser)
     add_areas(parser)
+    parser.add_argument("--truth", metavar="MAP", help="what is right, to say the errors: `identity`, or a map's file")
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Write the map of the first mesh to the second that corresponding points predict."""
+    import numpy as np
+
     from bihdist_core.applications.correspondence import Correspondence
     from bihdist_core.distances.answers import Distances, same_on
     from bihdist_core.formats.vertex_maps import MAP_FORMATS, read_map, read_pairs, write_map
     from bihdist_core.whole_file import check_output
 
-    from .evaluate_command import judged
+    from .evaluate_command import curve_facts, judged
 
     check_output(options.output, MAP_FORMATS)
     (chosen,) = specs(options, [options.distance])
-    pairs = read_pairs(options.pairs)
+    pairs = read_pairs(options.pairs) if isinstance(options.pairs, str) else np.array(options.pairs)
     with progress_line() as progress:
         one, two = (laplacian_of(mesh, options.areas) for mesh in (options.mesh, options.other))
         truth = read_map(options.truth, one.surface, two.surface) if options.truth else None
@@ -56,7 +51,13 @@ def run(options: argparse.Namespace) -> None:
     none = f", {missing} without one to compare" if missing else ""
     size = f"{len(found):,} vertices to {len(two.surface.vertices):,}"
     print(f"{options.output}: {on_one.label}, {counted(len(pairs), 'pair')}, {size}{none}{estimate}")
+    facts: Facts = {
+        "mesh": options.mesh, "other": options.other, **distance_facts(on_one, spec), "outputs": [options.output],
+        "n_pairs": len(pairs), "n_vertices": len(found), "n_missing": missing,
+    }  # fmt: skip
     if truth is not None:
         with progress_line() as progress:
-            (line,), _ = judged(two, found[:, None], truth, progress=progress)
+            (line,), (curve,) = judged(two, found[:, None], truth, progress=progress)
         print(f"{options.output}: {line}")
+        facts["errors"] = curve_facts(curve)
+    return Result(facts)

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from bihdist_core.counts import counted
 
 from ...commands.mesh import laplacian_of
-from ...commands.options import count
+from ...commands.options import add_output, add_two_meshes, count
+from ...commands.result import Facts, Result
 from ...commands.terminal import progress_line
 
 if TYPE_CHECKING:
@@ -24,11 +25,11 @@ METHODS = ("auto", "exact", "heat", "dijkstra")
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `evaluate` to its parser."""
-    parser.add_argument("mesh", help="the mesh A that is mapped: a file, or the name of a sample")
-    parser.add_argument("other", help="the mesh B that it is mapped to")
+    add_two_meshes(parser)
     parser.add_argument(
         "maps", metavar="MAP", nargs="+", help="for each vertex of A one of B, from 0: a .npy or .txt file"
     )
+    add_output(parser, "the curves: a .csv, .png, .pdf, .svg or .eps file", required=False)
     parser.add_argument("--truth", metavar="MAP", required=True, help="what is right: `identity`, or such a file")
     parser.add_argument(
         "--symmetry",
@@ -36,18 +37,17 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="for each vertex of B its symmetric partner, which counts as right, too; without it and with it is said",
     )
     parser.add_argument(
-        "--samples", type=count, metavar="K", help="of so many vertices of A, drawn evenly by id (default: all)"
+        "--samples", type=count, metavar="N", help="of so many vertices of A, drawn evenly by id (default: all)"
     )
     parser.add_argument(
-        "--geodesic",
+        "--method",
         choices=METHODS,
         default="auto",
-        help="the distance of errors (default: exact where that takes minutes at most, else heat)",
+        help="how the geodesic distance of errors is computed (default: auto, exact where that takes minutes at most)",
     )
-    parser.add_argument("-o", "--output", metavar="OUT", help="the curves: a .csv, .png, .pdf, .svg or .eps file")
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Print the errors of maps between two meshes, and write their curves where asked."""
     import numpy as np
 
@@ -63,17 +63,25 @@ def run(options: argparse.Namespace) -> None:
     maps = {path: read_map(path, one.surface, two.surface) for path in dict.fromkeys(options.maps)}
     partners = read_map(options.symmetry, two.surface, two.surface) if options.symmetry else None
     ids = sampled_vertices(len(truth), options.samples)
-    curves = {}
+    curves, facts = {}, []
     columns = np.stack([found[ids] for found in maps.values()], axis=1)
     for words, also in (("", None), *([(", partners count", partners)] if partners is not None else [])):
         with progress_line() as progress:
-            lines, found_curves = judged(two, columns, truth[ids], also, options.geodesic, progress)
+            lines, found_curves = judged(two, columns, truth[ids], also, options.method, progress)
         for path, line, curve in zip(maps, lines, found_curves, strict=True):
             curves[f"{Path(path).stem}{words}"] = curve
             print(f"{path}: {line}{words}")
+            facts.append({"map": path, "partners_count": also is not None, **curve_facts(curve)})
     if options.output:
         save_error_figure(ErrorFigure(curves), options.output)
         print(f"{options.output}: {counted(len(curves), 'curve')}")
+    outputs = [options.output] if options.output else []
+    return Result({"mesh": options.mesh, "other": options.other, "maps": facts, "outputs": outputs})
+
+
+def curve_facts(curve: "ErrorCurve") -> Facts:
+    """The errors of a map, over the root of the area; None for what is infinite, as a vertex is mapped nowhere."""
+    return {"mean": curve.mean, "median": curve.median, "area_under_curve": curve.area, "n_vertices": len(curve.errors)}
 
 
 def judged(

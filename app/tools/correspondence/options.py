@@ -8,6 +8,7 @@ from bihdist_core.errors import ParameterError
 
 from ...document.document import Document
 from ...document.file import checksum
+from ...document.lists import pairs_from_words, pairs_text
 from ...document.option import Option, Row, unsaid
 from ...document.page import Recipe
 from .maps import SAME_IDS, MapFile, Maps, show_maps
@@ -16,6 +17,11 @@ from .prediction import predict
 
 PAIRS = "pairs"
 """In the place of a map's file: the maps that pairs make, by each distance that is shown."""
+
+PAIRS_MEANING = (
+    "known pairs, vertex I of A and J of B: 1:2,3:4; or of a file with a line `i,j` for each, @FILE, or - for standard "
+    "input"
+)
 
 
 def _put(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
@@ -48,7 +54,7 @@ def _with_prediction(document: Document, vertex: int) -> Document:
     """
     _check_two(document, "--predict", "predict=")
     if not any(not pair.is_half for pair in document[Pairs].pairs):
-        raise ParameterError("--predict goes by pairs; name their file with --pairs (in Python, give pairs=).")
+        raise ParameterError("--predict goes by pairs; name them with --pairs (in Python, give pairs=).")
     return place_point(drop_half(predict(document)), document.surfaces[0].name, vertex)
 
 
@@ -59,7 +65,7 @@ def _with_maps(document: Document, names: Sequence[str]) -> Document:
     """
     _check_two(document, "--map", "maps=")
     if PAIRS in names and not document[Pairs].pairs:
-        raise ParameterError(f"--map {PAIRS} is made by pairs; name their file with --pairs (in Python, give pairs=).")
+        raise ParameterError(f"--map {PAIRS} is made by pairs; name them with --pairs (in Python, give pairs=).")
     files = [name for name in dict.fromkeys(names) if name != PAIRS]
     maps = tuple(MapFile(path, "" if path == SAME_IDS else checksum(path)) for path in files)
     specs = dict.fromkeys(spec for panel in document.panels for spec in panel.shows.specs)
@@ -81,11 +87,11 @@ ROWS = (
             Option(
                 "maps",
                 "instead of distances where each vertex of A is on B, in colours: a .npy or .txt file with one of B "
-                f"for each of A; or `{PAIRS}`, for the maps by each --distance from --pairs; repeat",
+                f"for each of A; or `{PAIRS}`, for the maps by each --distance from --pairs; with commas for several",
                 (),
                 flag="map",
-                metavar="MAP",
-                repeats=True,
+                metavar="MAP,…",
+                is_list=True,
                 replaces_panels=True,
             ),
             Option(
@@ -96,7 +102,7 @@ ROWS = (
                 read=int,
                 replaces_panels=True,
             ),
-            Option("pairs", "known pairs, a line `i,j` for each: vertex i of A is j of B", (), metavar="FILE"),
+            Option("pairs", PAIRS_MEANING, (), metavar="I:J,…|@FILE", read=pairs_from_words, write=pairs_text),
         ),
         put=_put,
         is_of_two=True,

@@ -1,31 +1,34 @@
 """`bihdist interpolate`: values at a few vertices, interpolated on the whole mesh, into a file."""
 
 import argparse
-from typing import TYPE_CHECKING
 
 from bihdist_core.counts import counted
 
 from ...commands.mesh import read_laplacian
-from ...commands.options import add_areas, add_distance, positive, share, specs
+from ...commands.options import add_areas, add_distance, add_mesh, add_output, as_argument, positive, share, specs
+from ...commands.result import Result, distance_facts
 from ...commands.terminal import accuracy, progress_line, tell_moved
-
-if TYPE_CHECKING:
-    from bihdist_core.formats.anchors import Anchors
-    from bihdist_core.surface import Surface
+from .anchor_words import AnchorFile, anchors_from_words, anchors_on
 
 WORDS = "values at a few vertices, interpolated on the whole mesh by a distance"
 TEXT = ".csv"
+anchors = as_argument(anchors_from_words)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `interpolate` to its parser."""
-    parser.add_argument("mesh", help="mesh file, or the name of a sample")
+    add_mesh(parser)
     parser.add_argument(
         "--anchors",
-        metavar="FILE",
+        metavar="V=VALUE,…|@FILE",
+        type=anchors,
         required=True,
-        help="a .csv file with a line `vertex,value` and one for each anchor, .json, or MeshLab's .pp named by values",
+        help="vertices with values (12=0,40=1); or in a file, @FILE, or - for standard input: a .csv with a line "
+        "`vertex,value` and one for each, .json, or MeshLab's .pp named by values",
     )
+    add_output(parser, "a .npy, .csv, .ply or .vtp file")
+    add_distance(parser, "a field each (default: biharmonic)")
+    add_areas(parser)
     parser.add_argument("--exponent", type=positive, default=1.0, metavar="P", help="of the weights (default: 1)")
     parser.add_argument(
         "--smoothness",
@@ -34,12 +37,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help="how far around an anchor its cone is rounded, a fraction from 0 to 1 (default: 0)",
     )
-    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="a .npy, .csv, .ply or .vtp file")
-    add_distance(parser, "a field; repeat for more (default: biharmonic)")
-    add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Write the interpolant of values at a few vertices, and print its other extrema."""
     import numpy as np
 
@@ -53,36 +53,34 @@ def run(options: argparse.Namespace) -> None:
 
     check_output(options.output, FIELD_FORMATS)
     chosen = specs(options, list(dict.fromkeys(options.distance or ["biharmonic"])))
-    fields, lines = {}, []
+    fields, lines, facts = {}, [], []
     with progress_line() as progress:
         laplacian = read_laplacian(options)
         surface, distances = laplacian.surface, Distances(laplacian)
-        anchors = anchors_in(options.anchors, surface)
+        known = anchors_on(options.anchors, surface)
+        if isinstance(options.anchors, AnchorFile):
+            tell_moved(options.anchors.path, "anchor", known.moved, known.names, surface)
         ends = tips(laplacian)
         for spec in chosen:
             distance = distances.get(spec, progress)
             field = ShepardInterpolant(
-                distance, anchors.vertices, anchors.values, options.exponent, options.smoothness
+                distance, known.vertices, known.values, options.exponent, options.smoothness
             ).evaluate(progress)
             fields[str(spec)] = field
             others = "all of one value"
-            if np.ptp(anchors.values) > 0:
-                stray = other_extrema(surface, field, SourceSet(tuple(anchors.vertices))).vertices
-                near = int(at_tips(surface, stray, ends).sum())
-                others = f"{counted(len(stray), 'extremum', 'extrema')} besides the anchors, {near} at tips"
-            lines.append(f"{distance.label}, {counted(len(anchors), 'anchor')}, {others}{accuracy(distance)}")
+            n_extrema = near = 0
+            if np.ptp(known.values) > 0:
+                stray = other_extrema(surface, field, SourceSet(tuple(known.vertices))).vertices
+                n_extrema, near = len(stray), int(at_tips(surface, stray, ends).sum())
+                others = f"{counted(n_extrema, 'extremum', 'extrema')} besides the anchors, {near} at tips"
+            lines.append(f"{distance.label}, {counted(len(known), 'anchor')}, {others}{accuracy(distance)}")
             missing = int(np.isnan(field).sum())
             if missing:
                 lines[-1] += f"; {counted(missing, 'vertex', 'vertices')} on components without an anchor"
+            counts = {"n_extrema": n_extrema, "n_extrema_at_tips": near, "n_missing": missing}
+            facts.append({**distance_facts(distance, spec), **counts})
     write_fields(options.output, surface, fields)
     for line in lines:
         print(f"{options.output}: {line}")
-
-
-def anchors_in(path: str, surface: "Surface") -> "Anchors":
-    """The anchors in a file; how far they had to be moved is said."""
-    from bihdist_core.formats.anchors import read_anchors
-
-    anchors = read_anchors(path, surface)
-    tell_moved(path, "anchor", anchors.moved, anchors.names, surface)
-    return anchors
+    about = {"mesh": options.mesh, "outputs": [options.output], "n_anchors": len(known)}
+    return Result({**about, "fields": facts})

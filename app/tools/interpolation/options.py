@@ -10,6 +10,7 @@ from ...document.document import Point, free_names
 from ...document.option import NotExpressible, Option, Row, attribute, digits, unsaid, vertex_of
 from ...document.page import Recipe
 from ...document.removal import without_orphans
+from .anchor_words import AnchorFile, anchors_from_words
 from .part import Anchor, Anchors
 
 
@@ -27,6 +28,13 @@ def _with_anchors(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
     document, marks = recipe.document, values["anchors"]
     if len(document.surfaces) != 1:
         raise ParameterError(f"--anchors are on one mesh, and this recipe has {len(document.surfaces)}.")
+    if isinstance(marks, AnchorFile):
+        from bihdist_core import read_surface
+
+        from ...samples import mesh_path
+
+        found = marks.read(read_surface(mesh_path(document.surfaces[0].path)))
+        marks = dict(zip(found.vertices.tolist(), found.values.tolist(), strict=True))
     marks = marks.items() if isinstance(marks, Mapping) else [m if isinstance(m, tuple) else (m, None) for m in marks]
     document = without_orphans(document, document.with_part(replace(document[Anchors], anchors=())))
     names = free_names("anchor", len(marks), [point.name for point in document.points])
@@ -35,17 +43,6 @@ def _with_anchors(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
     anchors = tuple(Anchor(name, value) for name, (_, value) in zip(names, marks, strict=True))
     document = document.with_part(replace(document[Anchors], anchors=anchors), points=(*document.points, *points))
     return replace(recipe, document=document)
-
-
-def _anchors(text: str) -> list[tuple[int, float | None]]:
-    found: list[tuple[int, float | None]] = []
-    for word in text.split(","):
-        vertex, _, value = word.partition("=")
-        try:
-            found.append((int(vertex), float(value) if value else None))
-        except ValueError:
-            raise ParameterError(f"{word!r} is not a vertex id, or one with a value such as 12=0.5") from None
-    return found
 
 
 def _anchors_text(marks: Mapping[int, float | None]) -> str:
@@ -69,10 +66,10 @@ ROWS = (
         (
             Option(
                 "anchors",
-                "mark vertices, coloured by a value",
+                "mark vertices, coloured by a value (12=0,40=1), or those of a file, @FILE, or - for standard input",
                 (),
-                metavar="V[=VALUE],…",
-                read=_anchors,
+                metavar="V[=VALUE],…|@FILE",
+                read=anchors_from_words,
                 write=_anchors_text,
             ),
         ),
@@ -86,7 +83,7 @@ ROWS = (
             Option("exponent", "of anchors' weights in interpolants (default: 1)", 1.0, metavar="P", read=float),
             Option(
                 "smoothness",
-                "how far anchors' cones are rounded in interpolants, 0 to 1 (0)",
+                "how far anchors' cones are rounded in interpolants, 0 to 1 (default: 0)",
                 0.0,
                 metavar="S",
                 read=float,

@@ -1,16 +1,19 @@
 """Pins as figures are told of them."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source, SurfacePoint, checked_source
-from bihdist_core.sources.words import words_of
+from bihdist_core.sources.words import short_words_of, words_of
 
 from ...document.labels import MARK_COLOURS
-from ...document.option import NotExpressible, Option, Row, unsaid, vertex
+from ...document.option import NotExpressible, Option, Row, unsaid
 from ...document.page import Recipe
 from ...document.shared_parts.pins import Pins, pin_instead
+from ...document.sources import Sources, sources_from_words
 
 
 def _pins_of(recipe: Recipe) -> dict[str, Any]:
@@ -30,13 +33,24 @@ def _pins_of(recipe: Recipe) -> dict[str, Any]:
 
 
 def _with_pins(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
-    document, places = recipe.document, [checked_source(at) for at in values["pins"]]
+    document, pins = recipe.document, values["pins"]
+    if isinstance(pins, Sources):
+        from ...session.chosen_sources import chosen_on
+
+        spec = next((spec for panel in document.panels for spec in panel.shows.specs), Spec.of("biharmonic"))
+        pins = chosen_on(pins, document.surfaces[0].path, spec, document.areas).sources
+    places = [_point(checked_source(at)) for at in pins]
     return replace(recipe, document=pin_instead(document, places, document.surfaces[0].name))
 
 
-def _point(text: str) -> Source:
-    """A vertex id, or a place in a face from its words."""
-    return checked_source(text if text.strip().startswith("f") else vertex(text))
+def _point(at: Source) -> Source:
+    if not isinstance(at, int | SurfacePoint):
+        raise ParameterError(f"A pin is at a vertex or a place in a face, and {short_words_of(at)} is neither.")
+    return at
+
+
+def _pins_text(pins: Sequence[int | str]) -> str:
+    return ",".join(map(str, pins))
 
 
 ROWS = (
@@ -44,13 +58,12 @@ ROWS = (
         (
             Option(
                 "pins",
-                "a pin with a number at a vertex or a place in a face (f311:0.2,0.5); repeat for more, in their order",
+                "pins with numbers, in their order, at vertices or places in faces (12,f311:0.2,0.5); or as --sources: "
+                "farthest:5, or those in a file, @FILE, or - for standard input",
                 (),
-                flag="pin",
-                metavar="V",
-                read=_point,
-                write=str,
-                repeats=True,
+                metavar="V,…|@FILE",
+                read=sources_from_words,
+                write=_pins_text,
             ),
         ),
         ("Pins.pins", "Pin.point", "Pin.colour"),

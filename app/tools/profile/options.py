@@ -69,7 +69,7 @@ ROWS = (
                 "the path through points: vertices, places in faces, source, pin:1 (nothing: through the pins in "
                 "order)",
                 False,
-                metavar="V,W,…",
+                metavar="V,…",
                 read=words_in,
                 write=lambda words: None if words is True else ",".join(map(str, words)),
                 bare="",

@@ -5,8 +5,9 @@ import argparse
 from bihdist_core.counts import counted
 
 from ...commands.mesh import read_laplacian
-from ...commands.options import add_areas, add_distance, specs, vertices
-from ...commands.pairs import pins_in
+from ...commands.mesh_sources import sources_on
+from ...commands.options import add_areas, add_distance, add_mesh, add_output, add_sources, specs
+from ...commands.result import Result, distance_facts
 from ...commands.terminal import accuracy, progress_line
 
 WORDS = "the part of a mesh that is nearest to each of some vertices, by a distance"
@@ -15,23 +16,17 @@ TEXT = ".csv"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `regions` to its parser."""
-    parser.add_argument("mesh", help="mesh file, or the name of a sample")
-    which = parser.add_mutually_exclusive_group(required=True)
-    which.add_argument("--pins", metavar="FILE", help="a .csv, .json or MeshLab's .pp file")
-    which.add_argument("--vertices", type=vertices, metavar="I,J,K", help="vertex ids")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="OUT",
-        help="the pin of each vertex, its id (or from 1): a .npy, .csv, .ply or .vtp file",
-    )
-    parser.add_argument("--mesh-output", metavar="OUT", help="the mesh cut along the boundaries: a .ply or .vtp file")
-    parser.add_argument("--boundaries", metavar="OUT", help="the boundaries: a .csv, .obj, .vtp or .json file")
+    add_mesh(parser)
+    what = "vertices with a region each, numbered from 1 or by the ids of pins"
+    add_sources(parser, what, default="", required=True, are_vertices=True)
+    add_output(parser, "for each vertex the number of its region: a .npy, .csv, .ply or .vtp file", required=False)
+    parser.add_argument("--boundaries", metavar="OUT", help="of the regions: a .csv, .obj, .vtp or .json file")
+    parser.add_argument("--region-mesh", metavar="OUT", help="the mesh cut along the boundaries: a .ply or .vtp file")
     add_distance(parser)
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Write which of some vertices each vertex is nearest to, and print the areas of the regions."""
     from bihdist_core.analysis.region_boundaries import region_boundaries, write_boundaries
     from bihdist_core.analysis.region_mesh import region_mesh
@@ -45,16 +40,17 @@ def run(options: argparse.Namespace) -> None:
 
     if not check_outputs(
         (options.output, LABEL_FORMATS),
-        (options.mesh_output, REGION_MESH_FORMATS),
+        (options.region_mesh, REGION_MESH_FORMATS),
         (options.boundaries, CURVE_FORMATS),
     ):
-        raise ParameterError("There is nothing to write; name a file with -o, --mesh-output or --boundaries.")
+        raise ParameterError("There is nothing to write; name a file with -o, --boundaries or --region-mesh.")
     (chosen,) = specs(options, [options.distance])
     with progress_line() as progress:
         laplacian = read_laplacian(options)
         surface = laplacian.surface
-        pins = pins_in(options.pins, surface) if options.pins else Pins.of(surface, options.vertices)
         distance = Distances(laplacian).get(chosen, progress)
+        found = sources_on(options, surface, lambda: distance, progress)
+        pins = found.pins or Pins.of(surface, found.vertices("Regions"))
         columns = distance.from_sources(pins.vertices, progress)
         regions = voronoi_regions(surface, columns)
         estimate = accuracy(distance)
@@ -62,14 +58,25 @@ def run(options: argparse.Namespace) -> None:
     if options.output:
         write_labels(options.output, surface, regions, ids)
         print(f"{options.output}: {counted(len(pins), 'region')} by {distance.label}{estimate}")
-    if options.mesh_output:
+    if options.region_mesh:
         mesh = region_mesh(surface, columns)
-        write_region_mesh(options.mesh_output, mesh, ids)
-        print(f"{options.mesh_output}: {counted(len(mesh.surface.faces), 'face')}")
+        write_region_mesh(options.region_mesh, mesh, ids)
+        print(f"{options.region_mesh}: {counted(len(mesh.surface.faces), 'face')}")
     if options.boundaries:
         curves = region_boundaries(surface, regions)
         write_boundaries(options.boundaries, curves, ids)
         print(f"{options.boundaries}: {counted(len(curves), 'curve')}, together {regions.lengths.sum():.6g} long")
     total = surface.face_areas.sum()
+    parts = []
     for id, name, vertex, area in zip(ids, pins.names, pins.vertices.tolist(), regions.areas.tolist(), strict=True):
+        parts.append({"pin": id, "name": name, "vertex": vertex, "area": area, "area_fraction": area / total})
         print(f"pin {id}{f', {name}' if name else ''}, vertex {vertex}: area {area:.6g}, {area / total:.1%}")
+    files = (options.output, options.region_mesh, options.boundaries)
+    facts = {
+        "mesh": options.mesh,
+        **distance_facts(distance, chosen),
+        "outputs": [file for file in files if file],
+        "boundary_length": regions.lengths.sum(),
+        "regions": parts,
+    }
+    return Result(facts)

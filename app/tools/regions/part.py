@@ -64,7 +64,7 @@ def divide(document: Document, which: str | Sequence[int]) -> Document:
     if isinstance(which, str) and which != "all":
         raise ParameterError(f"Regions are shown by panels 1,2,… or by all, not by {which!r}.")
     if not document[Pins].pins:
-        raise ParameterError("There are no regions without pins; name some with --pin (in Python, pins=).")
+        raise ParameterError("There are no regions without pins; name some with --pins (in Python, pins=).")
     for number in numbers:
         if not 1 <= number <= len(document.panels):
             raise ParameterError(f"There is no panel {number}; they are numbered from 1 to {len(document.panels)}.")

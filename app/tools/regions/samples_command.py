@@ -1,58 +1,45 @@
 """`bihdist samples`: vertices spread over a mesh, into a file."""
 
 import argparse
-import os
 
 from bihdist_core.counts import counted
 
 from ...commands.mesh import read_laplacian
-from ...commands.options import add_areas, add_distance, count, source, specs
+from ...commands.mesh_sources import sources_on
+from ...commands.options import add_areas, add_distance, add_mesh, add_output, add_sources, specs
+from ...commands.result import Result, distance_facts
 from ...commands.terminal import accuracy, progress_line
 
-WORDS = "vertices spread over a mesh, each the farthest from those before it"
+WORDS = "vertices spread over a mesh, each the farthest from those before it, or at random"
 TEXT = ".txt"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `samples` to its parser."""
-    parser.add_argument("mesh", help="mesh file, or the name of a sample")
-    parser.add_argument("--count", type=count, metavar="K", required=True, help="so many, the source among them")
-    parser.add_argument(
-        "--source",
-        type=source,
-        metavar="V",
-        help="the vertex to start from, or several, 12+40+7 (default: the highest of the largest component)",
-    )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="OUT",
-        required=True,
-        help="a .txt file, an id on each line, a .npy file, or pins as .csv, .json or MeshLab's .pp",
-    )
+    add_mesh(parser)
+    add_sources(parser, "what is written", default="", required=True, are_vertices=True)
+    add_output(parser, "a .txt file, an id on each line, a .npy file, or pins as .csv, .json or MeshLab's .pp")
     add_distance(parser)
     add_areas(parser)
 
 
-def run(options: argparse.Namespace) -> None:
-    """Write vertices each of which is farthest from those before it."""
-    from bihdist_core.analysis.sampling import SAMPLE_FORMATS, farthest_points, starts_of, write_samples
-    from bihdist_core.analysis.upright import guess_up
+def run(options: argparse.Namespace) -> Result:
+    """Write the vertices that a rule chooses."""
+    from bihdist_core.analysis.sampling import SAMPLE_FORMATS, write_samples
     from bihdist_core.distances.answers import Distances
     from bihdist_core.whole_file import check_output
 
-    from ...session.questions import source_at
+    from ...document.sources import FARTHEST
 
     check_output(options.output, SAMPLE_FORMATS)
     (chosen,) = specs(options, [options.distance])
     with progress_line() as progress:
         laplacian = read_laplacian(options)
-        surface = laplacian.surface
-        starts = starts_of(
-            source_at(options.source, surface, guess_up(surface, os.path.splitext(surface.name)[1])), surface
-        )
         distance = Distances(laplacian).get(chosen, progress)
-        found = farthest_points(distance, starts, options.count, progress)
-        estimate = accuracy(distance)
-    write_samples(options.output, surface, found)
-    print(f"{options.output}: {counted(len(found), 'sample')} by {distance.label}{estimate}")
+        found = sources_on(options, laplacian.surface, lambda: distance, progress).vertices("Samples")
+        by = f" by {distance.label}" if options.sources.rule == FARTHEST else ""
+        estimate = accuracy(distance) if by else ""
+    write_samples(options.output, laplacian.surface, found)
+    print(f"{options.output}: {counted(len(found), 'sample')}{by}{estimate}")
+    about = {"mesh": options.mesh, **(distance_facts(distance, chosen) if by else {}), "outputs": [options.output]}
+    return Result({**about, "vertices": found})

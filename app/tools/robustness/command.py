@@ -1,12 +1,15 @@
 """`bihdist perturb`: a mesh with noise, fewer vertices, holes, parts grown together; how far distances change."""
 
 import argparse
+from itertools import product
 from typing import TYPE_CHECKING
 
 from bihdist_core.counts import counted
 
 from ...commands.mesh import laplacian_of
-from ...commands.options import add_distance, count, positive, source, specs, vertices
+from ...commands.mesh_sources import sources_on
+from ...commands.options import add_distance, add_mesh, add_output, add_sources, count, pair, positive, specs
+from ...commands.result import Facts, Result, facts_of
 from ...commands.terminal import progress_line
 
 if TYPE_CHECKING:
@@ -15,14 +18,16 @@ if TYPE_CHECKING:
     from bihdist_core.applications.changes import Runs
     from bihdist_core.distances.kinds import Spec
     from bihdist_core.laplacian import Laplacian
-    from bihdist_core.sources.source import Source
 
 WORDS = "a mesh with noise, fewer vertices, holes, or parts grown together, to see what distances withstand"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `perturb` to its parser."""
-    parser.add_argument("mesh", help="mesh file, or the name of a sample")
+    add_mesh(parser)
+    add_sources(parser, "with --distance: where its fields start, one after another")
+    add_output(parser, "a .off, .obj, .ply or .vtp file")
+    add_distance(parser, "say how much each changes (default: none)")
     parser.add_argument("--pose", default="", metavar="FILE", help="another pose, with the same vertices and faces")
     parser.add_argument("--cut", type=_faces, default=(), metavar="FACES", help="take out faces, as in 3+10-20")
     parser.add_argument("--simplify", type=count, metavar="N", help="leave N vertices, at their places")
@@ -32,15 +37,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--radius", type=positive, default=0.05, metavar="R", help="of holes, in roots of the area (default: 0.05)"
     )
-    parser.add_argument("--weld", type=_pair, metavar="I,J", help="let the surface grow together at two vertices")
-    parser.add_argument("--handle", type=_pair, metavar="I,J", help="a thin tube from one vertex to another")
-    parser.add_argument("--seed", type=_seed, default=0, metavar="K", help="of noise and holes (default: 0)")
-    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="a .off, .obj, .ply or .vtp file")
-    parser.add_argument("--source", type=source, metavar="V", help="with --distance: where its fields start")
-    add_distance(parser, "say how much it changes; repeat for more")
+    parser.add_argument("--weld", type=pair, metavar="I:J", help="let the surface grow together at two vertices")
+    parser.add_argument("--handle", type=pair, metavar="I:J", help="a thin tube from one vertex to another")
+    parser.add_argument("--seed", type=_seed, default=0, metavar="N", help="of noise and holes (default: 0)")
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Write a changed mesh, and print how much a distance on it differs."""
     from bihdist_core.applications.changes import Perturbation
     from bihdist_core.applications.perturbation import perturbed
@@ -74,34 +76,43 @@ def run(options: argparse.Namespace) -> None:
     write_mesh(options.output, after)
     size = f"{counted(len(after.vertices), 'vertex', 'vertices')}, {counted(len(after.faces), 'face')}"
     print(f"{options.output}: {size}; {change}")
+    facts: Facts = {
+        "mesh": options.mesh, "outputs": [options.output], "change": str(change), "n_vertices": after.n_vertices,
+        "n_faces": after.n_faces,
+    }  # fmt: skip
     if chosen:
-        _say_changes(before, Laplacian(after), kept, options.source, chosen)
+        facts["fields"] = _say_changes(options, before, Laplacian(after), kept, chosen)
+    return Result(facts)
 
 
 def _say_changes(
-    before: "Laplacian", after: "Laplacian", kept: "np.ndarray", source: "Source | None", chosen: "list[Spec]"
-) -> None:
-    """How far the fields from one vertex differ, at the vertices that both meshes have."""
+    options: argparse.Namespace, before: "Laplacian", after: "Laplacian", kept: "np.ndarray", chosen: "list[Spec]"
+) -> list[Facts]:
+    """How far the fields from each source differ, at the vertices that both meshes have, as fractions of maxima."""
     from bihdist_core.analysis.diagnostics import field_change
     from bihdist_core.applications.perturbation import image_of
     from bihdist_core.distances.answers import Distances, percent, same_on
 
     from ...session.questions import vertex_at
 
-    there = image_of(before.surface, kept, vertex_at(source, before.surface), after.surface)
-    start, common = int(kept[there]), kept >= 0
+    said = []
     with progress_line() as progress:
-        one, two = Distances(before), Distances(after)
-        for asked in chosen:
+        one, two, common = Distances(before), Distances(after), kept >= 0
+        sources = sources_on(options, before.surface, lambda: one.get(chosen[0], progress), progress).sources
+        for source, asked in product(sources, chosen):
+            there = image_of(before.surface, kept, vertex_at(source, before.surface), after.surface)
+            start = int(kept[there])
             spec = same_on(asked, (one, two), progress)
             old = one.get(spec, progress).from_source(start, progress)[kept[common]]
             new = two.get(spec, progress).from_source(there, progress)[common]
             found = field_change(old, new)
+            said.append({"distance": str(spec), "source": start, **facts_of(found)})
             print(
                 f"{spec} from {start}: changes by {percent(found.normalised_mean)} of its maximum in the mean, at most "
                 f"{percent(found.normalised_largest)}; before each is divided by its own, {percent(found.mean)} and "
                 f"{percent(found.largest)}"
             )
+    return said
 
 
 def _faces(text: str) -> "Runs":
@@ -121,10 +132,3 @@ def _seed(text: str) -> int:
     if seed < 0:
         raise argparse.ArgumentTypeError(f"{text!r} is no seed (a whole number from 0)")
     return seed
-
-
-def _pair(text: str) -> tuple[int, int]:
-    pair = vertices(text)
-    if len(pair) != 2:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a pair of vertex ids such as 1,2")
-    return pair[0], pair[1]

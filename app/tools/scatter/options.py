@@ -7,6 +7,7 @@ from typing import Any
 from bihdist_core.applications.changes import Runs
 
 from ...document.labels import MARK_COLOURS
+from ...document.lists import file_in
 from ...document.option import NotExpressible, Option, Row, unsaid
 from ...document.page import Recipe
 
@@ -16,7 +17,8 @@ LONGEST = 1000
 
 def _selections_of(recipe: Recipe) -> dict[str, Any]:
     """In the colours that they get by themselves."""
-    from ...document.runs import runs_in_words
+    from bihdist_core.applications.changes import words_of_runs
+
     from ...document.shared_parts.selections import Selections
 
     selections = recipe.document[Selections].selections
@@ -24,7 +26,7 @@ def _selections_of(recipe: Recipe) -> dict[str, Any]:
         raise NotExpressible("Vertices of another mesh are selected.")
     if [each.colour for each in selections] != [k % MARK_COLOURS for k in range(len(selections))]:
         raise NotExpressible("Selections have other colours than usual.")
-    words = [runs_in_words(each.runs) for each in selections]
+    words = [words_of_runs(each.runs) for each in selections]
     if sum(map(len, words)) > LONGEST:
         raise NotExpressible("More vertices are selected than a line can name.")
     return {"selections": words} if words else {}
@@ -56,12 +58,13 @@ ROWS = (
         (
             Option(
                 "selections",
-                "vertices that stand out: ids and ranges (12,40-77), or a .txt, .npy or .csv file of ids; repeat for "
-                "more",
+                "vertices that stand out together: ids and ranges (12+40-77), or a .txt, .npy or .csv file of ids, "
+                "@FILE; with commas for several selections",
                 (),
                 flag="select",
-                metavar="IDS",
-                repeats=True,
+                metavar="IDS|@FILE,…",
+                read=lambda word: file_in(word) or word,
+                is_list=True,
             ),
         ),
         ("Selections.selections",),

@@ -5,7 +5,8 @@ import os
 from typing import TYPE_CHECKING
 
 from ...commands.field_of import FieldOf, field_of
-from ...commands.options import SOURCE, add_areas, add_distance, source
+from ...commands.options import add_areas, add_chart, add_distance, add_mesh, add_sources, chart_page, eigenpair_count
+from ...commands.result import Facts, Result, facts_of
 from ...commands.terminal import progress_line
 
 if TYPE_CHECKING:
@@ -15,27 +16,26 @@ WORDS = "a distance in numbers, or how two go together, and their charts"
 TEXT = ".csv"
 FIGURES, TABLES = (".pdf", ".png", ".svg", ".eps"), (".csv", ".npy")
 BINS = 40
+EIGENPAIRS = 200
+"""Of what the truncated distance loses, unless `--k` says otherwise."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `statistics` to its parser."""
-    parser.add_argument("mesh", help="mesh file, or the name of a sample")
-    parser.add_argument("--source", type=source, metavar="V", required=True, help=SOURCE)
-    add_distance(parser, "two to compare them (default: biharmonic)")
+    add_mesh(parser)
+    add_sources(parser, "the one source where distances start")
     parser.add_argument("--histogram", metavar="OUT", help="of the first, by area: a figure, or a .csv or .npy of bins")
     parser.add_argument("--scatter", metavar="OUT", help="of the second over the first: a figure, or a .csv or .npy")
+    add_distance(parser, "one, or two to compare them (default: biharmonic)", k="of --truncation", is_field=True)
+    add_areas(parser)
     parser.add_argument("--values", action="store_true", help="compare values, and not fractions of the maxima")
     parser.add_argument(
-        "--truncation", type=int, metavar="K", help="what a sum over K eigenpairs loses of the biharmonic distance"
+        "--truncation", action="store_true", help="what a sum over --k eigenpairs loses of the biharmonic distance"
     )
-    parser.add_argument("--size", default="", help="of a chart: 85mm, column, double (default: as wide as a column)")
-    parser.add_argument("--style", default="paper", help="of a chart: paper, uniform, lines or dark (default: paper)")
-    parser.add_argument("--font", default="", metavar="FAMILY", help="of a chart")
-    parser.add_argument("--text", type=float, metavar="POINTS", help="size of the text of a chart (default: 8)")
-    add_areas(parser)
+    add_chart(parser)
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace) -> Result:
     """Print statistics of a field, or of the difference of two."""
     from bihdist_core.analysis.truncation import truncation_loss
     from bihdist_core.errors import ParameterError
@@ -47,27 +47,35 @@ def run(options: argparse.Namespace) -> None:
     if options.scatter and len(words) != 2:
         raise ParameterError("A scatter is of two distances; name both with --distance.")
     check_outputs((options.histogram, FIGURES + TABLES), (options.scatter, FIGURES + TABLES))
+    count = eigenpair_count(options, words, EIGENPAIRS) if options.truncation else 0
     with progress_line() as progress:
         first = field_of(options, words[0], progress)
-        fields = [first, *(field_of(options, each, progress, first.laplacian) for each in words[1:])]
+        fields = [first, *(field_of(options, each, progress, first) for each in words[1:])]
         loss = None
-        if options.truncation is not None:
-            loss = truncation_loss(first.laplacian, options.source, counts=[options.truncation], progress=progress)
-    for it in fields:
-        _tell(it)
+        if options.truncation:
+            loss = truncation_loss(first.laplacian, first.sources[0], counts=[count], progress=progress)
+    facts: Facts = {
+        "mesh": options.mesh,
+        "outputs": [file for file in (options.histogram, options.scatter) if file],
+        "fields": [_say(it) for it in fields],
+    }
     if options.histogram:
         _save_histogram(options, first)
         print(f"{options.histogram}: histogram of {first.label}")
     if len(fields) == 2:
-        _compare(options, *fields)
+        facts["agreement"] = _compare(options, *fields)
     if loss is not None:
         print(
             f"biharmonic, the first {loss.counts[0]:,} eigenpairs: mean loss {loss.means[0]:.3%} of the maximum, "
             f"largest {loss.largest[0]:.3%} at vertex {loss.at[0]}"
         )
+        facts["truncation"] = {
+            "n_eigenpairs": loss.counts[0], "mean": loss.means[0], "largest": loss.largest[0], "largest_at": loss.at[0]
+        }  # fmt: skip
+    return Result(facts)
 
 
-def _tell(it: FieldOf) -> None:
+def _say(it: FieldOf) -> Facts:
     from bihdist_core import field_statistics
 
     found = field_statistics(it.surface, it.field)
@@ -79,13 +87,15 @@ def _tell(it: FieldOf) -> None:
         print(f"  mean size by area {_written(found.mean_size, it)}")
     parts = ", ".join(f"{s:.0%} {_written(q, it)}" for s, q in zip(found.shares, found.quantiles, strict=True))
     print(f"  quantiles by area: {parts}")
+    names = ("greatest", "greatest_at", "least", "least_at", "mean", "deviation", "mean_size", "shares", "quantiles")
+    return {**it.facts, **facts_of(found, *names)}
 
 
 def _written(value: float, it: FieldOf) -> str:
     return f"{value:.2f}%" if it.scale == 100 else f"{value:.6g}"
 
 
-def _compare(options: argparse.Namespace, one: FieldOf, other: FieldOf) -> None:
+def _compare(options: argparse.Namespace, one: FieldOf, other: FieldOf) -> Facts:
     from bihdist_core import field_agreement
     from bihdist_core.errors import ParameterError
 
@@ -104,6 +114,7 @@ def _compare(options: argparse.Namespace, one: FieldOf, other: FieldOf) -> None:
     if options.scatter:
         _save_scatter(options, one, other, found.spearman, at)
         print(f"{options.scatter}: scatter of {found.count:,} vertices")
+    return facts_of(found)
 
 
 def _save_histogram(options: argparse.Namespace, it: FieldOf) -> None:
@@ -149,10 +160,9 @@ def _is_table(path: str) -> bool:
 
 
 def _look(options: argparse.Namespace) -> "ChartLook":
-    from ...document.page import Page
     from ...figures.chart_page import ChartLook
     from ...figures.scatter_figure import INCHES
     from ...scene.style import style_of
 
-    page = Page(size=options.size, style=options.style, font=options.font, text=options.text)
+    page = chart_page(options)
     return ChartLook.of(page, style_of(page.style), INCHES)

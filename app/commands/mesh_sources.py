@@ -1,0 +1,87 @@
+"""The sources that an option names, on the mesh of a command."""
+
+import argparse
+import os
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+from bihdist_core.distances.kinds import Spec
+
+from ..document.document import COMPARISON
+from ..document.quantities import Quantity
+from ..document.sources import HIGHEST, LISTED, Sources
+from .mesh import found_mesh
+from .terminal import tell_moved
+
+if TYPE_CHECKING:
+    from bihdist_core import Distance, Surface
+    from bihdist_core.progress import Progress
+    from bihdist_core.sources.source import Source
+
+    from ..session.chosen_sources import Chosen
+
+
+def sources_on(
+    options: argparse.Namespace,
+    surface: "Surface",
+    distance: "Callable[[], Distance]",
+    progress: "Progress | None" = None,
+) -> "Chosen":
+    """What `--sources` names on the surface of the command's mesh, the highest vertex where nothing is said.
+
+    distance: makes the one by which points are farthest.
+    """
+    return sources_of_mesh(options.sources or HIGHEST, options.mesh, surface, distance, progress)
+
+
+def sources_of_mesh(
+    asked: Sources,
+    mesh: str,
+    surface: "Surface",
+    distance: "Callable[[], Distance]",
+    progress: "Progress | None" = None,
+) -> "Chosen":
+    """What is asked for on the surface of a mesh; how far the points of a file had to be moved is said."""
+    from ..session.chosen_sources import chosen_sources
+
+    name = os.path.splitext(os.path.basename(mesh))[0]
+    found = chosen_sources(asked, surface, distance, name, progress=progress)
+    if found.pins is not None:
+        tell_moved(found.path, "pin", found.pins.moved, found.pins.ids.tolist(), surface)
+    return found
+
+
+def sources_of_document(
+    asked: Sources | None,
+    mesh: str,
+    shows: "Sequence[Spec | Quantity]",
+    areas: str | None,
+    progress: "Progress | None" = None,
+) -> "list[Source]":
+    """What is asked for on the mesh of a document that is still to be opened; none where nothing is.
+
+    shows: of which the first distance says which points are farthest.
+    """
+    if asked is None or asked.rule == LISTED:
+        # Whoever opens the document looks where they are.
+        return [] if asked is None else [*asked.members]
+    from bihdist_core import Laplacian, read_surface
+    from bihdist_core.distances.answers import Distances
+
+    surface = read_surface(found_mesh(mesh))
+    spec = first_spec(shows)
+    distances = Distances(Laplacian(surface, areas or "voronoi"))
+    return sources_of_mesh(asked, mesh, surface, lambda: distances.get(spec, progress), progress).sources
+
+
+def first_spec(shows: "Sequence[Spec | Quantity]") -> Spec:
+    """The first distance among what is shown, the usual one where there is none."""
+    specs = (spec for each in shows for spec in ((each,) if isinstance(each, Spec) else each.specs))
+    return next(specs, COMPARISON[0])
+
+
+def one_source(sources: "list[Source]") -> "Source | None":
+    """The only one, None where there is none; ParameterError for several."""
+    from ..session.chosen_sources import Chosen
+
+    return Chosen(sources).one() if sources else None

@@ -1,0 +1,148 @@
+"""The sources that are asked for, on a surface: those that are listed, chosen by a rule, or read from a file."""
+
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bihdist_core import Distance, Laplacian, Surface, read_surface
+from bihdist_core.analysis.sampling import farthest_points, starts_of
+from bihdist_core.analysis.upright import guess_up
+from bihdist_core.arrays import BoolArray
+from bihdist_core.distances.answers import Distances
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.errors import ParameterError
+from bihdist_core.formats.pins import Pins, picked_from, pins_format, placed
+from bihdist_core.formats.whole_numbers import numbered_lines, read_whole_numbers, text_of
+from bihdist_core.progress import Progress
+from bihdist_core.sources.pieces import pieces_of
+from bihdist_core.sources.source import Source
+from bihdist_core.sources.words import short_words_of, source_from_words
+
+from ..document.lists import split_list
+from ..document.sources import ALL, FARTHEST, FILE, LISTED, Sources
+from ..samples import mesh_path
+from .questions import first_source
+
+STANDARD_INPUT = "standard input"
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """sources: at least one, in order.  pins: what they are in a file of pins, None for those from elsewhere; path: of
+    the file, "" for none."""
+
+    sources: list[Source]
+    pins: Pins | None = None
+    path: str = ""
+
+    def one(self) -> Source:
+        """The only one; ParameterError for several."""
+        if len(self.sources) > 1:
+            raise ParameterError(
+                f"This starts from one source, and --sources names {len(self.sources):,}; join vertices of which the "
+                "nearest counts by a plus: 12+40."
+            )
+        return self.sources[0]
+
+    def vertices(self, what: str) -> list[int]:
+        """Their ids; ParameterError, which speaks of `what` is among vertices, for a source that is no vertex."""
+        for each in self.sources:
+            if not isinstance(each, int):
+                raise ParameterError(f"{what} are those of vertices, and {short_words_of(each)} is none.")
+        return self.sources  # type: ignore[return-value]
+
+
+def chosen_sources(
+    asked: Sources,
+    surface: Surface,
+    distance: Callable[[], Distance],
+    name: str = "",
+    among: BoolArray | None = None,
+    highest: Callable[[], int] | None = None,
+    progress: Progress | None = None,
+) -> Chosen:
+    """The sources on a surface, at least one.
+
+    distance: makes the one by which points are farthest, and is called for these alone.  name: what stands for {name}
+    in a file's path.  among: (n,) which vertices rules choose from, all of faces if None.  highest: finds where to
+    start where nothing is said.  VertexError or ParameterError for what is not on the surface.
+    """
+    highest = highest or (lambda: first_source(surface, guess_up(surface, Path(surface.name).suffix)))
+    if asked.rule == FILE:
+        path = STANDARD_INPUT if asked.file == "-" else asked.file.replace("{name}", name)
+        found = _read(path, asked.text, surface)
+    elif asked.rule == LISTED:
+        found = Chosen([*asked.members] or [highest()])
+    elif asked.rule == FARTHEST:
+        start = highest() if asked.start is None else starts_of(asked.start, surface)
+        found = Chosen([*farthest_points(distance(), start, asked.count, progress, among).tolist()])
+    else:
+        vertices = np.flatnonzero(surface.component_of_vertex >= 0 if among is None else among)
+        if asked.rule != ALL:
+            if asked.count > len(vertices):
+                what = "vertices" if among is None or among.all() else "vertices that are not masked"
+                raise ParameterError(
+                    f"{surface.name} has {len(vertices):,} {what}, fewer than the {asked.count:,} of random:"
+                    f"{asked.count}."
+                )
+            vertices = np.sort(np.random.default_rng(asked.seed).choice(vertices, asked.count, replace=False))
+        found = Chosen([*vertices.tolist()])
+    if asked.rule in (FILE, LISTED):
+        surface.check_vertices([each for each in found.sources if isinstance(each, int)])
+        for each in found.sources:
+            if not isinstance(each, int):
+                pieces_of(each, surface)
+    return found
+
+
+def chosen_on(
+    asked: Sources, mesh: str, spec: Spec, areas: str, progress: Progress | None = None, name: str = ""
+) -> Chosen:
+    """The sources on the mesh of a file, or of a sample of that name; a list is not looked at."""
+    if asked.rule == LISTED and asked.members:
+        return Chosen([*asked.members])
+    surface = read_surface(mesh_path(mesh))
+    return chosen_sources(
+        asked,
+        surface,
+        lambda: Distances(Laplacian(surface, areas)).get(spec, progress),
+        name or Path(mesh).stem,
+        progress=progress,
+    )
+
+
+def parts_of(line: str) -> list[str]:
+    """What blanks stand between in a line without its remark."""
+    return [part for each in line.partition("#")[0].split() if (part := each.strip(","))]
+
+
+def _source(word: str) -> Source:
+    """From words, or from a vertex id that is written as a float is."""
+    with suppress(ValueError):
+        if (number := float(word)).is_integer() and 0 <= number < 1e15:
+            return int(number)
+    return source_from_words(word)
+
+
+def _read(path: str, text: str, surface: Surface) -> Chosen:
+    """Those in a file: vertex ids in a .npy, pins, or lines of what a list has, with remarks after #."""
+    if Path(path).suffix.lower() == ".npy":
+        found: list[Any] = surface.check_vertices(read_whole_numbers(path, "list of sources")).tolist()
+    else:
+        text = text or text_of(Path(path), "sources")
+        if format := pins_format(text):
+            pins = placed(picked_from(text, Path(path).name, format), surface)
+            return Chosen([*pins.vertices.tolist()], pins, path)
+        found = []
+        for number, line in numbered_lines(text):
+            try:
+                found += [_source(word) for part in parts_of(line) for word in split_list(part)]
+            except ParameterError as error:
+                raise ParameterError(f"{path}, line {number}: {error}") from None
+    if not found:
+        raise ParameterError(f"There is no source in {path}.")
+    return Chosen(found, path=path)
