@@ -12,7 +12,7 @@
  * K1 and N1 are minus the derivatives of K and N, so that all that follows adds up to +G A G, G = L^-1.
  *
  * A leaf has no children: its F1 = A, diagonal, and R1 = 0, so that K1 = K A K and N1 = K A N.  These are not kept but
- * applied as products, for half of a factor's pivots are in leaves. */
+ * applied as products, for two thirds of a factor's pivots are in leaves. */
 #ifndef BIHDIST_KERNEL_H
 #define BIHDIST_KERNEL_H
 #include <stddef.h>

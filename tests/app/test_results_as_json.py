@@ -109,6 +109,26 @@ def test_values_are_those_of_the_library(folder, capsys):
     assert said_by(capsys, LINES["batch"])[0]["results"] == [{**row, "is_new": False}]
 
 
+def test_samples_by_no_distance_name_none(folder, capsys):
+    said, _ = said_by(capsys, "samples a.off --sources random:5 -o samples.txt")
+    assert len(said["vertices"]) == 5
+    assert not DISTANCE & set(said)
+
+
+def test_all_files_of_a_command_are_outputs(folder, capsys):
+    said, _ = said_by(capsys, "profile a.off --through 3,40 -o along.csv --chart along.svg --distance biharmonic")
+    assert said["outputs"] == ["along.csv", "along.svg"]
+    said, _ = said_by(capsys, "regions a.off --sources 3,7 --region-mesh cut.ply --boundaries lines.json")
+    assert said["outputs"] == ["cut.ply", "lines.json"]
+
+
+def test_meshes_that_a_list_misses_are_counted_and_failures(folder, capsys):
+    Path("list.txt").write_text("none.off\n")
+    said, status = said_by(capsys, f"{LINES['batch']} --list list.txt")
+    assert (status, said["n_meshes"], len(said["results"])) == (1, 2, 1)
+    assert [(each["mesh"], each["work"]) for each in said["failures"]] == [("none", "fields")]
+
+
 def test_a_map_that_is_not_known_somewhere_has_null(folder, capsys):
     Path("nowhere.txt").write_text("-1\n" + "0\n" * 119)
     (row,) = said_by(capsys, "evaluate a.off b.off nowhere.txt --truth identity")[0]["maps"]
