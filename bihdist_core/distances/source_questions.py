@@ -162,9 +162,12 @@ class SourceQuestions(ABC):
                 # Into new memory or a file, where it takes as long as to compute them.
                 for first in range(0, len(columns), ROWS):
                     report(done / len(some), self.label)
-                    rows = slice(first, first + ROWS) if is_whole else component.vertices[first : first + ROWS]
-                    there = (rows, into) if isinstance(into, slice) else np.ix_(rows, into)
-                    fields[there] = columns[first : first + ROWS]
+                    some_rows = slice(first, first + ROWS)
+                    rows = component.vertices[some_rows]
+                    if is_whole:
+                        fields[some_rows, into] = columns[some_rows]
+                    else:
+                        fields[(rows, into) if isinstance(into, slice) else np.ix_(rows, into)] = columns[some_rows]
         return fields
 
     def columns_by_component(
