@@ -132,6 +132,7 @@ from .formats.pins import (
     write_pins as write_pins,
 )
 from .formats.vertex_maps import read_map as read_map, write_map as write_map
+from .formats.vertex_values import read_vertex_values as read_vertex_values
 from .laplacian import (
     Laplacian as Laplacian,
     eigenpairs as eigenpairs,

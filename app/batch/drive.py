@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from bihdist_core.errors import ParameterError
+from bihdist_core.formats.mesh_names import MESH_FORMATS, is_mesh_file, mesh_name
 
 from ..document.file import checksum
 from ..samples import mesh_path
@@ -21,7 +22,6 @@ from .task import Failure, Report, Row, Task, done_before
 from .work_kinds import MAXIMA
 from .work_order import ALL, LAYOUTS, OWN, WorkOrder, result_name
 
-MESHES = (".obj", ".off", ".ply", ".stl", ".vtk", ".vtp")
 COLUMNS = (
     "mesh", "work", "distance", "file", "shape", "dtype", "unit", "accuracy", "vertices", "faces", "components", "area",
     "repairs", "mean", "median", "area_under_curve", "seconds",
@@ -41,9 +41,11 @@ def found_meshes(where: str) -> dict[str, str]:
     """
     path = Path(where)
     if path.is_dir():
-        paths = sorted(each for each in path.iterdir() if each.suffix.lower() in MESHES and each.is_file())
+        paths = sorted(each for each in path.iterdir() if is_mesh_file(each) and each.is_file())
         if not paths:
-            raise ParameterError(f"There is no mesh in the folder {where}; meshes are {', '.join(MESHES)} files.")
+            raise ParameterError(
+                f"There is no mesh in the folder {where}; meshes are {', '.join(MESH_FORMATS)} files and FreeSurfer's."
+            )
     else:
         try:
             lines = path.read_text(encoding="utf-8-sig").splitlines()
@@ -63,11 +65,12 @@ def found_meshes(where: str) -> dict[str, str]:
             paths.append(each)
         if not paths:
             raise ParameterError(f"{where} names no mesh; it has a path on each line.")
-    stems = Counter(each.stem for each in paths)
+    names = Counter(map(mesh_name, paths))
     found: dict[str, str] = {}
     for each in map(Path, map(os.path.abspath, paths)):
         # One folder for each subject, with the same names in all of them.
-        name = each.stem if stems[each.stem] == 1 else f"{each.parent.name}_{each.stem}"
+        name = mesh_name(each)
+        name = name if names[name] == 1 else f"{each.parent.name}_{name}"
         if name in found:
             raise ParameterError(f"{found[name]} and {each} have the same name, {name}; rename one.")
         found[name] = str(each)

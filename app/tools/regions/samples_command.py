@@ -1,7 +1,6 @@
 """`bihdist samples`: vertices spread over a mesh, into a file."""
 
 import argparse
-import os
 
 from bihdist_core.counts import counted
 
@@ -39,6 +38,7 @@ def run(options: argparse.Namespace) -> None:
     from bihdist_core.analysis.sampling import SAMPLE_FORMATS, farthest_points, starts_of, write_samples
     from bihdist_core.analysis.upright import guess_up
     from bihdist_core.distances.answers import Distances
+    from bihdist_core.formats.mesh_names import mesh_format
     from bihdist_core.whole_file import check_output
 
     from ...session.questions import source_at
@@ -48,9 +48,7 @@ def run(options: argparse.Namespace) -> None:
     with progress_line() as progress:
         laplacian = read_laplacian(options)
         surface = laplacian.surface
-        starts = starts_of(
-            source_at(options.source, surface, guess_up(surface, os.path.splitext(surface.name)[1])), surface
-        )
+        starts = starts_of(source_at(options.source, surface, guess_up(surface, mesh_format(surface.name))), surface)
         distance = Distances(laplacian).get(chosen, progress)
         found = farthest_points(distance, starts, options.count, progress)
         estimate = accuracy(distance)
