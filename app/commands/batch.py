@@ -55,8 +55,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--nearest", type=count, metavar="K", help="for nearest (default: 10)")
     parser.add_argument("--eigenpairs", type=count, metavar="K", help="for eigen (default: 100)")
     of_parcels = "for pairs: means between parcels; a number for each vertex, below 0 for none"
-    parser.add_argument("--labels", metavar="FILE", help=of_parcels)
-    parser.add_argument("--mask", metavar="FILE", help="0 or 1 for each vertex: which count")
+    kinds = ".npy, .txt, .gii, .annot or a file of FreeSurfer's"
+    parser.add_argument("--labels", metavar="FILE", help=f"{of_parcels}: {kinds}")
+    parser.add_argument("--mask", metavar="FILE", help=f"0 or 1 for each vertex: which count; {kinds}")
     parser.add_argument("--recipe", metavar="NAME.json", help="for figure: drawn of each mesh, from its highest vertex")
     parser.add_argument(
         "--range",

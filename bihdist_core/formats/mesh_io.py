@@ -41,8 +41,8 @@ _READERS: dict[str, Callable[[bytes, str], Polygons]] = {
     ".gii": read_gifti,
     FREESURFER: read_freesurfer,
 }
-LARGEST = 1e75
-"""Coordinates beyond it have areas that no float holds."""
+LARGEST, SMALLEST = 1e75, 1e-75
+"""Squares of areas of larger and of smaller surfaces are beyond what a float holds."""
 
 
 def read_surface(path: str | os.PathLike[str]) -> Surface:
@@ -81,16 +81,22 @@ def surface_in(content: bytes, name: str) -> Surface:
 
 
 def _check_extent(surface: Surface) -> None:
-    """MeshError for a surface that nothing can be measured on: all of it in one place, or too large for areas."""
+    """MeshError for a surface that nothing can be measured on: all of it in one place, too large or too small."""
     x, (first, second, third) = surface.vertices, surface.vertices[surface.faces[0]]
     if (first == second).all() and (first == third).all() and (x[surface.faces] == first).all():
         place = ", ".join(f"{c:g}" for c in first)
         raise MeshError(f"{surface.name}: all corners of its faces are at ({place}); there is nothing to measure.")
-    if max(float(x.max()), -float(x.min())) > LARGEST:
+    low, high = x.min(axis=0), x.max(axis=0)
+    if max(float(high.max()), -float(low.min())) > LARGEST:
         k, axis = np.argwhere(np.abs(x) > LARGEST)[0]
         raise MeshError(
             f"{surface.name}: vertex {k} has the coordinate {x[k, axis]:g}; beyond {LARGEST:g} areas have no numbers, "
             "so scale it down."
+        )
+    extent = float((high - low).max())
+    if extent < SMALLEST:
+        raise MeshError(
+            f"{surface.name} measures {extent:g}; below {SMALLEST:g} areas have no numbers, so scale it up."
         )
 
 

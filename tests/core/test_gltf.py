@@ -61,7 +61,7 @@ def test_a_mirror_image_keeps_its_outside():
 def test_files_without_a_scene_or_nodes_show_everything():
     assert_same(surface_in(made(scenes=[], scene=0), "a.gltf"), SINGLE)
     inner = [{"mesh": 0, "translation": [1, 0, 0]}, {"children": [0], "translation": [0, 1, 0]}]
-    assert_same(surface_in(made(inner, scenes=[]), "a.gltf"), SINGLE.astype(float) + [1, 1, 0])
+    assert_same(surface_in(made(inner, scenes=[]), "a.gltf"), np.add(SINGLE.astype(float), [1, 1, 0]))
     assert_same(surface_in(made([], scenes=[]), "a.gltf"), SINGLE)
 
 
@@ -105,12 +105,17 @@ def test_positions_may_be_whole_numbers_and_interleaved():
 
 
 # ---------------------------------------------------------------------- files beside it
-def test_a_buffer_beside_the_file_is_read_and_part_of_its_content(tmp_path):
+def beside(folder, uri, name="mesh.bin"):
+    """A .gltf file that names a buffer of that name beside it, and the buffer."""
     data, buffer = gltf_parts()
-    data["buffers"][0]["uri"] = "the%20mesh.bin"
-    path = tmp_path / "a.gltf"
-    path.write_text(json.dumps(data))
-    (tmp_path / "the mesh.bin").write_bytes(buffer)
+    data["buffers"][0]["uri"] = uri
+    (folder / "a.gltf").write_text(json.dumps(data))
+    (folder / name).write_bytes(buffer)
+    return folder / "a.gltf", buffer
+
+
+def test_a_buffer_beside_the_file_is_read_and_part_of_its_content(tmp_path):
+    path, buffer = beside(tmp_path, "the%20mesh.bin", "the mesh.bin")
     assert_same(read_surface(path), SINGLE)
     before = mesh_content(path)
     (tmp_path / "the mesh.bin").write_bytes(buffer[:-4] + bytes(4))
@@ -132,22 +137,14 @@ def test_a_buffer_beside_the_file_is_read_and_part_of_its_content(tmp_path):
 )
 def test_other_paths_are_not_followed(tmp_path, uri, expected):
     (tmp_path / "folder").mkdir()
-    data, buffer = gltf_parts()
-    data["buffers"][0]["uri"] = uri
-    (tmp_path.parent / "mesh.bin").write_bytes(buffer)
-    path = tmp_path / "a.gltf"
-    path.write_text(json.dumps(data))
+    path, _ = beside(tmp_path, uri, "../mesh.bin")
     with pytest.raises(MeshError, match=r"a\.gltf: buffer 0") as caught:
         read_surface(path)
     assert expected in str(caught.value)
 
 
 def test_a_buffer_beside_that_is_too_large_is_not_read(tmp_path, monkeypatch):
-    data, buffer = gltf_parts()
-    data["buffers"][0]["uri"] = "mesh.bin"
-    path = tmp_path / "a.gltf"
-    path.write_text(json.dumps(data))
-    (tmp_path / "mesh.bin").write_bytes(buffer)
+    path, _ = beside(tmp_path, "mesh.bin")
     monkeypatch.setattr(reader, "MOST_BYTES", 50)
     with pytest.raises(MeshError, match=r"'mesh.bin', has more than"):
         read_surface(path)

@@ -209,6 +209,7 @@ REFUSED = {
     "one place": ("a.off", off(np.ones((5, 3))), "all corners of its faces are at (1, 1, 1)"),
     "STL in one place": ("a.stl", stl_text(np.ones((5, 3))), "every face names a vertex twice"),
     "too large": ("a.off", off().replace("1.5", "-1e160"), "vertex 4 has the coordinate -1e+160; beyond 1e+75"),
+    "too small": ("a.off", off(VERTICES * 1e-80), "measures 1.5e-80; below 1e-75 areas have no numbers"),
     "gzip cut off": ("a.off.gz", gzip.compress(off().encode())[:-9], "is cut off: its gzip data do not end"),
     "gzip damaged": ("a.off.gz", gzip.compress(off().encode())[:-8] + bytes(8), "is damaged (CRC check failed"),
     "no gzip": ("a.off.gz", off(), "is not a gzip file, or is damaged"),
