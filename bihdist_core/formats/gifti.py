@@ -121,6 +121,8 @@ def _decoded(text: bytes, packed_size: int | None, where: str) -> bytes:
         found = stream.decompress(content, packed_size + 1)
     except (binascii.Error, ValueError, zlib.error) as error:
         raise MeshError(f"{where} is damaged ({error}).") from None
-    if not stream.eof and len(found) <= packed_size:
+    if len(found) > packed_size:
+        raise MeshError(f"{where} holds more than the {packed_size:,} bytes that it announces; the file is damaged.")
+    if not stream.eof:
         raise MeshError(f"{where} is cut off: its compressed data do not end.")
     return found

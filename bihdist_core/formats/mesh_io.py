@@ -82,21 +82,20 @@ def surface_in(content: bytes, name: str) -> Surface:
 
 def _check_extent(surface: Surface) -> None:
     """MeshError for a surface that nothing can be measured on: all of it in one place, too large or too small."""
-    x, (first, second, third) = surface.vertices, surface.vertices[surface.faces[0]]
-    if (first == second).all() and (first == third).all() and (x[surface.faces] == first).all():
-        place = ", ".join(f"{c:g}" for c in first)
-        raise MeshError(f"{surface.name}: all corners of its faces are at ({place}); there is nothing to measure.")
-    low, high = x.min(axis=0), x.max(axis=0)
-    if max(float(high.max()), -float(low.min())) > LARGEST:
+    x, name = surface.vertices, surface.name
+    # All is small only where the first face is.
+    if np.ptp(x[surface.faces[0]], axis=0).max() < SMALLEST:
+        extent = float(np.ptp(x[surface.faces], axis=(0, 1)).max())
+        if extent == 0:
+            place = ", ".join(f"{c:g}" for c in x[surface.faces[0, 0]])
+            raise MeshError(f"{name}: all corners of its faces are at ({place}); there is nothing to measure.")
+        if extent < SMALLEST:
+            raise MeshError(f"{name} measures {extent:g}; below {SMALLEST:g} areas have no numbers, so scale it up.")
+    if max(float(x.max()), -float(x.min())) > LARGEST:
         k, axis = np.argwhere(np.abs(x) > LARGEST)[0]
         raise MeshError(
-            f"{surface.name}: vertex {k} has the coordinate {x[k, axis]:g}; beyond {LARGEST:g} areas have no numbers, "
-            "so scale it down."
-        )
-    extent = float((high - low).max())
-    if extent < SMALLEST:
-        raise MeshError(
-            f"{surface.name} measures {extent:g}; below {SMALLEST:g} areas have no numbers, so scale it up."
+            f"{name}: vertex {k} has the coordinate {x[k, axis]:g}; beyond {LARGEST:g} areas have no numbers, so scale "
+            "it down."
         )
 
 

@@ -60,6 +60,8 @@ def _read_plain(raw: bytes) -> Polygons | None:
 
 def _check_end(raw: bytes, name: str) -> None:
     """MeshError for a file that ends within a face: with no line end, too few corners, or half a corner."""
+    if raw.endswith((b"\n", b"\r")):
+        return
     last = _LAST_FACE.search(raw, max(raw.rfind(b"\n"), raw.rfind(b"\r"), 0))
     if not last:
         return

@@ -4,12 +4,14 @@ import gzip
 import os
 import random
 import re
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from bihdist_core.errors import MeshError
+from bihdist_core.formats import gzip_files
 from bihdist_core.formats.field_output import write_fields
 from bihdist_core.formats.mesh_io import read_surface
 from bihdist_core.formats.mesh_names import MESH_FORMATS
@@ -96,6 +98,24 @@ def test_an_unreadable_file(put, monkeypatch):
 )
 def test_files_of_another_kind(put, extension, content):
     refused(put(f"a{extension}", content))
+
+
+def vtk_new(offsets, word):
+    """A triangle with offsets as files of version 5 have them."""
+    return (
+        "# vtk DataFile Version 5.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n"
+        f"POLYGONS 2 3\nOFFSETS vtktypeint64\n{offsets}\n{word} vtktypeint64\n0 1 2\n"
+    )
+
+
+def xml(corners, form="ascii", points=3):
+    """A VTP file with a triangle, with its corners as text."""
+    places = "<Points><DataArray type='Int8'>0 0 0 1 0 0 0 1 0</DataArray></Points>" if points == 3 else ""
+    return (
+        f"<VTKFile type='PolyData'><PolyData><Piece NumberOfPoints='{points}' NumberOfPolys='1'>{places}<Polys>"
+        f"<DataArray Name='connectivity' type='Int32' format='{form}'>{corners}</DataArray>"
+        "<DataArray Name='offsets' type='Int8'>3</DataArray></Polys></Piece></PolyData></VTKFile>"
+    )
 
 
 TETRAHEDRON = (
@@ -229,11 +249,18 @@ REFUSED = {
     "VTK type": ("a.vtk", vtk_old().replace(b"double", b"string"), "type 'string'"),
     "VTK section": ("a.vtk", vtk_old().replace(b"POLYGONS", b"POLYGON"), "'POLYGON 3 12' is not a section"),
     "VTK lacks count": ("a.vtk", vtk_old().replace(b"POLYGONS 3", b"POLYGONS -3"), "lacks a count"),
+    "VTK no types": ("a.vtk", TETRAHEDRON.split("CELL_TYPES")[0], "it has CELLS but no CELL_TYPES"),
+    "VTK offsets": ("a.vtk", vtk_new("0 2", "CONNECTIVITY"), "the offsets of the cells do not fit their 3 corners"),
+    "VTK no corners": ("a.vtk", vtk_new("0 3", "OTHER"), "POLYGONS have OFFSETS but no CONNECTIVITY"),
     "VTK index": ("a.vtk", vtk_old(polygons=[[0, 1, 7]]), "polygon 0 names vertex 7"),
     "VTK word": ("a.vtk", vtk_old().replace(b"0.25", b"half"), "'half' stands among the POINTS"),
     "XML": ("a.vtp", "<VTKFile type='PolyData'>", "cut off or damaged"),
     "XML root": ("a.vtp", "<html></html>", "its root element is 'html'"),
     "XML empty": ("a.vtp", "<VTKFile type='PolyData'/>", "holds no piece of PolyData"),
+    "XML no points": ("a.vtp", xml("", points=5), "announces 5 points but holds none"),
+    "XML index": ("a.vtp", xml("0 1 5"), "a cell of Polys names point 5, but ids run from 0 to 2"),
+    "XML half a number": ("a.vtp", xml("AwAAAAAAAA==", "binary"), "have 3 bytes, no whole number of int32 values"),
+    "XML short": ("a.vtp", xml("AwA=", "binary"), "are shorter than announced"),
     "XML no types": (
         "a.vtu",
         "<VTKFile><UnstructuredGrid><Piece NumberOfPoints='0' NumberOfCells='1'><Cells>"
@@ -249,6 +276,16 @@ REFUSED = {
 def test_refusals_say_where_and_why(put, case):
     name, content, expected = REFUSED[case]
     assert expected in refused(put(name, content))
+
+
+def test_a_small_gzip_file_cannot_fill_the_memory(put, monkeypatch):
+    monkeypatch.setattr(gzip_files, "MOST_BYTES", 1 << 25)
+    path = put("a.off.gz", gzip.compress(bytes(100_000_000)))
+    tracemalloc.start()
+    assert "unpacks to more than 0.03125 GiB; it is not read" in refused(path)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 80_000_000
 
 
 def test_obj_continued_lines_keep_line_numbers(put):
