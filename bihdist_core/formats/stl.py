@@ -68,10 +68,14 @@ def _binary_corners(raw: bytes, name: str) -> tuple[FloatArray, int]:
 def _text_corners(raw: bytes, name: str) -> FloatArray:
     solid, facet, outer, vertex, endloop, endfacet, endsolid = (keyword_code(w.encode()) for w in _WORDS)
     pattern = np.array([facet, outer, vertex, vertex, vertex, endloop, endfacet], np.uint64)
-    for text in (raw, raw.lower()):  # some programs write all of it in capitals
-        if found := mesh_text("read_stl", (pattern, solid, endsolid), text, [3]):
-            return found.vertices
-    lines = TextLines(raw.lower(), name)
+    words = pattern, solid, endsolid
+    found = mesh_text("read_stl", words, raw, [3])
+    if not found:
+        raw = raw.lower()  # some programs write all of it in capitals
+        found = mesh_text("read_stl", words, raw, [3])
+    if found:
+        return found.vertices
+    lines = TextLines(raw, name)
     word = lines.keyword
     # Lines between facets may only open and close solids; inside, each facet repeats these seven.
     inner = (word != solid) & (word != endsolid)
