@@ -19,6 +19,7 @@ from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 from bihdist_core.formats.mesh_names import mesh_format
 from bihdist_core.formats.pins import PIN_FORMATS, read_pins
+from bihdist_core.formats.vertex_values import is_vertex_values
 from bihdist_core.formats.whole_numbers import read_whole_numbers
 from bihdist_core.laplacian import eigenpairs
 from bihdist_core.sources.source import Source
@@ -124,6 +125,8 @@ class Mesh:
 def _landmarks(file: str, surface: Surface) -> list[Source]:
     if file.lower().endswith(PIN_FORMATS):
         found = read_pins(file, surface).vertices
+    elif is_vertex_values(file):
+        raise ParameterError(f"{file} has a value for each vertex; landmarks are the ids of some, as .npy or .txt.")
     else:
         found = surface.check_vertices(read_whole_numbers(file, "list of landmarks"))
     if not len(found):

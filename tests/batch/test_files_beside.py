@@ -84,6 +84,7 @@ FILES = {
         ("landmarks", "a.txt", ["one"], "line 1: 'one' is not a whole number"),
         ("landmarks", "a.txt", [], "There is no landmark in"),
         ("landmarks", "a.csv", None, "cannot be read"),
+        ("landmarks", "a.label.gii", None, "has a value for each vertex; landmarks are the ids of some"),
         ("landmarks", "a.npy", None, "cannot be read: No such file"),
         ("mask", "a.npy", np.ones(N, bool), f"for each of the {N + 1:,} vertices of shape.off; this one has the shape"),
         ("mask", "a.npy", np.arange(N + 1) % 3, "vertex 2 has 2"),
