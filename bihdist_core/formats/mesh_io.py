@@ -17,7 +17,8 @@ from ..errors import MeshError, MissingFileError
 from ..surface import Surface
 from .freesurfer import read_freesurfer
 from .gifti import read_gifti
-from .gltf import read_gltf, with_buffers
+from .gltf import read_gltf
+from .gltf_file import with_buffers
 from .gzip_files import unpacked
 from .mesh_names import FREESURFER, GZIP, MESH_FORMATS, mesh_format
 from .obj import read_obj

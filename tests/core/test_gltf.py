@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bihdist_core.errors import MeshError
-from bihdist_core.formats import gltf as reader
+from bihdist_core.formats import gltf_file as reader
 from bihdist_core.formats.mesh_io import mesh_content, read_surface, surface_in
 from tests.core.mesh_samples import FACES, VERTICES, assert_same, glb, gltf, gltf_parts, message_of
 
