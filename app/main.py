@@ -10,6 +10,8 @@ import sys
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from bihdist_core.formats.mesh_names import MESH_FORMATS
+
 from .commands import batch, field, figure, info, isolines, movie, pairs, paper, view
 from .commands.mesh import check_mesh
 from .commands.parser import Parser
@@ -105,7 +107,8 @@ def parser_of_all() -> argparse.ArgumentParser:
     parser = Parser(
         prog="bihdist",
         description="Biharmonic distance on triangle meshes, beside geodesic and diffusion distances.",
-        epilog="`bihdist MESH` is short for `bihdist view MESH`.",
+        epilog="`bihdist MESH` is short for `bihdist view MESH`. A mesh is the name of a sample, or a file: "
+        f"{', '.join(MESH_FORMATS)}, each also with .gz, or FreeSurfer's such as lh.pial.",
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
     shells = ("bash", "zsh", "tcsh")

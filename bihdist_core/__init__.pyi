@@ -70,6 +70,7 @@ from .formats.mesh_io import read_surface
 from .formats.mesh_output import write_mesh
 from .formats.pins import Pins, read_pins, write_pins
 from .formats.vertex_maps import read_map, write_map
+from .formats.vertex_values import read_vertex_values
 from .laplacian import Laplacian, eigenpairs
 from .mesh_like import MeshLike
 from .solver.spectrum import Spectrum
@@ -158,6 +159,7 @@ __all__ = [
     "read_map",
     "read_pins",
     "read_surface",
+    "read_vertex_values",
     "region_boundaries",
     "region_mesh",
     "simplified",

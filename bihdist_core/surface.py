@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from importlib import import_module
+from math import isfinite
 from operator import index
 from typing import Any
 
@@ -13,7 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .arrays import BoolArray, FloatArray, IntArray
-from .errors import ParameterError, VertexError
+from .coincident_points import merged_within
+from .counts import counted
+from .errors import MeshError, ParameterError, VertexError
 from .kernel.library import library
 from .mesh_arrays import checked_faces, checked_vertices
 from .mesh_like import MeshLike, Rows
@@ -186,6 +189,25 @@ class Surface:
         new[ids] = np.arange(len(ids))
         faces = self.faces[self.component_of_vertex[self.faces[:, 0]] == index]
         return Surface(self.vertices[ids], new[faces], self.name), ids
+
+    def merged(self, tolerance: float = 0.0) -> tuple[Surface, IntArray]:
+        """The surface with vertices in one place made one, and (n,) the id there of each vertex here.
+
+        tolerance: unit length; vertices so near to each other, or nearer, are one, at the place of that with the least
+        id.  No vertex moves farther, and those that are left are farther apart.  They keep their order; faces that lose
+        a corner, or become another's, are dropped, which `repairs` says, and `facts` how many vertices were merged.
+
+        ParameterError for a tolerance below 0 or not finite, MeshError where no face is left.
+        """
+        if not (isfinite(tolerance) and tolerance >= 0):
+            raise ParameterError(f"A tolerance is a length, 0 or more, not {tolerance!r}.")
+        kept, ids = merged_within(self.vertices, tolerance)
+        count = len(ids) - len(kept)
+        if not count:
+            return self, ids
+        fact = f"{counted(count, 'vertex', 'vertices')} merged with others within {tolerance:g}"
+        faces = ids[self.faces]
+        return Surface(self.vertices[kept], faces, self.name, self.repairs, (*self.facts, fact)), ids
 
     @cached_property
     def _sides(self) -> tuple[IntArray, IntArray]:

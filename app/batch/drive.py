@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from bihdist_core.errors import ParameterError
+from bihdist_core.formats.mesh_names import MESH_FORMATS, is_mesh_file, mesh_name
 from bihdist_core.formats.whole_numbers import numbered_lines, text_of
 
 from ..document.file import checksum
@@ -22,7 +23,6 @@ from .task import Failure, Report, Row, Task, done_before
 from .work_kinds import MAXIMA
 from .work_order import ALL, LAYOUTS, OWN, WorkOrder, result_name
 
-MESHES = (".obj", ".off", ".ply", ".stl", ".vtk", ".vtp")
 COLUMNS = (
     "mesh", "work", "distance", "file", "shape", "dtype", "unit", "accuracy", "n_vertices", "n_faces", "n_components",
     "area", "repairs", "mean", "median", "area_under_curve", "seconds",
@@ -64,11 +64,12 @@ def found_meshes(words: Sequence[str], list_file: str = "", list_text: str = "")
     if len(reasons) == len(found):
         raise ParameterError(reasons[0] if reasons else "Which meshes? Name files, folders, or a list with --list.")
     paths = {Path(os.path.abspath(path)): reason for path, reason in found}
-    stems = Counter(each.stem for each in paths)
+    names = Counter(map(mesh_name, paths))
     meshes = Meshes({}, {})
     for each, reason in paths.items():
         # One folder for each subject, with the same names in all of them.
-        name = each.stem if stems[each.stem] == 1 else f"{each.parent.name}_{each.stem}"
+        name = mesh_name(each)
+        name = name if names[name] == 1 else f"{each.parent.name}_{name}"
         if name in meshes.paths or name in meshes.missing:
             raise ParameterError(f"{meshes.paths.get(name, name)} and {each} have the same name, {name}; rename one.")
         if reason:
@@ -83,8 +84,8 @@ def _meshes_of(word: str, folder: Path) -> list[tuple[Path, str]]:
     beside = folder / word
     path = beside if beside.exists() else Path(mesh_path(word))
     if path.is_dir():
-        paths = sorted(each for each in path.iterdir() if each.suffix.lower() in MESHES and each.is_file())
-        reason = f"There is no mesh in the folder {word}; meshes are {', '.join(MESHES)} files."
+        paths = sorted(each for each in path.iterdir() if is_mesh_file(each) and each.is_file())
+        reason = f"There is no mesh in the folder {word}; meshes are {', '.join(MESH_FORMATS)} files and FreeSurfer's."
         return [(each, "") for each in paths] or [(path, reason)]
     return [(path, "" if path.is_file() else f"There is no file or folder {word}, nor a sample of that name.")]
 

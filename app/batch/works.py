@@ -3,7 +3,6 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,7 @@ from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.distance import Distance
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
+from bihdist_core.formats.mesh_names import mesh_format
 from bihdist_core.formats.whole_numbers import read_whole_numbers
 from bihdist_core.laplacian import eigenpairs
 from bihdist_core.sources.source import Source
@@ -43,7 +43,7 @@ class Mesh:
     def __init__(self, path: str, name: str, wanted: WorkOrder) -> None:
         self.name, self.wanted = name, wanted
         self.surface: Surface = read_surface(path)
-        self.extension = Path(path).suffix
+        self.extension = mesh_format(path)
         self._sources: dict[str, list[Source]] = {}
 
     @cached_property

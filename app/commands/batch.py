@@ -73,9 +73,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     one_based = "with --format mat: vertex ids in files count from 1, as MATLAB's do, and files say so"
     parser.add_argument("--one-based", action="store_true", default=None, help=one_based)
     parser.add_argument("--normalise", choices=("area",), help="distances and eigenpairs of each mesh scaled to area 1")
-    parser.add_argument("--mask", metavar="FILE", help="0 or 1 for each vertex: which count; {name} is the mesh's name")
-    of_parcels = "for pairs: means between parcels; a number for each vertex, below 0 for none; {name} is the mesh's"
-    parser.add_argument("--labels", metavar="FILE", help=of_parcels)
+    kinds = ".npy, .txt, .gii, .annot or a file of FreeSurfer's; {name} is the mesh's name"
+    parser.add_argument("--mask", metavar="FILE", help=f"0 or 1 for each vertex: which count; a {kinds}")
+    of_parcels = "for pairs: means between parcels; a number for each vertex, below 0 for none"
+    parser.add_argument("--labels", metavar="FILE", help=f"{of_parcels}: a {kinds}")
     parser.add_argument(
         "--layout",
         choices=("dist", "geodist"),

@@ -73,6 +73,7 @@ def into_each(options: argparse.Namespace, do: Callable[[argparse.Namespace], Fa
     meshes had one output.
     """
     from bihdist_core.errors import ParameterError
+    from bihdist_core.formats.mesh_names import mesh_name
 
     if len(options.meshes) > 1 and NAME not in options.output:
         raise ParameterError(
@@ -80,7 +81,7 @@ def into_each(options: argparse.Namespace, do: Callable[[argparse.Namespace], Fa
         )
 
     def output(mesh: str) -> str:
-        return str(options.output.replace(NAME, os.path.splitext(os.path.basename(mesh))[0]))
+        return str(options.output.replace(NAME, mesh_name(mesh)))
 
     taken: dict[str, str] = {}
     for mesh in options.meshes:

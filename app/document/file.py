@@ -12,7 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from bihdist_core.errors import ParameterError, unreadable
+from bihdist_core.errors import MeshError, ParameterError, unreadable
 
 from .document import Document, MeshFile
 from .form import READERS, document_data, document_from, written
@@ -26,7 +26,9 @@ PROGRAM = "bihdist"
 
 
 def checksum(path: str | os.PathLike[str]) -> str:
-    """The SHA-256 of a file's bytes; ParameterError if it cannot be read."""
+    """The SHA-256 of a file's bytes, of a .gltf with the files it names inside; ParameterError if it cannot be read."""
+    if os.path.splitext(path)[1].lower() == ".gltf":
+        return _checksum_of_mesh(path)
     try:
         with open(path, "rb") as file:
             digest = hashlib.sha256()
@@ -35,6 +37,15 @@ def checksum(path: str | os.PathLike[str]) -> str:
     except (OSError, ValueError) as error:  # ValueError: a path with a zero in it
         raise unreadable(str(path), error) from None
     return digest.hexdigest()
+
+
+def _checksum_of_mesh(path: str | os.PathLike[str]) -> str:
+    from bihdist_core.formats.mesh_io import mesh_content
+
+    try:
+        return hashlib.sha256(mesh_content(path)).hexdigest()
+    except MeshError as error:
+        raise ParameterError(str(error)) from None
 
 
 # ---------------------------------------------------------------------- writing

@@ -18,7 +18,7 @@ from bihdist_core.distances.answers import Answer, Distances
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.experiments import EXPERIMENTS, Experiment, Parts, Result, Shapes
 from bihdist_core.experiments.verdicts import FAILS, HOLDS, VERDICTS
-from bihdist_core.formats.mesh_io import MESH_FORMATS
+from bihdist_core.formats.mesh_names import MESH_FORMATS, is_mesh_file, mesh_format, mesh_name
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import whole_file
 
@@ -97,7 +97,7 @@ def _up(up: str, surface: Surface, path: str | Path, parts: Parts) -> str:
     """The axis that is up; y where it cannot be guessed."""
     if up != "auto":
         return up
-    return parts.do(f"which way {Path(path).name} is up", guess_up, surface, Path(path).suffix) or "y"
+    return parts.do(f"which way {Path(path).name} is up", guess_up, surface, mesh_format(path)) or "y"
 
 
 def _chosen(only: Sequence[str], mesh: str | None) -> list[Experiment]:
@@ -218,17 +218,18 @@ def _each_mesh(
     pictures: Pictures,
 ) -> Reproduction:
     """The claims and a picture of each mesh of a folder; one that fails is named and the others go on."""
-    paths = sorted(path for path in meshes.iterdir() if path.suffix.lower() in MESH_FORMATS)
+    paths = sorted(path for path in meshes.iterdir() if is_mesh_file(path))
     if not paths:
         raise ParameterError(f"{meshes} holds no meshes ({', '.join(MESH_FORMATS)}).")
-    stems = Counter(path.stem for path in paths)
+    names = Counter(map(mesh_name, paths))
     sections: list[Section] = []
     surfaces: list[tuple[Surface, str]] = []
     missing = Parts()
     for k, path in enumerate(paths):
         say(path.name)
         mine = part(progress, k / len(paths), (k + 1) / len(paths))
-        name = path.stem if stems[path.stem] == 1 else path.name.replace(".", "-")
+        name = mesh_name(path)
+        name = name if names[name] == 1 else path.name.replace(".", "-")
         parts = Parts()
         surface = parts.do(path.name, read_surface, path)
         if surface is None:

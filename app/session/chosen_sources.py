@@ -15,7 +15,9 @@ from bihdist_core.arrays import BoolArray
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
+from bihdist_core.formats.mesh_names import mesh_format, mesh_name
 from bihdist_core.formats.pins import Pins, picked_from, pins_format, placed
+from bihdist_core.formats.vertex_values import is_vertex_values
 from bihdist_core.formats.whole_numbers import numbered_lines, read_whole_numbers, text_of
 from bihdist_core.progress import Progress
 from bihdist_core.sources.pieces import pieces_of
@@ -71,7 +73,7 @@ def chosen_sources(
     in a file's path.  among: (n,) which vertices rules choose from, all of faces if None.  highest: finds where to
     start where nothing is said.  VertexError or ParameterError for what is not on the surface.
     """
-    highest = highest or (lambda: first_source(surface, guess_up(surface, Path(surface.name).suffix)))
+    highest = highest or (lambda: first_source(surface, guess_up(surface, mesh_format(surface.name))))
     if asked.rule == FILE:
         path = STANDARD_INPUT if asked.file == "-" else asked.file.replace("{name}", name)
         found = _read(path, asked.text, surface)
@@ -110,7 +112,7 @@ def chosen_on(
         asked,
         surface,
         lambda: Distances(Laplacian(surface, areas)).get(spec, progress),
-        name or Path(mesh).stem,
+        name or mesh_name(mesh),
         progress=progress,
     )
 
@@ -130,6 +132,8 @@ def _source(word: str) -> Source:
 
 def _read(path: str, text: str, surface: Surface) -> Chosen:
     """Those in a file: vertex ids in a .npy, pins, or lines of what a list has, with remarks after #."""
+    if is_vertex_values(path):
+        raise ParameterError(f"{path} has a value for each vertex; sources are the ids of some, as .npy or .txt.")
     if Path(path).suffix.lower() == ".npy":
         found: list[Any] = surface.check_vertices(read_whole_numbers(path, "list of sources")).tolist()
     else:

@@ -19,6 +19,7 @@ from bihdist_core.arrays import FloatArray, IntArray
 from bihdist_core.distances.answers import Answer, Distances
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.formats.mesh_io import mesh_content, surface_in
+from bihdist_core.formats.mesh_names import mesh_format
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
@@ -85,7 +86,7 @@ class LoadedMesh:
         """The axis that points up: guessed, or that of what it is made from, unless whoever opened it put it here."""
         if self.origin is not None:
             return self.origin.up
-        return guess_up(self.surface, os.path.splitext(self.mesh.path and mesh_path(self.mesh.path))[1])
+        return guess_up(self.surface, mesh_format(self.mesh.path and mesh_path(self.mesh.path)))
 
     def first_look(self, up: str) -> FirstLook:
         """From where it is seen first with an axis up, and where a field starts; what is made from it is seen alike."""

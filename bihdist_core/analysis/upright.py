@@ -28,8 +28,9 @@ Of each mesh, judged by weights found from the others and without its format, 24
 SELDOM = 4.0
 """What directions other than y and z have to be better by, since files hardly ever have them."""
 
-AFTER_Y = {".obj": 2.5, ".off": 1.0, ".stl": -0.5}
-"""What z has to be better by than y, by the file's extension: programs that write OBJ have y up."""
+AFTER_Y = {".obj": 2.5, ".off": 1.0, ".stl": -0.5, ".gltf": 4.0, ".glb": 4.0, ".gii": -4.0, "freesurfer": -4.0}
+"""What z has to be better by than y, by the file's extension: programs that write OBJ have y up, and glTF has it by
+definition, while z is up in files of brains."""
 
 AFTER_Y_ELSEWHERE = 0.5
 
@@ -47,7 +48,7 @@ FRONTS = {"y": "z", "-y": "z", "x": "z", "-x": "z", "z": "-y", "-z": "y"}
 
 
 def guess_up(surface: Surface, extension: str = "") -> str:
-    """One of "x", "-x", "y", "-y", "z", "-z".  extension: of the file it comes from, such as ".obj".
+    """One of "x", "-x", "y", "-y", "z", "-z".  extension: of the file it comes from, such as ".obj" (`mesh_format`).
 
     A surface in a plane of constant z has y up.
     """

@@ -1,7 +1,8 @@
 """Wavefront OBJ files: a strict reader of `v` and `f` lines.
 
 Vertex ids are the order of the `v` lines: texture coordinates and normals never split a vertex.  Other statements of
-the format are read over; an unknown one is an error, since a damaged `v` line would renumber every vertex after it.
+the format are read over, unknown ones are counted; one that may be a damaged vertex or face is an error, since all
+vertices after it would be renumbered.
 """
 
 import re
@@ -13,7 +14,7 @@ from ..counts import counted
 from ..errors import MeshError
 from .mesh_text import mesh_text
 from .polygons import Polygons, whole_numbers
-from .text_lines import NumberLines, TextLines, keyword_code
+from .text_lines import NumberLines, TextLines, keyword_code, shown
 
 _OTHER_STATEMENTS = (
     *("vt", "vn", "vp", "vc", "g", "o", "s", "mg", "usemtl", "mtllib", "usemap", "maplib", "lod", "bevel", "end"),
@@ -38,10 +39,13 @@ _OTHER_STATEMENTS = (
 )
 _VERTEX_SIZES = (3, 4, 6, 7)
 """Coordinates, perhaps a weight, perhaps a colour."""
+_NUMBERS = re.compile(rb"[-+.\d/eE]*")
+_LAST_FACE = re.compile(rb"(?:^|[\r\n])[ \t]*f((?:[ \t][^\r\n#]*)?)\Z")
 
 
 def read_obj(raw: bytes, name: str) -> Polygons:
-    """The polygons of an OBJ file; MeshError naming the line where it is not one."""
+    """The polygons of an OBJ file; MeshError naming the line where it is not one, or its last face is cut off."""
+    _check_end(raw, name)
     return _read_plain(raw) or _read_any(raw, name)
 
 
@@ -51,7 +55,24 @@ def _read_plain(raw: bytes) -> Polygons | None:
         return None
     keywords = np.array([keyword_code(word.encode()) for word in ("v", "f", "l", "p", *_OTHER_STATEMENTS)], np.uint64)
     found = mesh_text("read_obj", (keywords, len(keywords)), raw, _VERTEX_SIZES, comment=b"#")
-    return Polygons(found.vertices, found.sizes, found.corners, _facts(found.loose)) if found else None
+    return Polygons(found.vertices, found.sizes, found.corners, _repairs(found.loose)) if found else None
+
+
+def _check_end(raw: bytes, name: str) -> None:
+    """MeshError for a file that ends within a face: with no line end, too few corners, or half a corner."""
+    if raw.endswith((b"\n", b"\r")):
+        return
+    last = _LAST_FACE.search(raw, max(raw.rfind(b"\n"), raw.rfind(b"\r"), 0))
+    if not last:
+        return
+    corners = last[1].split()
+    # 7/2/9 has as many slashes as the corners before it, and a number behind the last of them.
+    forms = {re.sub(rb"\d+", b"0", corner.replace(b"-", b"")) for corner in corners}
+    if len(corners) < 3 or len(forms) > 1:
+        raise MeshError(
+            f"{name} is cut off: its last line, which does not end, is the face {shown(b'f' + last[1])}; add a line "
+            "end if that is all of it."
+        )
 
 
 def _read_any(raw: bytes, name: str) -> Polygons:
@@ -61,9 +82,9 @@ def _read_any(raw: bytes, name: str) -> Polygons:
     is_loose = (lines.keyword == keyword_code(b"l")) | (lines.keyword == keyword_code(b"p"))
     known = np.array([keyword_code(word.encode()) for word in _OTHER_STATEMENTS], np.uint64)
     unknown = np.flatnonzero(~(is_vertex | is_face | is_loose) & ~np.isin(lines.keyword, known))
-    if len(unknown):
-        k = int(unknown[0])
-        raise MeshError(f"{name}, line {lines.number[k]}: {lines.line(k)} is not an OBJ statement.")
+    for k in unknown.tolist():
+        if _may_be_damaged(lines.text[lines.start[k] : lines.end[k]].split()):
+            raise MeshError(f"{name}, line {lines.number[k]}: {lines.line(k)} is not an OBJ statement.")
     if not is_vertex.any():
         raise MeshError(f"{name} has no vertices: none of its lines begins with 'v'.")
 
@@ -71,10 +92,18 @@ def _read_any(raw: bytes, name: str) -> Polygons:
     face_rows = lines.numbers(is_face, keyword=b"f", slashes=True)
     before = np.cumsum(is_vertex)[is_face]
     corners = _corners(face_rows, before, len(vertices), name)
-    return Polygons(vertices, face_rows.sizes, corners, _facts(int(is_loose.sum())))
+    said = f"{counted(len(unknown), 'line')} of unknown statements ignored"
+    facts = [f"{said}, the first: {lines.line(k)}" for k in unknown[:1]]
+    return Polygons(vertices, face_rows.sizes, corners, _repairs(int(is_loose.sum())), tuple(facts))
 
 
-def _facts(loose: int) -> tuple[str, ...]:
+def _may_be_damaged(words: list[bytes]) -> bool:
+    """Whether an unknown statement may be what is left of a vertex or a face: nothing but numbers behind a word."""
+    first, *others = words
+    return all(map(_NUMBERS.fullmatch, others)) if others else bool(re.search(rb"\d", first))
+
+
+def _repairs(loose: int) -> tuple[str, ...]:
     return (f"{counted(loose, 'line or point statement')} ignored",) if loose else ()
 
 

@@ -1,7 +1,8 @@
-"""OFF files: a strict reader.
+"""OFF files, text and binary: a strict reader.
 
-Format: http://www.geomview.org/docs/html/OFF.html, text only, three coordinates; normals, colours and texture
-coordinates are read over.  Vertex ids are the order in the file.
+Format: http://www.geomview.org/docs/html/OFF.html, three coordinates; normals, colours and texture coordinates are read
+over.  A text has a vertex or a face on each line; where it has not, it is read as one row of numbers, if these are as
+many as it announces, to the last.  Vertex ids are the order in the file.
 """
 
 import re
@@ -11,7 +12,7 @@ import numpy as np
 from ..arrays import IntArray
 from ..errors import MeshError
 from .mesh_text import mesh_text
-from .polygons import Polygons, checked_corners, runs, whole_numbers
+from .polygons import Polygons, checked_corners, lists_in, runs, whole_numbers
 from .text_lines import NumberLines, TextLines, shown
 
 _HEADER = re.compile(rb"(ST)?(C)?(N)?(4)?(n)?OFF(?![A-Za-z])\s*(.*)", re.DOTALL)
@@ -22,8 +23,8 @@ _HEAD = 1 << 14
 
 def read_off(raw: bytes, name: str) -> Polygons:
     """The polygons of an OFF file; MeshError naming the line where it is not one."""
-    if re.match(rb"\s*\w*OFF\s+BINARY", raw[:200]):
-        raise MeshError(f"{name} is a binary OFF file; only text OFF files are read.")
+    if head := re.match(rb"\s*(\w*OFF)[ \t]+BINARY[ \t\r]*\n", raw[:200]):
+        return _read_binary(raw, head, name)
     return _read_plain(raw, name) or _read_any(raw, name)
 
 
@@ -42,6 +43,8 @@ def _read_any(raw: bytes, name: str) -> Polygons:
     vertex_count, face_count, allowed, header = _header(lines)
     held = len(lines) - header
     if held != vertex_count + face_count:
+        if found := _read_row(lines, header, vertex_count, face_count, allowed):
+            return found
         problem = (
             "the file is cut off or its counts are wrong"
             if held < vertex_count + face_count
@@ -64,17 +67,28 @@ def _read_any(raw: bytes, name: str) -> Polygons:
     return Polygons(vertices, sizes, corners)
 
 
+def _read_row(lines: TextLines, header: int, n: int, p: int, allowed: list[int]) -> Polygons | None:
+    """The polygons of a text with lines that end anywhere, as one row of numbers; None unless that fits to the last."""
+    if 3 * n + p > lines.word_count[header:].sum():
+        return None
+    try:
+        values = lines.numbers(np.arange(len(lines)) >= header).values
+    except MeshError:
+        return None
+    for width in allowed:
+        whole, bad = whole_numbers(values[width * n :])
+        found = None if bad.any() else lists_in(whole, p)
+        if found and ((found[1] >= 0) & (found[1] < n)).all():
+            return Polygons(values[: width * n].reshape(n, width)[:, :3], *found)
+    return None
+
+
 def _header(lines: TextLines) -> tuple[int, int, list[int], int]:
     """Vertices, faces, how many numbers a vertex line may hold, and the lines used up."""
     name = lines.name
     if not len(lines):
         raise MeshError(f"{name} holds nothing but blanks and comments.")
-    found = _HEADER.fullmatch(lines.text[lines.start[0] : lines.end[0]])
-    if not found:
-        raise MeshError(f"{name} is not an OFF file: its first line is {lines.line(0)} where OFF belongs.")
-    texture, colour, normal, four, any_dimension, rest = found.groups()
-    if four or any_dimension:
-        raise MeshError(f"{name} holds points with other than three coordinates ({lines.line(0)}); a surface needs 3.")
+    allowed, rest = _kind(lines.text[lines.start[0] : lines.end[0]], name)
     used = 1
     if not rest.strip():
         if len(lines) < 2:
@@ -85,8 +99,19 @@ def _header(lines: TextLines) -> tuple[int, int, list[int], int]:
         raise MeshError(
             f"{name}, line {lines.number[used - 1]}: {shown(rest)} is not the numbers of vertices, faces and edges."
         )
+    return int(counts[0]), int(counts[1]), allowed, used
+
+
+def _kind(line: bytes, name: str) -> tuple[list[int], bytes]:
+    """How many numbers a vertex may have by the first line, and what stands behind its first word."""
+    found = _HEADER.fullmatch(line)
+    if not found:
+        raise MeshError(f"{name} is not an OFF file: its first line is {shown(line)} where OFF belongs.")
+    texture, colour, normal, four, any_dimension, rest = found.groups()
+    if four or any_dimension:
+        raise MeshError(f"{name} holds points with other than three coordinates ({shown(line)}); a surface needs 3.")
     plain = 3 + (3 if normal else 0) + (2 if texture else 0)
-    return int(counts[0]), int(counts[1]), [plain + 3, plain + 4] if colour else [plain], used
+    return [plain + 3, plain + 4] if colour else [plain], rest
 
 
 def _faces(numbers: NumberLines, vertex_count: int, name: str) -> tuple[IntArray, IntArray]:
@@ -109,3 +134,42 @@ def _faces(numbers: NumberLines, vertex_count: int, name: str) -> tuple[IntArray
         values, sizes, vertex_count, lambda k: f"{name}, line {numbers.number[vertex_count + k]}: face {k}"
     )
     return sizes, corners
+
+
+def _read_binary(raw: bytes, head: re.Match[bytes], name: str) -> Polygons:
+    """Big-endian: three counts, the vertices as floats, then of each face its corners and its colour, counts first."""
+    width, at = _kind(head[1], name)[0][-1], head.end()
+    counts = np.frombuffer(raw, ">i4", min(3, (len(raw) - at) // 4), at).tolist()
+    if len(counts) < 3 or min(counts) < 0:
+        raise MeshError(f"{name} is cut off or damaged: the counts behind its first line are {counts}.")
+    n, p, _ = counts
+    at += 12
+    held = (len(raw) - at) // 4
+    if width * n + 2 * p > held or (len(raw) - at) % 4:
+        raise MeshError(
+            f"{name} announces {n:,} vertices and {p:,} faces but has room for {held:,} numbers: it is cut off or "
+            "damaged."
+        )
+    vertices = np.frombuffer(raw, ">f4", width * n, at).reshape(n, width)[:, :3].astype(np.float64)
+    values = np.frombuffer(raw, ">i4", held - width * n, at + 4 * width * n).astype(np.int64)
+    sizes, corners = _binary_faces(values, p, name)
+    return Polygons(vertices, sizes, checked_corners(corners, sizes, n, lambda k: f"{name}: face {k}"))
+
+
+def _binary_faces(values: IntArray, p: int, name: str) -> tuple[IntArray, IntArray]:
+    """(p,) sizes and the corners of faces that fill the values, each with a number of corners, and one of colours."""
+    starts, at, entries = np.empty(p, np.int64), 0, values.tolist()
+    for k in range(p):
+        starts[k] = at
+        size = entries[at] if at < len(entries) else -1
+        at += 1 + size
+        colours = entries[at] if size >= 0 and at < len(entries) else -1
+        if colours < 0 or colours > len(entries) - at - 1:
+            raise MeshError(f"{name}: face {k} does not fit into the file, which is cut off or damaged.")
+        at += 1 + colours
+    if at != len(entries):
+        raise MeshError(
+            f"{name} goes on for {4 * (len(entries) - at):,} bytes after its last face: its counts are wrong."
+        )
+    sizes = values[starts]
+    return sizes, values[runs(starts + 1, sizes)]

@@ -138,6 +138,8 @@ def _text_body(body: bytes, elements: list[_Element], name: str) -> dict[str, di
     elements = [e for e in elements if e.properties]
     announced = sum(e.count for e in elements)
     if len(lines) != announced:
+        if found := _text_row(lines, elements):
+            return found
         what = " and ".join(f"{e.count} of {e.name}" for e in elements) or "nothing"
         raise MeshError(
             f"{name} announces {what}, one a line, but {len(lines):,} lines follow: "
@@ -163,6 +165,43 @@ def _text_body(body: bytes, elements: list[_Element], name: str) -> dict[str, di
         _enough(at == end, element, name)
         columns[element.name] = of_element
     return columns
+
+
+def _text_row(lines: TextLines, elements: list[_Element]) -> dict[str, dict[str, _Column]] | None:
+    """The columns of a text with lines that end anywhere, as one row of numbers; None unless that fits to the last."""
+    if sum(e.count * len(e.properties) for e in elements) > lines.word_count.sum():
+        return None
+    try:
+        values = lines.numbers(np.ones(len(lines), bool)).values
+    except MeshError:
+        return None
+    columns: dict[str, dict[str, _Column]] = {}
+    at = 0
+    for element in elements:
+        # For each property where it stands at each record.
+        starts = np.empty((len(element.properties), element.count), np.int64)
+        if not any(item.count_kind for item in element.properties):
+            starts[:] = at + np.arange(starts.size).reshape(element.count, -1).T
+            at += starts.size
+        else:
+            for record in range(element.count):
+                for k, item in enumerate(element.properties):
+                    starts[k, record] = at
+                    if at >= len(values) or (item.count_kind and not 0 <= values[at] < len(values) - at):
+                        return None
+                    at += 1 + (int(values[at]) if item.count_kind else 0)
+        if at > len(values):
+            return None
+        columns[element.name] = {}
+        for item, places in zip(element.properties, starts, strict=True):
+            column: _Column = values[places]
+            if item.count_kind:
+                sizes, bad = whole_numbers(values[places])
+                if bad.any():
+                    return None
+                column = (sizes, values[runs(places + 1, sizes)])
+            columns[element.name][item.name] = column
+    return columns if at == len(values) else None
 
 
 def _enough(good: BoolArray, element: _Element, name: str) -> None:

@@ -54,6 +54,29 @@ def checked_corners(values: AnyArray, sizes: IntArray, n: int, where: Callable[[
     return ids
 
 
+def list_starts(values: IntArray, count: int) -> IntArray:
+    """(k,) where the first k of `count` lists begin, each a size and so many entries; fewer where they do not fit."""
+    starts, at, size = np.empty(min(count, len(values)), np.int64), 0, len(values)
+    entries = values.tolist()
+    for k in range(len(starts)):
+        if at >= size or not 0 <= entries[at] < size - at:
+            return starts[:k]
+        starts[k] = at
+        at += 1 + entries[at]
+    return starts
+
+
+def lists_in(values: IntArray, count: int) -> tuple[IntArray, IntArray] | None:
+    """(count,) sizes and (sum of sizes,) entries of lists that fill the values; None if they do not."""
+    if len(values) == 4 * count and (values[::4] == 3).all():
+        return np.full(count, 3), values.reshape(-1, 4)[:, 1:].ravel()
+    starts = list_starts(values, count)
+    sizes = values[starts]
+    if len(starts) != count or len(values) != count + sizes.sum():
+        return None
+    return sizes, values[runs(starts + 1, sizes)]
+
+
 def strip_triangles(sizes: IntArray, corners: IntArray) -> IntArray:
     """(m, 3) triangles of triangle strips, every second one turned so that all keep the strip's orientation."""
     count = np.maximum(sizes - 2, 0)

@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import AnyArray, FloatArray, IntArray
 from ..counts import counted
 from ..errors import MeshError
-from .polygons import Polygons, checked_corners, strip_triangles, whole_numbers
+from .polygons import Polygons, checked_corners, list_starts, lists_in, strip_triangles, whole_numbers
 from .text_lines import parsed_numbers, plain_text, shown
 
 _TYPES = {
@@ -24,6 +24,8 @@ _TYPES = {
 _LOOSE = ("VERTICES", "LINES")
 _CELLS = ("POLYGONS", "TRIANGLE_STRIPS", "CELLS", *_LOOSE)
 _POLYGON_CELLS, _STRIP_CELL, _PIXEL_CELL = (5, 7, 9), 6, 8
+_VOLUME_CELLS = (10, 11, 12, 13, 14, 15, 16, 24, 25, 26, 27, 29, 32, 33, 37, 41, 42, 71, 72, 73, 74)
+"""Tetrahedra, voxels, hexahedra, wedges, pyramids, prisms, polyhedra, and those of higher order."""
 
 Cells = tuple[IntArray, AnyArray]
 """(p,) sizes and (sum of sizes,) point ids as the file has them."""
@@ -43,7 +45,8 @@ def read_vtk(raw: bytes, name: str) -> Polygons:
     words = file.words()
     if [w.upper() for w in words] not in (["DATASET", "POLYDATA"], ["DATASET", "UNSTRUCTURED_GRID"]):
         raise MeshError(
-            f"{name} holds {shown(' '.join(words).encode())}; only DATASET POLYDATA and UNSTRUCTURED_GRID are surfaces."
+            f"{name} holds {shown(' '.join(words).encode())}; only DATASET POLYDATA and UNSTRUCTURED_GRID are "
+            "surfaces, so extract the surface first."
         )
     points, cells, types = _sections(file)
     if points is None:
@@ -51,7 +54,7 @@ def read_vtk(raw: bytes, name: str) -> Polygons:
     if "CELLS" in cells:
         if types is None:
             raise MeshError(f"{name} is cut off: it has CELLS but no CELL_TYPES.")
-        cells = _sorted_by_type(cells["CELLS"], types, name)
+        cells = cells_by_type(cells["CELLS"], types, name)
     return polygons_of_cells(points, cells, name)
 
 
@@ -178,21 +181,12 @@ def _cells(words: list[str], file: _Cursor) -> Cells:
         return cells_of_offsets(offsets, corners, f"{file.name}: {what}")
     file.at = back
     values, bad = whole_numbers(file.numbers(size, "int", what))
-    starts, at = np.empty(min(count, size), np.int64), 0
-    entries = values.tolist()
-    for k in range(len(starts)):
-        if at >= size or not 0 <= entries[at] < size - at:
-            raise MeshError(f"{file.name}: cell {k} of {what} does not fit into the {size:,} numbers announced.")
-        starts[k] = at
-        at += 1 + entries[at]
-    if at != size or len(starts) != count or bad.any():
-        raise MeshError(
-            f"{file.name}: {count:,} {what} do not fill the {size:,} numbers announced; the counts are wrong."
-        )
-    sizes = values[starts]
-    corner = np.ones(size, bool)
-    corner[starts] = False
-    return sizes, values[corner]
+    if (found := lists_in(values, count)) is not None and not bad.any():
+        return found
+    starts = list_starts(values, count)
+    if len(starts) < min(count, size):
+        raise MeshError(f"{file.name}: cell {len(starts)} of {what} does not fit into the {size:,} numbers announced.")
+    raise MeshError(f"{file.name}: {count:,} {what} do not fill the {size:,} numbers announced; the counts are wrong.")
 
 
 def cells_of_offsets(offsets: IntArray, corners: AnyArray, where: str) -> Cells:
@@ -205,10 +199,11 @@ def cells_of_offsets(offsets: IntArray, corners: AnyArray, where: str) -> Cells:
     return sizes, corners
 
 
-def _sorted_by_type(cells: Cells, types: IntArray, name: str) -> dict[str, Cells]:
+def cells_by_type(cells: Cells, types: IntArray, name: str) -> dict[str, Cells]:
+    """The cells of a grid by their kinds; MeshError where there are volumes and no polygons."""
     sizes, corners = cells
     if len(types) != len(sizes):
-        raise MeshError(f"{name} has {len(sizes)} CELLS but {len(types)} CELL_TYPES.")
+        raise MeshError(f"{name} has {len(sizes):,} cells and {len(types):,} types of cells.")
     pixel = np.flatnonzero((types == _PIXEL_CELL) & (sizes == 4))
     if len(pixel):
         # A pixel's corners come row by row, not around.
@@ -217,6 +212,8 @@ def _sorted_by_type(cells: Cells, types: IntArray, name: str) -> dict[str, Cells
         corners[last], corners[last - 1] = corners[last - 1], corners[last]
     polygon = np.isin(types, _POLYGON_CELLS)
     polygon[pixel] = True
-    strip = types == _STRIP_CELL
+    strip, volumes = types == _STRIP_CELL, int(np.isin(types, _VOLUME_CELLS).sum())
+    if volumes and not (polygon | strip).any():
+        raise MeshError(f"{name} holds only volume cells ({volumes:,}); extract the surface first.")
     chosen = {"POLYGONS": polygon, "TRIANGLE_STRIPS": strip, "other": ~(polygon | strip)}
     return {kind: (sizes[mask], corners[np.repeat(mask, sizes)]) for kind, mask in chosen.items()}

@@ -1,7 +1,7 @@
-"""VTP files (VTK's XML format for polygonal data): a strict reader.
+"""VTP and VTU files (VTK's XML formats for polygonal data and for grids of cells): a strict reader of polygons.
 
-Text, base64 and raw appended arrays, plain or compressed with zlib or LZMA, of either byte order; pieces are put one
-after the other.  Point and cell data are read over.  Ids are the order of the points.
+Text, base64 and raw appended arrays, plain or compressed with zlib, LZ4 or LZMA, of either byte order; pieces are put
+one after the other.  Point and cell data are read over.  Ids are the order of the points.
 """
 
 import base64
@@ -14,40 +14,47 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from ..arrays import AnyArray, FloatArray
+from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import MeshError
+from .lz4_blocks import unpacked_block
 from .polygons import Polygons, whole_numbers
 from .text_lines import parsed_numbers
-from .vtk import Cells, cells_of_offsets, polygons_of_cells
+from .vtk import Cells, cells_by_type, cells_of_offsets, polygons_of_cells
 
 _TYPES = {f"{sign}Int{8 * size}": f"{sign.lower() or 'i'}{size}" for sign in ("", "U") for size in (1, 2, 4, 8)}
 _TYPES |= {"Float32": "f4", "Float64": "f8"}
 _KINDS = {"Polys": "POLYGONS", "Strips": "TRIANGLE_STRIPS", "Lines": "LINES", "Verts": "VERTICES"}
+_GRID = {"Cells": "CELLS"}
 
 
 def read_vtp(raw: bytes, name: str) -> Polygons:
-    """The polygons of a VTP file; MeshError where it is none or is cut off."""
+    """The polygons of a VTP or VTU file; MeshError where it is none or is cut off."""
     file = _opened(raw, name)
-    pieces = file.root.findall("PolyData/Piece")
+    grids = file.root.findall("UnstructuredGrid/Piece")
+    pieces = grids or file.root.findall("PolyData/Piece")
     if not pieces:
-        raise MeshError(f"{name} holds no PolyData piece; only files of the type PolyData are surfaces.")
+        raise MeshError(f"{name} holds no piece of PolyData or of an UnstructuredGrid; only these are surfaces.")
     points: list[FloatArray] = []
     cells: dict[str, list[Cells]] = {}
+    types: list[IntArray] = []
     before = 0
     for piece in pieces:
         points.append(_points(file, piece))
-        for tag, kind in _KINDS.items():
+        for tag, kind in (_GRID if grids else _KINDS).items():
             sizes, corners = _cells(file, piece, tag)
             bad = (corners < 0) | (corners >= len(points[-1]))
             if bad.any():
                 last = len(points[-1]) - 1
                 raise MeshError(f"{name}: a cell of {tag} names point {corners[bad][0]}, but ids run from 0 to {last}.")
             cells.setdefault(kind, []).append((sizes, corners + before))
+        types += [_types(file, piece)] if grids else []
         before += len(points[-1])
     joined = {
         kind: (np.concatenate([sizes for sizes, _ in parts]), np.concatenate([corners for _, corners in parts]))
         for kind, parts in cells.items()
     }
+    if types:
+        joined = cells_by_type(joined["CELLS"], np.concatenate(types), name)
     return polygons_of_cells(np.concatenate(points), joined, name)
 
 
@@ -120,12 +127,15 @@ class _File:
             if at + length > len(content):
                 raise self._cut_off(what)
             # At most the announced size is unpacked, so that a damaged file cannot fill the memory.
+            packed_block = content[at : at + length]
             try:
                 if self.decompress == "zlib":
-                    part = zlib.decompressobj().decompress(content[at : at + length], max(expected, 1))
+                    part = zlib.decompressobj().decompress(packed_block, max(expected, 1))
+                elif self.decompress == "lz4":
+                    part = unpacked_block(packed_block, expected)
                 else:
-                    part = lzma.LZMADecompressor().decompress(content[at : at + length], max(expected, 1))
-            except (zlib.error, lzma.LZMAError, OverflowError) as error:
+                    part = lzma.LZMADecompressor().decompress(packed_block, max(expected, 1))
+            except (zlib.error, lzma.LZMAError, ValueError, OverflowError) as error:
                 raise MeshError(f"{self.name}: the compressed {what} are damaged ({error}).") from None
             if len(part) != expected:
                 raise self._cut_off(what)
@@ -139,7 +149,7 @@ class _File:
 
 def _opened(raw: bytes, name: str) -> _File:
     if b"<!DOCTYPE" in raw[:4096] or b"<!ENTITY" in raw[:4096]:
-        raise MeshError(f"{name} declares XML entities, which no VTP file needs; it is not read.")
+        raise MeshError(f"{name} declares XML entities, which no VTK file needs; it is not read.")
     # Appended bytes are no XML: they are taken out before the rest is parsed.
     found = re.search(rb"<AppendedData([^>]*)>\s*_", raw)
     tree, appended, coded = raw, b"", False
@@ -152,13 +162,13 @@ def _opened(raw: bytes, name: str) -> _File:
     try:
         root = ElementTree.fromstring(tree)
     except (ElementTree.ParseError, LookupError, ValueError) as error:
-        raise MeshError(f"{name} is not a VTP file, or is cut off or damaged ({error}).") from None
+        raise MeshError(f"{name} is not an XML file of VTK's, or is cut off or damaged ({error}).") from None
     compressor = root.get("compressor", "")
-    known = {"": "", "vtkZLibDataCompressor": "zlib", "vtkLZMADataCompressor": "lzma"}
+    known = {f"vtk{word}DataCompressor": word.lower() for word in ("ZLib", "LZ4", "LZMA")} | {"": ""}
     if root.tag != "VTKFile":
-        raise MeshError(f"{name} is not a VTP file: its root element is {root.tag[:40]!r}, not 'VTKFile'.")
+        raise MeshError(f"{name} is not an XML file of VTK's: its root element is {root.tag[:40]!r}, not 'VTKFile'.")
     if compressor not in known:
-        raise MeshError(f"{name} is compressed by {compressor[:40]!r}; save it with zlib or without compression.")
+        raise MeshError(f"{name} is compressed by {compressor[:40]!r}, which is not read; save it with zlib.")
     order = ">" if root.get("byte_order") == "BigEndian" else "<"
     length = np.dtype(order + ("u8" if root.get("header_type") == "UInt64" else "u4"))
     return _File(name, root, order, length, known[compressor], appended, coded)
@@ -184,6 +194,16 @@ def _cells(file: _File, piece: ElementTree.Element, tag: str) -> Cells:
     ends = whole_numbers(file.array(arrays["offsets"], count, f"{tag} offsets"))[0]
     corners = whole_numbers(file.array(arrays["connectivity"], None, f"{tag} connectivity"))[0]
     return cells_of_offsets(np.append(0, ends), corners, f"{file.name}: {tag}")
+
+
+def _types(file: _File, piece: ElementTree.Element) -> IntArray:
+    count = _announced(file, piece, "NumberOfCells")
+    element = piece.find("Cells/DataArray[@Name='types']")
+    if element is None:
+        if count:
+            raise MeshError(f"{file.name} announces {count:,} cells but lacks their types.")
+        return np.empty(0, np.int64)
+    return whole_numbers(file.array(element, count, "types of cells"))[0]
 
 
 def _announced(file: _File, piece: ElementTree.Element, key: str) -> int:

@@ -1,4 +1,4 @@
-"""Files of whole numbers: a .npy array, or a text with some on each line, and remarks after #."""
+"""Files of whole numbers: a .npy array, a text with some on each line and remarks after #, or values at vertices."""
 
 import os
 import re
@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..arrays import IntArray
+from ..arrays import AnyArray, IntArray
 from ..errors import ParameterError, unreadable
+from .vertex_values import VALUE_FILES, is_vertex_values, read_vertex_values
 
 NUMBER_FORMATS = (".npy", ".txt")
 WHOLE = re.compile("-?[0-9]{1,15}")
@@ -16,11 +17,15 @@ WHOLE = re.compile("-?[0-9]{1,15}")
 def read_whole_numbers(path: str | os.PathLike[str], what: str) -> IntArray:
     """(n,) the numbers in a file, of which a message speaks as `what`: "map", "mask".
 
+    .npy, .txt, and what `read_vertex_values` reads: .gii, .annot, values of FreeSurfer.
+
     Raises ParameterError, a sentence with the file, the place in it and the value, for anything else.
     """
     path = Path(path)
+    if is_vertex_values(path):
+        return _whole_values(read_vertex_values(path, what), path, what)
     if path.suffix.lower() not in NUMBER_FORMATS:
-        raise ParameterError(f"{path} is no {what}; these are {' and '.join(NUMBER_FORMATS)} files.")
+        raise ParameterError(f"{path} is no {what}; these are {', '.join(NUMBER_FORMATS)}, {VALUE_FILES} files.")
     return _array_in(path, what) if path.suffix.lower() == ".npy" else _numbers_in(path, what)
 
 
@@ -35,7 +40,10 @@ def _array_in(path: Path, what: str) -> IntArray:
         raise ParameterError(
             f"The {what} in {path} has shape {array.shape}; a {what} is one whole number for each vertex."
         )
-    flat = array.reshape(-1)
+    return _whole_values(array.reshape(-1), path, what)
+
+
+def _whole_values(flat: AnyArray, path: Path, what: str) -> IntArray:
     if flat.dtype.kind == "f" and np.isfinite(flat).all() and (flat == np.floor(flat)).all():
         flat = flat.astype(np.int64)
     if flat.dtype.kind not in "biu":

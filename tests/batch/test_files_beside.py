@@ -84,6 +84,7 @@ FILES = {
         ("sources", "a.txt", [N], f"vertex {N} "),
         ("sources", "a.txt", ["one"], "line 1: 'one' is no source"),
         ("sources", "a.txt", [], "There is no source in"),
+        ("sources", "a.label.gii", None, "has a value for each vertex; sources are the ids of some"),
         ("sources", "a.csv", None, "cannot be read"),
         ("sources", "a.npy", None, "cannot be read: No such file"),
         ("mask", "a.npy", np.ones(N, bool), f"for each of the {N + 1:,} vertices of shape.off; this one has the shape"),

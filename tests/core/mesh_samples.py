@@ -1,8 +1,14 @@
 """One small mesh in every format this library reads, written by hand or by VTK."""
 
+import base64
+import gzip
+import json
 import struct
+import zlib
 
 import numpy as np
+
+from bihdist_core.errors import MeshError
 
 VERTICES = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0.25], [0, 1, 0], [-0.5, 1e-3, 1.5]])
 FACES = np.array([[0, 1, 2], [0, 2, 3], [3, 4, 0]])
@@ -16,6 +22,89 @@ def rows(array):
 def off(vertices=VERTICES, polygons=FACES, header="OFF", line_end="\n"):
     faces = "".join(f"{len(p)} {' '.join(map(str, p))}\n" for p in polygons)
     return f"{header}\n{len(vertices)} {len(polygons)} 0\n{rows(vertices)}{faces}".replace("\n", line_end)
+
+
+def off_binary(vertices=VERTICES, polygons=FACES, header="OFF", colours=()):
+    """colours: of each face, so many floats."""
+    body = struct.pack(">3i", len(vertices), len(polygons), 0) + np.asarray(vertices, ">f4").tobytes()
+    for p in polygons:
+        body += struct.pack(f">{len(p) + 2}i{len(colours)}f", len(p), *p, len(colours), *colours)
+    return f"{header} BINARY\n".encode() + body
+
+
+def gltf_parts(vertices=VERTICES, faces=FACES, index_type="<u2"):
+    """The JSON of a glTF file as a dict, and its buffer; one mesh at one node."""
+    ids = np.asarray(faces, index_type).tobytes()
+    buffer = ids + b"\0" * (-len(ids) % 4) + np.asarray(vertices, "<f4").tobytes()
+    begin = len(buffer) - 12 * len(vertices)
+    component = {"<u1": 5121, "<u2": 5123, "<u4": 5125}[index_type]
+    data = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 1}, "indices": 0}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": component, "count": 3 * len(faces), "type": "SCALAR"},
+            {"bufferView": 1, "componentType": 5126, "count": len(vertices), "type": "VEC3"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteLength": len(ids)},
+            {"buffer": 0, "byteOffset": begin, "byteLength": 12 * len(vertices)},
+        ],
+        "buffers": [{"byteLength": len(buffer)}],
+    }
+    return data, buffer
+
+
+def gltf(data, buffer):
+    """A .gltf file with the buffer inside."""
+    uri = "data:application/octet-stream;base64," + base64.b64encode(buffer).decode()
+    return json.dumps({**data, "buffers": [{"byteLength": len(buffer), "uri": uri}]}).encode()
+
+
+def glb(data, buffer):
+    text, buffer = json.dumps(data).encode(), buffer + b"\0" * (-len(buffer) % 4)
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<I", len(text)) + b"JSON" + text + struct.pack("<I", len(buffer)) + b"BIN\0" + buffer
+    return b"glTF" + struct.pack("<II", 2, 12 + len(chunks)) + chunks
+
+
+def gifti_array(intent, values, encoding="GZipBase64Binary", order="<"):
+    values = np.asarray(values)
+    kind = {"f8": "FLOAT64", "f4": "FLOAT32", "i4": "INT32", "i8": "INT64"}[values.dtype.str[1:]]
+    content = values.astype(values.dtype.newbyteorder(order)).tobytes()
+    if encoding == "ASCII":
+        text = " ".join(map(repr, values.ravel().tolist()))
+    else:
+        text = base64.b64encode(zlib.compress(content) if encoding.startswith("GZip") else content).decode()
+    shape = " ".join(f'Dim{k}="{size}"' for k, size in enumerate(values.shape))
+    return (
+        f'<DataArray Intent="NIFTI_INTENT_{intent}" DataType="NIFTI_TYPE_{kind}" ArrayIndexingOrder="RowMajorOrder" '
+        f'Dimensionality="{values.ndim}" {shape} Encoding="{encoding}" '
+        f'Endian="{"LittleEndian" if order == "<" else "BigEndian"}" ExternalFileName="" ExternalFileOffset="">\n'
+        f"<MetaData/><Data>{text}</Data></DataArray>\n"
+    )
+
+
+def gifti(*arrays):
+    """A GIFTI file of arrays that `gifti_array` has written."""
+    return (
+        '<?xml version="1.0" encoding="UTF-8"?>\n'
+        '<!DOCTYPE GIFTI SYSTEM "http://www.nitrc.org/frs/download.php/115/gifti.dtd">\n'
+        f'<GIFTI Version="1.0" NumberOfDataArrays="{len(arrays)}">\n<LabelTable/>\n{"".join(arrays)}</GIFTI>\n'
+    ).encode()
+
+
+def gifti_surface(vertices=VERTICES, faces=FACES, **options):
+    points, triangles = np.asarray(vertices, float), np.asarray(faces, "i4")
+    return gifti(gifti_array("POINTSET", points, **options), gifti_array("TRIANGLE", triangles, **options))
+
+
+def freesurfer(vertices=VERTICES, faces=FACES):
+    counts = struct.pack(">2i", len(vertices), len(faces))
+    arrays = np.asarray(vertices, ">f4").tobytes() + np.asarray(faces, ">i4").tobytes()
+    return b"\xff\xff\xfecreated by hand\n\n" + counts + arrays
 
 
 def obj(vertices=VERTICES, polygons=FACES):
@@ -110,6 +199,40 @@ def written_by_vtk(path, polygons=FACES, mode="appended", version=None, vertices
     return path
 
 
+def grid_written_by_vtk(path, cells, version=42, vertices=VERTICES):
+    """An unstructured grid of triangles (of 3 corners) and tetrahedra (of 4), written by VTK."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import VTK_TETRA, VTK_TRIANGLE, vtkUnstructuredGrid
+    from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+    points, grid = vtkPoints(), vtkUnstructuredGrid()
+    points.SetData(numpy_to_vtk(np.asarray(vertices, float), deep=True))
+    grid.SetPoints(points)
+    for cell in cells:
+        grid.InsertNextCell(VTK_TRIANGLE if len(cell) == 3 else VTK_TETRA, len(cell), cell)
+    if path.suffix == ".vtk":
+        writer = vtkUnstructuredGridWriter()
+        writer.SetFileVersion(version)
+    else:
+        writer = vtkXMLUnstructuredGridWriter()
+        writer.SetCompressorTypeToLZ4()
+    writer.SetInputData(grid)
+    writer.SetFileName(str(path))
+    assert writer.Write() == 1
+    return path
+
+
+def message_of(call, content, name):
+    """What a reader says of content that it refuses, "" if it reads it."""
+    try:
+        call(content, name)
+    except MeshError as error:
+        return str(error)
+    return ""
+
+
 def assert_same(surface, vertices=VERTICES, faces=FACES):
     np.testing.assert_array_equal(surface.vertices, vertices)
     np.testing.assert_array_equal(surface.faces, faces)
@@ -127,4 +250,22 @@ SAMPLES = {
     "big.ply": ply("binary_big_endian"),
     "text.vtk": vtk_old(),
     "binary.vtk": vtk_old(binary=True),
+    "packed.off.gz": gzip.compress(off().encode()),
+    "PACKED.PLY.GZ": gzip.compress(ply("binary_big_endian")),
+    "wrapped.off": off().replace("1.0 1.0", "1.0\n1.0").replace("3 3 4", "3 3\n\n4 # c\n"),
+    "wrapped.ply": ply("ascii").replace(b"1.0 1.0", b"1.0\n1.0").replace(b"3 3 4", b"3 3\n4"),
+    "a.surf.gii": gifti_surface(),
+    "text.gii": gifti_surface(encoding="ASCII"),
+    "big.gii.gz": gzip.compress(gifti_surface(encoding="Base64Binary", order=">")),
 }
+SINGLE = {
+    "binary.off": off_binary(),
+    "coloured.off": off_binary(np.hstack([VERTICES, np.full((5, 4), 0.5)]), header="COFF", colours=(0.5, 0.25, 1)),
+    "a.gltf": gltf(*gltf_parts()),
+    "bytes.gltf": gltf(*gltf_parts(index_type="<u1")),
+    "a.glb": glb(*gltf_parts(index_type="<u4")),
+    "a.glb.gz": gzip.compress(glb(*gltf_parts())),
+    "lh.pial": freesurfer(),
+    "sub-01_rh.white.gz": gzip.compress(freesurfer()),
+}
+"""Those that hold single precision."""

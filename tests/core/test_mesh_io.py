@@ -12,10 +12,13 @@ from tests.core.mesh_samples import (
     FACES,
     QUAD_AND_TRIANGLE,
     SAMPLES,
+    SINGLE,
     VERTICES,
     assert_same,
+    grid_written_by_vtk,
     obj,
     off,
+    off_binary,
     ply,
     stl_binary,
     stl_text,
@@ -31,6 +34,13 @@ def test_ids_coordinates_and_faces_are_the_files(put, name):
     assert_same(surface)
     assert surface.name == name
     assert surface.repairs == ()
+
+
+@pytest.mark.parametrize("name", SINGLE)
+def test_ids_and_faces_are_the_files_where_coordinates_are_single(put, name):
+    surface = read_surface(put(name, SINGLE[name]))
+    assert_same(surface, VERTICES.astype(np.float32))
+    assert (surface.name, surface.repairs, surface.facts) == (name, (), ())
 
 
 @pytest.mark.parametrize("form", ["ascii", "binary_little_endian", "binary_big_endian"])
@@ -51,17 +61,18 @@ def test_legacy_files_written_by_vtk(tmp_path, mode, version, polygons):
 
 
 @pytest.mark.parametrize("mode", ["ascii", "binary", "appended", "appended base64", "big"])
-@pytest.mark.parametrize("compressor", ["zlib", "lzma", None])
+@pytest.mark.parametrize("compressor", ["zlib", "lzma", "lz4", None])
 def test_xml_files_written_by_vtk(tmp_path, mode, compressor):
     path = written_by_vtk(tmp_path / "a.vtp", QUAD_AND_TRIANGLE, mode, compressor=compressor)
     assert_same(read_surface(path))
 
 
-def test_xml_with_many_compressed_blocks(tmp_path):
+@pytest.mark.parametrize("compressor", ["zlib", "lz4"])
+def test_xml_with_many_compressed_blocks(tmp_path, compressor):
     rng = np.random.default_rng(0)
     vertices = rng.normal(size=(20000, 3))
     faces = np.stack([np.arange(19998), np.arange(1, 19999), np.arange(2, 20000)], axis=1)
-    path = written_by_vtk(tmp_path / "a.vtp", faces, "binary", vertices=vertices)
+    path = written_by_vtk(tmp_path / "a.vtp", faces, "binary", vertices=vertices, compressor=compressor)
     assert_same(read_surface(path), vertices, faces)
 
 
@@ -87,6 +98,26 @@ def test_written_surfaces_read_back(tmp_path, extension):
     assert_same(read_surface(path))
 
 
+def test_text_stl_in_capitals(put):
+    assert_same(read_surface(put("a.stl", stl_text().upper())))
+    assert_same(read_surface(put("b.stl", stl_text().replace("facet", "Facet"))))
+
+
+def test_binary_stl_with_bytes_behind_it(put):
+    surface = read_surface(put("a.stl", stl_binary() + b"written by x"))
+    assert_same(surface, VERTICES.astype(np.float32))
+    assert surface.facts[1:] == ("12 bytes behind the last triangle ignored",)
+
+
+@pytest.mark.parametrize("version", [42, 51])
+def test_grids_of_triangles_and_volumes(tmp_path, version):
+    for extension in (".vtk", ".vtu"):
+        path = grid_written_by_vtk(tmp_path / f"a{extension}", [[0, 1, 2], [0, 1, 2, 4], [0, 2, 3], [3, 4, 0]], version)
+        surface = read_surface(path)
+        assert_same(surface)
+        assert surface.repairs == ("1 cell other than polygons ignored",)
+
+
 def test_upper_case_extension(put):
     assert_same(read_surface(put("A.OFF", off())))
 
@@ -101,6 +132,23 @@ def test_off_with_normals_colours_and_texture_coordinates(put, header, extra):
 @pytest.mark.parametrize("first", ["OFF 5 3 0\n", "OFF5 3 0\n", "# c\n\nOFF # c\n# c\n\n5 3\n", "  OFF\n\t5 3 0 # c\n"])
 def test_off_headers(put, first):
     assert_same(read_surface(put("a.off", first + off().split("\n", 2)[2])))
+
+
+def test_off_on_few_lines(put):
+    assert_same(read_surface(put("a.off", "OFF\n5 3 0\n" + " ".join(off().split()[4:]))))
+    coloured = off(np.hstack([VERTICES, np.full((5, 3), 0.5)]), header="COFF")
+    assert_same(read_surface(put("b.off", "COFF\n5 3 0\n" + "\n".join(coloured.split()[4:]))))
+
+
+def test_binary_off_of_polygons(put):
+    surface = read_surface(put("a.off", off_binary(polygons=QUAD_AND_TRIANGLE)))
+    assert_same(surface, VERTICES.astype(np.float32))
+
+
+def test_ply_of_lists_on_wrapped_lines(put):
+    text = ply("ascii", QUAD_AND_TRIANGLE, with_colour=True)
+    head, body = text.split(b"end_header\n")
+    assert_same(read_surface(put("a.ply", head + b"end_header\n" + b"\n".join(body.split()))))
 
 
 def test_off_colours_after_faces_comments_and_blank_lines(put):
@@ -128,6 +176,19 @@ def test_obj_continued_lines_colours_weights_and_other_statements(put):
     surface = read_surface(put("a.obj", text.encode("latin-1")))
     assert_same(surface)
     assert surface.repairs == ("1 line or point statement ignored",)
+
+
+def test_obj_counts_lines_it_does_not_know(put):
+    surface = read_surface(put("a.obj", "// made by x\n" + obj() + "tag crease 2 1\nxyz\n"))
+    assert_same(surface)
+    assert surface.facts == ("3 lines of unknown statements ignored, the first: '// made by x'",)
+
+
+@pytest.mark.parametrize("end", ["", " ", "\r", " # c"])
+def test_obj_may_end_without_a_line_end(put, end):
+    assert_same(read_surface(put("a.obj", obj()[:-1] + end)))
+    slashes = obj(polygons=[]) + "f 1/1/1 2/2/1 3/1/1\nf 1/2 3/1 4/2\nf -2//1 -1//1 -5//1"
+    assert_same(read_surface(put("b.obj", slashes + end)))
 
 
 def test_obj_vertices_and_normals_in_turn(put):

@@ -1,25 +1,32 @@
 """Every failure to read a mesh is one sentence that names the file, the place and the value."""
 
+import gzip
 import os
 import random
 import re
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from bihdist_core.errors import MeshError
+from bihdist_core.formats import gzip_files
 from bihdist_core.formats.field_output import write_fields
-from bihdist_core.formats.mesh_io import MESH_FORMATS, read_surface
+from bihdist_core.formats.mesh_io import read_surface
+from bihdist_core.formats.mesh_names import MESH_FORMATS
 from bihdist_core.surface import Surface
 from tests.core.mesh_samples import (
     FACES,
     QUAD_AND_TRIANGLE,
     SAMPLES,
+    SINGLE,
     VERTICES,
     assert_same,
+    grid_written_by_vtk,
     obj,
     off,
+    off_binary,
     ply,
     stl_binary,
     stl_text,
@@ -93,9 +100,40 @@ def test_files_of_another_kind(put, extension, content):
     refused(put(f"a{extension}", content))
 
 
+def vtk_new(offsets, word):
+    """A triangle with offsets as files of version 5 have them."""
+    return (
+        "# vtk DataFile Version 5.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n"
+        f"POLYGONS 2 3\nOFFSETS vtktypeint64\n{offsets}\n{word} vtktypeint64\n0 1 2\n"
+    )
+
+
+def xml(corners, form="ascii", points=3):
+    """A VTP file with a triangle, with its corners as text."""
+    places = "<Points><DataArray type='Int8'>0 0 0 1 0 0 0 1 0</DataArray></Points>" if points == 3 else ""
+    return (
+        f"<VTKFile type='PolyData'><PolyData><Piece NumberOfPoints='{points}' NumberOfPolys='1'>{places}<Polys>"
+        f"<DataArray Name='connectivity' type='Int32' format='{form}'>{corners}</DataArray>"
+        "<DataArray Name='offsets' type='Int8'>3</DataArray></Polys></Piece></PolyData></VTKFile>"
+    )
+
+
+TETRAHEDRON = (
+    "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"
+    "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n"
+)
 REFUSED = {
     "first line": ("a.off", "PLY\n1 1 0\n", "its first line is 'PLY' where OFF belongs"),
-    "binary OFF": ("a.off", b"OFF BINARY\n\0\0", "is a binary OFF file"),
+    "binary OFF": ("a.off", b"OFF BINARY\n\0\0", "the counts behind its first line are []"),
+    "binary OFF counts": ("a.off", off_binary()[:11] + b"\xff" * 4 + off_binary()[15:], "are [-1, 3, 0]"),
+    "binary OFF cut off": ("a.off", off_binary()[:-4], "face 2 does not fit into the file"),
+    "binary OFF cut off early": ("a.off", off_binary()[:40], "announces 5 vertices and 3 faces but has room for"),
+    "binary OFF longer": ("a.off", off_binary() + b"1234", "goes on for 4 bytes after its last face"),
+    "binary OFF index": ("a.off", off_binary(polygons=[[0, 1, 5]]), "face 0 names vertex 5"),
+    "binary OFF of four": ("a.off", off_binary(header="4OFF"), "other than three coordinates"),
+    "OFF row cut off": ("a.off", off().replace(" ", "\n").replace("5\n3\n0", "5 3 0")[:-2], "its counts are wrong"),
+    "OFF row word": ("a.off", off().replace("1.0 1.0", "1.0\nx"), "one a line, but 9 lines follow"),
+    "OFF row index": ("a.off", off().replace("3 3 4 0", "3 3\n5 0"), "one a line, but 9 lines follow"),
     "four coordinates": ("a.off", off(header="4OFF"), "other than three coordinates"),
     "header only": ("a.off", "OFF\n", "ends after its first line"),
     "no counts": ("a.off", "OFF\nfive 3 0\n", "line 2: 'five 3 0' is not the numbers of vertices"),
@@ -135,6 +173,12 @@ REFUSED = {
     ),
     "OBJ coordinates": ("a.obj", obj().replace(" 0.25", ""), "line 3: vertex 3 has 2 numbers"),
     "OBJ no vertices": ("a.obj", "g a\n", "has no vertices"),
+    "OBJ statement of corners": ("a.obj", obj() + "x 1/1 2/2 3/3\n", "line 9: 'x 1/1 2/2 3/3' is not an OBJ"),
+    "OBJ statement without a blank": ("a.obj", obj() + "v1.0\n", "line 9: 'v1.0' is not an OBJ statement"),
+    "OBJ cut off": ("a.obj", obj()[:-3], "is cut off: its last line, which does not end, is the face 'f 4 5'"),
+    "OBJ cut off at once": ("a.obj", obj() + "f", "does not end, is the face 'f'"),
+    "OBJ cut off in a corner": ("a.obj", obj() + "f 1/1 2/2 3/", "does not end, is the face 'f 1/1 2/2 3/'"),
+    "OBJ cut off in a normal": ("a.obj", obj() + "f 1//1 2//2 3", "does not end, is the face 'f 1//1 2//2 3'"),
     "OBJ no faces": ("a.obj", obj(polygons=[]), "has 5 vertices but no faces"),
     "OBJ degenerate": ("a.obj", obj(polygons=[[0, 1]]), "has no faces"),
     "zero byte": ("a.obj", obj() + "\0", "is not a text file"),
@@ -178,8 +222,21 @@ REFUSED = {
         stl_binary()[:96] + b"\1\0\x80\x7f" + stl_binary()[100:],
         "triangle 0 has a corner at (nan",
     ),
-    "STL no faces": ("a.stl", stl_binary(faces=FACES[:0]), "but no faces"),
-    "VTK dataset": ("a.vtk", vtk_old().replace(b"POLYDATA", b"STRUCTURED_POINTS"), "only DATASET POLYDATA"),
+    "STL no faces": ("a.stl", stl_binary(faces=FACES[:0]), "holds 0 triangles"),
+    "STL no faces in a text": ("a.stl", "solid\nendsolid\n", "holds 0 triangles"),
+    "STL triangles behind": ("a.stl", stl_binary(announced=2), "announces 2 triangles but has room for 3"),
+    "STL bytes behind nothing": ("a.stl", stl_binary(faces=FACES[:0]) + b"x", "announces 0 triangles but has room for"),
+    "one place": ("a.off", off(np.ones((5, 3))), "all corners of its faces are at (1, 1, 1)"),
+    "STL in one place": ("a.stl", stl_text(np.ones((5, 3))), "every face names a vertex twice"),
+    "too large": ("a.off", off().replace("1.5", "-1e160"), "vertex 4 has the coordinate -1e+160; beyond 1e+75"),
+    "too small": ("a.off", off(VERTICES * 1e-80), "measures 1.5e-80; below 1e-75 areas have no numbers"),
+    "gzip cut off": ("a.off.gz", gzip.compress(off().encode())[:-9], "is cut off: its gzip data do not end"),
+    "gzip damaged": ("a.off.gz", gzip.compress(off().encode())[:-8] + bytes(8), "is damaged (CRC check failed"),
+    "no gzip": ("a.off.gz", off(), "is not a gzip file, or is damaged"),
+    "gzip of nothing": ("a.off.gz", gzip.compress(b""), "is empty"),
+    "VTK volumes": ("a.vtk", TETRAHEDRON, "holds only volume cells (1); extract the surface first"),
+    "VTK dataset": ("a.vtk", vtk_old().replace(b"POLYDATA", b"STRUCTURED_POINTS"), "so extract the surface first"),
+    "VTK types": ("a.vtk", TETRAHEDRON.replace("TYPES 1\n10", "TYPES 2\n10 10"), "1 cells and 2 types of cells"),
     "VTK points": (
         "a.vtk",
         vtk_old(binary=True).replace(b"POINTS 5", b"POINTS 99999999999"),
@@ -192,11 +249,25 @@ REFUSED = {
     "VTK type": ("a.vtk", vtk_old().replace(b"double", b"string"), "type 'string'"),
     "VTK section": ("a.vtk", vtk_old().replace(b"POLYGONS", b"POLYGON"), "'POLYGON 3 12' is not a section"),
     "VTK lacks count": ("a.vtk", vtk_old().replace(b"POLYGONS 3", b"POLYGONS -3"), "lacks a count"),
+    "VTK no types": ("a.vtk", TETRAHEDRON.split("CELL_TYPES")[0], "it has CELLS but no CELL_TYPES"),
+    "VTK offsets": ("a.vtk", vtk_new("0 2", "CONNECTIVITY"), "the offsets of the cells do not fit their 3 corners"),
+    "VTK no corners": ("a.vtk", vtk_new("0 3", "OTHER"), "POLYGONS have OFFSETS but no CONNECTIVITY"),
     "VTK index": ("a.vtk", vtk_old(polygons=[[0, 1, 7]]), "polygon 0 names vertex 7"),
     "VTK word": ("a.vtk", vtk_old().replace(b"0.25", b"half"), "'half' stands among the POINTS"),
     "XML": ("a.vtp", "<VTKFile type='PolyData'>", "cut off or damaged"),
     "XML root": ("a.vtp", "<html></html>", "its root element is 'html'"),
-    "XML empty": ("a.vtp", "<VTKFile type='PolyData'/>", "holds no PolyData piece"),
+    "XML empty": ("a.vtp", "<VTKFile type='PolyData'/>", "holds no piece of PolyData"),
+    "XML no points": ("a.vtp", xml("", points=5), "announces 5 points but holds none"),
+    "XML index": ("a.vtp", xml("0 1 5"), "a cell of Polys names point 5, but ids run from 0 to 2"),
+    "XML half a number": ("a.vtp", xml("AwAAAAAAAA==", "binary"), "have 3 bytes, no whole number of int32 values"),
+    "XML short": ("a.vtp", xml("AwA=", "binary"), "are shorter than announced"),
+    "XML no types": (
+        "a.vtu",
+        "<VTKFile><UnstructuredGrid><Piece NumberOfPoints='0' NumberOfCells='1'><Cells>"
+        "<DataArray Name='offsets' type='Int8'>0</DataArray><DataArray Name='connectivity' type='Int8'/>"
+        "</Cells></Piece></UnstructuredGrid></VTKFile>",
+        "announces 1 cells but lacks their types",
+    ),
     "XML entity": ("a.vtp", "<!DOCTYPE x [<!ENTITY a 'b'>]><VTKFile/>", "declares XML entities"),
 }
 
@@ -205,6 +276,16 @@ REFUSED = {
 def test_refusals_say_where_and_why(put, case):
     name, content, expected = REFUSED[case]
     assert expected in refused(put(name, content))
+
+
+def test_a_small_gzip_file_cannot_fill_the_memory(put, monkeypatch):
+    monkeypatch.setattr(gzip_files, "MOST_BYTES", 1 << 25)
+    path = put("a.off.gz", gzip.compress(bytes(100_000_000)))
+    tracemalloc.start()
+    assert "unpacks to more than 0.03125 GiB; it is not read" in refused(path)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 80_000_000
 
 
 def test_obj_continued_lines_keep_line_numbers(put):
@@ -220,7 +301,7 @@ XML_REFUSED = [
     (b'type="Float64"', b'type="String"', "the type 'String'"),
     (b'format="appended"', b'format="other"', "the format 'other'"),
     (b'offset="0"', b'offset="99999"', "shorter than announced"),
-    (b'header_type="UInt64"', b'header_type="UInt64" compressor="vtkLZ4DataCompressor"', "save it with zlib"),
+    (b'header_type="UInt64"', b'header_type="UInt64" compressor="vtkOtherCompressor"', "save it with zlib"),
 ]
 
 
@@ -264,9 +345,12 @@ def damaged(content, rng):
 
 def test_damaged_files_give_a_surface_or_one_sentence(tmp_path, put, capfd):
     samples = {name: content if isinstance(content, bytes) else content.encode() for name, content in SAMPLES.items()}
-    samples |= {"text.stl": stl_text().encode(), "binary.stl": stl_binary()}
+    samples |= SINGLE | {"text.stl": stl_text().encode(), "binary.stl": stl_binary()}
     samples |= {"mixed.ply": ply("binary_little_endian", QUAD_AND_TRIANGLE, with_colour=True)}
-    for mode in ("ascii", "binary", "appended", "appended base64"):
+    for compressor in ("zlib", "lz4"):
+        samples[f"{compressor}.vtp"] = written_by_vtk(tmp_path / "a.vtp", compressor=compressor).read_bytes()
+    samples["grid.vtu"] = grid_written_by_vtk(tmp_path / "a.vtu", FACES.tolist()).read_bytes()
+    for mode in ("ascii", "binary", "appended base64"):
         samples[f"{mode.replace(' ', '_')}.vtp"] = written_by_vtk(tmp_path / "a.vtp", mode=mode).read_bytes()
     samples["new.vtk"] = written_by_vtk(tmp_path / "a.vtk", QUAD_AND_TRIANGLE, "binary", 51).read_bytes()
     rng = random.Random(20)

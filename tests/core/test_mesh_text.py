@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bihdist_core import surface
+from bihdist_core import coincident_points, surface
 from bihdist_core.errors import MeshError
 from bihdist_core.formats import mesh_text, obj, off, ply, stl
 from bihdist_core.formats.mesh_io import surface_in
@@ -180,7 +180,7 @@ def without_kernel(monkeypatch):
 
     def without(content, name):
         with monkeypatch.context() as patch:
-            for module in (mesh_text, stl):
+            for module in (mesh_text, coincident_points):
                 patch.setattr(module, "library", lambda: None)
             return outcome(content, name)
 
@@ -221,7 +221,7 @@ def test_corners_in_one_place_are_found_as_by_sorting():
     rng = np.random.default_rng(0)
     for count, sides in [(0, 2), (1, 2), (2, 1), (50, 1), (1000, 3), (1000, 1000)]:
         points = rng.integers(-sides, sides, (count, 3)) * rng.choice([0.1, -0.1], (count, 3))
-        for a, b in zip(stl.merged(points), stl._merged_by_sorting(points), strict=True):
+        for a, b in zip(coincident_points.merged(points), coincident_points._merged_by_sorting(points), strict=True):
             assert (a.dtype, a.shape, a.tobytes()) == (b.dtype, b.shape, b.tobytes())
 
 

@@ -7,10 +7,12 @@ from collections.abc import Callable, Sequence
 from qtpy import QtWidgets
 
 from bihdist_core import BihdistError
+from bihdist_core.formats.mesh_names import GZIP, MESH_FORMATS
 
 from ..context import Context
 
-MESH_FILES = "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;All files (*)"
+MESH_PATTERNS = " ".join([*(f"*{extension}" for extension in MESH_FORMATS), f"*{GZIP}", "lh.*", "rh.*"])
+MESH_FILES = f"Meshes ({MESH_PATTERNS});;All files (*)"
 """What can be opened."""
 
 NAMES = {

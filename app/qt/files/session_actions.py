@@ -27,11 +27,11 @@ from ...version import version
 from .. import remembered
 from ..context import Context
 from .curve_files import CurveFiles
-from .saving import MESH_FILES, ask_path
+from .saving import MESH_FILES, MESH_PATTERNS, ask_path
 
 FILES = (
-    "Meshes, sessions and recipes (*.off *.obj *.ply *.stl *.vtk *.vtp *.json);;"
-    "Meshes (*.off *.obj *.ply *.stl *.vtk *.vtp);;Sessions and recipes (*.json);;All files (*)"
+    f"Meshes, sessions and recipes ({MESH_PATTERNS} *.json);;"
+    f"Meshes ({MESH_PATTERNS});;Sessions and recipes (*.json);;All files (*)"
 )
 KEEP_MS = 2000
 """What the window shows is kept so long after a change, in case of a crash."""

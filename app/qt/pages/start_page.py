@@ -4,7 +4,7 @@ from datetime import datetime
 
 from qtpy import QtCore, QtGui, QtWidgets
 
-from bihdist_core.formats.mesh_io import MESH_FORMATS
+from bihdist_core.formats.mesh_names import FREESURFER, MESH_FORMATS
 
 from ..look.icons import put_icon
 from ..look.layouts import in_column, in_row, quiet_label
@@ -165,7 +165,7 @@ class DropZone(QtWidgets.QWidget):
         put_icon(self.open, "open", colour_of="on_fill")
         self.open.setIconSize(QtCore.QSize(20, 20))
         formats = ", ".join(extension.strip(".").upper() for extension in MESH_FORMATS)
-        known = quiet_label(f"{formats}, or a saved session")
+        known = quiet_label(f"{formats}, {FREESURFER}, or a saved session")
         known.setWordWrap(True)
         for label in (self.word, known):
             label.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)

@@ -1,0 +1,165 @@
+"""FreeSurfer's files: surfaces of triangles (lh.pial), values at vertices (lh.thickness), annotations (lh.aparc.annot).
+
+They have no extensions of their own, or share them; their first bytes tell them apart.  Coordinates are those of the
+file, of FreeSurfer's surfaces ("tkr"): what a file says of the volume it was made from is not applied.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import AnyArray, IntArray
+from ..errors import MeshError
+from .polygons import Polygons, checked_corners
+from .text_lines import shown
+
+_SURFACE, _QUADS, _VALUES = b"\xff\xff\xfe", b"\xff\xff\xfd", b"\xff\xff\xff"
+_TABLE_VERSION = -2
+
+
+@dataclass(frozen=True)
+class Annotation:
+    """labels: (n,) the place of each vertex's name in `names`, -1 where it has none."""
+
+    labels: IntArray
+    names: tuple[str, ...]
+
+
+def is_surface(raw: bytes) -> bool:
+    """Whether a file begins as a surface of triangles."""
+    return raw[:3] == _SURFACE
+
+
+def is_values(raw: bytes) -> bool:
+    """Whether a file begins as one of values at vertices, such as thickness."""
+    return raw[:3] == _VALUES
+
+
+def read_freesurfer(raw: bytes, name: str) -> Polygons:
+    """The triangles of a FreeSurfer surface; MeshError where it is none, or is cut off."""
+    if raw[:3] == _QUADS:
+        raise MeshError(f"{name} is a FreeSurfer surface of quads; FreeSurfer's mris_convert makes triangles of it.")
+    if not is_surface(raw):
+        what = "holds values, not a surface" if is_values(raw) else "is not a FreeSurfer surface"
+        raise MeshError(f"{name} {what}: its first bytes are {raw[:3].hex()} where {_SURFACE.hex()} belongs.")
+    file = _Cursor(raw, name, len(_SURFACE))
+    for _ in range(2):
+        file.skip_line()
+    n, m = file.whole("number of vertices"), file.whole("number of triangles")
+    points = file.numbers(3 * n, ">f4", "coordinates").reshape(-1, 3)
+    corners, sizes = file.numbers(3 * m, ">i4", "corners"), np.full(m, 3)
+    ids = checked_corners(corners, sizes, n, lambda k: f"{name}: triangle {k}")
+    return Polygons(points.astype(np.float64), sizes, ids)
+
+
+def read_values(raw: bytes, name: str) -> AnyArray:
+    """(n,) float32 values of a FreeSurfer file such as lh.thickness; MeshError where it is none, or is cut off."""
+    if not is_values(raw):
+        what = "is a surface, and holds no values" if is_surface(raw) else "holds no values of FreeSurfer's"
+        raise MeshError(f"{name} {what}: its first bytes are {raw[:3].hex()} where {_VALUES.hex()} belongs.")
+    file = _Cursor(raw, name, len(_VALUES))
+    n, _, each = file.whole("number of vertices"), file.whole("number of faces"), file.whole("number of values")
+    if each != 1:
+        raise MeshError(f"{name} has {each} values at each vertex; one is needed.")
+    values = file.numbers(n, ">f4", "values")
+    file.end()
+    return values
+
+
+def read_annotation(raw: bytes, name: str) -> Annotation:
+    """The labels of a FreeSurfer annotation; MeshError where it is none, or is cut off or damaged."""
+    file = _Cursor(raw, name)
+    n = file.whole("number of vertices")
+    ids, colours = file.numbers(2 * n, ">i4", "labels").reshape(-1, 2).astype(np.int64).T
+    if not np.array_equal(np.sort(ids), np.arange(n)):
+        raise MeshError(f"{name} does not label each of its {n:,} vertices once; it is damaged.")
+    of_vertex = np.empty(n, np.int64)
+    of_vertex[ids] = colours
+    names, table = _table(file)
+    order = np.argsort(table, kind="stable")
+    at = np.minimum(np.searchsorted(table[order], of_vertex), len(table) - 1)
+    labels = order[at]
+    unknown = np.flatnonzero((table[labels] != of_vertex) & (of_vertex != 0))
+    if len(unknown):
+        k = unknown[0]
+        raise MeshError(f"{name}: vertex {k} has the colour {of_vertex[k]}, which the table of labels has not.")
+    return Annotation(np.where(of_vertex == 0, -1, labels), names)
+
+
+def _table(file: "_Cursor") -> tuple[tuple[str, ...], IntArray]:
+    """The names of labels, and (k,) their colours, red + 256 green + 65536 blue; unused ones are ""."""
+    if not file.at_end and file.integer() == 1:
+        count = file.integer()
+        if count == _TABLE_VERSION:
+            size = file.whole("number of labels")
+            file.text("name of the table")
+            count = file.whole("number of labels")
+            numbered = True
+        else:
+            size, numbered = count, False
+            file.text("name of the table")
+        if 0 < size <= len(file.raw):
+            names, colours = [""] * size, np.full(size, -1)
+            for k in range(count):
+                at = file.integer() if numbered else k
+                if not 0 <= at < size:
+                    raise MeshError(f"{file.name}: label {k} stands at {at} of a table of {size:,}; it is damaged.")
+                names[at] = file.text(f"name of label {k}")
+                red, green, blue, _ = file.numbers(4, ">i4", "colours").tolist()
+                colours[at] = red + (green << 8) + (blue << 16)
+            return tuple(names), colours
+    raise MeshError(f"{file.name} has no table of labels; it is cut off, or no annotation of FreeSurfer.")
+
+
+@dataclass
+class _Cursor:
+    """A place in a file of big-endian numbers."""
+
+    raw: bytes
+    name: str
+    at: int = 0
+
+    @property
+    def at_end(self) -> bool:
+        """Whether everything has been read."""
+        return self.at >= len(self.raw)
+
+    def skip_line(self) -> None:
+        """Read over a line of text."""
+        end = self.raw.find(b"\n", self.at)
+        if end < 0:
+            raise MeshError(f"{self.name} is cut off: the text at its beginning does not end.")
+        self.at = end + 1
+
+    def numbers(self, count: int, kind: str, what: str) -> AnyArray:
+        """(count,) numbers."""
+        size = np.dtype(kind).itemsize
+        held = (len(self.raw) - self.at) // size
+        if count > held:
+            raise MeshError(f"{self.name} announces {count:,} {what} and holds {held:,}; it is cut off or damaged.")
+        found = np.frombuffer(self.raw, kind, count, self.at)
+        self.at += count * size
+        return found
+
+    def integer(self) -> int:
+        """A number of four bytes."""
+        return int(self.numbers(1, ">i4", "numbers")[0])
+
+    def whole(self, what: str) -> int:
+        """A count."""
+        found = self.integer()
+        if found < 0:
+            raise MeshError(f"{self.name}: the {what} is {found}; it is damaged, or of another kind.")
+        return found
+
+    def text(self, what: str) -> str:
+        """A text, its length before it, that a zero byte ends."""
+        count = self.whole(f"length of the {what}")
+        found = self.numbers(count, "u1", f"bytes of the {what}").tobytes()
+        return found.partition(b"\0")[0].decode("utf-8", "replace")
+
+    def end(self) -> None:
+        """Refuse bytes behind the last."""
+        if not self.at_end:
+            rest = shown(self.raw[self.at : self.at + 20])
+            raise MeshError(f"{self.name} goes on behind its last value, with {rest}; its counts are wrong.")

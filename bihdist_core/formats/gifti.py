@@ -1,0 +1,128 @@
+"""GIFTI files (.gii), surfaces of brains and values on them: a strict reader.
+
+Format: https://www.nitrc.org/projects/gifti/, version 1.0.  Coordinates are those of the array: the transforms to other
+coordinate systems that may stand beside it are not applied.  Numbers in files beside the file are not read.
+"""
+
+import base64
+import binascii
+import math
+import re
+import zlib
+from dataclasses import dataclass
+from xml.etree import ElementTree
+
+import numpy as np
+
+from ..arrays import AnyArray
+from ..errors import MeshError
+from .gzip_files import MOST_BYTES
+from .polygons import Polygons, checked_corners
+from .text_lines import parsed_numbers
+
+POINTS, TRIANGLES = "NIFTI_INTENT_POINTSET", "NIFTI_INTENT_TRIANGLE"
+_TYPES = {
+    f"NIFTI_TYPE_{sign}INT{8 * size}": f"{sign.lower() or 'i'}{size}" for sign in ("", "U") for size in (1, 2, 4, 8)
+}
+_TYPES |= {"NIFTI_TYPE_FLOAT32": "f4", "NIFTI_TYPE_FLOAT64": "f8"}
+_ORDERS = {"LittleEndian": "<", "BigEndian": ">"}
+
+
+@dataclass(frozen=True)
+class GiftiArray:
+    """An array of a file; intent: what it is, such as NIFTI_INTENT_POINTSET."""
+
+    intent: str
+    values: AnyArray
+
+
+def read_gifti(raw: bytes, name: str) -> Polygons:
+    """The surface in a GIFTI file; MeshError where it holds none, or several, or is cut off or damaged."""
+    arrays = gifti_arrays(raw, name)
+    found = {}
+    for intent, what in ((POINTS, "points"), (TRIANGLES, "triangles")):
+        fitting = [array.values for array in arrays if array.intent == intent]
+        if len(fitting) != 1:
+            held = ", ".join(dict.fromkeys(array.intent for array in arrays)) or "none"
+            raise MeshError(f"{name} has {len(fitting)} arrays of {what}; a surface needs one (its arrays are {held}).")
+        if fitting[0].ndim != 2 or fitting[0].shape[1] != 3:
+            raise MeshError(f"{name}: the {what} have the shape {fitting[0].shape}, not three numbers each.")
+        found[intent] = fitting[0]
+    points, triangles = found[POINTS], found[TRIANGLES]
+    sizes = np.full(len(triangles), 3)
+    corners = checked_corners(triangles.ravel(), sizes, len(points), lambda k: f"{name}: triangle {k}")
+    return Polygons(points.astype(np.float64), sizes, corners)
+
+
+def gifti_arrays(raw: bytes, name: str) -> list[GiftiArray]:
+    """All arrays of a GIFTI file; MeshError where it is none, or is cut off or damaged."""
+    if b"<!ENTITY" in raw:
+        raise MeshError(f"{name} declares XML entities, which no GIFTI file needs; it is not read.")
+    try:
+        root = ElementTree.fromstring(raw)
+    except (ElementTree.ParseError, LookupError, ValueError) as error:
+        raise MeshError(f"{name} is not a GIFTI file, or is cut off or damaged ({error}).") from None
+    if root.tag != "GIFTI":
+        raise MeshError(f"{name} is not a GIFTI file: its root element is {root.tag[:40]!r}, not 'GIFTI'.")
+    elements = root.findall("DataArray")
+    announced = root.get("NumberOfDataArrays", str(len(elements)))
+    if announced.strip() != str(len(elements)):
+        raise MeshError(f"{name} announces {announced[:20]} arrays and holds {len(elements)}.")
+    return [_array(element, f"{name}: array {k}") for k, element in enumerate(elements)]
+
+
+def _array(element: ElementTree.Element, where: str) -> GiftiArray:
+    intent, kind, encoding = (element.get(key, "")[:40] for key in ("Intent", "DataType", "Encoding"))
+    if kind not in _TYPES:
+        raise MeshError(f"{where} is of the type {kind!r}, which is not read.")
+    shape, size = _shape(element, where), np.dtype(_TYPES[kind]).itemsize
+    count = math.prod(shape)
+    if count * size > MOST_BYTES:
+        raise MeshError(f"{where} announces {count:,} numbers, more than are read.")
+    text = (element.findtext("Data") or "").encode()
+    if encoding == "ASCII":
+        values: AnyArray = parsed_numbers(text, where, "numbers")
+    elif encoding in ("Base64Binary", "GZipBase64Binary"):
+        order = _ORDERS.get(element.get("Endian", ""))
+        if order is None:
+            raise MeshError(f"{where} has the byte order {element.get('Endian', '')[:40]!r}, which there is not.")
+        content = _decoded(text, count * size if encoding.startswith("G") else None, where)
+        if len(content) % size:
+            raise MeshError(f"{where} has {len(content)} bytes, no whole number of {kind} values.")
+        values = np.frombuffer(content, order + _TYPES[kind])
+    elif encoding == "ExternalFileBinary":
+        raise MeshError(f"{where} keeps its numbers in another file, which is not read; save it as one file.")
+    else:
+        raise MeshError(f"{where} is encoded as {encoding!r}, which is not read.")
+    if len(values) != count:
+        raise MeshError(f"{where} announces {count:,} numbers and holds {len(values):,}; the file is damaged.")
+    by_columns = element.get("ArrayIndexingOrder") == "ColumnMajorOrder"
+    return GiftiArray(intent, values.reshape(shape, order="F" if by_columns else "C"))
+
+
+def _shape(element: ElementTree.Element, where: str) -> tuple[int, ...]:
+    axes = element.get("Dimensionality", "")
+    if axes not in tuple("123456"):
+        raise MeshError(f"{where} has {axes[:20]!r} dimensions, not 1 to 6.")
+    sizes = [element.get(f"Dim{k}", "") for k in range(int(axes))]
+    for k, words in enumerate(sizes):
+        if not re.fullmatch("[0-9]{1,12}", words):
+            raise MeshError(f"{where}: Dim{k} is {words[:20]!r}, not a count.")
+    return tuple(map(int, sizes))
+
+
+def _decoded(text: bytes, packed_size: int | None, where: str) -> bytes:
+    """The bytes of base64 text; unpacked, if they have a size then, so far that a damaged file fills no memory."""
+    try:
+        content = base64.b64decode(b"".join(text.split()), validate=True)
+        if packed_size is None:
+            return content
+        stream = zlib.decompressobj(47)  # with the head of zlib, or of gzip
+        found = stream.decompress(content, packed_size + 1)
+    except (binascii.Error, ValueError, zlib.error) as error:
+        raise MeshError(f"{where} is damaged ({error}).") from None
+    if len(found) > packed_size:
+        raise MeshError(f"{where} holds more than the {packed_size:,} bytes that it announces; the file is damaged.")
+    if not stream.eof:
+        raise MeshError(f"{where} is cut off: its compressed data do not end.")
+    return found
