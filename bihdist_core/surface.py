@@ -16,7 +16,7 @@ import numpy.typing as npt
 from .arrays import BoolArray, FloatArray, IntArray
 from .coincident_points import merged_within
 from .counts import counted
-from .errors import MeshError, ParameterError, VertexError
+from .errors import ParameterError, VertexError
 from .kernel.library import library
 from .mesh_arrays import checked_faces, checked_vertices
 from .mesh_like import MeshLike, Rows
