@@ -8,7 +8,9 @@ import os
 import re
 import sys
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, NoReturn
+
+from bihdist_core.sentences import one_line
 
 from .commands import batch, field, figure, info, isolines, movie, pairs, paper, view
 from .commands.mesh import check_mesh
@@ -82,7 +84,7 @@ def _with_values(arguments: list[str]) -> list[str]:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="bihdist",
         description="Biharmonic distance on triangle meshes, beside geodesic and diffusion distances.",
         epilog="`bihdist MESH` is short for `bihdist view MESH`.",
@@ -95,6 +97,11 @@ def _parser() -> argparse.ArgumentParser:
         words = module.WORDS
         module.add_options(commands.add_parser(word, help=words, description=f"{words[0].upper()}{words[1:]}."))
     return parser
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        super().error(one_line(message))
 
 
 class _Completion(argparse.Action):

@@ -119,6 +119,7 @@ from .errors import (
     Cancelled as Cancelled,
     MeshError as MeshError,
     MissingFileError as MissingFileError,
+    NotEnoughMemory as NotEnoughMemory,
     OutputError as OutputError,
     ParameterError as ParameterError,
     SolverError as SolverError,

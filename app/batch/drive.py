@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from bihdist_core.errors import ParameterError
+from bihdist_core.file_content import file_text
 
 from ..document.file import checksum
 from ..samples import mesh_path
@@ -40,14 +41,14 @@ def found_meshes(where: str) -> dict[str, str]:
     ParameterError if there is none, a file of a list is missing, or two have the same name.
     """
     path = Path(where)
-    if path.is_dir():
+    if os.path.isdir(path):
         paths = sorted(each for each in path.iterdir() if each.suffix.lower() in MESHES and each.is_file())
         if not paths:
             raise ParameterError(f"There is no mesh in the folder {where}; meshes are {', '.join(MESHES)} files.")
     else:
         try:
-            lines = path.read_text(encoding="utf-8-sig").splitlines()
-        except (OSError, UnicodeDecodeError):
+            lines = file_text(path, "list").splitlines()
+        except ParameterError:
             raise ParameterError(
                 f"{where} is no folder with meshes, and no list of them, a path on each line."
             ) from None
@@ -57,8 +58,9 @@ def found_meshes(where: str) -> dict[str, str]:
             if not words or words.startswith("#"):
                 continue
             beside = path.parent / words
-            each = beside if beside.exists() else Path(mesh_path(words))
-            if not each.is_file():
+            # os.path, for which a path that is too long is one that is not there.
+            each = beside if os.path.exists(beside) else Path(mesh_path(words))
+            if not os.path.isfile(each):
                 raise ParameterError(f"{where}, line {number}: there is no file {words}, nor a sample of that name.")
             paths.append(each)
         if not paths:

@@ -44,7 +44,7 @@ class WorkOrder:
     many vertices or all; labels, mask and the sources' file: a path in which {name} stands for the mesh's.  layout: of
     LAYOUTS, for pairs.  normalise: "area" for distances and eigenpairs of the mesh scaled to area 1.  recipe: the text
     of that which figures are drawn from; range: of RANGES; maxima: where those of panels end, if they are not their
-    own."""
+    own.  verify: whether what is there counts as there only if its bytes are those that were written."""
 
     works: tuple[str, ...]
     distances: tuple[str, ...] = ("biharmonic",)
@@ -62,6 +62,7 @@ class WorkOrder:
     recipe: str = ""
     range: str = OWN
     maxima: tuple[float, ...] = ()
+    verify: bool = False
 
     def __post_init__(self) -> None:
         if not self.works:

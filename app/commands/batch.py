@@ -79,6 +79,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--samples", type=count, metavar="K", help="for evaluate: of so many vertices")
     parser.add_argument("--format", choices=("npy", "npz", "mat", "zarr"), help="of arrays (default: npy)")
     parser.add_argument("--dtype", choices=("float32", "float64"), help="of arrays (default: float64)")
+    verified = "results that are there count only if their bytes have the checksum of their JSON"
+    parser.add_argument("--verify", action="store_true", help=verified)
     parser.add_argument("--workers", type=count, metavar="K", help="processes here (default: as many as cores)")
     parser.add_argument("--dask", metavar="WHERE", help="a Dask cluster: tcp://HOST:PORT or its scheduler's .json")
     add_distance(parser, "repeat for more (default: biharmonic)")
@@ -198,6 +200,7 @@ def _wanted(options: argparse.Namespace) -> "WorkOrder":
         mask=os.path.abspath(options.mask) if options.mask else "",
         recipe=recipe,
         range=options.range or "size",
+        verify=options.verify,
     )
 
 

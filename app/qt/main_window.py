@@ -39,6 +39,7 @@ from .pages.messages import Notice, tell
 from .preferences import Preferences, fit_to_screen
 from .progress_display import ProgressDisplay
 from .status_bar import StatusBar, unseen
+from .unexpected_errors import UnexpectedErrors
 from .views import Views
 
 if TYPE_CHECKING:
@@ -70,6 +71,7 @@ class MainWindow(QtWidgets.QMainWindow):
         self.status.insert(ExportChip(context[Exports]))
         context.failed.connect(self.failed)
         context[Files].dropping.connect(self._show_dropping)
+        _ = context[UnexpectedErrors]
         changes, display = context[Changes], context[ProgressDisplay]
         changes.answered.connect(self.answer_changed)
         changes.surfaces_changed.connect(self._show_surfaces)
@@ -255,7 +257,7 @@ class MainWindow(QtWidgets.QMainWindow):
         if self.session.surface is None and self.context.is_built:
             self.context[ProgressDisplay].end()
             self.show_start().show_message(message)
-        elif not self.context.quiet:
+        elif not (self.context.quiet or self.context[UnexpectedErrors].are_telling(message)):
             self._tell(message)
 
     def _tell(self, message: str) -> None:

@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
+from ..sentences import shortened
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
 from .pins import PIN_FORMATS, picked_in, placed, written_points
@@ -56,7 +57,8 @@ def read_anchors(path: str | os.PathLike[str], surface: Surface) -> Anchors:
             try:
                 value = float(pin.name)
             except ValueError:
-                raise ParameterError(f"{pin.where}: the name {pin.name!r} of an anchor must be a number.") from None
+                name = shortened(repr(pin.name), 60)
+                raise ParameterError(f"{pin.where}: the name {name} of an anchor must be a number.") from None
         if value is None:
             raise ParameterError(f"{pin.where}: an anchor needs a value.")
         values.append(value)

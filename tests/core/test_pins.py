@@ -98,7 +98,7 @@ def test_a_file_of_meshlab(rough, tmp_path):
         ("a.csv", "x,y,z\n1,2,nan\n", r"line 2: the position \(1, 2, nan\)"),
         ("a.csv", "vertex,x,y,z\n,1,2,\n", r"line 2: the position \(1, 2, nothing\)"),
         ("a.csv", 'vertex,name\n1,"a\n', "line 2: unexpected end of data"),
-        ("a.json", "{", "a.json, line 1: this is not JSON"),
+        ("a.json", "{", "a.json: it is not JSON .line 1"),
         ("a.json", "[]", "holds no list of pins"),
         ("a.json", '{"pins": []}', "holds no pins"),
         ("a.json", '{"pins": [{"vertex": 1}, {"vertex": true}]}', "pin 2: the vertex True is not a whole number"),

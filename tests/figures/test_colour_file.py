@@ -63,7 +63,7 @@ def test_files_that_cannot_be_read_are_named(tmp_path):
     with pytest.raises(ParameterError, match=r"gone\.txt cannot be read"):
         read_stops(tmp_path / "gone.txt")
     (tmp_path / "image.txt").write_bytes(b"\x89PNG\xff\xfe\x00")
-    with pytest.raises(ParameterError, match=r"image\.txt is no text"):
+    with pytest.raises(ParameterError, match=r"image\.txt cannot be read: it is not a text file"):
         read_stops(tmp_path / "image.txt")
 
 
