@@ -219,7 +219,8 @@ def _position(words: Sequence[Any], where: str) -> tuple[float, ...]:
         numbers = tuple(float(word) for word in words)
     except (TypeError, ValueError, OverflowError):
         numbers = ()
-    if len(numbers) != 3 or not np.isfinite(numbers).all():
+    # Of larger numbers the square is infinite, and so are distances.
+    if len(numbers) != 3 or not all(abs(number) < 1e150 for number in numbers):
         shown = ", ".join(shortened(str(word), 30) or "nothing" for word in words[:4])
         raise ParameterError(f"{where}: the position ({shown}) is not three finite numbers.")
     return numbers

@@ -55,7 +55,7 @@ def test_the_next_sweeps_the_folder_of_one_that_was_killed_and_of_nobody_else(te
     ]
     killed, lives = (Path(process.stdout.readline().strip()) for process in processes)
     processes[0].send_signal(signal.SIGKILL)
-    processes[0].wait()
+    processes[0].communicate()
     (temporary / "bihdist-look-new").mkdir()
     (temporary / "other").mkdir()
     before = time.time() - 3600
