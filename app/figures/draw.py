@@ -28,7 +28,7 @@ FIGURE_FORMATS = (".png", ".pdf", ".svg", ".eps")
 VECTOR_DPI = 300
 """The least resolution of the shading in PDF, SVG and EPS, as long as the page is not larger than MOST_PIXELS."""
 
-BYTES_PER_PIXEL = 24
+BYTES_PER_PIXEL = 20
 """Of memory, at the most at a time."""
 REMEDY = "choose a smaller --size."
 
