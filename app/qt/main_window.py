@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtGui, QtWidgets
 
+from bihdist_core import BihdistError, errors
+
 from ..document.document import Document
 from ..document.page import Page, Recipe
 from ..document.tools import tools
@@ -53,7 +55,10 @@ NOTICE_SECONDS = 20
 
 
 class MainWindow(QtWidgets.QMainWindow):
-    """Of its parts, others know its `context`."""
+    """Of its parts, others know its `context`.
+
+    undrawable: takes the reason where panels cannot be drawn; without, that is raised.
+    """
 
     def __init__(self, document: Document | None = None, preferences: Preferences | None = None) -> None:
         super().__init__()
@@ -78,6 +83,7 @@ class MainWindow(QtWidgets.QMainWindow):
         display.shown.connect(self.announce_soon)
         display.opening.connect(self.show_opening)
         display.nothing_open.connect(self.show_start)
+        self.undrawable: Callable[[str], None] | None = None
         self._start_page: StartPage | None = None
         self.notice = Notice()
         self._opening = quiet_label("Opening…")
@@ -109,7 +115,13 @@ class MainWindow(QtWidgets.QMainWindow):
         from .panels.events import BarEnded, Cancelled, EditChosen, QuantityChosen, Retried, SaveWanted
         from .panels.grid import PanelGrid
 
-        grid = PanelGrid(self.session)
+        try:
+            grid = PanelGrid(self.session)
+        except BihdistError as error:  # there is no OpenGL
+            if self.undrawable is None:
+                raise
+            self.undrawable(str(error))
+            raise errors.Cancelled("Nothing can be drawn.") from None
         grid.keys = self.actions_by_word.key_of_view
         grid.wheel_factor = -1.0 if context.preferences.wheel_reversed else 1.0
         grid.eye.is_turntable = context.preferences.turntable

@@ -79,6 +79,12 @@ def run_viewer(
         window.complete.connect(save)
     elif save_session:
         save_once(window, save_session)
+
+    def give_up(message: str) -> None:
+        failures.append(message)
+        app.exit()
+
+    window.undrawable = give_up
     # The mesh is read while the panels are made.
     if isinstance(shown, str):
         window.context[Files].open(shown)

@@ -9,6 +9,7 @@ from functools import partial
 
 from qtpy import QtCore
 
+from bihdist_core import Cancelled
 from bihdist_core.unexpected import LOG, note_unexpected
 
 from .context import Context
@@ -76,6 +77,8 @@ def take_all_exceptions() -> None:
     printed = sys.excepthook
 
     def hook(kind: type[BaseException], error: BaseException, trace: object) -> None:
+        if isinstance(error, Cancelled):
+            return  # nobody wants it any more
         printed(kind, error, trace)  # type: ignore[arg-type]
         if isinstance(error, Exception):
             note_unexpected(error)
