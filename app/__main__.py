@@ -1,6 +1,6 @@
 """`python -m app`: the command line from a checkout."""
 
-from .main import main
+from .program import run
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    raise SystemExit(run())

@@ -1,8 +1,13 @@
 """Named errors.  Catch `BihdistError` to catch all of them; each is also the built-in error it resembles."""
 
+from .sentences import one_line
+
 
 class BihdistError(Exception):
     """Anything this library refuses or fails to do; the message is one sentence a user can act on."""
+
+    def __str__(self) -> str:
+        return one_line(super().__str__())
 
 
 class MeshError(BihdistError, ValueError):
@@ -27,6 +32,10 @@ class MissingInputError(ParameterError, FileNotFoundError):
 
 class SolverError(BihdistError, RuntimeError):
     """A numerical result that cannot be trusted."""
+
+
+class NotEnoughMemory(BihdistError, MemoryError):
+    """Work that needs more memory than there is, found out before it begins."""
 
 
 class OutputError(BihdistError, OSError):

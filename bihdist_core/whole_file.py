@@ -1,8 +1,10 @@
 """Files written whole or not at all."""
 
 import os
+import re
 import secrets
 import stat
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -31,6 +33,21 @@ def check_outputs(*outputs: tuple[str | os.PathLike[str] | None, Sequence[str]])
     for path, formats in named:
         check_output(path, formats)
     return bool(named)
+
+
+HALF_WRITTEN = re.compile(r"\.(.+)-[0-9a-f]{8}(\.\w+)")
+"""The names that files have while they are written: the beginning of their own, and its ending."""
+OLD_S = 3600.0
+"""Nothing of ours is written for so long."""
+
+
+def sweep_half_written(folder: Path) -> None:
+    """Remove what killed processes have left half written in a folder of the program's own."""
+    with suppress(OSError):
+        for path in folder.glob(".*"):
+            is_half = HALF_WRITTEN.fullmatch(path.name) and path.is_file()
+            if is_half and time.time() - path.stat().st_mtime > OLD_S:
+                path.unlink(missing_ok=True)
 
 
 @contextmanager

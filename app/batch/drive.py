@@ -10,8 +10,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from bihdist_core.errors import ParameterError
+from bihdist_core.file_content import file_text
 from bihdist_core.formats.mesh_names import MESH_FORMATS, is_mesh_file, mesh_name
-from bihdist_core.formats.whole_numbers import numbered_lines, text_of
+from bihdist_core.formats.whole_numbers import numbered_lines
 
 from ..document.file import checksum
 from ..samples import mesh_path
@@ -53,7 +54,7 @@ def found_meshes(words: Sequence[str], list_file: str = "", list_text: str = "")
     for word in words:
         found += _meshes_of(word, Path())
     if list_file:
-        lines = numbered_lines(list_text or text_of(Path(list_file), "list of meshes"))
+        lines = numbered_lines(list_text or file_text(list_file, "list of meshes"))
         known = [(number, line) for number, line in lines if not line.startswith("#")]
         if not known:
             raise ParameterError(f"{list_file} names no mesh; it has a path on each line.")
@@ -82,12 +83,13 @@ def found_meshes(words: Sequence[str], list_file: str = "", list_text: str = "")
 def _meshes_of(word: str, folder: Path) -> list[tuple[Path, str]]:
     """The paths that a word means, and why one is none, "" where it is."""
     beside = folder / word
-    path = beside if beside.exists() else Path(mesh_path(word))
-    if path.is_dir():
+    # os.path, for which a path that is too long is one that is not there.
+    path = beside if os.path.exists(beside) else Path(mesh_path(word))
+    if os.path.isdir(path):
         paths = sorted(each for each in path.iterdir() if is_mesh_file(each) and each.is_file())
         reason = f"There is no mesh in the folder {word}; meshes are {', '.join(MESH_FORMATS)} files and FreeSurfer's."
         return [(each, "") for each in paths] or [(path, reason)]
-    return [(path, "" if path.is_file() else f"There is no file or folder {word}, nor a sample of that name.")]
+    return [(path, "" if os.path.isfile(path) else f"There is no file or folder {word}, nor a sample of that name.")]
 
 
 def tasks_for(

@@ -14,10 +14,11 @@ from dataclasses import replace
 from typing import Any, Protocol
 
 from bihdist_core.errors import ParameterError
+from bihdist_core.machine_memory import available
 
 from ..version import version
 from .execution import do
-from .memory import available, share
+from .memory import share
 from .task import Report, Task, gone, refused
 
 SPARE = 0.9

@@ -20,7 +20,8 @@ from bihdist_core.analysis.parcels import ParcelSums, labelled, parcel_sums
 from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import failure_in_words
-from bihdist_core.errors import BihdistError
+from bihdist_core.errors import BihdistError, OutputError
+from bihdist_core.formats.array_file import array_in, put_array
 from bihdist_core.solver.blas import one_blas_thread
 from bihdist_core.solver.worker_threads import without_workers
 
@@ -64,7 +65,7 @@ def do(task: Task) -> Report:
         try:
             # Asked again of what has been put together, as clusters do that have lost a worker, its parts are gone.
             name = task.result_name(part.work, part.distance)
-            facts = facts_of(Folder(task.out), name, task.key(part.work, part.distance))
+            facts = facts_of(Folder(task.out), name, task.key(part.work, part.distance), task.wanted.verify)
             if facts is not None:
                 row = Row(task.name, part.work, part.distance, True, facts)
                 return Report(task, (row,) if part.is_whole else ())
@@ -88,11 +89,15 @@ def _do_mesh(task: Task) -> Report:
         return Report(task, needs=needs)
     rows, failures, more = [], [], []
     for work, distance in wanted.results():
-        facts = facts_of(folder, task.result_name(work, distance), task.key(work, distance))
+        name, key = task.result_name(work, distance), task.key(work, distance)
+        facts = facts_of(folder, name, key, wanted.verify)
         if facts is not None:
             rows.append(Row(task.name, work, distance, False, facts))
             continue
         try:
+            # Before anything is computed.
+            folder.check_free(f"{name}.json")
+            folder.check_free(f"{name}.{wanted.arrays}", is_folder=wanted.arrays == "zarr")
             if parts := _parts(task, mesh, work, distance):
                 more += [replace(task, part=part, needs=needs) for part in parts]
                 continue
@@ -238,7 +243,7 @@ def _do_part(task: Task, part: Part) -> Report:
                 columns = columns[np.array(mesh.sources(part.distance))].T
         with folder.writing(name) as path:
             with path.open("wb") as file:
-                np.save(file, columns)
+                put_array(file, np.asarray(columns))
             # First, so that no part is there without.
             folder.write(_part_name(task, part, SECONDS), f"{time.monotonic() - begin:.3f}".encode())
     return Report(task)
@@ -283,15 +288,17 @@ def _seconds(folder: Folder, task: Task, part: Part) -> float:
 
 def _read_part(folder: Folder, task: Task, part: Part) -> FloatArray:
     name = _part_name(task, part)
-    if folder.local is not None and (folder.local / name).exists():
-        # As much of it as is looked at.
-        array: FloatArray = np.load(folder.local / name, mmap_mode="r", allow_pickle=False)
-        return array
-    content = folder.read(name)
-    if content is None:
-        raise OSError(f"a part of the result is gone: {name}")
-    array = np.load(io.BytesIO(content), allow_pickle=False)
-    return array
+    try:
+        if folder.local is not None and (folder.local / name).exists():
+            # As much of it as is looked at.
+            array: FloatArray = np.load(folder.local / name, mmap_mode="r", allow_pickle=False)
+            return array
+        content = folder.read(name)
+        if content is not None:
+            return array_in(io.BytesIO(content), len(content))
+    except Exception:  # of whatever reads what is damaged
+        folder.remove(name)
+    raise OutputError(f"A part of the result is gone or damaged, {name}; the same command makes it again.")
 
 
 def _both_ways(folder: Folder, task: Task, parts: list[Part]) -> Iterator[FloatArray]:

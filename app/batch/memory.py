@@ -1,9 +1,9 @@
 """How much memory a task needs, and how much there is."""
 
 import math
-import os
 import sys
-from contextlib import suppress
+
+from bihdist_core.machine_memory import available
 
 from ..document.sources import ALL
 from .work_order import WorkOrder
@@ -57,18 +57,6 @@ def allowed(is_expected: bool = False) -> float:
             threads = 1 if is_expected else max(worker.state.nthreads, 1)
             return float(worker.memory_manager.memory_limit / threads)
     return math.inf if is_expected else _share or available()
-
-
-def available() -> int:
-    """Bytes of memory that are free here."""
-    with suppress(OSError), open("/proc/meminfo", encoding="ascii") as file:
-        for line in file:
-            if line.startswith("MemAvailable"):
-                return int(line.split()[1]) * 1024
-    try:
-        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2
-    except (ValueError, OSError, AttributeError):
-        return 4 * 10**9
 
 
 def too_big(needs: int, most: int) -> str:

@@ -1,7 +1,7 @@
 """Results as files: arrays in the format that was asked for, and beside them a JSON that says what they are.
 
-The JSON is written last: a result is there if its JSON names this very work and the file it names has the size that
-it says.
+The JSON is written last: a result is there if its JSON names this very work and the file it names has the size, and
+where that is looked at the checksum, that it says.
 """
 
 import io
@@ -17,6 +17,8 @@ import numpy as np
 
 from bihdist_core.arrays import AnyArray
 from bihdist_core.errors import OutputError, ParameterError
+from bihdist_core.file_content import MOST_JSON_BYTES, json_value
+from bihdist_core.formats.array_file import array_in, put_array
 
 from .storage import Folder
 from .work_order import ARRAYS
@@ -52,17 +54,24 @@ class Blocks:
 Array = AnyArray | Blocks
 
 
-def facts_of(folder: Folder, name: str, key: str) -> dict[str, Any] | None:
-    """What is said of a result that is there, complete; None if it is not, or is of other work."""
+def facts_of(folder: Folder, name: str, key: str, verify: bool = False) -> dict[str, Any] | None:
+    """What is said of a result that is there, complete; None if it is not, or is of other work.
+
+    verify: whether its bytes are read, to be those that were written.
+    """
     facts = facts_in(folder, name)
-    return facts if facts is not None and facts.get("key") == key and is_complete(folder, facts) else None
+    if facts is None or facts.get("key") != key or not is_complete(folder, facts):
+        return None
+    return facts if not verify or facts.get("sha256") == folder.sha256(facts["file"]) else None
 
 
 def facts_in(folder: Folder, name: str) -> dict[str, Any] | None:
     """What a JSON says, be its file complete or not; None if there is none, or no JSON of ours."""
+    if (folder.size(f"{name}.json") or 0) > MOST_JSON_BYTES:
+        return None
     try:
-        facts = json.loads(folder.read(f"{name}.json") or b"null")
-    except ValueError:
+        facts = json_value((folder.read(f"{name}.json") or b"null").decode())
+    except ValueError:  # ParameterError, too
         return None
     return facts if isinstance(facts, dict) else None
 
@@ -91,6 +100,8 @@ def write_result(
     """
     format = format if format != "npy" or len(arrays) == 1 else "npz"
     file = file or f"{name}.{format}"
+    folder.check_free(f"{name}.json")
+    folder.check_free(file, is_folder=format == "zarr")
     _forget(folder, name, file)
     if format == "zarr":
         write_zarr(folder, file, arrays, facts)
@@ -105,7 +116,7 @@ def _forget(folder: Folder, name: str, file: str) -> None:
     """What was there of other work: its JSON, and its file if that has another name."""
     before = (facts_in(folder, name) or {}).get("file")
     folder.remove(f"{name}.json")
-    if before != file and isinstance(before, str) and before.startswith(f"{name}."):
+    if before != file and before in [f"{name}.{format}" for format in ARRAYS]:
         folder.remove(before)
 
 
@@ -117,7 +128,8 @@ def write_facts(
     begin: the `time.monotonic()` from which its seconds count; of what was put together, earlier by those of its parts.
     """
     seconds = round(time.monotonic() - begin, 3)
-    facts_in_file = {"file": file, "bytes": folder.size(file), **facts, "seconds": seconds, "key": key}
+    there = {"file": file, "bytes": folder.size(file), "sha256": folder.sha256(file)}
+    facts_in_file = {**there, **facts, "seconds": seconds, "key": key}
     text = json.dumps(facts_in_file, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
     folder.write(f"{name}.json", text.encode())
     return facts_in_file
@@ -137,7 +149,7 @@ def _write(path: Path, format: str, arrays: Mapping[str, Array]) -> None:
             there.flush()
             return
         with path.open("wb") as file:
-            np.save(file, array)
+            put_array(file, array)
     elif format == "npz":
         with path.open("wb") as file:
             np.savez(file, **_whole(arrays))  # type: ignore[arg-type]
@@ -165,13 +177,21 @@ def read_arrays(folder: Folder, file: str) -> dict[str, AnyArray]:
     content = folder.read(file)
     if content is None:
         raise OutputError(f"{folder}/{file} is gone.")
+    try:
+        return _arrays_in(content, file)
+    except Exception:  # of whatever reads what is damaged
+        raise OutputError(f"{folder}/{file} is damaged; the same command with --verify makes it again.") from None
+
+
+def _arrays_in(content: bytes, file: str) -> dict[str, AnyArray]:
     if file.endswith(".mat"):
         from scipy.io import loadmat
 
         found = loadmat(io.BytesIO(content))
         return {name: np.squeeze(array) for name, array in found.items() if not name.startswith("__")}
-    loaded = np.load(io.BytesIO(content), allow_pickle=False)
-    return {"": loaded} if isinstance(loaded, np.ndarray) else dict(loaded.items())
+    if file.endswith(".npy"):
+        return {"": array_in(io.BytesIO(content), len(content))}
+    return dict(np.load(io.BytesIO(content), allow_pickle=False).items())
 
 
 def check_format(format: str) -> None:

@@ -1,23 +1,22 @@
 """Folders that results go to: on this computer, or wherever fsspec reaches (`s3://…`, `gs://…`, `memory://…`)."""
 
 import glob
+import hashlib
 import os
-import re
 import secrets
 import shutil
+import stat
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from bihdist_core.errors import OutputError, ParameterError
-from bihdist_core.whole_file import whole_file
-
-HALF_WRITTEN = re.compile(r"\.(.+)-[0-9a-f]{8}(\.\w+)")
-"""The names that files have while they are written (`whole_file`)."""
+from bihdist_core.sentences import shortened
+from bihdist_core.whole_file import HALF_WRITTEN, whole_file
 
 
 @dataclass(frozen=True)
@@ -63,9 +62,10 @@ class Folder:
         """Bytes of a file, or of all in a folder; None if there is none."""
         if self.local is not None:
             here = self.local / name
-            if here.is_dir():
+            # os.path, for which a name that is too long is one that is not there.
+            if os.path.isdir(here):
                 return sum(each.stat().st_size for each in here.rglob("*") if each.is_file())
-            return here.stat().st_size if here.exists() else None
+            return os.path.getsize(here) if os.path.exists(here) else None
         system, root = self._elsewhere
         path = f"{root}/{name}"
         if not system.exists(path):
@@ -76,11 +76,54 @@ class Folder:
         """A file, None if there is none."""
         try:
             if self.local is not None:
-                return (self.local / name).read_bytes()
+                here = self.local / name
+                # No folder, and no pipe, which would be waited for.
+                return here.read_bytes() if os.path.isfile(here) else None
             system, root = self._elsewhere
             return bytes(system.cat_file(f"{root}/{name}"))
         except (FileNotFoundError, NotADirectoryError):
             return None
+
+    def sha256(self, name: str) -> str:
+        """The checksum of a file, or of all in a folder with their names."""
+        digest = hashlib.sha256()
+        for each, file in self._files(name):
+            digest.update(each.encode())
+            with file:
+                while block := file.read(1 << 20):
+                    digest.update(block)
+        return digest.hexdigest()
+
+    def _files(self, name: str) -> Iterator[tuple[str, BinaryIO]]:
+        """A file without a name, or those in a folder with theirs, in order; each open, to be closed."""
+        if self.local is not None:
+            here = self.local / name
+            if not here.is_dir():
+                yield "", here.open("rb")
+                return
+            for path in sorted(here.rglob("*")):
+                if path.is_file():
+                    yield path.relative_to(here).as_posix(), path.open("rb")
+            return
+        system, root = self._elsewhere
+        for each in sorted(system.find(f"{root}/{name}")):
+            yield each.partition(f"{root}/{name}")[2].lstrip("/"), system.open(each, "rb")
+
+    def check_free(self, name: str, is_folder: bool = False) -> None:
+        """OutputError where a file, or a folder, cannot have this name, and where what has it is not of its kind."""
+        if self.local is None:
+            return
+        path = self.local / name
+        try:
+            kind = os.stat(path).st_mode
+        except (FileNotFoundError, NotADirectoryError):
+            return
+        except OSError as error:
+            reason = error.strerror or error
+            raise OutputError(f"{shortened(path.name, 80)} cannot be written ({reason}); rename the mesh.") from None
+        if not (stat.S_ISDIR(kind) if is_folder else stat.S_ISREG(kind)):
+            there = "a folder" if stat.S_ISDIR(kind) else "a file" if stat.S_ISREG(kind) else "not a regular file"
+            raise OutputError(f"{path} is {there}, and a result would have this name; move it away.")
 
     @contextmanager
     def writing(self, name: str) -> Iterator[Path]:
@@ -137,9 +180,9 @@ class Folder:
         """A file or a folder with all that is in it, if it is there."""
         if self.local is not None:
             path = self.local / name
-            if path.is_dir():
+            if os.path.isdir(path):
                 shutil.rmtree(path, ignore_errors=True)
-            else:
+            elif os.path.lexists(path):
                 path.unlink(missing_ok=True)
             return
         system, root = self._elsewhere

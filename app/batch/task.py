@@ -107,7 +107,7 @@ def done_before(task: Task) -> Report | None:
     """The report of a task all of whose results are there; None if any is missing."""
     folder, rows = Folder(task.out), []
     for work, distance in task.wanted.results():
-        facts = facts_of(folder, task.result_name(work, distance), task.key(work, distance))
+        facts = facts_of(folder, task.result_name(work, distance), task.key(work, distance), task.wanted.verify)
         if facts is None:
             return None
         rows.append(Row(task.name, work, distance, False, facts))

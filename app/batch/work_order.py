@@ -27,7 +27,8 @@ class WorkOrder:
     many vertices or all; labels, mask and the sources' file: a path in which {name} stands for the mesh's.  one_based:
     whether vertex ids in .mat files count from 1.  layout: of LAYOUTS, for pairs.  normalise: "area" for distances and
     eigenpairs of the mesh scaled to area 1.  recipe: the text of that which figures are drawn from; range: of RANGES;
-    maxima: where those of panels end, if they are not their own."""
+    maxima: where those of panels end, if they are not their own.  verify: whether what is there counts as there only if
+    its bytes are those that were written."""
 
     works: tuple[str, ...]
     distances: tuple[str, ...] = ("biharmonic",)
@@ -46,6 +47,7 @@ class WorkOrder:
     recipe: str = ""
     range: str = OWN
     maxima: tuple[float, ...] = ()
+    verify: bool = False
 
     def __post_init__(self) -> None:
         if not self.works:

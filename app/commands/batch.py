@@ -96,6 +96,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--symmetry", metavar="MAP", help="for evaluate: partners of vertices that count as right, too; {name}: of whom"
     )
     parser.add_argument("--samples", type=count, metavar="N", help="for evaluate: of so many vertices (default: all)")
+    verified = "results that are there count only if their bytes have the checksum of their JSON"
+    parser.add_argument("--verify", action="store_true", help=verified)
     add_workers(parser)
     parser.add_argument("--dask", metavar="WHERE", help="a Dask cluster: tcp://HOST:PORT or its scheduler's FILE.json")
 
@@ -251,6 +253,7 @@ def _wanted(options: argparse.Namespace) -> "WorkOrder":
         mask=os.path.abspath(options.mask) if options.mask else "",
         recipe=recipe,
         range=options.range or "size",
+        verify=options.verify,
     )
 
 

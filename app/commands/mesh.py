@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterable, Sequence
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
+from bihdist_core.sentences import shortened
+
 from ..document.document import AREAS
 from ..samples import mesh_path, sample_names
 from .result import Facts, Result
@@ -33,7 +35,7 @@ def check_mesh(word: str, commands: Iterable[str] = ()) -> None:
         return
     from bihdist_core.errors import MeshError, MissingFileError
 
-    shown = word if len(word) <= LONGEST else f"{word[:LONGEST]}..."
+    shown = shortened(word, LONGEST)
     if word.lower().endswith(".json"):
         raise MissingFileError(f"There is no file {shown}.")
     commands = tuple(commands)

@@ -1,9 +1,10 @@
 """A camera as a line of text, to be sent to somebody, and read again from what they paste."""
 
-import json
 import re
 
 from bihdist_core.errors import ParameterError
+from bihdist_core.file_content import json_value
+from bihdist_core.sentences import shortened
 
 from .camera import VIEWS, Camera, View
 from .form import read_view
@@ -33,10 +34,9 @@ def read_camera(text: str) -> View:
     except ValueError:
         numbers = []
     if len(numbers) != 11:
-        shown = words if len(words) <= SHOWN else f"{words[:SHOWN]}…"
         raise ParameterError(
-            f"{shown!r} is no camera; copy one with Copy camera, or paste eleven numbers: position, focal point, up "
-            "and extent."
+            f"{shortened(words, SHOWN)!r} is no camera; copy one with Copy camera, or paste eleven numbers: position, "
+            "focal point, up and extent."
         )
     px, py, pz, fx, fy, fz, ux, uy, uz, wide, high = numbers
     return Camera((px, py, pz), (fx, fy, fz), (ux, uy, uz), (wide, high))
@@ -44,8 +44,8 @@ def read_camera(text: str) -> View:
 
 def _from_json(text: str) -> View:
     try:
-        data = json.loads(text)
-    except (ValueError, RecursionError):
+        data = json_value(text)
+    except ParameterError:
         raise ParameterError("What was pasted begins like JSON and is none; copy all of it.") from None
     for part in ("document", "camera"):
         if isinstance(data.get(part), dict):

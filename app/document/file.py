@@ -12,7 +12,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from bihdist_core.errors import MeshError, ParameterError, unreadable
+from bihdist_core.errors import MeshError, ParameterError
+from bihdist_core.file_content import file_json, json_value, open_regular
 
 from .document import Document, MeshFile
 from .form import READERS, document_data, document_from, written
@@ -29,13 +30,13 @@ def checksum(path: str | os.PathLike[str]) -> str:
     """The SHA-256 of a file's bytes, of a .gltf with the files it names inside; ParameterError if it cannot be read."""
     if os.path.splitext(path)[1].lower() == ".gltf":
         return _checksum_of_mesh(path)
-    try:
-        with open(path, "rb") as file:
-            digest = hashlib.sha256()
+    digest = hashlib.sha256()
+    with open_regular(path, "file") as file:
+        try:
             while block := file.read(1 << 20):
                 digest.update(block)
-    except (OSError, ValueError) as error:  # ValueError: a path with a zero in it
-        raise unreadable(str(path), error) from None
+        except OSError as error:
+            raise ParameterError(f"The file {path} cannot be read: {error.strerror or error}.") from None
     return digest.hexdigest()
 
 
@@ -100,12 +101,7 @@ def read_recipe(path: str | os.PathLike[str]) -> Recipe:
 
     Raises ParameterError, with a sentence that names the file and what is wrong.
     """
-    try:
-        data = json.loads(Path(path).read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise unreadable(f"The recipe {path}", error) from None
-    except (ValueError, RecursionError):
-        raise ParameterError(f"{path} is not a recipe: it is not JSON.") from None
+    data = file_json(path, "recipe", "a recipe")
     try:
         recipe = _recipe(data)
     except ParameterError as error:
@@ -123,16 +119,17 @@ def read_recipe(path: str | os.PathLike[str]) -> Recipe:
 def recipe_from_text(words: str) -> Recipe:
     """The recipe that `recipe_text` wrote; its meshes are as it names them.  ParameterError for any other text."""
     try:
-        return _recipe(json.loads(words))
-    except (ValueError, RecursionError):
-        raise ParameterError("This is not a recipe: it is not JSON.") from None
+        data = json_value(words)
+    except ParameterError as error:
+        raise ParameterError(f"This is not a recipe: {error}") from None
+    return _recipe(data)
 
 
 def is_recipe(path: str | os.PathLike[str]) -> bool:
     """Whether a file is a recipe, perhaps of another version: whether it may be replaced by one."""
     try:
-        data = json.loads(Path(path).read_text(encoding="utf-8-sig"))
-    except (OSError, ValueError, RecursionError):
+        data = file_json(path, "recipe", "a recipe")
+    except ParameterError:
         return False
     return isinstance(data, dict) and str(data.get("program", "")).startswith(PROGRAM) and "format" in data
 

@@ -13,6 +13,7 @@ from types import NoneType, UnionType
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from bihdist_core.errors import ParameterError
+from bihdist_core.sentences import shortened
 
 Reader = Callable[[Any, str], Any]
 Made = TypeVar("Made")
@@ -26,7 +27,7 @@ def record(data: Any, where: str, readers: Mapping[str, Reader], needed: set[str
         raise ParameterError(f"{where} must be a record in braces, not {shown(data)}.")
     unknown = sorted(set(data) - set(readers))
     if unknown:
-        raise ParameterError(f"{where} has the unknown key {unknown[0]!r}.")
+        raise ParameterError(f"{where} has the unknown key {shortened(repr(unknown[0]), 60)}.")
     missing = sorted((set(readers) if needed is None else needed) - set(data))
     if missing:
         raise ParameterError(f"{where} has no {missing[0]!r}.")
@@ -146,5 +147,4 @@ def shown(data: Any) -> str:
     """A value as it stands in a sentence."""
     if isinstance(data, int) and abs(data) >= 10**30:
         return "a number of many digits"
-    words = json.dumps(data, ensure_ascii=False)
-    return words if len(words) <= 40 else f"{words[:37]}..."
+    return shortened(json.dumps(data, ensure_ascii=False), 40)

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from bihdist_core import OutputError
 from bihdist_core.arrays import ByteArray
+from bihdist_core.machine_memory import check_memory
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import check_output, whole_file
 
@@ -26,6 +27,10 @@ FIGURE_FORMATS = (".png", ".pdf", ".svg", ".eps")
 
 VECTOR_DPI = 300
 """The least resolution of the shading in PDF, SVG and EPS, as long as the page is not larger than MOST_PIXELS."""
+
+BYTES_PER_PIXEL = 20
+"""Of memory, at the most at a time."""
+REMEDY = "choose a smaller --size."
 
 MOST_PIXELS = 6000
 """Along a side of a page with vectors: a poster is seen from farther away."""
@@ -88,4 +93,6 @@ def _page(
     layout = lay_out(figure, 0.0, share)
     if vector:
         layout = lay_out(figure, min(VECTOR_DPI / 96, MOST_PIXELS / max(layout.width, layout.height)), share)
+    width, height = layout.page
+    check_memory(BYTES_PER_PIXEL * width * height, f"A picture of {width:,} x {height:,} pixels", REMEDY)
     return Composition(figure, layout, take_shots(figure, layout, part(progress, 0.0, 0.95), render_cache))

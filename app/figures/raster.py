@@ -36,23 +36,19 @@ class RenderWindow:
 
     def __init__(self, style: Style, finer: int = FINER, samples: int = SAMPLES) -> None:
         check_offscreen()
-        if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
-            # VTK would otherwise try an X server first, and complain that there is none.
-            os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
-        import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the classes below are abstract without it)
-        from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
+        from vtkmodules.vtkRenderingCore import vtkRenderer
 
         from ..scene.field_actor import FieldActor, light
+        from ..scene.render_window import offscreen_window
 
         self._finer = finer
+        self._window = offscreen_window()
         self.shown = FieldActor(style)
         self._renderer = vtkRenderer()
         self._renderer.SetBackground(0, 0, 0)
         self._renderer.SetBackgroundAlpha(0)
         self._renderer.AddActor(self.shown.actor)
         light(self._renderer)
-        self._window = vtkRenderWindow()
-        self._window.SetOffScreenRendering(True)
         self._window.SetAlphaBitPlanes(True)
         self._window.SetMultiSamples(samples)
         self._window.AddRenderer(self._renderer)

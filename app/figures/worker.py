@@ -14,6 +14,7 @@ import numpy as np
 
 from bihdist_core import BihdistError, Cancelled, Surface
 from bihdist_core.child_process import ANSWER, DIED, REPORT, SERVED, WRONG, ChildProcess, framed, send, unframed
+from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.progress import Progress, silent
 
 LARGE = 1 << 15
@@ -92,8 +93,8 @@ class FigureJob:
         try:
             self._worker.ask(work, progress=progress)
             message = None
-        except BihdistError as error:
-            message = "" if self._cancelled else str(error)
+        except Exception as error:
+            message = "" if self._cancelled else failure_in_words(error)
         finally:  # whatever happens, somebody waits for the end
             self._worker.close()
             ended(message)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from qtpy import QtCore, QtWidgets
 
+from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.progress import Progress
 
 from ..document.document import Document
@@ -62,7 +63,7 @@ class Context(QtCore.QObject):
         self._grid: PanelGrid | None = None
         self._waiting: list[Callable[[], None]] = []
         self._made: dict[type, Any] = {}
-        self._is_closed = False
+        self.is_closed = False
         self._posted.connect(self._run)
         self.closed.connect(self._end)
 
@@ -149,7 +150,7 @@ class Context(QtCore.QObject):
 
     def fail(self, error: Exception | str) -> None:
         """Say why something cannot be done."""
-        self.failed.emit(str(error))
+        self.failed.emit(error if isinstance(error, str) else failure_in_words(error))
 
     def prefer(self, **changes: object) -> None:
         """Other values of some preferences, also at the next start."""
@@ -178,8 +179,8 @@ class Context(QtCore.QObject):
             self._posted.emit(function)
 
     def _run(self, function: Callable[[], None]) -> None:
-        if not self._is_closed:
+        if not self.is_closed:
             function()
 
     def _end(self) -> None:
-        self._is_closed = True
+        self.is_closed = True

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtGui, QtWidgets
 
+from bihdist_core import BihdistError, errors
+
 from ..document.document import Document
 from ..document.page import Page, Recipe
 from ..document.tools import tools
@@ -39,6 +41,7 @@ from .pages.messages import Notice, tell
 from .preferences import Preferences, fit_to_screen
 from .progress_display import ProgressDisplay
 from .status_bar import StatusBar, unseen
+from .unexpected_errors import UnexpectedErrors
 from .views import Views
 
 if TYPE_CHECKING:
@@ -52,7 +55,10 @@ NOTICE_SECONDS = 20
 
 
 class MainWindow(QtWidgets.QMainWindow):
-    """Of its parts, others know its `context`."""
+    """Of its parts, others know its `context`.
+
+    undrawable: takes the reason where panels cannot be drawn; without, that is raised.
+    """
 
     def __init__(self, document: Document | None = None, preferences: Preferences | None = None) -> None:
         super().__init__()
@@ -70,12 +76,14 @@ class MainWindow(QtWidgets.QMainWindow):
         self.status.insert(ExportChip(context[Exports]))
         context.failed.connect(self.failed)
         context[Files].dropping.connect(self._show_dropping)
+        _ = context[UnexpectedErrors]
         changes, display = context[Changes], context[ProgressDisplay]
         changes.answered.connect(self.answer_changed)
         changes.surfaces_changed.connect(self._show_surfaces)
         display.shown.connect(self.announce_soon)
         display.opening.connect(self.show_opening)
         display.nothing_open.connect(self.show_start)
+        self.undrawable: Callable[[str], None] | None = None
         self._start_page: StartPage | None = None
         self.notice = Notice()
         self._opening = quiet_label("Opening…")
@@ -107,7 +115,13 @@ class MainWindow(QtWidgets.QMainWindow):
         from .panels.events import BarEnded, Cancelled, EditChosen, QuantityChosen, Retried, SaveWanted
         from .panels.grid import PanelGrid
 
-        grid = PanelGrid(self.session)
+        try:
+            grid = PanelGrid(self.session)
+        except BihdistError as error:  # there is no OpenGL
+            if self.undrawable is None:
+                raise
+            self.undrawable(str(error))
+            raise errors.Cancelled("Nothing can be drawn.") from None
         grid.keys = self.actions_by_word.key_of_view
         grid.wheel_factor = -1.0 if context.preferences.wheel_reversed else 1.0
         grid.eye.is_turntable = context.preferences.turntable
@@ -258,7 +272,7 @@ class MainWindow(QtWidgets.QMainWindow):
         if self.session.surface is None and self.context.is_built:
             self.context[ProgressDisplay].end()
             self.show_start().show_message(message)
-        elif not self.context.quiet:
+        elif not (self.context.quiet or self.context[UnexpectedErrors].are_telling(message)):
             self._tell(message)
 
     def _tell(self, message: str) -> None:

@@ -1,10 +1,12 @@
 """What the window says while something is computed: in the panel that waits for it, and on meshes being read."""
 
 from math import nan
+from time import monotonic
 
 from qtpy import QtCore
 
 from ..document.document import Document
+from ..session.time_left import TimeLeft
 from .context import Context
 from .dragging import Dragging
 
@@ -28,6 +30,7 @@ class ProgressDisplay(QtCore.QObject):
         super().__init__(context)
         self._context = context
         self._is_late = False
+        self._left: dict[int, TimeLeft] = {}
         self._show_soon = QtCore.QTimer(self, singleShot=True, interval=PROGRESS_MS, timeout=self.show)
         self._late_soon = QtCore.QTimer(self, singleShot=True, interval=QUIET_MS, timeout=self._be_late)
 
@@ -113,7 +116,12 @@ class ProgressDisplay(QtCore.QObject):
         elif context[Dragging].is_on and shown is not None:
             panel.show_waiting(None)  # it is a moment behind, all the time
         elif text or self._is_late:
-            panel.show_waiting((fraction, words_of(text)) if text else WAITING)
+            panel.show_waiting((fraction, self._words(id, fraction, text)) if text else WAITING)
+
+    def _words(self, id: int, fraction: float, text: str) -> str:
+        """What is being done in a panel, and for how long, where that is known and long."""
+        left = self._left.setdefault(id, TimeLeft()).words(fraction, monotonic())
+        return f"{words_of(text)}, {left}" if left else words_of(text)
 
     def _is_other(self, id: int) -> bool:
         """Whether what a panel shows is not what it is asked for now."""

@@ -15,7 +15,8 @@ from pathlib import Path
 from qtpy import QtCore
 
 from bihdist_core import BihdistError
-from bihdist_core.whole_file import whole_file
+from bihdist_core.file_content import file_json, file_text
+from bihdist_core.whole_file import sweep_half_written, whole_file
 
 from ..document.looks import UPS
 
@@ -105,7 +106,8 @@ def keep_state(write: Callable[[Path], None], session: str | None) -> bool:
     with suppress(OSError, BihdistError):
         folder().mkdir(parents=True, exist_ok=True)
         write(own_state())
-        own_state().with_suffix(SESSION).write_text(os.path.abspath(session) if session else "", encoding="utf-8")
+        with whole_file(own_state().with_suffix(SESSION)) as temporary:
+            temporary.write_text(os.path.abspath(session) if session else "", encoding="utf-8")
         is_kept = True
     if own_state() not in _held and own_state().exists():
         lock = _lock(own_state())
@@ -124,8 +126,8 @@ def forget_state() -> None:
 
 def session_of(path: Path) -> str | None:
     """The path of the session's file, of what a window showed; None if it had none."""
-    with suppress(OSError, ValueError):
-        return path.with_suffix(SESSION).read_text(encoding="utf-8") or None
+    with suppress(BihdistError):
+        return file_text(path.with_suffix(SESSION), "session's name") or None
     return None
 
 
@@ -139,6 +141,7 @@ def remove_state(path: Path) -> None:
 def lost_states() -> list[Path]:
     """What windows showed whose processes are no longer there, the newest first."""
     found = []
+    sweep_half_written(folder())
     with suppress(OSError):
         for path in folder().glob("open-*.json"):
             lock = _lock(path)
@@ -162,8 +165,8 @@ def _lock(path: Path) -> QtCore.QLockFile:
 
 def _read(name: str) -> object:
     """What a JSON file of the folder holds; None if there is none, or what is no JSON."""
-    with suppress(OSError, ValueError, RecursionError):
-        return json.loads((folder() / name).read_text(encoding="utf-8"))
+    with suppress(BihdistError):
+        return file_json(folder() / name, "list", "a list")
     return None
 
 

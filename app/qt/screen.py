@@ -62,6 +62,8 @@ def check_libraries() -> None:
             ctypes.CDLL(library)
         for part in ("QtCore", "QtGui", "QtWidgets"):
             import_module(f"qtpy.{part}")
+        if is_linux:
+            _check_platform()
         if is_linux and _uses_x():
             _load_x_plugin()
     except (ImportError, OSError) as error:
@@ -104,12 +106,29 @@ def _answers(display: str) -> bool:
     return errors == [0]
 
 
-def _load_x_plugin() -> None:
-    """OSError, which names the library, where Qt's own plugin for X cannot be loaded."""
+def _check_platform() -> None:
+    """BihdistError where Qt has no plug-in for its platform, which it would not survive."""
+    asked = os.environ.get("QT_QPA_PLATFORM") or ("xcb" if _uses_x() else "wayland")
+    wanted = [word.partition(":")[0] for word in asked.split(";")]
+    folders = [*os.environ.get("QT_QPA_PLATFORM_PLUGIN_PATH", "").split(":"), _platforms()]
+    files = [name for folder in folders if os.path.isdir(folder) for name in os.listdir(folder)]
+    # Some have names such as libqwayland-generic.so.
+    if not any(name.startswith(f"libq{word}") for name in files for word in wanted):
+        there = ", ".join(sorted(name[4:-3] for name in files if name.startswith("libq") and name.endswith(".so")))
+        remedy = f"there are {there}; choose one by QT_QPA_PLATFORM" if there else f"there is none in {_platforms()}"
+        raise BihdistError(f"The window needs Qt, which has no plug-in for the platform {asked}: {remedy}.")
+
+
+def _platforms() -> str:
+    """Where Qt's own plug-ins for platforms are."""
     info = import_module("qtpy.QtCore").QLibraryInfo
     kinds = getattr(info, "LibraryPath", None) or getattr(info, "LibraryLocation", info)
-    plugins = (getattr(info, "path", None) or info.location)(kinds.PluginsPath)
-    plugin = os.path.join(plugins, "platforms", "libqxcb.so")
+    return os.path.join((getattr(info, "path", None) or info.location)(kinds.PluginsPath), "platforms")
+
+
+def _load_x_plugin() -> None:
+    """OSError, which names the library, where Qt's own plugin for X cannot be loaded."""
+    plugin = os.path.join(_platforms(), "libqxcb.so")
     if os.path.exists(plugin):
         ctypes.CDLL(plugin)
 

@@ -4,7 +4,6 @@ import ctypes
 import gc
 import os
 import sys
-import traceback
 from contextlib import suppress
 from dataclasses import replace
 
@@ -19,8 +18,10 @@ from .application import application, check_screen
 from .files.files import Files
 from .files.session_actions import SessionFile, offer_lost_state
 from .look.look import LOOK
+from .look.own_folder import remove_own_folder
 from .main_window import MainWindow
 from .preferences import Preferences, load, restore_geometry
+from .unexpected_errors import take_all_exceptions
 
 PAINTED_MS = 50
 
@@ -48,8 +49,7 @@ def run_viewer(
     check_screen()
     share_arenas()
     app = application()
-    # PyQt5 ends the process on an exception in a slot unless there is a hook.
-    sys.excepthook = lambda *error: traceback.print_exception(*error)
+    take_all_exceptions()
     preferences = Preferences(theme="light") if screenshot else load()
     LOOK.choose(theme or preferences.theme)
     if isinstance(shown, Document):
@@ -79,6 +79,12 @@ def run_viewer(
         window.complete.connect(save)
     elif save_session:
         save_once(window, save_session)
+
+    def give_up(message: str) -> None:
+        failures.append(message)
+        app.exit()
+
+    window.undrawable = give_up
     # The mesh is read while the panels are made.
     if isinstance(shown, str):
         window.context[Files].open(shown)
@@ -88,6 +94,7 @@ def run_viewer(
     # Once the window has been painted: the imports take a second.
     QtCore.QTimer.singleShot(PAINTED_MS, lambda: build_panels(window))
     app.exec()
+    remove_own_folder()
     for message in failures:
         print(f"bihdist: {message}", file=sys.stderr)
     answers = [shown.answer for shown in window.session.shown.values()]

@@ -1,6 +1,5 @@
 """Colour maps from files: rows of numbers, and ParaView's JSON."""
 
-import json
 import os
 import re
 from pathlib import Path
@@ -8,12 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from bihdist_core.errors import ParameterError, unreadable
+from bihdist_core.errors import ParameterError
+from bihdist_core.file_content import file_text, json_value
+from bihdist_core.sentences import shortened
 
 from ..document.looks import Colours, Stops
 from .colour_maps import MAPS
 
 MOST_COLOURS = 1024
+MOST_BYTES = 1 << 24
 
 WAY = 65
 """Colours that stand for a way between stops which is not straight in red, green and blue."""
@@ -33,12 +35,7 @@ def colours_named(text: str, now: Colours | None = None) -> Colours:
 
 def read_stops(path: str | os.PathLike[str]) -> Stops:
     """The stops in a file; ParameterError that names the file, the line and what is wrong there."""
-    try:
-        text = Path(path).read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise unreadable(f"The colours {path}", error) from None
-    except ValueError:
-        raise ParameterError(f"{path} is no text, and colours are {READ_AS}.") from None
+    text = file_text(path, "colours", MOST_BYTES)
     try:
         return _of_json(text) if str(path).lower().endswith(".json") else _of_rows(text)
     except ParameterError as error:
@@ -60,7 +57,9 @@ def _of_rows(text: str) -> Stops:
             continue
         for word, value in zip(words, values, strict=True):
             if value is None:
-                raise ParameterError(f", line {number}: {word!r} is not a number; colours are {READ_AS}.")
+                raise ParameterError(
+                    f", line {number}: {shortened(repr(word), 60)} is not a number; colours are {READ_AS}."
+                )
         if len(values) not in (3, 4) or (rows and len(values) != len(rows[0][1])):
             wanted = f"{len(rows[0][1])} as above" if rows else "3 or 4"
             raise ParameterError(f", line {number}: there are {len(values)} numbers, not {wanted}; {READ_AS}.")
@@ -104,9 +103,9 @@ def _stops(rows: list[tuple[int, list[float]]]) -> Stops:
 # ---------------------------------------------------------------------- ParaView
 def _of_json(text: str) -> Stops:
     try:
-        data: Any = json.loads(text)
-    except (ValueError, RecursionError):
-        raise ParameterError(" is not JSON.") from None
+        data: Any = json_value(text)
+    except ParameterError as error:
+        raise ParameterError(f": {error}") from None
     maps = [each for each in (data if isinstance(data, list) else [data]) if isinstance(each, dict)]
     maps = [each for each in maps if "RGBPoints" in each]
     if len(maps) != 1:
@@ -114,7 +113,7 @@ def _of_json(text: str) -> Stops:
         found = f"has {len(maps)} colour maps ({names}); keep one of them" if maps else "has no RGBPoints"
         raise ParameterError(f" {found}; ParaView writes one colour map with RGBPoints.")
     numbers = maps[0]["RGBPoints"]
-    is_flat = isinstance(numbers, list) and all(type(x) in (int, float) and np.isfinite(x) for x in numbers)
+    is_flat = isinstance(numbers, list) and all(type(x) in (int, float) and abs(x) < 1e300 for x in numbers)
     if not is_flat or len(numbers) % 4:
         raise ParameterError(": RGBPoints is not a list of numbers, four for each colour.")
     rows = [(k // 4 + 1, [float(x) for x in numbers[k : k + 4]]) for k in range(0, len(numbers), 4)]

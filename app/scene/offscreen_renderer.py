@@ -4,22 +4,19 @@ What is drawn comes out as an array, so that the toolkit can put anything over i
 that show the same surface share its vertices in the graphics memory, and the compiled shaders.
 """
 
-import os
-import sys
 from collections.abc import Callable
 from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the window below is abstract without it)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkFloatArray, vtkUnsignedCharArray
-from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
 from bihdist_core.arrays import ByteArray, FloatArray
 
 from .camera import stand_back
 from .panel_scene import PanelScene
+from .render_window import offscreen_window
 from .style import PAPER, Style
 
 if TYPE_CHECKING:
@@ -27,16 +24,11 @@ if TYPE_CHECKING:
 
 
 class OffscreenRenderer:
-    """Made and used on one thread.  pictures: how many have been drawn."""
+    """Made and used on one thread; BihdistError where there is no OpenGL.  pictures: how many have been drawn."""
 
     def __init__(self) -> None:
-        if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
-            # VTK would otherwise try an X server first, and complain that there is none.
-            os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
         self.pictures = 0
-        # Not that of a `pyvista.Plotter`, which first opens another to see whether it can: a third of a second.
-        self._window = vtkRenderWindow()
-        self._window.SetOffScreenRendering(True)
+        self._window = offscreen_window()
         # Multisampling costs three times on software rendering, which is what a screen without OpenGL gets; smoothing
         # the picture afterwards (FXAA) is nearly free.
         self._window.SetMultiSamples(0)

@@ -9,11 +9,9 @@ from __future__ import annotations
 import hashlib
 import os
 import zipfile
-import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,6 +19,8 @@ import numpy.typing as npt
 
 from bihdist_core import ParameterError, Surface
 from bihdist_core.arrays import AnyArray, FloatArray
+from bihdist_core.file_content import open_regular
+from bihdist_core.formats.array_file import array_in
 from bihdist_core.mesh_like import MeshLike
 from bihdist_core.sources.source import Source
 
@@ -126,6 +126,8 @@ class ArrayStore:
 
 
 PARTS = ("vertices", "faces", "name")
+ENCRYPTED = 1
+"""A bit of the flags of an archive's entries."""
 
 
 def holds_arrays(document: Document) -> bool:
@@ -137,7 +139,7 @@ def is_archive(path: str | os.PathLike[str]) -> bool:
     """Whether a file holds arrays that were given: whether it may be replaced by such a one."""
     try:
         with _opened(path) as archive:
-            return all(name.startswith(("surface/", "field/")) for name in archive.files)
+            return all(name.startswith(("surface/", "field/")) for name in archive.namelist())
     except ParameterError:
         return False
 
@@ -186,24 +188,32 @@ def _checksum(*arrays: AnyArray) -> str:
 
 
 @contextmanager
-def _opened(path: str | os.PathLike[str]) -> Iterator[Any]:
+def _opened(path: str | os.PathLike[str]) -> Iterator[zipfile.ZipFile]:
     """An archive; ParameterError if it is none."""
-    with ExitStack() as files:
+    with open_regular(path, "archive") as file, ExitStack() as files:
         try:
-            archive = np.load(files.enter_context(Path(path).open("rb")), allow_pickle=False)
-        except (OSError, ValueError, EOFError, zipfile.BadZipFile):
-            archive = None
-        if not isinstance(archive, np.lib.npyio.NpzFile):
-            raise ParameterError(f"{path} is no archive of arrays.")
+            archive = files.enter_context(zipfile.ZipFile(file))
+        except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile):
+            raise ParameterError(f"{path} is no archive of arrays.") from None
         yield archive
 
 
-def _array(archive: Mapping[str, AnyArray], name: str, path: str | os.PathLike[str]) -> AnyArray:
+def _array(archive: zipfile.ZipFile, name: str, path: str | os.PathLike[str]) -> AnyArray:
     try:
-        return archive[name]
+        entry = archive.getinfo(f"{name}.npy")
     except KeyError:
         raise ParameterError(f"{path} has no {name!r}.") from None
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error):
+    # Packed, a small file may hold more than there is memory for; ours are not.
+    if entry.compress_type != zipfile.ZIP_STORED or entry.flag_bits & ENCRYPTED:
+        raise ParameterError(f"{path}: {name!r} is packed, and arrays are written as they are.")
+    try:
+        with archive.open(entry) as file:
+            return array_in(file, entry.file_size)  # type: ignore[arg-type]
+    except ParameterError as error:
+        raise ParameterError(f"{path}: {name!r} cannot be read: {error}") from None
+    except MemoryError:
+        raise ParameterError(f"{path}: {name!r} is too large for the memory of this computer.") from None
+    except (OSError, ValueError, EOFError, NotImplementedError, zipfile.BadZipFile):
         raise ParameterError(f"{path}: {name!r} cannot be read; the file is damaged.") from None
 
 

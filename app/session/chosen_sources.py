@@ -15,10 +15,11 @@ from bihdist_core.arrays import BoolArray
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
+from bihdist_core.file_content import file_text
 from bihdist_core.formats.mesh_names import mesh_format, mesh_name
 from bihdist_core.formats.pins import Pins, picked_from, pins_format, placed
 from bihdist_core.formats.vertex_values import is_vertex_values
-from bihdist_core.formats.whole_numbers import numbered_lines, read_whole_numbers, text_of
+from bihdist_core.formats.whole_numbers import numbered_lines, read_whole_numbers
 from bihdist_core.progress import Progress
 from bihdist_core.sources.pieces import pieces_of
 from bihdist_core.sources.source import Source
@@ -137,7 +138,7 @@ def _read(path: str, text: str, surface: Surface) -> Chosen:
     if Path(path).suffix.lower() == ".npy":
         found: list[Any] = surface.check_vertices(read_whole_numbers(path, "list of sources")).tolist()
     else:
-        text = text or text_of(Path(path), "sources")
+        text = text or file_text(path, "sources in")
         if format := pins_format(text):
             pins = placed(picked_from(text, Path(path).name, format), surface)
             return Chosen([*pins.vertices.tolist()], pins, path)

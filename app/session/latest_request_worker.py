@@ -9,6 +9,7 @@ from typing import Generic, TypeVar
 
 from bihdist_core import Cancelled
 from bihdist_core.progress import Progress
+from bihdist_core.unexpected import note_unexpected
 
 Request = TypeVar("Request")
 
@@ -121,9 +122,9 @@ class LatestRequestWorker(Generic[Request]):
                     return
                 self._is_working = False
                 if error is not None and request is not None:
-                    self._failed(request, error)
+                    _told(self._failed, request, error)
                 # Another request may be waiting already; then its reports follow at once.
-                self._report(None, "")
+                _told(self._report, None, "")
 
     def _error_of(self, request: Request) -> Exception | None:
         """Do the work; what went wrong."""
@@ -132,5 +133,14 @@ class LatestRequestWorker(Generic[Request]):
         except Cancelled:
             return None
         except Exception as error:
+            note_unexpected(error)
             return error
         return None
+
+
+def _told(tell: Callable[..., object], *what: object) -> None:
+    """Tell somebody; what goes wrong there is noted, and costs no lane."""
+    try:
+        tell(*what)
+    except Exception as error:
+        note_unexpected(error)

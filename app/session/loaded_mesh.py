@@ -275,6 +275,5 @@ def checked_path(mesh: MeshFile, remedy: str = "") -> str:
     """The path of a mesh's file, empty for a surface in memory; ParameterError if it is missing."""
     path = mesh_path(mesh.path) if mesh.path else ""
     if path and not os.path.exists(path):
-        name = mesh.path if len(mesh.path) <= 200 else f"{mesh.path[:100]}..."
-        raise ParameterError(f"The mesh {name} is not there. {remedy}".strip())
+        raise ParameterError(f"The mesh {mesh.path} is not there. {remedy}".strip())
     return path

@@ -378,13 +378,15 @@ class Session:
         before = self.document
         try:
             change()
-        except BihdistError as error:  # a source that the mesh does not have
+        except Exception as error:  # a source that the mesh does not have, or what nobody foresaw of a file
             self.view.failed(failure_in_words(error))
             return False
         self._surfaces.forget(self.document)
         self._answering.expect(questions(self.document))
-        self.view.document_changed(before)
-        self._ask(live)
+        try:
+            self.view.document_changed(before)
+        finally:
+            self._ask(live)
         return True
 
     def _ask(self, live: bool) -> None:

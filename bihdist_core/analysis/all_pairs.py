@@ -12,9 +12,12 @@ import hashlib
 import os
 import re
 import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 import numpy.typing as npt
@@ -89,7 +92,7 @@ def write_all_pairs(
     try:
         done = 0 if fresh else _rows_done(partial, header, row_bytes)
         _check_space(target, len(header) + n * row_bytes, partial.stat().st_size if partial.exists() else 0)
-        with partial.open("r+b" if done else "wb") as file:
+        with _alone(partial, target) as file:
             # A row that was cut off is written again.
             file.truncate(len(header) + done * row_bytes if done else 0)
             file.seek(0, os.SEEK_END)
@@ -100,9 +103,9 @@ def write_all_pairs(
                 report(start / n, f"all pairs: {start:,} of {n:,} vertices")
                 ids = np.arange(start, min(start + rows, n))
                 _fill(room[: len(ids)], distance, ids)
-                room[: len(ids)].tofile(file)
+                # Not `tofile`, which does not notice that the disk is full.
+                file.write(room[: len(ids)].data)
                 file.flush()
-        os.replace(partial, target)
     except OutputError:
         raise
     except OSError as error:
@@ -118,6 +121,36 @@ def _fill(rows: AnyArray, distance: Distance, ids: IntArray) -> None:
     else:
         rows[~used] = np.nan
         rows[used] = distance.from_sources(ids[used], dtype=rows.dtype).T
+
+
+@contextmanager
+def _alone(partial: Path, target: Path) -> Iterator[BinaryIO]:
+    """The file of what is done, opened for writing, which becomes the target when the block ends well; OutputError
+    while another process has it."""
+    is_posix = os.name == "posix"
+    with open(os.open(partial, os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0), 0o666), "r+b") as file:
+        if is_posix:
+            _lock(file, partial, target)
+        yield file
+        if is_posix:
+            os.replace(partial, target)  # before another can have it
+    if not is_posix:
+        os.replace(partial, target)  # no file is moved there that is open
+
+
+def _lock(file: BinaryIO, partial: Path, target: Path) -> None:
+    import fcntl
+
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        # Between the opening and the lock another may have ended, and its file be in its place.
+        is_ours = partial.exists() and os.path.samestat(os.fstat(file.fileno()), partial.stat())
+    except BlockingIOError:
+        is_ours = False
+    except OSError:
+        is_ours = True  # a file system without locks
+    if not is_ours:
+        raise OutputError(f"{target} is being written by another run; wait for it, or choose another name.")
 
 
 def _header(n: int, dtype: np.dtype) -> bytes:

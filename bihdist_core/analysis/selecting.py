@@ -13,7 +13,9 @@ from scipy.sparse import csgraph
 from scipy.spatial import cKDTree
 
 from ..arrays import IntArray
-from ..errors import MeshError, ParameterError
+from ..errors import ParameterError
+from ..file_content import file_text
+from ..formats.array_file import read_array
 from ..formats.field_output import write_array, write_fields
 from ..mesh_like import MeshLike
 from ..surface import Surface
@@ -90,22 +92,20 @@ def is_ids_file(words: str) -> bool:
 def read_ids(path: str | os.PathLike[str]) -> IntArray:
     """(k,) int64 vertex ids as `write_ids` has written them, in any order; a .csv may have other columns behind them.
 
-    Raises MeshError for a file that is not there or that holds something else.
+    Raises ParameterError for a file that is not there or that holds something else.
     """
     file = Path(path)
-    try:
-        if file.suffix.lower() == ".npy":
-            ids = np.load(file, allow_pickle=False)
-        else:
-            words = [line.split(",")[0].strip() for line in file.read_text(encoding="utf-8").splitlines()]
-            has_head = file.suffix.lower() == ".csv" and words[:1] == ["vertex"]
+    if file.suffix.lower() == ".npy":
+        ids = read_array(file, "ids in")
+    else:
+        words = [line.split(",")[0].strip() for line in file_text(file, "ids in").splitlines()]
+        has_head = file.suffix.lower() == ".csv" and words[:1] == ["vertex"]
+        try:
             ids = np.array([int(word) for word in words[has_head:] if word], np.int64)
-    except OSError as error:
-        raise MeshError(f"{file} cannot be read: {error.strerror}.") from error
-    except (ValueError, EOFError, OverflowError) as error:
-        raise MeshError(f"{file} holds something else than vertex ids.") from error
-    if ids.ndim != 1 or ids.dtype.kind not in "iu" or not len(ids) or ids.min() < 0:
-        raise MeshError(f"{file} holds something else than vertex ids.")
+        except (ValueError, OverflowError):
+            raise ParameterError(f"{file} holds something else than vertex ids.") from None
+    if ids.ndim != 1 or ids.dtype.kind not in "iu" or not len(ids) or ids.min() < 0 or ids.max() >= 2**63:
+        raise ParameterError(f"{file} holds something else than vertex ids.")
     checked: IntArray = ids.astype(np.int64)
     return checked
 

@@ -17,6 +17,7 @@ from ..laplacian import Laplacian
 from ..progress import Progress, part, silent, turn
 from ..sources.pieces import Pieces, pieces_of
 from ..sources.source import Source
+from ..unexpected import note_unexpected, unexpected_words
 from .accuracy import ErrorEstimate
 from .difference import PERCENTAGE_POINTS, difference_in_unit, scale_of
 from .distance import Distance
@@ -147,12 +148,13 @@ def failed(label: str, error: Exception) -> Answer:
 
 
 def failure_in_words(error: Exception) -> str:
-    """A sentence for the user."""
+    """A sentence for the user; an error that nothing foresaw is noted, too."""
     if isinstance(error, BihdistError):
         return str(error)
     if isinstance(error, MemoryError):
         return "There is not enough memory for this mesh."
-    return f"Something went wrong that should not have: {type(error).__name__}: {error}"
+    note_unexpected(error)
+    return unexpected_words(error)
 
 
 def same_on(spec: Spec, surfaces: "Sequence[Distances]", progress: Progress | None = None) -> Spec:
@@ -202,8 +204,9 @@ class Distances:
         except Cancelled:
             raise
         except BihdistError as error:
-            # It would be the same again, after as long.
-            self._unbuilt[spec] = error
+            # It would be the same again, after as long; but memory may be free by then.
+            if not isinstance(error, MemoryError):
+                self._unbuilt[spec] = error
             raise
 
     def is_ready(self, spec: Spec) -> bool:
@@ -260,11 +263,11 @@ class Distances:
             return replace(answer, label=label, error_estimate=estimate)
         except (Cancelled, VertexError):
             raise
+        except MemoryError as error:
+            return failed(str(spec), error)
         except BihdistError as error:
             # The same for every such source of the components: what fails is the distance.
             self._failures[key] = str(error)
-            return failed(str(spec), error)
-        except MemoryError as error:
             return failed(str(spec), error)
 
     def keep(self, wanted: Collection[Spec]) -> None:

@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
+from ..sentences import shortened
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
 from .pins import PIN_FORMATS, Picked, picked_in, placed, written_points
@@ -60,7 +61,8 @@ def anchors_at(found: list[Picked], surface: Surface, are_named: bool = False) -
             try:
                 value = float(pin.name)
             except ValueError:
-                raise ParameterError(f"{pin.where}: the name {pin.name!r} of an anchor must be a number.") from None
+                name = shortened(repr(pin.name), 60)
+                raise ParameterError(f"{pin.where}: the name {name} of an anchor must be a number.") from None
         if value is None:
             raise ParameterError(f"{pin.where}: an anchor needs a value.")
         values.append(value)

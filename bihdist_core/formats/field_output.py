@@ -16,6 +16,7 @@ from ..errors import ParameterError
 from ..mesh_like import MeshLike
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
+from .array_file import put_array
 from .vtp_output import write_poly_data
 
 Columns = dict[str, AnyArray]
@@ -58,7 +59,7 @@ def write_array(path: str | os.PathLike[str], array: npt.ArrayLike, header: Sequ
         raise ParameterError(f"{len(header)} column names were given for {len(columns):,} columns.")
     with whole_file(path) as temporary, temporary.open("wb") as file:
         if extension == ".npy":
-            np.save(file, table)
+            put_array(file, table)
         else:
             _write_csv(file, header, columns)
 
@@ -80,7 +81,7 @@ def _checked(fields: Mapping[str, npt.ArrayLike], n: int) -> Columns:
 
 def _write_npy(file: BinaryIO, surface: Surface, columns: Columns) -> None:
     arrays = list(columns.values())
-    np.save(file, arrays[0] if len(arrays) == 1 else np.stack(arrays, axis=1))
+    put_array(file, arrays[0] if len(arrays) == 1 else np.stack(arrays, axis=1))
 
 
 def _write_fields_csv(file: BinaryIO, surface: Surface, columns: Columns) -> None:

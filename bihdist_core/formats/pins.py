@@ -18,9 +18,11 @@ import numpy as np
 import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
-from ..errors import ParameterError, VertexError, unreadable
+from ..errors import ParameterError, VertexError
+from ..file_content import file_text, json_value
 from ..mesh_like import MeshLike
 from ..number_arrays import array_of
+from ..sentences import shortened
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
 
@@ -31,6 +33,9 @@ WITH_VALUES = (*COLUMNS, "value")
 
 Row = tuple[int, int, list[float], str]
 """A pin as files hold it: id, vertex, position and name."""
+
+MOST = 10**18
+"""Ids have less digits."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,11 +93,7 @@ def picked_in(path: str | os.PathLike[str]) -> list[Picked]:
     path = Path(path)
     if path.suffix.lower() not in PIN_FORMATS:
         raise ParameterError(f"{path} is no file of pins; these are {', '.join(PIN_FORMATS)}.")
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise unreadable(f"The pins in {path}", error) from None
-    return picked_from(text, path.name, path.suffix.lower())
+    return picked_from(file_text(path, "pins in"), path.name, path.suffix.lower())
 
 
 def picked_from(text: str, name: str, format: str) -> list[Picked]:
@@ -191,7 +192,8 @@ def _header(words: list[str], where: str) -> list[str]:
     header = [word.strip().lower() for word in words]
     for word in header:
         if word not in WITH_VALUES:
-            raise ParameterError(f"{where}: {word!r} is no column of pins; the first line has {', '.join(COLUMNS)}.")
+            known = ", ".join(COLUMNS)
+            raise ParameterError(f"{where}: {_cut(word)} is no column of pins; the first line has {known}.")
         if header.count(word) > 1:
             raise ParameterError(f"{where}: the column {word} is there twice.")
     if "vertex" not in header and not {"x", "y", "z"} <= set(header):
@@ -216,7 +218,7 @@ def _whole(text: str, what: str, where: str) -> int | None:
     if not text:
         return None
     if not text.isascii() or not text.removeprefix("-").isdigit() or len(text) > 18:
-        raise ParameterError(f"{where}: the {what} {text!r} is not a whole number.")
+        raise ParameterError(f"{where}: the {what} {_cut(text)} is not a whole number.")
     return int(text)
 
 
@@ -226,17 +228,18 @@ def _number(text: str, where: str) -> float:
     except ValueError:
         value = float("nan")
     if not np.isfinite(value):
-        raise ParameterError(f"{where}: the value {text!r} is not a finite number.")
+        raise ParameterError(f"{where}: the value {_cut(text)} is not a finite number.")
     return value
 
 
 def _position(words: Sequence[Any], where: str) -> tuple[float, ...]:
     try:
         numbers = tuple(float(word) for word in words)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         numbers = ()
-    if len(numbers) != 3 or not np.isfinite(numbers).all():
-        shown = ", ".join(str(word) or "nothing" for word in words)
+    # Of larger numbers the square is infinite, and so are distances.
+    if len(numbers) != 3 or not all(abs(number) < 1e150 for number in numbers):
+        shown = ", ".join(shortened(str(word), 30) or "nothing" for word in words[:4])
         raise ParameterError(f"{where}: the position ({shown}) is not three finite numbers.")
     return numbers
 
@@ -252,10 +255,9 @@ def _written_csv(rows: list[Row], surface: str) -> str:
 # ---------------------------------------------------------------------- JSON
 def _read_json(text: str, name: str) -> list[Picked]:
     try:
-        content = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        line = f", line {error.lineno}" if isinstance(error, json.JSONDecodeError) else ""
-        raise ParameterError(f"{name}{line}: this is not JSON ({getattr(error, 'msg', error)}).") from None
+        content = json_value(text)
+    except ParameterError as error:
+        raise ParameterError(f"{name}: {error}") from None
     pins = content.get("pins", content.get("anchors")) if isinstance(content, dict) else None
     if not isinstance(pins, list):
         raise ParameterError(f'{name} holds no list of pins; it should be {{"pins": [...]}}.')
@@ -267,8 +269,9 @@ def _of_entry(entry: Any, where: str) -> Picked:
     if not isinstance(entry, dict) or not set(entry) <= set(known):
         raise ParameterError(f"{where}: {_cut(entry)} is no pin; it has {', '.join(known)}.")
     for key in ("id", "vertex"):
-        if not isinstance(entry.get(key), (int, type(None))) or isinstance(entry.get(key), bool):
-            raise ParameterError(f"{where}: the {key} {_cut(entry[key])} is not a whole number.")
+        found = entry.get(key)
+        if not isinstance(found, (int, type(None))) or isinstance(found, bool) or not -MOST < (found or 0) < MOST:
+            raise ParameterError(f"{where}: the {key} {_cut(found)} is not a whole number of up to 18 digits.")
     position, name = entry.get("position"), entry.get("name", "")
     if not isinstance(name, str):
         raise ParameterError(f"{where}: the name {_cut(name)} is not a text.")
@@ -285,8 +288,7 @@ def _of_entry(entry: Any, where: str) -> Picked:
 
 
 def _cut(value: Any) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."
+    return shortened(repr(value), 60)
 
 
 def _written_json(rows: list[Row], surface: str) -> str:
@@ -307,7 +309,7 @@ def _read_pp(text: str, name: str) -> list[Picked]:
     except ElementTree.ParseError as error:
         raise ParameterError(f"{name}, line {error.position[0]}: this is not XML ({error}).") from None
     if root.tag != "PickedPoints":
-        raise ParameterError(f"{name} holds {root.tag!r}, not MeshLab's PickedPoints.")
+        raise ParameterError(f"{name} holds {_cut(root.tag)}, not MeshLab's PickedPoints.")
     found = []
     for k, point in enumerate(root.iter("point"), 1):
         # Points of a template that have not been picked yet.

@@ -13,6 +13,7 @@ from ..arrays import IntArray
 from ..errors import ParameterError
 from ..mesh_like import MeshLike
 from ..number_arrays import array_of
+from ..sentences import shortened
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
 from .field_output import write_array
@@ -89,7 +90,9 @@ def pairs_in(
         if number == 1 and not WHOLE.fullmatch(words[0]):
             continue
         if len(words) < 2 or not all(WHOLE.fullmatch(word) for word in words[:2]):
-            raise ParameterError(f"{path}, line {number}: {line!r} is not a pair of ids such as 1,2.")
+            raise ParameterError(
+                f"{path}, line {number}: {shortened(repr(line), 60)} is not a pair of ids such as 1,2."
+            )
         pairs.append((int(words[0]), int(words[1])))
         for id, surface in zip(pairs[-1], (source, target), strict=True):
             if surface is not None and not 0 <= id < len(surface.vertices):

@@ -7,11 +7,16 @@ from pathlib import Path
 import numpy as np
 
 from ..arrays import AnyArray, IntArray
-from ..errors import ParameterError, unreadable
+from ..errors import ParameterError
+from ..file_content import file_text
+from ..sentences import shortened
+from .array_file import read_array
 from .vertex_values import VALUE_FILES, is_vertex_values, read_vertex_values
 
 NUMBER_FORMATS = (".npy", ".txt")
 WHOLE = re.compile("-?[0-9]{1,15}")
+MOST = 10**15
+"""Larger ones are no numbers of vertices or labels, and floats do not hold all of them."""
 
 
 def read_whole_numbers(path: str | os.PathLike[str], what: str) -> IntArray:
@@ -30,11 +35,8 @@ def read_whole_numbers(path: str | os.PathLike[str], what: str) -> IntArray:
 
 
 def _array_in(path: Path, what: str) -> IntArray:
-    try:
-        array = np.load(path, allow_pickle=False)
-    except (OSError, ValueError, EOFError) as error:
-        raise unreadable(f"The {what} in {path}", error) from None
-    if not isinstance(array, np.ndarray) or array.size != len(array.reshape(-1)) or array.ndim not in (1, 2):
+    array = read_array(path, f"{what} in")
+    if array.ndim not in (1, 2):
         raise ParameterError(f"The {what} in {path} is no array of whole numbers.")
     if array.ndim == 2 and 1 not in array.shape:
         raise ParameterError(
@@ -44,10 +46,13 @@ def _array_in(path: Path, what: str) -> IntArray:
 
 
 def _whole_values(flat: AnyArray, path: Path, what: str) -> IntArray:
-    if flat.dtype.kind == "f" and np.isfinite(flat).all() and (flat == np.floor(flat)).all():
+    if flat.dtype.kind == "f" and (np.abs(flat) <= MOST).all() and (flat == np.floor(flat)).all():
         flat = flat.astype(np.int64)
     if flat.dtype.kind not in "biu":
         raise ParameterError(f"The {what} in {path}: {flat.dtype} values that are not whole numbers.")
+    if flat.size and not -MOST <= int(flat.min()) <= int(flat.max()) <= MOST:
+        largest = max(int(flat.max()), int(flat.min()), key=abs)
+        raise ParameterError(f"The {what} in {path}: {largest} is larger than any vertex id or label can be.")
     return flat.astype(np.int64)
 
 
@@ -67,22 +72,14 @@ def _whole(word: str, where: str) -> int:
         number = float(word)
     except ValueError:
         number = float("nan")
-    if not number.is_integer() or abs(number) > 1e15:
-        raise ParameterError(f"{where}: {word!r} is not a whole number.")
+    if not number.is_integer() or abs(number) > MOST:
+        raise ParameterError(f"{where}: {shortened(repr(word), 60)} is not a whole number.")
     return int(number)
 
 
 def text_lines(path: Path, what: str) -> list[tuple[int, str]]:
     """The lines that are not empty, with their numbers; ParameterError if the file cannot be read."""
-    return numbered_lines(text_of(path, what))
-
-
-def text_of(path: Path, what: str) -> str:
-    """The whole text of a file; ParameterError if it cannot be read."""
-    try:
-        return path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise unreadable(f"The {what} in {path}", error) from None
+    return numbered_lines(file_text(path, f"{what} in"))
 
 
 def numbered_lines(text: str) -> list[tuple[int, str]]:

@@ -12,11 +12,14 @@ from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..kernel.library import at, check_stopped, library, rows_of
+from ..machine_memory import check_memory
 from .compiled_tree import PAD, CompiledTree, padded
 from .worker_threads import WORKERS, Arena, Job, Run, Workspaces
 
 PADDING = 8
 """Numbers after the end of an array that the kernel may read."""
+
+REMEDY = "show fewer panels, simplify the mesh (bihdist perturb --simplify N), or take a larger machine or a cluster."
 
 NEVER = ctypes.byref(kernel.Watch())
 """The watch of short work, which nobody stops."""
@@ -68,7 +71,9 @@ class CompiledFactor:
             return
         self._rooms = {task: (self._elimination_room(task), self._inversion_room(task)) for task in tree.tasks}
         most = max(max(rooms) for rooms in self._rooms.values())
-        self._arena = Arena(tree.blocks_room + min(WORKERS, len(self._rooms)) * most)
+        room = tree.blocks_room + min(WORKERS, len(self._rooms)) * most
+        check_memory(self.nbytes + 8.0 * room, f"The factor for {tree.n:,} vertices", REMEDY)
+        self._arena = Arena(room)
         self._eliminate(matrix, job)
         if areas is None:
             self._arena = None

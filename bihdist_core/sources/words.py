@@ -13,7 +13,9 @@ from difflib import get_close_matches
 from types import MappingProxyType
 from typing import Any
 
-from ..errors import ParameterError, unreadable
+from ..errors import ParameterError
+from ..file_content import file_json
+from ..sentences import shortened
 from .source import BoundaryLoop, Curve, Member, Source, SourceSet, SurfacePoint
 
 HOW = "write a vertex (12), several (12+40+7), a place in a face (f311:0.2,0.5), a boundary loop (loop:0) or a curve's "
@@ -121,13 +123,7 @@ def short_words_of(source: Source) -> str:
 # ---------------------------------------------------------------------- curves
 def read_curve(path: str | os.PathLike[str]) -> Curve:
     """The curve in a file; ParameterError, with the file, the element and its value, for what is none."""
-    try:
-        with open(path, encoding="utf-8-sig") as file:
-            data = json.load(file)
-    except OSError as error:
-        raise unreadable(f"The curve {path}", error) from None
-    except (ValueError, RecursionError):
-        raise ParameterError(f"{path} is not a curve: it is not JSON.") from None
+    data = file_json(path, "curve", "a curve")
     if not isinstance(data, dict) or "points" not in data:
         raise ParameterError(f'{path} is not a curve, which is {{"points": [[face, b0, b1], ...]}}.')
     for name in data.keys() - {"points", "closed"}:
@@ -180,5 +176,4 @@ def _is_number(value: Any) -> bool:
 
 
 def _shown(value: Any) -> str:
-    words = repr(value) if isinstance(value, str) else json.dumps(value, default=repr)
-    return words if len(words) <= LONGEST else f"{words[: LONGEST - 3]}..."
+    return shortened(repr(value) if isinstance(value, str) else json.dumps(value, default=repr), LONGEST)

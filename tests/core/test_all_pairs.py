@@ -1,5 +1,6 @@
 """All distances in a file: the array that memory would hold, whole or to be continued."""
 
+import os
 import shutil
 from collections import namedtuple
 
@@ -137,3 +138,47 @@ def test_refusals(distance, tmp_path):
         write_all_pairs(distance, tmp_path / "D.csv")
     with pytest.raises(OutputError, match="no folder"):
         write_all_pairs(distance, tmp_path / "nowhere" / "D.npy")
+
+
+def test_two_runs_into_one_file_do_not_mix(tmp_path):
+    distance, path, refused = BiharmonicDistance(bumpy(60)), tmp_path / "all.npy", []
+
+    def meanwhile(fraction, text):
+        if 0 < fraction < 1 and not refused:
+            with pytest.raises(OutputError, match=r"all\.npy is being written by another run; wait for it") as error:
+                write_all_pairs(distance, path)
+            refused.append(error)
+
+    write_all_pairs(distance, path, memory=60 * 40 * 20, progress=meanwhile)
+    assert refused
+    assert np.load(path) == pytest.approx(distance.pairwise(np.arange(60)), rel=1e-6, abs=1e-6)
+    assert [each.name for each in tmp_path.iterdir()] == ["all.npy"]
+    write_all_pairs(distance, path)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="elsewhere files are not locked")
+def test_a_run_that_comes_as_another_ends_is_refused(tmp_path, monkeypatch):
+    """It has opened what is in its place by the time that it is locked."""
+    import fcntl
+
+    distance, path, there = BiharmonicDistance(bumpy(60)), tmp_path / "all.npy", fcntl.flock
+
+    def ended_before(file, how):
+        os.replace(next(tmp_path.glob(".all-*.part")), path)
+        there(file, how)
+
+    monkeypatch.setattr(fcntl, "flock", ended_before)
+    with pytest.raises(OutputError, match="is being written by another run"):
+        write_all_pairs(distance, path)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="elsewhere files are not locked")
+def test_a_file_system_without_locks_will_do(tmp_path, monkeypatch):
+    import fcntl
+
+    def none(file, how):
+        raise OSError(95, "Operation not supported")
+
+    monkeypatch.setattr(fcntl, "flock", none)
+    write_all_pairs(BiharmonicDistance(bumpy(60)), tmp_path / "all.npy")
+    assert np.load(tmp_path / "all.npy").shape == (60, 60)

@@ -1,5 +1,7 @@
 """Files of pins: what is written is read, and what is wrong is named."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -98,7 +100,7 @@ def test_a_file_of_meshlab(rough, tmp_path):
         ("a.csv", "x,y,z\n1,2,nan\n", r"line 2: the position \(1, 2, nan\)"),
         ("a.csv", "vertex,x,y,z\n,1,2,\n", r"line 2: the position \(1, 2, nothing\)"),
         ("a.csv", 'vertex,name\n1,"a\n', "line 2: unexpected end of data"),
-        ("a.json", "{", "a.json, line 1: this is not JSON"),
+        ("a.json", "{", "a.json: it is not JSON .line 1"),
         ("a.json", "[]", "holds no list of pins"),
         ("a.json", '{"pins": []}', "holds no pins"),
         ("a.json", '{"pins": [{"vertex": 1}, {"vertex": true}]}', "pin 2: the vertex True is not a whole number"),
@@ -140,3 +142,34 @@ def test_pins_are_checked(rough):
         with pytest.raises(ParameterError, match=said):
             Pins.of(rough, *arguments)
     assert Pins.of(rough, [4, 5]).ids.tolist() == [1, 2]
+
+
+HUGE = [10**30, 10**400, -(10**30), 2**63, "9" * 400, "x" * 3000, [[[]]], {}]
+
+
+@pytest.mark.parametrize("key", ["id", "vertex", "position", "name", "value"])
+@pytest.mark.parametrize("value", HUGE, ids=range(len(HUGE)))
+def test_numbers_of_many_digits_and_other_values_are_a_short_sentence(rough, tmp_path, key, value):
+    entry = {"vertex": 1, key: value} if key != "position" else {"position": [value, 0, 0]}
+    (tmp_path / "a.json").write_text(json.dumps({"pins": [entry]}))
+    is_name = key == "name" and isinstance(value, str)
+    if is_name or (key in ("position", "value") and isinstance(value, int) and abs(value) < 1e100):
+        assert read_pins(tmp_path / "a.json", rough).names == (value if is_name else "",)
+        return
+    with pytest.raises(ParameterError, match=r"a\.json, pin 1") as error:
+        read_pins(tmp_path / "a.json", rough)
+    assert len(str(error.value)) < 250
+
+
+@pytest.mark.parametrize("number", ["1e300", "1e999", "9" * 400])
+def test_a_position_beyond_all_meshes_is_none(rough, tmp_path, number):
+    """The nearest vertex to it was the one after the last."""
+    (tmp_path / "a.csv").write_text(f"x,y,z\n{number},0,0\n")
+    with pytest.raises(ParameterError, match=r"line 2: the position \(.*\) is not three finite numbers"):
+        read_pins(tmp_path / "a.csv", rough)
+
+
+def test_a_document_nested_a_thousand_deep_is_a_sentence(rough, tmp_path):
+    (tmp_path / "a.json").write_text('{"pins": ' + "[" * 1000 + "]" * 1000 + "}")
+    with pytest.raises(ParameterError, match=r"a\.json: its lists and records are nested more than 64 deep"):
+        read_pins(tmp_path / "a.json", rough)

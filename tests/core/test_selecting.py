@@ -5,7 +5,6 @@ import pytest
 
 from bihdist_core import (
     Brush,
-    MeshError,
     OutputError,
     ParameterError,
     Surface,
@@ -102,6 +101,6 @@ def test_what_holds_no_ids_is_refused(tmp_path):
     (tmp_path / "less.txt").write_text("3\n-1\n")
     np.save(tmp_path / "shares.npy", np.array([0.5, 1.5]))
     for name in ("words.txt", "none.csv", "less.txt", "shares.npy", "not-there.txt"):
-        with pytest.raises(MeshError, match=name):
+        with pytest.raises(ParameterError, match=name):
             read_ids(tmp_path / name)
     assert not is_ids_file("12,40-77")

@@ -2,11 +2,14 @@
 
 import errno
 import os
+import subprocess
+import sys
+import time
 
 import pytest
 
 from bihdist_core.errors import OutputError
-from bihdist_core.whole_file import check_output, check_outputs, whole_file
+from bihdist_core.whole_file import check_output, check_outputs, sweep_half_written, whole_file
 
 
 def test_a_new_file_and_a_replaced_one(tmp_path):
@@ -97,3 +100,42 @@ def test_every_output_that_is_named_is_checked(tmp_path):
     assert check_outputs((None, (".csv",)), (tmp_path / "a.OBJ", (".obj",)))
     with pytest.raises(OutputError, match=r"this can be written as \.npy, \.txt"):
         check_outputs((tmp_path / "a.csv", (".csv",)), (tmp_path / "a.obj", (".npy", ".txt")))
+
+
+WRITES = """
+import sys
+from pathlib import Path
+from bihdist_core.whole_file import whole_file
+k = 0
+while True:
+    k += 1
+    with whole_file(sys.argv[1]) as temporary:
+        temporary.write_text(f"{k % 10}" * 1_000_000)
+    if k == 1:
+        print("begun", flush=True)
+"""
+
+
+def test_whoever_is_killed_leaves_a_whole_file(tmp_path):
+    path = tmp_path / "a.txt"
+    for after in (0.0, 0.003, 0.01, 0.017):
+        process = subprocess.Popen([sys.executable, "-c", WRITES, str(path)], stdout=subprocess.PIPE)
+        process.stdout.readline()
+        time.sleep(after)
+        process.kill()
+        process.communicate()
+        text = path.read_text()
+        assert text == text[0] * 1_000_000
+
+
+def test_what_killed_processes_have_left_is_swept_once_it_is_old(tmp_path):
+    (tmp_path / ".hidden-file.txt").write_text("mine")
+    for name in (".a-01234567.json", ".b-89abcdef.json", "c-01234567.json"):
+        (tmp_path / name).write_text("{")
+    (tmp_path / ".folder-01234567.zarr").mkdir()
+    for name in (".a-01234567.json", "c-01234567.json", ".hidden-file.txt", ".folder-01234567.zarr"):
+        os.utime(tmp_path / name, (1, 1))
+    sweep_half_written(tmp_path)
+    left = [".b-89abcdef.json", ".folder-01234567.zarr", ".hidden-file.txt", "c-01234567.json"]
+    assert sorted(os.listdir(tmp_path)) == left
+    sweep_half_written(tmp_path / "none")

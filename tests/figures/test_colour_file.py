@@ -63,7 +63,7 @@ def test_files_that_cannot_be_read_are_named(tmp_path):
     with pytest.raises(ParameterError, match=r"gone\.txt cannot be read"):
         read_stops(tmp_path / "gone.txt")
     (tmp_path / "image.txt").write_bytes(b"\x89PNG\xff\xfe\x00")
-    with pytest.raises(ParameterError, match=r"image\.txt is no text"):
+    with pytest.raises(ParameterError, match=r"image\.txt cannot be read: it is not a text file"):
         read_stops(tmp_path / "image.txt")
 
 
@@ -95,6 +95,9 @@ def test_a_way_that_is_straight_in_another_space_is_kept(tmp_path, space):
     ("data", "sentence"),
     [
         ("{", "is not JSON"),
+        ("[" * 1000 + "]" * 1000, "nested more than 64 deep"),
+        ([{"RGBPoints": [10**400, 0, 0, 0]}], "not a list of numbers"),
+        ([{"RGBPoints": ["red", "green", "blue", 0]}], "not a list of numbers"),
         ([], "has no RGBPoints"),
         ([{"IndexedColors": [0, 0, 0]}], "has no RGBPoints"),
         ([{"Name": "a", "RGBPoints": []}, {"Name": "b", "RGBPoints": []}], r"has 2 colour maps \(a, b\); keep one"),

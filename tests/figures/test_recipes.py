@@ -159,9 +159,10 @@ def test_what_is_no_recipe_at_all_gets_a_sentence(tmp_path, capsys):
     out = tmp_path / "out.png"
     for content, words in [
         ("{", "not JSON"),
-        ("[" * 100_000, "not JSON"),
+        ("[" * 100_000, "nested more than 64 deep"),
+        ('{"format": ' + "[" * 1000 + "]" * 1000 + "}", "nested more than 64 deep"),
         ("[]", "not a recipe"),
-        ("\xff", "not JSON"),
+        ("\xff", "not a text file"),
     ]:
         (tmp_path / "bad.json").write_bytes(content.encode("latin-1"))
         assert words in refused(capsys, "figure", "--recipe", tmp_path / "bad.json", "-o", out)

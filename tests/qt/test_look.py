@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from app.qt.look import desktop, marks_in_controls
+from app.qt.look import desktop, own_folder
 from app.qt.look.desktop import Desktop
 from app.qt.look.icons import icon_names, pixmap, put_icon
 from app.qt.look.look import LOOK
@@ -212,7 +212,7 @@ def test_marks_are_written_again_after_the_folder_was_cleared(application):
     import shutil
 
     first = style_sheet(LIGHT)
-    shutil.rmtree(marks_in_controls._folders[0])
+    shutil.rmtree(own_folder.own_folder())
     files = re.findall(r'url\("([^"]+)"\)', style_sheet(LIGHT))
     assert len(set(files)) >= 8
     for file in files:
@@ -224,8 +224,8 @@ def test_without_a_folder_for_marks_the_sheet_is_whole(monkeypatch):
     def refuse(**_):
         raise OSError("full")
 
-    monkeypatch.setattr(marks_in_controls, "_folders", [])
-    monkeypatch.setattr(marks_in_controls.tempfile, "mkdtemp", refuse)
+    monkeypatch.setattr(own_folder, "_kept", [])
+    monkeypatch.setattr(own_folder.tempfile, "mkdtemp", refuse)
     sheet = style_sheet(DARK)
     assert "url(" not in sheet
     assert sheet.count("{") == sheet.count("}")
@@ -236,8 +236,8 @@ def test_a_folder_with_odd_letters_serves(application, monkeypatch, tmp_path):
 
     place = tmp_path / "a b (c) 'ü'"
     place.mkdir()
-    monkeypatch.setattr(marks_in_controls, "_folders", [])
-    monkeypatch.setattr(marks_in_controls.tempfile, "tempdir", str(place))
+    monkeypatch.setattr(own_folder, "_kept", [])
+    monkeypatch.setattr(own_folder.tempfile, "tempdir", str(place))
     colours, _ = inked(shown(QCheckBox("", checked=True), LIGHT))
     assert any(place.rglob("check-*.svg"))
     assert any(contrast(colour, LIGHT.fill) > SEEN for colour in colours - {LIGHT.window})

@@ -12,6 +12,7 @@ import pytest
 
 from app.qt import screen
 from bihdist_core import BihdistError
+from tests.shapes import bumpy
 
 ROOT = Path(__file__).parents[2]
 SET_UP = ROOT / ".ci" / "set-up"
@@ -189,3 +190,67 @@ def test_view_and_show_end_with_a_sentence_where_libraries_are_missing():
     assert done.stderr.startswith("bihdist: The window needs libGL.so.1, which is not installed; on Debian or Ubuntu: ")
     done = run(BROKEN + "import app\ntry: app.show('hand')\nexcept app.BihdistError as error: print(error)", **settings)
     assert done.stdout.startswith("The window needs libGL.so.1")
+
+
+def view_of(mesh, out, **environment):
+    """The window is started with other settings."""
+    command = [sys.executable, "-m", "app", mesh, "--screenshot", str(out)]
+    settings = {**os.environ, "XDG_DATA_HOME": str(out.parent / "data"), **environment}
+    return subprocess.run(command, cwd=ROOT, env=settings, capture_output=True, text=True, timeout=120, check=False)
+
+
+def ours(done):
+    """What we say, among what drivers and Qt say."""
+    assert "Traceback" not in done.stderr
+    return [line for line in done.stderr.splitlines() if line.startswith("bihdist: ")]
+
+
+NO_DRIVER = {"LIBGL_DRIVERS_PATH": "/nonexistent", "__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent"}
+
+
+@pytest.mark.usefixtures("application")
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        (NO_DRIVER, "Drawing needs OpenGL, and no driver is there"),
+        ({"QT_QPA_PLATFORM": "nonsense"}, "no plug-in for the platform nonsense: there are eglfs, "),
+    ],
+)
+def test_view_ends_with_a_sentence_without_a_driver_and_without_a_plug_in(settings, words, mesh_file, tmp_path):
+    done = view_of(mesh_file(bumpy(100)), tmp_path / "a.png", **settings)
+    assert done.returncode == 2
+    (line,) = ours(done)
+    assert words in line
+
+
+@pytest.mark.usefixtures("application")
+def test_a_window_is_shown_without_fonts_of_the_system(mesh_file, tmp_path):
+    settings = {"FONTCONFIG_FILE": "/nonexistent", "FONTCONFIG_PATH": "/nonexistent"}
+    done = view_of(mesh_file(bumpy(100)), tmp_path / "a.png", **settings)
+    assert (done.returncode, ours(done)) == (0, [])
+    assert (tmp_path / "a.png").exists()
+
+
+def test_a_qt_without_any_plug_in_is_said(plain, tmp_path):
+    plain.setenv("DISPLAY", ":0")
+    plain.setattr(screen, "_platforms", lambda: str(tmp_path))
+    with pytest.raises(BihdistError, match="no plug-in for the platform xcb: there is none in"):
+        screen._check_platform()
+    (tmp_path / "libqwayland-generic.so").write_text("")
+    plain.delenv("DISPLAY")
+    screen._check_platform()
+    plain.setenv("QT_QPA_PLATFORM", "xcb;wayland:a=b")
+    screen._check_platform()
+
+
+@pytest.mark.parametrize("settings", [NO_DRIVER, {"DISPLAY": ":7654"}], ids=["no driver", "dead display"])
+def test_a_figure_without_a_driver_is_a_sentence_and_a_dead_display_costs_none(settings, mesh_file, tmp_path):
+    words = ["figure", mesh_file(bumpy(100)), "--size", "200x200", "-o", str(tmp_path / "a.png")]
+    command = [sys.executable, "-m", "app", *words]
+    own = {name: value for name, value in os.environ.items() if name != "DISPLAY"} | settings
+    done = subprocess.run(command, cwd=ROOT, env=own, capture_output=True, text=True, timeout=120, check=False)
+    if settings is NO_DRIVER:
+        assert done.returncode == 2
+        assert "Drawing needs OpenGL" in ours(done)[0]
+    else:
+        assert (done.returncode, done.stderr) == (0, "")

@@ -86,6 +86,15 @@ def test_what_is_damaged_in_the_list_is_left_out(remembered, tmp_path):
     assert [found.opened_at for found in remembered.recent_files()] == [None] * len(times)
 
 
+def test_a_pipe_in_the_place_of_the_list_is_not_waited_for(remembered, tmp_path):
+    file = remembered.folder() / "recent.json"
+    file.unlink(missing_ok=True)
+    os.mkfifo(file)
+    assert remembered.recent_files() == []
+    os.mkfifo(remembered.own_state().with_suffix(remembered.SESSION))
+    assert remembered.session_of(remembered.own_state()) is None
+
+
 def test_times_are_said_in_plain_words():
     from app.qt.pages.start_places import when
 

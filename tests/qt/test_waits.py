@@ -1,7 +1,10 @@
 """What the window says while something is computed, and that it can be stopped."""
 
 import threading
+import time
+from dataclasses import replace
 from math import nan
+from random import Random
 
 import pytest
 
@@ -366,3 +369,29 @@ def test_closing_while_computing_ends_the_threads(screen, mesh_file):
     s.until(lambda: s.session.progress)
     s.window.close()
     assert not [t for t in threading.enumerate() if t.name.startswith(("panel", "load")) and t.is_alive()]
+
+
+def test_after_esc_the_window_is_free_whenever_that_was(screen, mesh_file):
+    """Random moments of reading, of set-up and of answers; the window is as it was, and the next click is answered."""
+    s, random, took = screen(), Random(3), []
+    meshes = [mesh_file(bumpy(6000, seed), f"{seed}.off") for seed in (1, 2)]
+    s.open(meshes[0], 5)
+    for k in range(12):
+        if k % 3:
+            areas = "barycentric" if s.document.areas == "voronoi" else "voronoi"
+            s.session.show(replace(s.document, areas=areas))
+        else:
+            s.window.context.open(meshes[k % 2], 7)
+        s.settle(random.uniform(0, 0.6))
+        begun = time.monotonic()
+        s.window.actions_by_word["stop"].trigger()
+        s.application.processEvents()
+        took.append(time.monotonic() - begun)
+        assert not s.session.is_opening
+        s.until(lambda: not s.session.progress, 30)
+    # Once, another program may have had the processor.
+    assert sorted(took)[-2] < 0.5
+    s.session.show(move_source(s.document, 0, 9))
+    s.until(lambda: s.session.is_complete)
+    assert s.source == 9
+    assert not s.refusals

@@ -1,7 +1,6 @@
 """Curves that fields start from, and the files they are saved in."""
 
 import hashlib
-import json
 import os
 from contextlib import suppress
 from pathlib import Path
@@ -9,6 +8,7 @@ from pathlib import Path
 from qtpy import QtCore
 
 from bihdist_core import BihdistError, Curve, OutputError, ParameterError
+from bihdist_core.file_content import file_json
 from bihdist_core.sources.words import curve_text, read_curve
 from bihdist_core.whole_file import whole_file
 
@@ -89,7 +89,8 @@ class CurveFiles(QtCore.QObject):
         kept = remembered.folder() / "curves" / f"curve-{hashlib.sha256(text.encode()).hexdigest()[:8]}.json"
         try:
             kept.parent.mkdir(parents=True, exist_ok=True)
-            kept.write_text(text, encoding="utf-8")
+            with whole_file(kept) as temporary:
+                temporary.write_text(text, encoding="utf-8")
         except OSError as error:
             raise OutputError(f"The curve cannot be kept in {kept.parent}: {error.strerror or error}.") from error
         return str(kept)
@@ -98,8 +99,7 @@ class CurveFiles(QtCore.QObject):
 def is_curve(path: str) -> bool:
     """Whether a file looks like a curve, which is no session or recipe."""
     try:
-        with open(path, encoding="utf-8-sig") as file:
-            data = json.load(file)
-    except (OSError, ValueError, RecursionError):
+        data = file_json(path, "curve", "a curve")
+    except ParameterError:
         return False
     return isinstance(data, dict) and "points" in data and "document" not in data

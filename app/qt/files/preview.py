@@ -10,6 +10,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import BihdistError
 from bihdist_core.arrays import AnyArray
+from bihdist_core.distances.answers import failure_in_words
 
 from ...figures.worker import GONE, Worker
 from ..look.look import LOOK
@@ -81,6 +82,8 @@ class Draughtsman(QtCore.QObject):
                 result, sentence = None, str(error)
             except OSError as error:
                 result, sentence = None, f"Nothing can be drawn in the background: {error.strerror or error}."
+            except Exception as error:
+                result, sentence = None, failure_in_words(error)
             with self._change:
                 if self._is_closed:
                     return

@@ -196,7 +196,7 @@ class SessionFile(QtCore.QObject):
             style_of(recipe.page.style, recipe.document.colours)
             self._context.session.given.update(ArrayStore.read(recipe))
             found = self._with_meshes(recipe)
-        except BihdistError as error:
+        except Exception as error:  # files from anybody may hold what nobody foresaw
             self._context.fail(error)
             return
         if found is not None:

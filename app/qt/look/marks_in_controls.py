@@ -3,12 +3,9 @@
 The files are written into a folder of the process, in the colours they are used in.
 """
 
-import atexit
-import os
-import shutil
-import tempfile
 from pathlib import Path
 
+from .own_folder import own_folder
 from .theme import Theme
 
 TURNED = {"check": ("check", 0), "down": ("chevron", 0), "up": ("chevron", 180), "right": ("chevron", -90)}
@@ -19,9 +16,6 @@ DRAWN = {
     "dash": '<path d="M5.500 10h9" stroke="currentColor" stroke-width="1.5" stroke-linecap="round"/>',
 }
 """The others, on a ground of 20 × 20."""
-
-_folders: list[str] = []
-"""Removed when the process ends."""
 
 
 def mark_rules(theme: Theme, icons: Path) -> str:
@@ -76,10 +70,7 @@ QToolButton::menu-arrow {{ image: {down}; width: 14px; height: 14px; }}
 
 def _written(mark: str, colour: str, icons: Path) -> Path:
     """The file with a mark in a colour."""
-    if not _folders or not os.path.isdir(_folders[0]):
-        _folders[:] = [tempfile.mkdtemp(prefix="bihdist-look-")]
-        atexit.register(shutil.rmtree, _folders[0], ignore_errors=True)
-    path = Path(_folders[0]) / f"{mark}-{colour[1:]}.svg"
+    path = own_folder() / f"{mark}-{colour[1:]}.svg"
     if not path.exists():
         path.write_text(_drawing(mark, icons).replace("currentColor", colour), encoding="utf-8")
     return path

@@ -5,6 +5,8 @@ from threading import Thread
 
 from qtpy import QtCore
 
+from bihdist_core.unexpected import note_unexpected
+
 from ...document.looks import Shading
 from ...scene.prepared import Drawn, Meshes
 
@@ -40,7 +42,11 @@ class Shades(QtCore.QObject):
         return meshes.usual
 
     def _make(self, meshes: Meshes, shading: Shading) -> None:
-        drawn = meshes.made(shading)
+        try:
+            drawn = meshes.made(shading)
+        except Exception as error:
+            note_unexpected(error)
+            drawn = meshes.usual
         with suppress(RuntimeError):  # the window may have been closed meanwhile
             self._done.emit(meshes, shading, drawn)
 

@@ -39,6 +39,7 @@ class MapErrors(QtWidgets.QWidget):
         self.judgement: Judgement | None = None
         self.asked: Asked | None = None
         self._answered: tuple[object, ...] = ()  # what the judgement is about
+        self._failure = ""  # why there is none
         self._dotted: list[Any] = []  # panels that have a dot of these
         self.truth = MapTruth(self)
         self.chart, self.table = ErrorChart(), ErrorTable()
@@ -120,19 +121,19 @@ class MapErrors(QtWidgets.QWidget):
         if asked is None or before is None or asked.about != before.about:
             if asked is None or before is None or not _is_judged_alike(asked, before):
                 self.judgement = None
+            self._failure = ""
             self._background.ask(asked)
 
     def _judge(self, asked: Asked, progress: Progress) -> Iterator[Judgement]:
         yield from self._judging.judge(asked, progress)
 
     def _take(self, asked: Asked, judgement: Judgement) -> None:
-        self.judgement, self._answered = judgement, asked.about
+        self.judgement, self._answered, self._failure = judgement, asked.about, ""
         self._show()
 
     def _refuse(self, asked: Asked, sentence: str) -> None:
-        self.judgement = None
+        self.judgement, self._failure = None, sentence
         self._show()
-        self.note.setText(sentence)
 
     @property
     def is_whole(self) -> bool:
@@ -171,7 +172,7 @@ class MapErrors(QtWidgets.QWidget):
     def _over(self, judged: Judgement | None) -> str:
         """Over how many vertices, by which distance."""
         if judged is None:
-            return "Finding errors…"
+            return self._failure or "Finding errors…"
         if not judged.curves:
             return " ".join(dict.fromkeys(judged.failures.values()))
         known = f"{judged.known:,}" if judged.is_whole else f"{judged.known:,} of {judged.wanted:,}"

@@ -50,6 +50,7 @@ class ChangeTable(QtWidgets.QWidget):
         self.setAccessibleName("Changes of the distances")
         self._background = context.background("changes", _found)
         self._background.answered.connect(self._take)
+        self._background.failed.connect(self._refuse)
         LOOK.follow(self, self._fit)
 
     # ------------------------------------------------------------------ what is told
@@ -79,6 +80,10 @@ class ChangeTable(QtWidgets.QWidget):
         self.rows = [(name, _words(each)) for name, each in zip(names, found, strict=True)]
         self.setAccessibleDescription("; ".join(f"{name}: {', '.join(words)}" for name, words in self.rows))
         self._fit()
+
+    def _refuse(self, request: _Request, sentence: str) -> None:
+        self._take(request, [None] * len(request.asked))
+        self.setAccessibleDescription(sentence)
 
     def text(self) -> str:
         """With tabulators and all digits."""

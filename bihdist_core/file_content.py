@@ -1,0 +1,79 @@
+"""What stands in files that anybody may have written: regular files of bounded size, as bytes, text or JSON.
+
+`what` begins the sentence of an error, "The WHAT PATH cannot be read": "recipe", "map in".
+"""
+
+import json
+import os
+import stat
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from .errors import ParameterError, unreadable
+
+MOST_BYTES = 1 << 30
+"""Of a text: ten million numbers, each on a line, take a tenth of that."""
+MOST_JSON_BYTES = 1 << 27
+DEEPEST = 64
+"""Lists and records within each other; ours have less than ten."""
+
+
+def open_regular(path: str | os.PathLike[str], what: str) -> BinaryIO:
+    """A file that is open for reading; ParameterError if it cannot be, and for folders, pipes and devices."""
+    try:
+        # Before it is opened: a pipe would be waited for.
+        kind = os.stat(path).st_mode
+        if not stat.S_ISREG(kind):
+            reason = "it is a folder" if stat.S_ISDIR(kind) else "it is not a regular file"
+            raise ParameterError(f"The {what} {path} cannot be read: {reason}.")
+        return open(path, "rb")
+    except (OSError, ValueError) as error:
+        if isinstance(error, ParameterError):
+            raise
+        raise unreadable(f"The {what} {path}", error) from None  # ValueError: a path with a zero in it
+
+
+def file_text(path: str | os.PathLike[str], what: str, most: int = MOST_BYTES) -> str:
+    """The text of a file in UTF-8, with or without a mark of that; ParameterError if it has none, or too much."""
+    with open_regular(path, what) as file:
+        try:
+            size = os.fstat(file.fileno()).st_size
+            if size > most:
+                reason = f"it has {size / 1e6:,.0f} MB, and such a file has at most {most / 1e6:,.0f}"
+                raise ParameterError(f"The {what} {path} cannot be read: {reason}.")
+            return file.read(most).decode("utf-8-sig")
+        except (OSError, UnicodeDecodeError) as error:
+            raise unreadable(f"The {what} {path}", error) from None
+
+
+def file_json(path: str | os.PathLike[str], what: str, kind: str) -> Any:
+    """The value in a JSON file; kind: "PATH is not KIND", where it is none: "a recipe"."""
+    text = file_text(path, what, MOST_JSON_BYTES)
+    try:
+        return json_value(text)
+    except ParameterError as error:
+        raise ParameterError(f"{Path(path)} is not {kind}: {error}") from None
+
+
+def json_value(text: str) -> Any:
+    """The value of a text in JSON; ParameterError, "it is not JSON" or "it is nested too deep", where there is none."""
+    try:
+        value = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise ParameterError(f"it is not JSON (line {error.lineno}: {error.msg}).") from None
+    except ValueError:  # a whole number of thousands of digits
+        raise ParameterError("it is not JSON that can be read: it has a number of thousands of digits.") from None
+    except RecursionError:
+        raise ParameterError(TOO_DEEP) from None
+    inside = [value]
+    for _ in range(DEEPEST):
+        children = (
+            each.values() if isinstance(each, dict) else each for each in inside if isinstance(each, dict | list)
+        )
+        inside = [child for some in children for child in some if isinstance(child, dict | list)]
+        if not inside:
+            return value
+    raise ParameterError(TOO_DEEP)
+
+
+TOO_DEEP = f"its lists and records are nested more than {DEEPEST} deep."

@@ -1,0 +1,101 @@
+"""How much memory there is: of the machine, of control groups of both versions, of a limit."""
+
+import sys
+
+import numpy as np
+import pytest
+
+from bihdist_core import Laplacian, NotEnoughMemory, machine_memory
+from bihdist_core.distances.answers import Distances
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.kernel.library import library
+from bihdist_core.machine_memory import available, check_memory
+from tests.shapes import bumpy
+
+GB = 10**9
+
+
+@pytest.fixture
+def machine(tmp_path):
+    """Folders as those of a machine with 8 GB free; files by their names."""
+
+    def make(group="", **files):
+        for name, text in {"proc/meminfo": f"MemTotal: 9 kB\nMemAvailable: {8 * GB // 1024} kB\n", **files}.items():
+            path = tmp_path / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+        path = tmp_path / "proc/self/cgroup"
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(group)
+        return available(tmp_path / "proc", tmp_path / "groups")
+
+    return make
+
+
+def test_a_machine_without_groups_has_what_is_free(machine):
+    assert machine() == pytest.approx(8 * GB, abs=1024)
+
+
+def group(folder, limit, used, files=0):
+    return {
+        f"groups/{folder}memory.max": f"{limit}\n",
+        f"groups/{folder}memory.current": f"{used}\n",
+        f"groups/{folder}memory.stat": f"anon 5\ninactive_file {files}\n",
+    }
+
+
+def test_a_group_bounds_it_and_so_do_those_that_it_is_within(machine):
+    assert machine("0::/a/b\n", **group("a/b/", 3 * GB, GB)) == 2 * GB
+    assert machine("0::/a/b\n", **group("a/b/", 3 * GB, 2 * GB, GB)) == 2 * GB
+    assert machine("0::/a/b\n", **group("a/b/", "max", GB), **group("a/", GB, 0)) == GB
+    assert machine("0::/a/b\n", **group("a/b/", GB, 2 * GB)) == 0
+
+
+def test_a_container_sees_its_own_group_as_the_root(machine):
+    assert machine("0::/docker/12\n", **group("", 4 * GB, GB)) == 3 * GB
+
+
+def test_a_group_of_version_1(machine):
+    files = {
+        "groups/memory/a/memory.limit_in_bytes": f"{2 * GB}",
+        "groups/memory/a/memory.usage_in_bytes": f"{GB}",
+        "groups/memory/a/memory.stat": "total_inactive_file 0\n",
+    }
+    assert machine("3:cpu:/x\n2:memory:/a\n", **files) == GB
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only there limits of a process are told")
+def test_a_limit_of_the_process_bounds_it(monkeypatch, machine):
+    import resource
+
+    monkeypatch.setattr(resource, "getrlimit", lambda _: (10**6 * resource.getpagesize(), 0))
+    assert machine(**{"proc/self/statm": "999000 1 1\n"}) == 1000 * resource.getpagesize()
+
+
+def test_what_has_no_room_is_a_sentence_with_the_choices(monkeypatch):
+    monkeypatch.setattr(machine_memory, "available", lambda: GB)
+    check_memory(0.99 * GB, "It", "choose less.")
+    with pytest.raises(NotEnoughMemory, match=r"It needs about 2.5 GB of memory, and 1 GB are free here; choose less."):
+        check_memory(2.5 * GB, "It", "choose less.")
+
+
+@pytest.mark.skipif(not library(), reason="it is the compiled factor that knows its memory")
+def test_a_factor_without_room_is_refused_before_it_is_made_and_made_once_there_is(monkeypatch):
+    surface, spec = bumpy(3000), Spec.of("biharmonic")
+    distances = Distances(Laplacian(surface))
+    with monkeypatch.context() as patch:
+        patch.setattr(machine_memory, "SMALL", 0)
+        patch.setattr(machine_memory, "available", lambda: 1000)
+        answer = distances.answer(spec, 5)
+    assert answer.field is None
+    for words in ("The factor for 3,000 vertices needs about", "fewer panels", "--simplify", "cluster"):
+        assert words in answer.failure
+    assert np.isfinite(distances.answer(spec, 5).field).all()
+
+
+@pytest.mark.skipif(not library(), reason="it is the compiled factor that knows its memory")
+def test_a_factor_asks_for_no_less_than_it_takes(monkeypatch):
+    asked = []
+    monkeypatch.setattr("bihdist_core.solver.compiled_factor.check_memory", lambda needed, *_: asked.append(needed))
+    factor = Laplacian(bumpy(3000)).components[0].factor(diagonals=True)
+    assert factor.nbytes <= asked[0] < 6 * factor.nbytes

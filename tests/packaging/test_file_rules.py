@@ -1,0 +1,49 @@
+"""Files from anybody are read in one way, and files are written whole: by these functions and no others."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+RULES = {
+    r"\bjson\.loads?\(": ({"bihdist_core/file_content.py"}, "`file_content.json_value`, which bounds its depth"),
+    r"\bnp\.load\(": (
+        {"app/batch/execution.py", "app/batch/results.py"},  # of parts, as much as is looked at, and of archives
+        "`formats.array_file.read_array`, which believes no header",
+    ),
+    r"\bnp\.save\(|\.tofile\(": (set(), "`formats.array_file.put_array`, which notices that a disk is full"),
+    r"\.read_text\(": (
+        {"bihdist_core/machine_memory.py", "app/figures/export.py"}
+        | {f"app/qt/look/{name}.py" for name in ("icons", "marks_in_controls")},
+        "`file_content.file_text`, which bounds its size and waits for no pipe",
+    ),
+}
+"""Patterns: who may have them, and what others call instead."""
+
+WRITES = re.compile(r"\.write_(text|bytes)\(|\.open\(\"[wx]b?\"|\bopen\([^)\n]*\"[wx]b?\"")
+WHOLE = re.compile(r"\bwhole_file\b|\.writing\(")
+MAY_WRITE = {
+    "app/qt/look/marks_in_controls.py",  # into a folder of its own
+    "app/figures/composition.py",  # what it is given is temporary
+}
+
+
+def sources():
+    for folder in ("app", "bihdist_core"):
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            yield path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("pattern", RULES)
+def test_files_are_read_and_arrays_written_in_one_way(pattern):
+    allowed, instead = RULES[pattern]
+    others = [name for name, text in sources() if re.search(pattern, text) and name not in allowed]
+    assert not others, f"{others}: use {instead}"
+    assert all(re.search(pattern, (ROOT / name).read_text(encoding="utf-8")) for name in allowed)
+
+
+def test_files_are_written_whole():
+    writers = {name for name, text in sources() if WRITES.search(text) and not WHOLE.search(text)}
+    assert writers == MAY_WRITE
