@@ -18,6 +18,7 @@ import numpy as np
 
 from ..arrays import AnyArray, FloatArray
 from ..errors import MeshError
+from ..file_content import json_value
 from .gzip_files import MOST_BYTES
 
 _MAGIC, _JSON, _BIN = b"glTF", b"JSON", b"BIN\0"
@@ -181,10 +182,9 @@ def _chunks(raw: bytes, name: str) -> tuple[bytes, bytes | None]:
 
 def _parsed(text: bytes, name: str) -> dict[str, Any]:
     try:
-        data = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        reason = "it is nested too deep" if isinstance(error, RecursionError) else str(error)[:100]
-        raise MeshError(f"{name} is not a glTF file, or is cut off or damaged ({reason}).") from None
+        data = json_value(text.decode("utf-8-sig"))
+    except ValueError as error:  # ParameterError, too
+        raise MeshError(f"{name} is not a glTF file, or is cut off or damaged ({str(error)[:100]}).") from None
     version = data.get("asset", {}) if isinstance(data, dict) else None
     version = version.get("version") if isinstance(version, dict) else None
     if not isinstance(version, str) or not version.startswith("2."):

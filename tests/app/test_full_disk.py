@@ -21,15 +21,15 @@ sys.exit(run())
 """
 
 COMMANDS = {
-    "field.npy": "field MESH --source 5 -o OUT",
-    "field.csv": "field MESH --source 5 -o OUT",
-    "field.ply": "field MESH --source 5 -o OUT",
-    "field.vtp": "field MESH --source 5 -o OUT",
-    "pairs.npy": "pairs MESH --all -o OUT",
-    "near.json": "pairs MESH --nearest 5 -o OUT",
-    "near.npz": "pairs MESH --nearest 5 -o OUT",
-    "lines.vtp": "isolines MESH --source 5 -o OUT",
-    "ids.csv": "samples MESH --count 200 -o OUT",
+    "field.npy": "field MESH --sources 5 -o OUT",
+    "field.csv": "field MESH --sources 5 -o OUT",
+    "field.ply": "field MESH --sources 5 -o OUT",
+    "field.vtp": "field MESH --sources 5 -o OUT",
+    "pairs.npy": "pairs MESH --sources all -o OUT",
+    "near.json": "pairs MESH --nearest --k 5 -o OUT",
+    "near.npz": "pairs MESH --nearest --k 5 -o OUT",
+    "lines.vtp": "isolines MESH --sources 5 -o OUT",
+    "ids.csv": "samples MESH --sources farthest:200 -o OUT",
     "figure.png": "figure MESH -o OUT",
     "figure.svg": "figure MESH -o OUT",
     "figure.pdf": "figure MESH -o OUT",
@@ -60,7 +60,7 @@ def test_no_half_file_is_left(name, words, mesh_file, tmp_path):
 def test_results_of_a_batch_are_failures(mesh_file, tmp_path):
     mesh_file(bumpy(300))
     out = tmp_path / "out"
-    done = limited(["batch", str(tmp_path), "--out", str(out), "--do", "fields", "--workers", "1"], tmp_path)
+    done = limited(["batch", str(tmp_path), "-o", str(out), "--do", "fields", "--workers", "1"], tmp_path)
     assert done.returncode == 1, done.stderr
     assert "could not be written: File too large." in (out / "failures.csv").read_text()
     assert sorted(each.name for each in out.iterdir()) == ["failures.csv", "summary.csv"]

@@ -29,7 +29,7 @@ def test_outputs_are_called_as_the_meshes(tmp_path, monkeypatch):
     (tmp_path / "rh.pial.surf.gii.gz").write_bytes(gzip.compress(gifti_surface(SHAPE.vertices, SHAPE.faces)))
     (tmp_path / "a.off.gz").write_bytes(gzip.compress(off(SHAPE.vertices, SHAPE.faces).encode()))
     meshes = ["lh.pial", "rh.pial.surf.gii.gz", "a.off.gz"]
-    assert main(["field", *meshes, "--source", "3", "-o", "{name}.npy"]) == 0
+    assert main(["field", *meshes, "--sources", "3", "-o", "{name}.npy"]) == 0
     lefts, rights, packed = (np.load(f"{name}.npy") for name in ("lh.pial", "rh.pial", "a"))
     np.testing.assert_array_equal(rights, packed)
     np.testing.assert_allclose(lefts, rights, rtol=1e-4)  # single precision

@@ -57,7 +57,7 @@ sys.exit(run())
 
 @pytest.mark.parametrize("after", [0.02, 0.05, 0.15, 0.4])
 def test_an_interruption_in_the_first_moments_shows_no_code(after, tmp_path):
-    command = [sys.executable, "-c", BEGUN, "pairs", "figure", "--all", "-o", str(tmp_path / "a.npy")]
+    command = [sys.executable, "-c", BEGUN, "pairs", "figure", "--sources", "all", "-o", str(tmp_path / "a.npy")]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=ROOT)
     process.stdout.readline()
     time.sleep(after)
@@ -91,10 +91,10 @@ def test_a_standard_output_that_cannot_be_written_is_a_sentence(arguments, shell
 
 def test_what_is_written_to_a_file_is_there_though_standard_output_is_closed(mesh_file, tmp_path):
     mesh = mesh_file(bumpy(100))
-    done = ran("pairs", mesh, "--pairs", "1,2", "-o", tmp_path / "a.csv", shell=">&-")
+    done = ran("pairs", mesh, "--pairs", "1:2", "-o", tmp_path / "a.csv", shell=">&-")
     assert done.stderr == CLOSED
     assert (tmp_path / "a.csv").read_text().startswith("i,j,distance\n1,2,")
-    done = ran("pairs", mesh, "--pairs", "1,2", "-o", "-", shell=">/dev/full")
+    done = ran("pairs", mesh, "--pairs", "1:2", "-o", "-", shell=">/dev/full")
     assert done.stderr.endswith(FULL)
 
 
@@ -118,7 +118,7 @@ def test_whoever_has_read_enough_is_told_nothing(arguments):
 
 
 def test_what_is_typed_is_repeated_in_one_short_line():
-    done = ran("pairs", "figure", "--vertices", "x\ny" * 2000, "-o", "a.csv")
+    done = ran("pairs", "figure", "--sources", "x\ny" * 2000, "-o", "a.csv")
     assert done.returncode == 2
     assert len(done.stderr.splitlines()[-1]) < 1100
     assert done.stderr.splitlines()[-1].startswith("bihdist pairs: error: ")

@@ -34,7 +34,7 @@ def test_what_has_changed_on_disk_is_made_again_where_it_is_looked_at(meshes, tm
     if format == "zarr":
         pytest.importorskip("zarr")
     out, name = tmp_path / "out", f"bumpy.fields.biharmonic.{format}"
-    work = ("--do", "fields", "--source", "5", "7", "--format", format)
+    work = ("--do", "fields", "--sources", "5,7", "--format", format)
     assert batch(meshes, out, *work) == 0
     there = read_arrays(Folder(str(out)), name)
     files = [each for each in (out / name).rglob("*") if each.is_file() and each.name != "zarr.json"]
@@ -49,9 +49,9 @@ def test_what_has_changed_on_disk_is_made_again_where_it_is_looked_at(meshes, tm
 
 
 def test_what_is_as_it_was_is_not_made_again(meshes, tmp_path, capsys):
-    assert batch(meshes, tmp_path / "out", "--do", "fields,figure", "--source", "5") == 0
+    assert batch(meshes, tmp_path / "out", "--do", "fields,figure", "--sources", "5") == 0
     capsys.readouterr()
-    assert batch(meshes, tmp_path / "out", "--do", "fields,figure", "--source", "5", "--verify") == 0
+    assert batch(meshes, tmp_path / "out", "--do", "fields,figure", "--sources", "5", "--verify") == 0
     assert "2 of them there before" in capsys.readouterr().out
 
 
@@ -59,19 +59,19 @@ def test_checksums_stand_in_the_json_and_are_of_the_bytes(tmp_path):
     import hashlib
 
     folder = Folder(str(tmp_path))
-    facts = write_result(folder, "a", "key", {"a": np.arange(9)}, {})
+    facts = write_result(folder, "a", "key", {"a": np.arange(9)}, {}, 0.0)
     assert facts["sha256"] == hashlib.sha256((tmp_path / "a.npy").read_bytes()).hexdigest()
     assert facts_of(folder, "a", "key", verify=True) == json.loads((tmp_path / "a.json").read_text())
     elsewhere = Folder("memory://checksums")
     elsewhere.make()
-    there = write_result(elsewhere, "a", "key", {"a": np.arange(9)}, {})
+    there = write_result(elsewhere, "a", "key", {"a": np.arange(9)}, {}, 0.0)
     assert there["sha256"] == facts["sha256"]
     assert facts_of(elsewhere, "a", "key", verify=True)
 
 
 def test_a_mesh_whose_name_is_too_long_for_results_is_a_failure_and_costs_no_other(meshes, tmp_path, capsys):
     write_mesh(meshes / f"{'x' * 245}.off", bumpy(80))
-    assert batch(meshes, tmp_path / "out", "--do", "fields", "--source", "5") == 1
+    assert batch(meshes, tmp_path / "out", "--do", "fields", "--sources", "5") == 1
     assert [row["mesh"] for row in rows(tmp_path / "out")] == ["bumpy"]
     (failure,) = rows(tmp_path / "out", "failures")
     assert "cannot be written (File name too long); rename the mesh." in failure["reason"]
@@ -83,7 +83,7 @@ def test_a_folder_in_the_place_of_a_result_stays_and_is_a_failure(meshes, tmp_pa
     kept = tmp_path / "out" / f"bumpy.fields.biharmonic.{ending}" / "kept.txt"
     kept.parent.mkdir(parents=True)
     kept.write_text("mine")
-    assert batch(meshes, tmp_path / "out", "--do", "fields", "--source", "5") == 1
+    assert batch(meshes, tmp_path / "out", "--do", "fields", "--sources", "5") == 1
     (failure,) = rows(tmp_path / "out", "failures")
     assert failure["reason"].endswith("is a folder, and a result would have this name; move it away.")
     assert kept.read_text() == "mine"
@@ -94,7 +94,7 @@ def test_a_json_that_is_none_of_ours_is_no_result(meshes, tmp_path, text):
     out = tmp_path / "out"
     out.mkdir()
     (out / "bumpy.fields.biharmonic.json").write_text(text)
-    assert batch(meshes, out, "--do", "fields", "--source", "5") == 0
+    assert batch(meshes, out, "--do", "fields", "--sources", "5") == 0
     assert json.loads((out / "bumpy.fields.biharmonic.json").read_text())["shape"] == [100, 1]
 
 
@@ -104,7 +104,7 @@ def test_a_json_of_a_stranger_removes_no_file_elsewhere(tmp_path):
     mine.write_text("mine")
     (out / "a.json").write_text(json.dumps({"file": "a./../../mine.npy"}))
     (out / "a.").mkdir()
-    write_result(Folder(str(out)), "a", "key", {"a": np.arange(3)}, {})
+    write_result(Folder(str(out)), "a", "key", {"a": np.arange(3)}, {}, 0.0)
     assert mine.read_text() == "mine"
 
 
@@ -157,6 +157,6 @@ def test_a_damaged_part_is_made_again(meshes, tmp_path, monkeypatch):
 def test_a_pipe_in_the_place_of_a_result_is_not_waited_for(meshes, tmp_path):
     (tmp_path / "out").mkdir()
     os.mkfifo(tmp_path / "out" / "bumpy.fields.biharmonic.json")
-    assert batch(meshes, tmp_path / "out", "--do", "fields", "--source", "5") == 1
+    assert batch(meshes, tmp_path / "out", "--do", "fields", "--sources", "5") == 1
     (failure,) = rows(tmp_path / "out", "failures")
     assert "is not a regular file" in failure["reason"]
