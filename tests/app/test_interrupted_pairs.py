@@ -17,11 +17,11 @@ def interrupted(mesh, out, monkeypatch, error, after):
     """Begin all pairs, and let the computation end with an error after so many blocks of 20 rows."""
     ask, blocks = BiharmonicDistance.from_sources, []
 
-    def from_sources(self, ids, *rest):
+    def from_sources(self, ids, *rest, **how):
         if len(blocks) == after:
             raise error
         blocks.append(ids)
-        return ask(self, ids, *rest)
+        return ask(self, ids, *rest, **how)
 
     with monkeypatch.context() as patch:
         patch.setattr(BiharmonicDistance, "from_sources", from_sources)
