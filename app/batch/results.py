@@ -17,9 +17,10 @@ import numpy as np
 
 from bihdist_core.arrays import AnyArray
 from bihdist_core.errors import OutputError, ParameterError
+from bihdist_core.formats.gifti_output import write_gifti_values
 
 from .storage import Folder
-from .work_order import ARRAYS
+from .work_order import ARRAYS, GIFTI
 
 CHUNK = 1024
 """Rows and columns of a chunk of a Zarr array, which is read and written by chunks."""
@@ -138,6 +139,10 @@ def _write(path: Path, format: str, arrays: Mapping[str, Array]) -> None:
             return
         with path.open("wb") as file:
             np.save(file, array)
+    elif format == GIFTI:
+        (array,) = _whole(arrays).values()
+        with path.open("wb") as file:
+            write_gifti_values(file, path.name, {str(k): column for k, column in enumerate(array.T)})
     elif format == "npz":
         with path.open("wb") as file:
             np.savez(file, **_whole(arrays))  # type: ignore[arg-type]
