@@ -40,15 +40,20 @@ class Repairs:
 NO_REPAIRS = Repairs()
 
 
-def with_repairs(document: "Document", cut: str | None, merge: float | None) -> "Document":
-    """The document with other repairs of its meshes; None leaves them as they are, and "" takes the cut back.
+def with_repairs(document: "Document", cut: str | None, merge: float | None, surface: str = "") -> "Document":
+    """The document with other repairs of its meshes, or of one of them with what is made from it.
 
-    ParameterError where one mask would be that of two meshes.
+    None leaves them as they are, and "" takes the cut back.  ParameterError where one mask would be that of two meshes.
     """
-    if cut and NAME not in cut and len({mesh.path for mesh in document.surfaces}) > 1:
+    path = document.mesh(surface).path if surface else ""
+    meant = [mesh for mesh in document.surfaces if not surface or mesh.path == path]
+    if cut and NAME not in cut and len({mesh.path for mesh in meant}) > 1:
         raise ParameterError(f"{cut} would cut two meshes; write {NAME} in the path for the name of each.")
     meshes = []
     for mesh in document.surfaces:
+        if mesh not in meant:
+            meshes.append(mesh)
+            continue
         repairs = mesh.repairs if cut is None else replace(mesh.repairs, cut=cut, cut_sha256="").of(mesh.path)
         meshes.append(replace(mesh, repairs=repairs if merge is None else replace(repairs, merge=merge)))
     return replace(document, surfaces=tuple(meshes))
