@@ -122,8 +122,10 @@ def _(curve: Curve) -> Any:
 
 # ---------------------------------------------------------------------- reading
 def _mesh(data: Any, where: str) -> MeshFile:
-    readers = {"name": text, "path": text, "sha256": text, "change": _change, "pose_sha256": text}
-    readers["repairs"] = reader_of(Repairs)
+    readers: dict[str, Reader] = {
+        "name": text, "path": text, "sha256": text, "repairs": reader_of(Repairs), "change": _change,
+        "pose_sha256": text,
+    }  # fmt: skip
     values = record(data, where, readers, {"name", "path", "sha256"})
     pose = values.pop("pose_sha256", "")
     if pose and not values.get("change", Perturbation()).pose:

@@ -173,8 +173,10 @@ class LoadedMesh:
             beside.append(replace(each, up=up, camera=self.view_of(each.camera, up)) if is_mine else each)
         document = replace(document, beside=tuple(beside))
         found, change = self.mesh.sha256, self.mesh.change
-        known = {"sha256": found, "change": change, "repairs": self.mesh.repairs}
-        meshes = (replace(m, **known) if m.name in mine else m for m in document.surfaces)
+        meshes = (
+            replace(m, sha256=found, change=change, repairs=self.mesh.repairs) if m.name in mine else m
+            for m in document.surfaces
+        )
         points = []
         for point in document.points:
             if point.image_of and point.surface in mine:
