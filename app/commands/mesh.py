@@ -113,9 +113,8 @@ def into_each(options: argparse.Namespace, do: Callable[[argparse.Namespace], Fa
             raise ParameterError(f"{first} and {mesh} would both be written to {output(mesh)}; rename one.")
 
     def one(mesh: str) -> Facts:
-        own = {**vars(options), "mesh": mesh, "output": output(mesh)}
-        facts = do(argparse.Namespace(**own))
-        return {"mesh": mesh, "outputs": outputs_of(argparse.Namespace(**own)), **facts}
+        own = argparse.Namespace(**{**vars(options), "mesh": mesh, "output": output(mesh)})
+        return {"mesh": mesh, "outputs": outputs_of(own), **do(own)}
 
     return each_mesh(options.meshes, one)
 
