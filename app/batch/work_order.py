@@ -62,10 +62,6 @@ class WorkOrder:
                 "Pairs are among several sources: name them, such as --sources farthest:400 or --sources all; or "
                 "--labels for the mean distances between parcels."
             )
-        if self.arrays == GIFTI and {*self.works} - {"fields", "figure"}:
-            raise ParameterError(f"{GIFTI} files have values at vertices; they are written by --do fields.")
-        if self.arrays == GIFTI and self.dtype != "float32":
-            raise ParameterError(f"{GIFTI} files are in single precision; leave out --dtype {self.dtype}.")
         if self.layout and (self.layout not in LAYOUTS or "pairs" not in self.works or len(self.distances) > 1):
             raise ParameterError(
                 f"A layout ({', '.join(LAYOUTS)}) is of the pairs of one distance: --do pairs --sources all."

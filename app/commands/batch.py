@@ -297,6 +297,10 @@ def _check_together(options: argparse.Namespace) -> None:
         raise ParameterError(
             f"--one-based goes with --format mat; vertex ids in .{options.format or 'npy'} files count from 0."
         )
+    if options.format == GIFTI and asked - {"fields", "figure"}:
+        raise ParameterError(f"{GIFTI} files have values at vertices; they are written by --do fields.")
+    if options.format == GIFTI and options.dtype == "float64":
+        raise ParameterError(f"{GIFTI} files are in single precision; leave out --dtype float64.")
     takes_several = asked.intersection(works_of("sources")) - {"figure"} - ({"pairs"} if options.labels else set())
     if options.sources and options.sources.several and not takes_several:
         raise ParameterError("Figures have one source; name one vertex after --sources.")
