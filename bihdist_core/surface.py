@@ -16,11 +16,11 @@ import numpy.typing as npt
 from .arrays import BoolArray, FloatArray, IntArray
 from .coincident_points import merged_within
 from .counts import counted
-from .errors import ParameterError, VertexError
+from .errors import MeshError, ParameterError, VertexError
 from .kernel.library import library
 from .mesh_arrays import checked_faces, checked_vertices
 from .mesh_like import MeshLike, Rows
-from .number_arrays import real_numbers
+from .number_arrays import array_of, real_numbers
 
 Coordinates = FloatArray | list[FloatArray]
 """(3, m): vectors, each coordinate for itself."""
@@ -208,6 +208,48 @@ class Surface:
         fact = f"{counted(count, 'vertex', 'vertices')} merged with others within {tolerance:g}"
         faces = ids[self.faces]
         return Surface(self.vertices[kept], faces, self.name, self.repairs, (*self.facts, fact)), ids
+
+    def without(self, vertices: npt.ArrayLike) -> Surface:
+        """The surface with vertices cut out: the faces that touch them are gone, and all ids stay as they are.
+
+        vertices: (k,) ids, or (n,) booleans, True for those that go.  They are still there, like others that are left
+        without a face, and have no distance (NaN); `repairs` says how much is gone.
+
+        VertexError for ids off the mesh, ParameterError for what is neither ids nor booleans, MeshError where no face
+        is left.
+
+        >>> surface = Surface([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> surface.without([1]), surface.without(surface.vertices[:, 1] < surface.vertices[:, 0]).unreferenced_count
+        (Surface(surface: 4 vertices, 1 faces), 1)
+        """
+        gone = self._chosen(vertices)
+        left = ~gone[self.faces].any(axis=1)
+        if not left.any():
+            raise MeshError(f"{self.name}: no face is left without {counted(int(gone.sum()), 'vertex', 'vertices')}.")
+        if left.all():
+            return self
+        cut = (
+            f"{counted(int(gone.sum()), 'vertex', 'vertices')} cut out, with "
+            f"{counted(len(left) - int(left.sum()), 'face')}"
+        )
+        return Surface(self.vertices, self.faces[left], self.name, (*self.repairs, cut), self.facts)
+
+    def _chosen(self, vertices: npt.ArrayLike) -> BoolArray:
+        """(n,) whether a vertex is among ids (k,), or those of booleans (n,), be it of a face or not."""
+        n, found = len(self.vertices), array_of(vertices, "Vertices")
+        is_ids = found.ndim == 1 and (found.dtype.kind in "iu" or not found.size)
+        if found.shape != (n,) if found.dtype.kind == "b" else not is_ids:
+            raise ParameterError(
+                f"Vertices are ids (k,), or booleans for all {n:,} of {self.name}, and no {found.dtype} array of shape "
+                f"{found.shape}."
+            )
+        ids = np.flatnonzero(found) if found.dtype.kind == "b" else found.astype(np.int64)
+        wrong = ids[(ids < 0) | (ids >= n)]
+        if len(wrong):
+            raise VertexError(f"{self.name} has no vertex {wrong[0]}; ids run from 0 to {n - 1}.")
+        chosen = np.zeros(n, bool)
+        chosen[ids] = True
+        return chosen
 
     @cached_property
     def _sides(self) -> tuple[IntArray, IntArray]:

@@ -15,12 +15,13 @@ from .errors import OutputError
 def check_output(path: str | os.PathLike[str], formats: Sequence[str]) -> str:
     """The extension of an output path, in lower case; to be called before long work whose result goes there.
 
-    `formats` are extensions with their dot.  Raises OutputError for another extension, a folder that is missing or
-    cannot be written, and a path that is a folder.
+    `formats` are extensions with their dot, such as .npy or .func.gii.  Raises OutputError for another extension, a
+    folder that is missing or cannot be written, and a path that is a folder.
     """
     path = Path(path)
-    extension = path.suffix.lower()
-    if extension not in formats:
+    name = path.name.lower()
+    extension = next((each for each in formats if name.endswith(each) and name != each), "")
+    if not extension:
         ending = f"the extension {path.suffix!r}" if path.suffix else "no extension"
         raise OutputError(f"{path} has {ending}; this can be written as {', '.join(formats)}.")
     _check_place(path)

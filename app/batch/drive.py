@@ -105,6 +105,7 @@ def tasks_for(
         own = replace(
             wanted,
             sources=replace(wanted.sources, file=wanted.file_for(wanted.sources.file, name)),
+            cut=wanted.file_for(wanted.cut, name),
             labels=wanted.file_for(wanted.labels, name),
             mask=wanted.file_for(wanted.mask, name),
         )
@@ -129,7 +130,7 @@ def tasks_for_maps(
 ) -> tuple[list[Task], list[Failure]]:
     """The same for each map."""
     tasks, failures = [], []
-    wanted = replace(wanted, works=("evaluate",), layout="")
+    wanted = replace(wanted, works=("evaluate",), layout="", cut="", merge=None)
     for each in maps:
         try:
             sums = "+".join(map(checksum, [each.mesh, *each.files.values()]))

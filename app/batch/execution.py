@@ -26,6 +26,7 @@ from bihdist_core.solver.blas import one_blas_thread
 from bihdist_core.solver.worker_threads import without_workers
 
 from ..document.sources import FILE
+from ..session.repaired_surface import ids_table
 from .layouts import NORMALISED, laid_out
 from .maps import evaluated
 from .matlab_ids import for_matlab
@@ -33,7 +34,7 @@ from .memory import PART_BYTES, allowed, needed
 from .results import Blocks, facts_of, write_facts, write_result
 from .storage import Folder
 from .task import Failure, Part, Report, Row, Task, done_before
-from .work_kinds import MAXIMA
+from .work_kinds import KINDS, MAXIMA
 from .works import (
     WORK,
     Made,
@@ -46,6 +47,8 @@ from .works import (
     parcels_made,
 )
 
+MASKED = "vertices with 0 do not count; distances still cross them, as they do not cross what is cut"
+"""What a result's JSON says of a mask."""
 PARTS = ".parts"
 """The folder of parts, until they are put together."""
 SECONDS = "seconds"
@@ -84,6 +87,8 @@ def _do_mesh(task: Task) -> Report:
     except Exception as error:
         reason = failure_in_words(error)
         return Report(task, failures=tuple(Failure(task.name, *each, reason) for each in wanted.results()))
+    if mesh.new_ids is not None:
+        folder.write(_ids_name(task), ids_table(mesh.new_ids).encode())
     needs = needed(_vertices(task, mesh), wanted, _sources_from_file(mesh))
     if needs > allowed(is_expected=bool(task.needs)):
         return Report(task, needs=needs)
@@ -105,6 +110,11 @@ def _do_mesh(task: Task) -> Report:
         except Exception as error:
             failures.append(Failure(task.name, work, distance, failure_in_words(error)))
     return Report(task, tuple(rows), tuple(failures), tuple(more))
+
+
+def _ids_name(task: Task) -> str:
+    """The file with the new ids of merged vertices."""
+    return f"{task.name}.ids.csv"
 
 
 def _vertices(task: Task, mesh: Mesh) -> int:
@@ -180,9 +190,11 @@ def _facts_of_mesh(task: Task, mesh: Mesh, work: str) -> dict[str, Any]:
         scaled = {"scaled_by": mesh.scale}
         if work != "eigen":
             scaled["normalisation"] = task.wanted.normalise
+    crossed = {"mask": MASKED} if task.wanted.mask and "mask" in KINDS[work].fields else {}
     return {
         "mesh": surface.name,
         "checksum": own,
+        **crossed,
         **({"checksums": others} if others else {}),
         "n_vertices": surface.n_vertices,
         "n_faces": surface.n_faces,
@@ -190,6 +202,7 @@ def _facts_of_mesh(task: Task, mesh: Mesh, work: str) -> dict[str, Any]:
         "area": surface.area,
         **scaled,
         "repairs": list(notes.repairs),
+        **({} if mesh.new_ids is None else {"new_ids": _ids_name(task)}),
         "warnings": list(notes.warnings),
         "areas": task.wanted.areas,
         "version": task.version,

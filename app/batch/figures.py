@@ -14,6 +14,7 @@ from ..document.camera import Camera, View
 from ..document.document import Document
 from ..document.file import recipe_from_text
 from ..document.page import Recipe
+from ..document.repairs import Repairs
 from ..figures.contact_sheet import as_jpeg, thumbnail
 from ..figures.draw import save_figure
 from ..figures.export import Surfaces, compute, figure_of, open_document
@@ -27,7 +28,8 @@ from .works import Made, Mesh
 def recipe_for(path: str, mesh: Mesh) -> Recipe:
     """The recipe of all meshes on one of them."""
     recipe = recipe_from_text(mesh.wanted.recipe)
-    surface = replace(recipe.document.surfaces[0], path=path, sha256="")
+    repairs = Repairs(cut=mesh.wanted.file_for(mesh.wanted.cut, mesh.name), merge=mesh.wanted.merge)
+    surface = replace(recipe.document.surfaces[0], path=path, sha256="", repairs=repairs)
     return replace(recipe, document=replace(recipe.document, surfaces=(surface,)))
 
 

@@ -19,9 +19,10 @@ from bihdist_core.arrays import AnyArray
 from bihdist_core.errors import OutputError, ParameterError
 from bihdist_core.file_content import MOST_JSON_BYTES, json_value
 from bihdist_core.formats.array_file import array_in, put_array
+from bihdist_core.formats.gifti_output import write_gifti_values
 
 from .storage import Folder
-from .work_order import ARRAYS
+from .work_order import ARRAYS, GIFTI
 
 CHUNK = 1024
 """Rows and columns of a chunk of a Zarr array, which is read and written by chunks."""
@@ -150,6 +151,10 @@ def _write(path: Path, format: str, arrays: Mapping[str, Array]) -> None:
             return
         with path.open("wb") as file:
             put_array(file, array)
+    elif format == GIFTI:
+        (array,) = _whole(arrays).values()
+        with path.open("wb") as file:
+            write_gifti_values(file, path.name, {str(k): column for k, column in enumerate(array.T)})
     elif format == "npz":
         with path.open("wb") as file:
             np.savez(file, **_whole(arrays))  # type: ignore[arg-type]

@@ -13,7 +13,9 @@ from .work_kinds import KINDS, MAXIMA, WORKS
 SIZE, SHARED, OWN = RANGES = ("size", "shared", "own")
 """Where colours of figures end: at one value over the root of each mesh's area, to the power that a distance has; at
 one value in mesh units; at the maximum of each mesh."""
-ARRAYS = ("npy", "npz", "mat", "zarr")
+GIFTI = "func.gii"
+"""The format of values at vertices, in single precision."""
+ARRAYS = ("npy", "npz", "mat", "zarr", GIFTI)
 """Formats of arrays."""
 LAYOUTS = ("dist", "geodist")
 """Folders of .mat files as benchmarks of shape matching read them (see `layouts`)."""
@@ -24,11 +26,11 @@ ALL = "(all maps)"
 @dataclass(frozen=True)
 class WorkOrder:
     """works: of WORKS, in their order; distances: specs in words; nearest: as many neighbours; samples: of a map, that
-    many vertices or all; labels, mask and the sources' file: a path in which {name} stands for the mesh's.  one_based:
-    whether vertex ids in .mat files count from 1.  layout: of LAYOUTS, for pairs.  normalise: "area" for distances and
-    eigenpairs of the mesh scaled to area 1.  recipe: the text of that which figures are drawn from; range: of RANGES;
-    maxima: where those of panels end, if they are not their own.  verify: whether what is there counts as there only if
-    its bytes are those that were written."""
+    many vertices or all; cut, merge: see `Repairs`; labels, mask, cut and the sources' file: a path in which {name}
+    stands for the mesh's.  one_based: whether vertex ids in .mat files count from 1.  layout: of LAYOUTS, for pairs.
+    normalise: "area" for distances and eigenpairs of the mesh scaled to area 1.  recipe: the text of that which figures
+    are drawn from; range: of RANGES; maxima: where those of panels end, if they are not their own.  verify: whether
+    what is there counts as there only if its bytes are those that were written."""
 
     works: tuple[str, ...]
     distances: tuple[str, ...] = ("biharmonic",)
@@ -40,6 +42,8 @@ class WorkOrder:
     arrays: str = "npy"
     one_based: bool = False
     samples: int = 0
+    cut: str = ""
+    merge: float | None = None
     labels: str = ""
     mask: str = ""
     layout: str = ""
@@ -76,7 +80,8 @@ class WorkOrder:
         """What tells this result from others: of a mesh and other files (by their checksums), options and version."""
         says = asdict(self)
         # What stands in files is in their checksums, wherever they are.
-        says["sources"]["file"], says["mask"], says["labels"] = "", bool(self.mask), bool(self.labels)
+        says["sources"]["file"] = ""
+        says |= {name: bool(getattr(self, name)) for name in ("cut", "mask", "labels")}
         says = {name: value for name, value in says.items() if name in KINDS[work].fields}
         text = json.dumps([work, distance, checksums, version, says], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
@@ -85,7 +90,7 @@ class WorkOrder:
     def files(self) -> dict[str, str]:
         """What is read beside the mesh, by what it is."""
         sources = "" if self.sources.text else self.sources.file
-        named = {"sources": sources, "labels": self.labels, "mask": self.mask}
+        named = {"sources": sources, "cut": self.cut, "labels": self.labels, "mask": self.mask}
         return {what: path for what, path in named.items() if path}
 
     def file_for(self, pattern: str, name: str) -> str:

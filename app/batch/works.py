@@ -22,8 +22,10 @@ from bihdist_core.laplacian import eigenpairs
 from bihdist_core.sources.source import Source
 from bihdist_core.sources.words import short_words_of
 
+from ..document.repairs import Repairs
 from ..document.sources import FARTHEST
 from ..session.chosen_sources import chosen_sources
+from ..session.repaired_surface import kept_ids, repaired
 from .results import Array
 from .work_kinds import KINDS
 from .work_order import WorkOrder
@@ -42,7 +44,11 @@ class Mesh:
 
     def __init__(self, path: str, name: str, wanted: WorkOrder) -> None:
         self.name, self.wanted = name, wanted
-        self.surface: Surface = read_surface(path)
+        repairs = Repairs(cut=wanted.file_for(wanted.cut, name), merge=wanted.merge)
+        in_file = read_surface(path)
+        surface, self.new_ids = repaired(in_file, repairs)
+        self.surface: Surface = surface
+        self._count, self._kept = in_file.n_vertices, kept_ids(self.new_ids, in_file.n_vertices)
         self.extension = mesh_format(path)
         self._sources: dict[str, list[Source]] = {}
 
@@ -87,7 +93,7 @@ class Mesh:
         if not self.wanted.mask:
             return None
         file = self.wanted.file_for(self.wanted.mask, self.name)
-        found = checked_mask(self.surface, read_whole_numbers(file, "mask"))
+        found = checked_mask(self.surface, self._of_vertices(read_whole_numbers(file, "mask")))
         if not found[self.surface.component_of_vertex >= 0].any():
             raise ParameterError(f"The mask in {file} leaves no vertex of {self.surface.name}.")
         return found
@@ -108,7 +114,11 @@ class Mesh:
     @cached_property
     def labels(self) -> IntArray:
         """(n,) the parcel of each vertex."""
-        return read_whole_numbers(self.wanted.file_for(self.wanted.labels, self.name), "labels")
+        return self._of_vertices(read_whole_numbers(self.wanted.file_for(self.wanted.labels, self.name), "labels"))
+
+    def _of_vertices(self, values: IntArray) -> IntArray:
+        """Values of the vertices in the mesh's file, of those that are left; others as they are, to be refused."""
+        return values[self._kept] if len(values) == self._count else values
 
 
 # ---------------------------------------------------------------------- works

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from bihdist_core.counts import counted
 
 from ..batch.work_kinds import COUNTS, KINDS, WORKS, works_of
+from ..batch.work_order import ARRAYS, GIFTI
 from ..document.sources import HIGHEST, Sources
 from ..version import version
 from .options import (
@@ -69,12 +70,16 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     add_areas(parser)
     add_dtype(parser, "of arrays")
-    parser.add_argument("--format", choices=("npy", "npz", "mat", "zarr"), help="of arrays (default: npy)")
+    parser.add_argument("--format", choices=ARRAYS, help="of arrays (default: npy); func.gii is of fields")
     one_based = "with --format mat: vertex ids in files count from 1, as MATLAB's do, and files say so"
     parser.add_argument("--one-based", action="store_true", default=None, help=one_based)
     parser.add_argument("--normalise", choices=("area",), help="distances and eigenpairs of each mesh scaled to area 1")
     kinds = ".npy, .txt, .gii, .annot or a file of FreeSurfer's; {name} is the mesh's name"
-    parser.add_argument("--mask", metavar="FILE", help=f"0 or 1 for each vertex: which count; a {kinds}")
+    parser.add_argument(
+        "--mask",
+        metavar="FILE",
+        help=f"0 or 1 for each vertex: which count in results, while distances still cross the others: a {kinds}",
+    )
     of_parcels = "for pairs: means between parcels; a number for each vertex, below 0 for none"
     parser.add_argument("--labels", metavar="FILE", help=f"{of_parcels}: a {kinds}")
     parser.add_argument(
@@ -243,12 +248,14 @@ def _wanted(options: argparse.Namespace) -> "WorkOrder":
         sources=_sources(options),
         eigenpairs=eigenpairs,
         nearest=neighbours,
-        dtype=options.dtype or DTYPES[0],
+        dtype=options.dtype or (DTYPES[1] if options.format == GIFTI else DTYPES[0]),
         arrays=options.format or "npy",
         one_based=bool(options.one_based),
         samples=options.samples or 0,
         layout=options.layout or "",
         normalise=options.normalise or "",
+        cut=os.path.abspath(options.cut) if options.cut else "",
+        merge=options.merge,
         labels=os.path.abspath(options.labels) if options.labels else "",
         mask=os.path.abspath(options.mask) if options.mask else "",
         recipe=recipe,
@@ -293,6 +300,10 @@ def _check_together(options: argparse.Namespace) -> None:
         raise ParameterError(
             f"--one-based goes with --format mat; vertex ids in .{options.format or 'npy'} files count from 0."
         )
+    if options.format == GIFTI and asked - {"fields", "figure"}:
+        raise ParameterError(f"{GIFTI} files have values at vertices; they are written by --do fields.")
+    if options.format == GIFTI and options.dtype == "float64":
+        raise ParameterError(f"{GIFTI} files are in single precision; leave out --dtype float64.")
     takes_several = asked.intersection(works_of("sources")) - {"figure"} - ({"pairs"} if options.labels else set())
     if options.sources and options.sources.several and not takes_several:
         raise ParameterError("Figures have one source; name one vertex after --sources.")
@@ -314,6 +325,7 @@ def _recipe(options: argparse.Namespace, distances: tuple[str, ...]) -> str:
     from ..document.document import comparison
     from ..document.file import read_recipe, recipe_text
     from ..document.page import Recipe
+    from ..document.repairs import NO_REPAIRS
 
     if options.recipe:
         recipe = read_recipe(options.recipe)
@@ -322,6 +334,8 @@ def _recipe(options: argparse.Namespace, distances: tuple[str, ...]) -> str:
     else:
         shows = tuple(Spec.parse(each) for each in distances)
         recipe = Recipe(comparison("mesh", shows, areas=options.areas or "voronoi"))
+    if recipe.document.surfaces[0].repairs != NO_REPAIRS:
+        raise ParameterError(f"{options.recipe} cuts or merges its own mesh; batch does what --cut and --merge say.")
     document, members = recipe.document, options.sources.members if options.sources else ()
     first = members[0] if members else None
     points = tuple(replace(p, at=first) for p in document.points)

@@ -19,7 +19,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `field` to its parser."""
     add_meshes(parser)
     add_sources(parser, "where distances start, a field each")
-    add_output(parser, "a .npy, .csv, .ply or .vtp file; {name} is that of each mesh")
+    add_output(parser, "a .npy, .csv, .ply, .vtp, .func.gii or .shape.gii file; {name} is that of each mesh")
     add_distance(parser, is_field=True)
     add_areas(parser)
 

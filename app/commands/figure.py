@@ -40,7 +40,8 @@ def run(options: argparse.Namespace) -> Result:
     surface = figure.panels[0].surface
     tell_repairs(surface)
     points = [point for point in starting_points(recipe.document) if not point.image_of]
-    starts = list(dict.fromkeys(source_at(point.at, surface) for point in points))
+    shown = {panel.surface: drawn.surface for panel, drawn in zip(recipe.document.panels, figure.panels, strict=True)}
+    starts = list(dict.fromkeys(source_at(point.at, shown[point.surface]) for point in points))
     what = ", source vertex " if all(isinstance(each, int) for each in starts) else ", source "
     print(f"{options.output}: {described(figure)}{what if starts else ''}{', '.join(map(short_words_of, starts))}")
     document, snippet = recipe.document, str(tex_path(Path(options.output)))

@@ -10,6 +10,7 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from ..figures.options import made_from, rows, with_options, with_rows
+from ..figures.repair_options import REPAIRS
 from .mesh_sources import sources_of_document
 from .options import (
     MESH,
@@ -74,6 +75,7 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     document, made = made_from(recipe.document)
     if options.other_mesh is not None:
         document = _with_other_mesh(document, options.other_mesh)
+    document = with_rows(replace(recipe, document=document), given(options, REPAIRS), (REPAIRS,)).document
     document, columns = _with_panels(document, options, _sources(document, options))
     if columns is not None and not made:
         recipe = replace(recipe, page=replace(recipe.page, columns=columns))
@@ -123,9 +125,9 @@ def _sources(document: "Document", options: argparse.Namespace) -> "list[Source]
     words = options.distance
     shows = quantities(options, words, [field.name for field in document.fields]) if words else []
     shown = shows or [panel.shows for panel in document.panels]
-    mesh, areas = document.surfaces[0].path, options.areas or document.areas
+    mesh, areas = document.surfaces[0], options.areas or document.areas
     with progress_line() as progress:
-        return sources_of_document(options.sources, mesh, shown, areas, progress)
+        return sources_of_document(options.sources, mesh.path, shown, areas, mesh.repairs, progress)
 
 
 def _with_panels(

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..document.document import AREAS
 from .mesh import each_mesh, found_mesh
-from .options import add_areas
+from .options import add_areas, repairs_of
 from .result import Facts, Result, distance_facts, facts_of
 from .terminal import accuracy, progress_line
 
@@ -57,10 +57,11 @@ def run(options: argparse.Namespace) -> Result:
 
 def _described(mesh: str, options: argparse.Namespace, solver: dict[str, str]) -> Facts:
     """Print what is known of a mesh, and give it in plain values."""
-    from bihdist_core import read_surface
     from bihdist_core.analysis.surface_notes import surface_notes
 
-    s = read_surface(found_mesh(mesh))
+    from ..session.repaired_surface import read_repaired
+
+    s = read_repaired(found_mesh(mesh), repairs_of(options, mesh))
     notes = surface_notes(s)
     facts = {
         "mesh": mesh,

@@ -9,6 +9,7 @@ from bihdist_core.counts import counted
 from ..document.looks import TWENTY_STEPS, Isolines
 from ..figures.look_options import ISOLINES, isolines_with
 from .field_of import FieldOf, field_of
+from .mesh import ids_beside
 from .options import add_areas, add_distance, add_mesh, add_output, add_rows, add_sources, given
 from .result import Facts, Result
 from .terminal import progress_line
@@ -60,7 +61,7 @@ def run(options: argparse.Namespace) -> Result:
     with progress_line() as progress:
         it = field_of(options, options.distance, progress)
     wanted = wanted.scaled(it.scale)
-    files = (options.output, options.region_ids, options.region_mesh)
+    files = (options.output, ids_beside(options), options.region_ids, options.region_mesh)
     facts: Facts = {"mesh": options.mesh, **it.facts, "outputs": [file for file in files if file]}
     if options.output:
         values = _values(it, wanted, options.isoline_through or ())

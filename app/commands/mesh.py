@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 from bihdist_core.sentences import shortened
 
 from ..document.document import AREAS
+from ..document.repairs import NAME, NO_REPAIRS, Repairs
 from ..samples import mesh_path, sample_names
+from .options import repairs_of
 from .result import Facts, Result
-from .terminal import tell_failure, tell_repairs
+from .terminal import tell, tell_failure, tell_repairs
 
 if TYPE_CHECKING:
     from bihdist_core import Laplacian
@@ -46,21 +48,42 @@ def check_mesh(word: str, commands: Iterable[str] = ()) -> None:
 
 
 def read_laplacian(options: argparse.Namespace) -> "Laplacian":
-    """That of the mesh that was named, with the areas that were asked for."""
-    return laplacian_of(options.mesh, options.areas)
+    """That of the mesh that was named, with the areas and the repairs that were asked for.
+
+    Where these number vertices anew, the file with the numbers is written beside the output.
+    """
+    return laplacian_of(options.mesh, options.areas, repairs_of(options, options.mesh), ids_beside(options))
 
 
-def laplacian_of(mesh: str, areas: str | None = None) -> "Laplacian":
-    """Read a mesh and say what was repaired."""
+def laplacian_of(
+    mesh: str, areas: str | None = None, repairs: Repairs = NO_REPAIRS, ids_file: str | None = None
+) -> "Laplacian":
+    """Read a mesh and say what was repaired.  ids_file: where new ids of vertices are written, if anywhere."""
     from bihdist_core import Laplacian, read_surface
+    from bihdist_core.whole_file import whole_file
 
-    surface = read_surface(found_mesh(mesh))
+    from ..session.repaired_surface import ids_table, repaired
+
+    surface, ids = repaired(read_surface(found_mesh(mesh)), repairs)
     tell_repairs(surface)
+    if ids is not None and ids_file is not None:
+        with whole_file(ids_file) as temporary:
+            temporary.write_text(ids_table(ids), encoding="ascii")
+        tell(f"{ids_file}: the new id of each vertex of {surface.name}.")
     return Laplacian(surface, areas or AREAS[0])
 
 
-NAME = "{name}"
-"""In an output it stands for the name of each mesh."""
+def outputs_of(options: argparse.Namespace) -> list[str]:
+    """The files that a command with one output has written."""
+    ids_file = ids_beside(options)
+    return [options.output, *([ids_file] if ids_file else [])]
+
+
+def ids_beside(options: argparse.Namespace) -> str | None:
+    """Where the new ids of merged vertices stand, beside the output; None without --merge, or an output's file."""
+    if options.merge is None or not getattr(options, "output", None) or hasattr(options, "is_standard_output"):
+        return None
+    return f"{os.path.splitext(options.output)[0]}.ids.csv"
 
 
 def add_meshes(parser: argparse.ArgumentParser) -> None:
@@ -92,8 +115,8 @@ def into_each(options: argparse.Namespace, do: Callable[[argparse.Namespace], Fa
             raise ParameterError(f"{first} and {mesh} would both be written to {output(mesh)}; rename one.")
 
     def one(mesh: str) -> Facts:
-        own = {**vars(options), "mesh": mesh, "output": output(mesh)}
-        return {"mesh": mesh, "outputs": [own["output"]], **do(argparse.Namespace(**own))}
+        own = argparse.Namespace(**{**vars(options), "mesh": mesh, "output": output(mesh)})
+        return {"mesh": mesh, "outputs": outputs_of(own), **do(own)}
 
     return each_mesh(options.meshes, one)
 

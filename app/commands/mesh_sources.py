@@ -9,6 +9,7 @@ from bihdist_core.distances.kinds import Spec
 
 from ..document.document import COMPARISON
 from ..document.quantities import Quantity
+from ..document.repairs import Repairs
 from ..document.sources import HIGHEST, LISTED, Sources
 from .mesh import found_mesh
 from .terminal import tell_moved
@@ -56,19 +57,22 @@ def sources_of_document(
     mesh: str,
     shows: "Sequence[Spec | Quantity]",
     areas: str | None,
+    repairs: Repairs,
     progress: "Progress | None" = None,
 ) -> "list[Source]":
     """What is asked for on the mesh of a document that is still to be opened; none where nothing is.
 
-    shows: of which the first distance says which points are farthest.
+    shows: of which the first distance says which points are farthest; areas, repairs: how the mesh is taken.
     """
     if asked is None or asked.rule == LISTED:
         # Whoever opens the document looks where they are.
         return [] if asked is None else [*asked.members]
-    from bihdist_core import Laplacian, read_surface
+    from bihdist_core import Laplacian
     from bihdist_core.distances.answers import Distances
 
-    surface = read_surface(found_mesh(mesh))
+    from ..session.repaired_surface import read_repaired
+
+    surface = read_repaired(found_mesh(mesh), repairs)
     spec = first_spec(shows)
     distances = Distances(Laplacian(surface, areas or "voronoi"))
     return sources_of_mesh(asked, mesh, surface, lambda: distances.get(spec, progress), progress).sources

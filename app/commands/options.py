@@ -14,8 +14,10 @@ from ..document.lists import pair_from_words, pairs_from_words, split_list
 from ..document.option import Option, Row
 from ..document.page import Page, Recipe
 from ..document.quantities import Quantity, quantity
+from ..document.repairs import Repairs
 from ..document.sources import sources_from_words
 from ..figures.options import PAGE_ROWS, VERTEX_AREAS, with_rows
+from ..figures.repair_options import REPAIRS
 
 PANELS = f"a panel each (default: {','.join(str(spec) for spec in COMPARISON)})"
 PLACES = (
@@ -204,8 +206,13 @@ sources, pair, pairs = as_argument(sources_from_words), as_argument(pair_from_wo
 
 
 def add_areas(parser: argparse.ArgumentParser) -> None:
-    """Add the option of how vertex areas are measured."""
-    add_rows(parser, VERTEX_AREAS)
+    """Add the options of how a mesh is taken: how vertex areas are measured, what is cut out of it and merged."""
+    add_rows(parser, VERTEX_AREAS, REPAIRS)
+
+
+def repairs_of(options: argparse.Namespace, mesh: str) -> Repairs:
+    """What the options do to a mesh on reading."""
+    return Repairs(cut=options.cut or "", merge=options.merge).of(mesh)
 
 
 def specs(options: argparse.Namespace, texts: Sequence[str]) -> list[Spec]:

@@ -45,7 +45,8 @@ class Parser(argparse.ArgumentParser):
 
     def _refuse(self, word: str) -> NoReturn:
         name = word.partition("=")[0]
-        near = get_close_matches(name, self._option_string_actions, 1)
+        begun = [each for each in self._option_string_actions if each.startswith(name)]
+        near = begun[:1] or get_close_matches(name, self._option_string_actions, 1)
         self.error(f"there is no option {name}{f'; did you mean {near[0]}?' if near else ''}")
 
 

@@ -145,7 +145,7 @@ def standard_output(options: argparse.Namespace, text: str) -> Iterator[None]:
         raise OutputError("Standard output has either the file or the JSON; name a file instead of -.")
     with tempfile.TemporaryDirectory() as folder:
         path, printed = os.path.join(folder, f"output{text}"), io.StringIO()
-        options.output = path
+        options.output, options.is_standard_output = path, True
         try:
             with redirect_stdout(printed):
                 yield

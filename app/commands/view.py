@@ -7,10 +7,11 @@ from ..document.option import Row
 from ..document.page import Recipe
 from ..figures.look_options import COLOURS
 from ..figures.options import VERTEX_AREAS, tool_rows, with_rows
+from ..figures.repair_options import REPAIRS
 from ..figures.view_options import UP, up_meaning
 from .mesh import found_mesh
 from .mesh_sources import one_source, sources_of_document
-from .options import PANELS, add_distance, add_rows, add_sources, given, given_parameters, quantities
+from .options import PANELS, add_distance, add_rows, add_sources, given, given_parameters, quantities, repairs_of
 from .result import Result
 
 WORDS = "open the viewer"
@@ -32,7 +33,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def _rows() -> list[Row]:
     """Of the options of figures those of tools, as far as they are not about the page, and some more."""
     of_pages = [row for row in tool_rows() if row.is_late or any(part.startswith("Page.") for part in row.parts)]
-    return [VERTEX_AREAS, COLOURS, UP, *(row for row in tool_rows() if row not in of_pages)]
+    return [VERTEX_AREAS, REPAIRS, COLOURS, UP, *(row for row in tool_rows() if row not in of_pages)]
 
 
 def run(options: argparse.Namespace) -> Result:
@@ -54,11 +55,12 @@ def run(options: argparse.Namespace) -> Result:
             raise ParameterError(f"A session says which meshes it has; leave out {options.beside}.")
     else:
         chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
-        sources = sources_of_document(options.sources, path, chosen, options.areas)
+        sources = sources_of_document(options.sources, path, chosen, options.areas, repairs_of(options, path))
         shown = comparison(path, tuple(chosen), (one_source(sources),))
         shown = with_rows(Recipe(shown), given(options, *_rows()), _rows()).document
         if options.beside is not None:
             shown = open_beside(shown, MeshFile("", found_mesh(options.beside)))
+        shown = with_rows(Recipe(shown), given(options, REPAIRS), (REPAIRS,)).document
     if is_choice and options.sources is not None:
         raise ParameterError("Sources need a mesh; name one.")
     from ..qt.screen import check_screen

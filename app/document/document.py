@@ -32,6 +32,7 @@ from .looks import (
 )
 from .part import Part
 from .quantities import OwnField, Quantity, from_point, own_fields
+from .repairs import NO_REPAIRS, Repairs
 from .tools import docked_tools
 
 AnyPart = TypeVar("AnyPart", bound=Part)
@@ -52,13 +53,15 @@ class MeshFile:
     """A surface by where it comes from, under a name of its own in the document.
 
     path: a file, or the name of a sample; empty for a surface in memory.  sha256: of the file's bytes, or of the arrays
-    in memory; empty as long as any content will do.  change: what is made of that (`changing`), None for itself.
+    in memory; empty as long as any content will do.  repairs: what is done to it on reading.  change: what is made of
+    that (`changing`), None for itself.
     """
 
     name: str
     path: str
     sha256: str = ""
     change: Perturbation | None = None
+    repairs: Repairs = NO_REPAIRS
 
 
 @dataclass(frozen=True)

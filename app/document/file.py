@@ -90,6 +90,8 @@ def with_all_paths(document: Document, named: Callable[[str], str]) -> Document:
 def with_paths(mesh: MeshFile, named: Callable[[str], str]) -> MeshFile:
     """The same mesh with other paths, where it has any."""
     mesh = replace(mesh, path=named(mesh.path)) if mesh.path else mesh
+    if mesh.repairs.cut:
+        mesh = replace(mesh, repairs=replace(mesh.repairs, cut=named(mesh.repairs.cut)))
     if mesh.change is None or not mesh.change.pose:
         return mesh
     return replace(mesh, change=replace(mesh.change, pose=named(mesh.change.pose)))

@@ -19,6 +19,7 @@ from .document import Document, MeshFile
 from .json_values import Reader, field_readers, flag, listed, numbers, placed, reader_of, record, text, whole
 from .looks import Isolines, one_of
 from .quantities import Quantity, quantity_from, read_spec
+from .repairs import NO_REPAIRS, Repairs
 from .tools import part_types
 
 ALWAYS = {"surfaces", "points", "panels", "areas", "isolines", "camera", "zooms", "height", "next_id"}
@@ -86,7 +87,9 @@ def _(quantity: Quantity) -> Any:
 
 @written.register
 def _(mesh: MeshFile) -> Any:
-    data = {"name": mesh.name, "path": mesh.path, "sha256": mesh.sha256}
+    data: dict[str, Any] = {"name": mesh.name, "path": mesh.path, "sha256": mesh.sha256}
+    if mesh.repairs != NO_REPAIRS:
+        data["repairs"] = written(mesh.repairs)
     if mesh.change is None:
         return data
     data["change"] = words_of_change(mesh.change)
@@ -119,7 +122,10 @@ def _(curve: Curve) -> Any:
 
 # ---------------------------------------------------------------------- reading
 def _mesh(data: Any, where: str) -> MeshFile:
-    readers = {"name": text, "path": text, "sha256": text, "change": _change, "pose_sha256": text}
+    readers: dict[str, Reader] = {
+        "name": text, "path": text, "sha256": text, "repairs": reader_of(Repairs), "change": _change,
+        "pose_sha256": text,
+    }  # fmt: skip
     values = record(data, where, readers, {"name", "path", "sha256"})
     pose = values.pop("pose_sha256", "")
     if pose and not values.get("change", Perturbation()).pose:

@@ -23,6 +23,7 @@ from ..document.option import (
 from ..document.page import Recipe
 from ..document.tools import tools
 from .look_options import COLOURS, ISOLINES, RANGE, SHADING, with_range
+from .repair_options import REPAIRS
 from .view_options import UP, VIEWS, ZOOMS
 
 VERTEX_AREAS = attribute("document.areas", "vertex areas (default: voronoi)", choices=AREAS)
@@ -58,6 +59,7 @@ def _columns_of(recipe: Recipe) -> dict[str, Any]:
 # ---------------------------------------------------------------------- all of them
 ROWS = (
     VERTEX_AREAS,
+    REPAIRS,
     ISOLINES,
     attribute(
         "document.isolines.bold", "each of so many is bolder (nothing: 5)", "N", name="bold_isolines", read=int, bare=5
@@ -99,6 +101,7 @@ ROWS = (
     unsaid("with one mesh there is none beside it", "Document.beside"),
     unsaid("what the cameras of the window do", "Document.linked"),
     unsaid("the file's name says it", "Page.format"),
+    unsaid("what the mask holds is looked up", "Repairs.cut_sha256"),
 )
 
 
@@ -165,6 +168,6 @@ def with_options(
         recipe = with_rows(recipe, chosen or made, making)
         columns = values.get("columns") or (None if chosen else was) or COLUMNS
         recipe = with_attribute(recipe, "page.columns", columns)
-    last = [row for row in rows() if row.is_of_two]
+    last = [REPAIRS, *(row for row in rows() if row.is_of_two)]
     recipe = with_rows(replace(recipe, document=beside(recipe.document)), values, last)
     return with_range(recipe, values, tell, progress) if is_ranged and is_of_all else recipe

@@ -86,6 +86,8 @@ def figure(
     *,
     fields: Mapping[str, npt.ArrayLike] | None = None,
     areas: str = "voronoi",
+    cut: str = "",
+    merge: float | None = None,
     beside: Mesh | None = None,
     isolines: int | Isolines = 20,
     equal_isolines: bool = False,
@@ -126,26 +128,27 @@ def figure(
     distances: in words, "diffusion(t=1/4)" or "biharmonic - geodesic".  source: a vertex, the highest if None, a
     `SurfacePoint`, `BoundaryLoop`, `Curve` or `SourceSet`, or words such as "12+40"; or a list of these for a row of
     panels each.  fields: your own by name, (n,) with NaN where undefined; each has a panel, or is named in `distances`
-    like one: "biharmonic - mine".  perturb: what is done to the mesh, such as "noise=0.4,along=normals,seed=1",
-    "pose=FILE", "cut=3+10-20": each distance before and after, and the difference. beside: a second mesh, with panels
-    of its own; pairs: (k, 2) known vertices of both that correspond.  By each distance from these, instead of the
-    distances themselves, predict: where that vertex of the first is on the second; or maps: where all are, in colours,
-    "pairs" for the maps by pairs, or files of others.  views: names or cameras, side by side.  camera: the eleven
-    numbers that `--camera` takes, after other views.  up: the axis that points up, "z" or "-z", "auto" for a guess.
-    projection: "perspective" or "orthographic".  axes: a corner says where x, y and z point to.  zooms: vertices, or
-    with a factor, or with that and a number of steps.  isolines: about how many, at round values; equal_isolines: at so
-    many equal steps from 0 to the maximum; isoline_spacing, isoline_values: where they are instead; isoline_through:
-    vertices that have one more; bold_isolines: every so many.  anchors: vertices to be marked, perhaps each with a
-    value; anchor_values: written beside them.  pins: vertices, or places in faces, with numbers, in their order.
-    extrema: triangles at maxima, and at minima away from the source, that persist over a thousandth of the range.
-    regions: the panels, numbered from 1, or "all", that show lines around what is nearest to each pin. selections: ids
-    (k,) of vertices that stand out together, or words such as "12+40-77", a colour each. profile: True for the path
-    through the pins, or the points it goes through: vertices, places in faces, "source" and "pin:1"; way: how it goes
-    from one to the next, "auto", "exact" or "edges", or by a "section" whose plane holds the direction
-    `across`, "section-longer" or "section-whole". shading: "smooth", "creased" at more than `crease` degrees, or
-    "flat"; "auto" is creased on what has sharp edges.  colours: the word of a map, or a file of one.  range: "own",
-    "shared" (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each panel (None: its own), or
-    the session or recipe whose ends are taken.  size: "85mm", "1680x640", "column",
+    like one: "biharmonic - mine".  cut: a file with 1 for each vertex that stays and 0 for each that is cut out; {name}
+    in it is the mesh's name.  merge: what is no farther apart becomes one vertex.  perturb: what is done to the mesh,
+    such as "noise=0.4,along=normals,seed=1", "pose=FILE", "cut=3+10-20": each distance before and after, and the
+    difference. beside: a second mesh, with panels of its own; pairs: (k, 2) known vertices of both that correspond.  By
+    each distance from these, instead of the distances themselves, predict: where that vertex of the first is on the
+    second; or maps: where all are, in colours, "pairs" for the maps by pairs, or files of others.  views: names or
+    cameras, side by side.  camera: the eleven numbers that `--camera` takes, after other views.  up: the axis that
+    points up, "z" or "-z", "auto" for a guess. projection: "perspective" or "orthographic".  axes: a corner says where
+    x, y and z point to.  zooms: vertices, or with a factor, or with that and a number of steps.  isolines: about how
+    many, at round values; equal_isolines: at so many equal steps from 0 to the maximum; isoline_spacing,
+    isoline_values: where they are instead; isoline_through: vertices that have one more; bold_isolines: every so many.
+    anchors: vertices to be marked, perhaps each with a value; anchor_values: written beside them.  pins: vertices, or
+    places in faces, with numbers, in their order. extrema: triangles at maxima, and at minima away from the source,
+    that persist over a thousandth of the range. regions: the panels, numbered from 1, or "all", that show lines around
+    what is nearest to each pin. selections: ids (k,) of vertices that stand out together, or words such as "12+40-77",
+    a colour each. profile: True for the path through the pins, or the points it goes through: vertices, places in
+    faces, "source" and "pin:1"; way: how it goes from one to the next, "auto", "exact" or "edges", or by a "section"
+    whose plane holds the direction `across`, "section-longer" or "section-whole". shading: "smooth", "creased" at more
+    than `crease` degrees, or "flat"; "auto" is creased on what has sharp edges.  colours: the word of a map, or a file
+    of one.  range: "own", "shared" (equal units), "shares" (0 to 100 %), where all colour bars end, one end for each
+    panel (None: its own), or the session or recipe whose ends are taken.  size: "85mm", "1680x640", "column",
     "slide", as the command takes it.  title: names as "heading", as "caption" at the colour bars, or "none".  font: a
     family; text: the size of labels in points.  Raises BihdistError, as the command says its sentences.
 

@@ -16,6 +16,7 @@ from .context import Context
 from .files.curve_files import CurveFiles
 from .files.field_files import FieldFiles
 from .files.files import Files
+from .files.mesh_repairs import MeshRepairs
 from .files.session_actions import SessionFile
 from .guide import Guide
 from .progress_display import ProgressDisplay
@@ -103,6 +104,10 @@ FILE = (
         "A second mesh, with panels and a camera of its own"),
     Act("close beside", "Close the mesh beside", lambda c: c.session.close_beside(),
         tip="The first mesh alone, without the panels of the second", lack=NO_SECOND),
+    Act("cut", "Cut out by a file…", lambda c: c[MeshRepairs].choose_cut(),
+        tip="Vertices go with their faces, and nothing crosses what is gone: a mask has 1 for each that stays"),
+    Act("put back", "Put back what is cut out", lambda c: c[MeshRepairs].put_back(),
+        tip="The mesh as it is in its file"),
     Act("save", "&Save session", lambda c: c[SessionFile].save_or_say(), ("Ctrl+S",), icon="save"),
     Act("save as", "Save session &as…", lambda c: c[SessionFile].choose_and_save(), ("Ctrl+Shift+S",)),
     Act("figure", "&Export figure…", lambda c: c[Files].export_figure(), ("Ctrl+E",),

@@ -8,6 +8,8 @@ SYNONYMS = {
     "open": "load import read file",
     "open beside": "load second two compare correspondence",
     "close beside": "remove second",
+    "cut": "mask medial wall remove vertices hole cortex",
+    "put back": "mask whole again fill",
     "save": "store keep project",
     "save as": "store keep project",
     "figure": "save picture image pdf svg png print paper",

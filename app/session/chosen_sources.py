@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bihdist_core import Distance, Laplacian, Surface, read_surface
+from bihdist_core import Distance, Laplacian, Surface
 from bihdist_core.analysis.sampling import farthest_points, starts_of
 from bihdist_core.analysis.upright import guess_up
 from bihdist_core.arrays import BoolArray
@@ -25,10 +25,12 @@ from bihdist_core.sources.pieces import pieces_of
 from bihdist_core.sources.source import Source
 from bihdist_core.sources.words import short_words_of, source_from_words
 
+from ..document.document import MeshFile
 from ..document.lists import split_list
 from ..document.sources import ALL, FARTHEST, FILE, LISTED, Sources
 from ..samples import mesh_path
 from .questions import first_source
+from .repaired_surface import read_repaired
 
 STANDARD_INPUT = "standard input"
 
@@ -103,17 +105,17 @@ def chosen_sources(
 
 
 def chosen_on(
-    asked: Sources, mesh: str, spec: Spec, areas: str, progress: Progress | None = None, name: str = ""
+    asked: Sources, mesh: MeshFile, spec: Spec, areas: str, progress: Progress | None = None, name: str = ""
 ) -> Chosen:
-    """The sources on the mesh of a file, or of a sample of that name; a list is not looked at."""
+    """The sources on the mesh of a document; a list is not looked at."""
     if asked.rule == LISTED and asked.members:
         return Chosen([*asked.members])
-    surface = read_surface(mesh_path(mesh))
+    surface = read_repaired(mesh_path(mesh.path), mesh.repairs)
     return chosen_sources(
         asked,
         surface,
         lambda: Distances(Laplacian(surface, areas)).get(spec, progress),
-        name or mesh_name(mesh),
+        name or mesh_name(mesh.path),
         progress=progress,
     )
 

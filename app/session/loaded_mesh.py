@@ -26,10 +26,13 @@ from bihdist_core.sources.source import Source
 from ..document.camera import View
 from ..document.document import Document, FieldArray, MeshFile, starting_points
 from ..document.edits import put_point
+from ..document.file import checksum
+from ..document.repairs import Repairs
 from ..samples import mesh_path
 from .array_store import ArrayStore
 from .derived_surfaces import carried
 from .questions import Question, source_at
+from .repaired_surface import repaired
 
 REMEMBERED = 8
 """Answers that a surface keeps itself."""
@@ -170,7 +173,10 @@ class LoadedMesh:
             beside.append(replace(each, up=up, camera=self.view_of(each.camera, up)) if is_mine else each)
         document = replace(document, beside=tuple(beside))
         found, change = self.mesh.sha256, self.mesh.change
-        meshes = (replace(m, sha256=found, change=change) if m.name in mine else m for m in document.surfaces)
+        meshes = (
+            replace(m, sha256=found, change=change, repairs=self.mesh.repairs) if m.name in mine else m
+            for m in document.surfaces
+        )
         points = []
         for point in document.points:
             if point.image_of and point.surface in mine:
@@ -206,6 +212,8 @@ class LoadedMesh:
 def is_same(asked: MeshFile, there: MeshFile) -> bool:
     """Whether what is there will do for what is asked for."""
     if (asked.path, asked.sha256 or there.sha256) != (there.path, there.sha256):
+        return False
+    if not asked.repairs.is_same(there.repairs):
         return False
     if asked.change is None or there.change is None:
         return asked.change is there.change
@@ -245,11 +253,10 @@ def open_mesh(
         origin = next((each for each in there if is_same(itself, each.mesh)), None) or open_mesh(itself, given, remedy)
         change, pose = _with_pose(mesh.change, remedy)
         made, ids = perturbed(origin.surface, change, progress, pose)
-        return LoadedMesh(replace(mesh, sha256=origin.mesh.sha256, change=change), made, given, origin, ids)
-    if not mesh.path:
-        return LoadedMesh(mesh, (given or ArrayStore()).surface(mesh), given)
-    surface, found = _read(mesh, remedy)
-    return LoadedMesh(replace(mesh, sha256=found), surface, given)
+        return LoadedMesh(replace(origin.mesh, name=mesh.name, change=change), made, given, origin, ids)
+    surface, found = _read(mesh, remedy) if mesh.path else ((given or ArrayStore()).surface(mesh), mesh.sha256)
+    surface, repairs = _repaired(surface, mesh, remedy)
+    return LoadedMesh(replace(mesh, sha256=found, repairs=repairs), surface, given)
 
 
 def _read(mesh: MeshFile, remedy: str) -> tuple[Surface, str]:
@@ -261,6 +268,14 @@ def _read(mesh: MeshFile, remedy: str) -> tuple[Surface, str]:
         sentence = f"The mesh {mesh.path} is not what it was when it was written down (its checksum differs). {remedy}"
         raise ParameterError(sentence.strip())
     return surface, found
+
+
+def _repaired(surface: Surface, mesh: MeshFile, remedy: str) -> tuple[Surface, Repairs]:
+    """A surface after the repairs of a mesh, and these with the checksum of the mask."""
+    repairs = mesh.repairs
+    if repairs.cut and not repairs.cut_sha256:
+        repairs = replace(repairs, cut_sha256=checksum(repairs.cut))
+    return repaired(surface, repairs, remedy)[0], repairs
 
 
 def _with_pose(change: Perturbation, remedy: str) -> tuple[Perturbation, Surface | None]:

@@ -17,6 +17,7 @@ from ..mesh_like import MeshLike
 from ..surface import Surface
 from ..whole_file import check_output, whole_file
 from .array_file import put_array
+from .gifti_output import write_gifti_values
 from .vtp_output import write_poly_data
 
 Columns = dict[str, AnyArray]
@@ -32,6 +33,7 @@ def write_fields(path: str | os.PathLike[str], surface: MeshLike, fields: Mappin
     .ply: binary little-endian; the surface with a double property for each field (names reduced to letters, digits
           and underscores).
     .vtp: the surface with a point data array for each field.
+    .func.gii, .shape.gii: GIFTI, a float32 array for each field, with its name.
 
     Raises OutputError if the file cannot be written (what was at `path` before then stays), ParameterError for fields
     that are not (n,) real numbers.
@@ -149,11 +151,17 @@ def _write_vtp(file: BinaryIO, surface: Surface, columns: Columns) -> None:
     write_poly_data(file, surface.vertices, polygons=surface.faces, point_data=columns)
 
 
+def _write_gifti(file: BinaryIO, surface: Surface, columns: Columns) -> None:
+    write_gifti_values(file, surface.name, columns)
+
+
 _FIELD_WRITERS: dict[str, Callable[[BinaryIO, Surface, Columns], None]] = {
     ".npy": _write_npy,
     ".csv": _write_fields_csv,
     ".ply": write_ply_mesh,
     ".vtp": _write_vtp,
+    ".func.gii": _write_gifti,
+    ".shape.gii": _write_gifti,
 }
 FIELD_FORMATS = tuple(_FIELD_WRITERS)
 """The extensions `write_fields` knows."""

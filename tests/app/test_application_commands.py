@@ -115,7 +115,7 @@ def test_perturb_takes_another_pose_and_cuts_faces_out(meshes, tmp_path, capsys)
     one, out = read_surface(meshes[0]), tmp_path / "posed.obj"
     pose = Surface(one.vertices * (1, 2, 0.5), one.faces)
     write_mesh(tmp_path / "pose.off", pose)
-    words = ["--pose", str(tmp_path / "pose.off"), "--cut", "3+10-20"]
+    words = ["--pose", str(tmp_path / "pose.off"), "--faces", "3+10-20"]
     assert main(["perturb", meshes[0], *words, "-o", str(out)]) == 0
     two = read_surface(out)
     assert np.array_equal(two.vertices, pose.vertices)
@@ -128,7 +128,7 @@ def test_perturb_takes_another_pose_and_cuts_faces_out(meshes, tmp_path, capsys)
     [
         (["perturb", "hand", "-o", "x.off"], "Nothing would change"),
         (["perturb", "hand", "--pose", "figure", "-o", "x.off"], "another pose has the same"),
-        (["perturb", "hand", "--cut", "9999999", "-o", "x.off"], "none is 9999999"),
+        (["perturb", "hand", "--faces", "9999999", "-o", "x.off"], "none is 9999999"),
         (["perturb", "hand", "--noise", "1", "-o", "x.stl"], ".off, .obj, .ply, .vtp"),
         (["interpolate", "hand", "--anchors", "@gone.csv", "-o", "x.npy"], "gone.csv"),
         (["interpolate", "hand", "--anchors", "3=1,4", "-o", "x.npy"], "Anchor 4 has no value; write 4=0.5"),

@@ -5,6 +5,7 @@ import inspect
 import shlex
 from dataclasses import fields, replace
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 
@@ -15,6 +16,7 @@ from app.document.document import Document, FieldArray, MeshFile, Panel, Point, 
 from app.document.looks import PROJECTIONS, UPS, Colours, Isolines, Shading
 from app.document.page import Page, Recipe
 from app.document.quantities import Difference, DistanceFrom, OwnField, quantity
+from app.document.repairs import Repairs, with_repairs
 from app.document.shared_parts.pins import Pin, Pins, add_pins
 from app.document.shared_parts.selections import select_instead
 from app.document.starts import curves_in
@@ -99,7 +101,9 @@ def shown(recipe):
     drawn = replace(
         document,
         docks=("profile",) if along else (),
-        surfaces=(MeshFile("A", document.surfaces[0].path),),
+        surfaces=(
+            MeshFile("A", document.surfaces[0].path, repairs=replace(document.surfaces[0].repairs, cut_sha256="")),
+        ),
         points=(*points, *along),
         panels=tuple(panels),
         next_id=len(panels),
@@ -180,6 +184,8 @@ EXAMPLES = {
     "Shading.normals": lambda d, p: (replace(d, shading=Shading("smooth")), p),
     "Shading.crease": lambda d, p: (replace(d, shading=Shading("creased", 30.5)), p),
     "Shading.wireframe": lambda d, p: (replace(d, shading=Shading(wireframe=True)), p),
+    "Repairs.cut": lambda d, p: (with_repairs(d, mask_beside(d.surfaces[0].path), None), p),
+    "Repairs.merge": lambda d, p: (with_repairs(d, None, 0.1 + 0.2), p),
     "Page.size": lambda d, p: (d, replace(p, size="160x80mm@300dpi")),
     "Page.style": lambda d, p: (d, replace(p, style="dark")),
     "Page.views": lambda d, p: (d, replace(p, views=("home", "back", CAMERA))),
@@ -193,6 +199,14 @@ EXAMPLES = {
     "Page.anchor_values": lambda d, p: (d, replace(p, anchor_values=True)),
 }
 """For each part a change of it."""
+
+
+def mask_beside(path):
+    """A file that cuts two vertices out of the mesh at a path."""
+    mask = f"{path}.mask.npy"
+    np.save(mask, ~np.isin(np.arange(COUNT), (40, 41)))
+    return mask
+
 
 ELSEWHERE = {
     "Document.surfaces": "every line names the mesh",
@@ -210,7 +224,7 @@ WORDLESS = {"Zoom.corner", "Pin.colour", "Anchor.left_out"} | {
 ROWS = (PANELS, *rows())
 PARTS = [
     f"{part.__name__}.{f.name}"
-    for part in (Document, *part_types(), Panel, Zoom, Anchor, Pin, Isolines, Colours, Shading, Page)
+    for part in (Document, *part_types(), Panel, Zoom, Anchor, Pin, Isolines, Colours, Shading, Repairs, Page)
     for f in fields(part)
 ]
 

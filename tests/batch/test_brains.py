@@ -1,16 +1,22 @@
 """Surfaces of brains and values on them, from the files of GIFTI and FreeSurfer, through a batch."""
 
 import gzip
+import json
 
 import numpy as np
 import pytest
 
-from app.document.file import checksum
-from bihdist_core import BiharmonicDistance, ParameterError, parcel_means
+from app.document.document import comparison
+from app.document.file import checksum, recipe_text
+from app.document.page import Recipe
+from app.document.repairs import with_repairs
+from bihdist_core import BiharmonicDistance, ParameterError, Surface, parcel_means
 from bihdist_core.formats.mesh_io import read_surface
 from tests.batch.runs import batch, rows
 from tests.core.mesh_samples import freesurfer, gifti, gifti_array, gifti_surface
+from tests.core.test_cutting import by_hand
 from tests.core.test_freesurfer import annotation, values
+from tests.core.test_merging import torn
 from tests.shapes import bumpy
 
 N = 90
@@ -53,3 +59,107 @@ def test_a_checksum_covers_the_buffer_beside_a_gltf(tmp_path):
     (tmp_path / "mesh.bin").unlink()
     with pytest.raises(ParameterError, match=r"'mesh.bin' beside it, cannot be read"):
         checksum(path)
+
+
+def hemispheres(folder):
+    """Two surfaces by their names, with labels and a mask each that cuts a cap off, in files of their own."""
+    surfaces = {"lh.pial": SHAPE, "rh.pial": Surface(SHAPE.vertices * (-2, 2, 2), SHAPE.faces[:, ::-1])}
+    keeps = {name: surface.vertices[:, 2] < 0.6 * surface.vertices[:, 2].max() for name, surface in surfaces.items()}
+    for name, surface in surfaces.items():
+        (folder / f"{name}.surf.gii").write_bytes(gifti_surface(surface.vertices, surface.faces))
+        (folder / f"{name}.label.gii").write_bytes(gifti(gifti_array("LABEL", LABELS.astype("i4"))))
+        (folder / f"{name}.cortex.shape.gii").write_bytes(gifti(gifti_array("SHAPE", keeps[name].astype("f4"))))
+    return surfaces, keeps
+
+
+def test_parcels_of_both_hemispheres_without_what_is_cut_by_one_line(tmp_path):
+    surfaces, keeps = hemispheres(tmp_path)
+    out = tmp_path / "out"
+    options = ("--labels", tmp_path / "{name}.label.gii", "--cut", tmp_path / "{name}.cortex.shape.gii")
+    assert batch(tmp_path, out, "--do", "pairs", *options) == 0
+    assert [row["mesh"] for row in rows(out)] == ["lh.pial", "rh.pial"]
+    for name, surface in surfaces.items():
+        cut = surface.without(~keeps[name])
+        expected = parcel_means(BiharmonicDistance(cut), LABELS).distances
+        found = np.load(out / f"{name}.pairs.biharmonic.npy")
+        np.testing.assert_allclose(found, expected, rtol=1e-9)
+        # Of a mesh cut by hand.
+        alone, ids = by_hand(surface, np.flatnonzero(~keeps[name]).tolist())
+        np.testing.assert_allclose(found, parcel_means(BiharmonicDistance(alone), LABELS[ids]).distances, rtol=1e-9)
+        about = json.loads((out / f"{name}.pairs.biharmonic.json").read_text())
+        assert about["repairs"] == [*cut.repairs]
+        assert set(about["checksums"]) == {"cut", "labels"}
+        assert "mask" not in about
+    # Distances across what is masked are others.
+    masked = tmp_path / "masked"
+    options = ("--labels", tmp_path / "{name}.label.gii", "--mask", tmp_path / "{name}.cortex.shape.gii")
+    assert batch(tmp_path, masked, "--do", "pairs", *options) == 0
+    assert "distances still cross them" in json.loads((masked / "lh.pial.pairs.biharmonic.json").read_text())["mask"]
+    there = np.load(masked / "lh.pial.pairs.biharmonic.npy")
+    assert np.abs(there - np.load(out / "lh.pial.pairs.biharmonic.npy")).max() > 0.01
+
+
+def test_all_kinds_of_work_are_on_what_is_left(tmp_path):
+    surfaces, keeps = hemispheres(tmp_path)
+    out = tmp_path / "out"
+    options = ("--do", "fields,eigen,fps", "--sources", "farthest:5", "--k", "20")
+    assert batch(tmp_path / "lh.pial.surf.gii", out, *options, "--cut", tmp_path / "{name}.cortex.shape.gii") == 0
+    gone = ~keeps["lh.pial"]
+    cut = surfaces["lh.pial"].without(gone)
+    ids = np.load(out / "lh.pial.fps.biharmonic.npy").tolist()
+    assert not gone[ids].any()
+    fields = np.load(out / "lh.pial.fields.biharmonic.npy")
+    np.testing.assert_allclose(fields, BiharmonicDistance(cut).from_sources(ids), rtol=1e-9, atol=1e-12)
+    assert np.isnan(fields[gone]).all()
+    with np.load(out / "lh.pial.eigen.npz") as eigen:
+        assert np.isnan(eigen["eigenvectors"][gone]).all() or (eigen["eigenvectors"][gone] == 0).all()
+    # Another mask is other work, and a mask that does not fit fails alone.
+    (tmp_path / "lh.pial.cortex.shape.gii").write_bytes(gifti(gifti_array("SHAPE", np.ones(N - 1, "f4"))))
+    assert batch(tmp_path, out, *options, "--cut", tmp_path / "{name}.cortex.shape.gii") == 1
+    assert {row["mesh"] for row in rows(out, "failures")} == {"lh.pial"}
+    assert "this one has the shape (89,)" in rows(out, "failures")[0]["reason"]
+
+
+def test_merged_meshes_have_a_table_of_ids_and_labels_follow(tmp_path):
+    surface = torn(SHAPE)
+    whole, ids = surface.merged()
+    labels = np.arange(len(ids)) % 3
+    labels = labels[np.unique(ids, return_index=True)[1]][ids]
+    (tmp_path / "lh.pial.surf.gii").write_bytes(gifti_surface(surface.vertices, surface.faces))
+    np.save(tmp_path / "labels.npy", labels)
+    out = tmp_path / "out"
+    options = ("--do", "pairs", "--labels", tmp_path / "labels.npy", "--merge", "0")
+    assert batch(tmp_path / "lh.pial.surf.gii", out, *options) == 0
+    table = np.loadtxt(out / "lh.pial.ids.csv", int, delimiter=",", skiprows=1)
+    np.testing.assert_array_equal(table[:, 1], ids)
+    assert json.loads((out / "lh.pial.pairs.biharmonic.json").read_text())["new_ids"] == "lh.pial.ids.csv"
+    expected = parcel_means(BiharmonicDistance(whole), labels[np.unique(ids, return_index=True)[1]]).distances
+    np.testing.assert_allclose(np.load(out / "lh.pial.pairs.biharmonic.npy"), expected, rtol=1e-9)
+
+
+def test_fields_come_back_as_gifti(tmp_path, capsys):
+    nibabel = pytest.importorskip("nibabel")
+    surfaces, keeps = hemispheres(tmp_path)
+    left = [surface.without(~keeps[name]).component_of_vertex >= 0 for name, surface in surfaces.items()]
+    sources = ",".join(map(str, np.flatnonzero(np.all(left, axis=0))[[3, 20]]))
+    out = tmp_path / "out"
+    options = ("--do", "fields", "--sources", sources, "--format", "func.gii")
+    assert batch(tmp_path, out, *options, "--cut", tmp_path / "{name}.cortex.shape.gii") == 0
+    image = nibabel.load(out / "rh.pial.fields.biharmonic.func.gii")
+    assert image.meta["AnatomicalStructurePrimary"] == "CortexRight"
+    assert len(image.agg_data()) == 2
+    assert json.loads((out / "rh.pial.fields.biharmonic.json").read_text())["dtype"] == "float32"
+    capsys.readouterr()
+    assert batch(tmp_path, out, *options, "--dtype", "float64") == 2
+    assert "single precision; leave out --dtype float64" in capsys.readouterr().err
+    assert batch(tmp_path, out, "--do", "eigen", "--format", "func.gii") == 2
+    assert "they are written by --do fields" in capsys.readouterr().err
+
+
+def test_a_recipe_with_a_cut_of_its_own_is_refused(tmp_path, capsys):
+    hemispheres(tmp_path)
+    mesh, cut = tmp_path / "lh.pial.surf.gii", tmp_path / "lh.pial.cortex.shape.gii"
+    recipe = with_repairs(comparison(str(mesh)), str(cut), None)
+    (tmp_path / "r.json").write_text(recipe_text(Recipe(recipe), "1"))
+    assert batch(mesh, tmp_path / "out", "--do", "figure", "--recipe", tmp_path / "r.json") == 2
+    assert "batch does what --cut and --merge say" in capsys.readouterr().err

@@ -8,6 +8,7 @@ import pytest
 from bihdist_core.errors import OutputError, ParameterError
 from bihdist_core.formats.field_output import ARRAY_FORMATS, FIELD_FORMATS, ply_names, write_array, write_fields
 from bihdist_core.formats.mesh_io import read_surface
+from bihdist_core.formats.vertex_values import read_vertex_values
 from bihdist_core.surface import Surface
 from bihdist_core.whole_file import check_output
 
@@ -126,3 +127,47 @@ def test_the_extension_is_checked_before_work(tmp_path):
         write_array(tmp_path / "a", np.zeros(2))
     with pytest.raises(OutputError, match="no folder"):
         check_output(tmp_path / "none" / "a.npy", ARRAY_FORMATS)
+
+
+@pytest.mark.parametrize("name", ["lh.pial.func.gii", "A.SHAPE.GII"])
+def test_gifti_is_read_by_us_and_by_nibabel(tmp_path, name):
+    nibabel = pytest.importorskip("nibabel")
+    write_fields(tmp_path / name, SURFACE, {"steps": FIELDS["steps"]})
+    np.testing.assert_array_equal(read_vertex_values(tmp_path / name), np.arange(6, dtype="f4"))
+    write_fields(
+        tmp_path / name,
+        Surface(SURFACE.vertices, SURFACE.faces, name="sub_lh.pial"),
+        FIELDS | {"a < b": FIELDS["steps"]},
+    )
+    image = nibabel.GiftiImage.from_bytes((tmp_path / name).read_bytes())
+    assert image.meta["AnatomicalStructurePrimary"] == "CortexLeft"
+    assert [array.metadata["Name"] for array in image.darrays] == [*FIELDS, "a < b"]
+    assert {array.data.dtype for array in image.darrays} == {np.dtype("float32")}
+    expected = np.stack([*FIELDS.values(), FIELDS["steps"]], axis=1).astype("f4")
+    np.testing.assert_array_equal(np.stack(image.agg_data(), axis=1), expected)
+
+
+@pytest.mark.parametrize(
+    ("name", "structure"),
+    [
+        ("lh.pial", "CortexLeft"),
+        ("pial_right.gii.gz", "CortexRight"),
+        ("100307.R.midthickness.surf.gii", "CortexRight"),
+        ("tpl_hemi-L_white.surf.gii", "CortexLeft"),
+        ("bright.left-over", "CortexLeft"),
+        ("hand.ply", None),
+        ("lhasa.ply", None),
+    ],
+)
+def test_the_hemisphere_is_what_the_mesh_is_called(tmp_path, name, structure):
+    from xml.etree import ElementTree
+
+    write_fields(tmp_path / "x.shape.gii", Surface(SURFACE.vertices, SURFACE.faces, name=name), FIELDS)
+    told = ElementTree.parse(tmp_path / "x.shape.gii").find("MetaData/MD/Value")
+    assert (None if told is None else told.text) == structure
+
+
+def test_gifti_of_values_is_named_so(tmp_path):
+    for name in ("x.gii", "x.surf.gii", ".func.gii"):
+        with pytest.raises(OutputError, match=r"can be written as \.npy, .*\.func\.gii, \.shape\.gii"):
+            write_fields(tmp_path / name, SURFACE, FIELDS)

@@ -21,6 +21,8 @@ NAMES = {
     ".csv": "Table",
     ".ply": "PLY mesh",
     ".vtp": "VTK PolyData",
+    ".func.gii": "GIFTI values",
+    ".shape.gii": "GIFTI shape",
     ".obj": "OBJ",
     ".off": "OFF",
     ".json": "JSON",
@@ -50,13 +52,14 @@ def ask_path(context: Context, title: str, name: str, formats: Sequence[str]) ->
     dialog.setDefaultSuffix(formats[0].removeprefix("."))
 
     def take_format(chosen: str) -> None:
-        found = re.search(r"\*(\.\w+)", chosen)
+        found = re.search(r"\*(\.[\w.]+)", chosen)
         extension = found[1] if found else formats[0]
         dialog.setDefaultSuffix(extension.removeprefix("."))
         for path in dialog.selectedFiles()[:1]:  # a dialog of the desktop may have none yet
-            stem, typed = os.path.splitext(os.path.basename(path))
-            if typed in formats:
-                dialog.selectFile(stem + extension)
+            name = os.path.basename(path)
+            typed = next((each for each in formats if name.endswith(each)), "")
+            if typed:
+                dialog.selectFile(name.removesuffix(typed) + extension)
 
     dialog.filterSelected.connect(take_format)
     dialog.selectFile(name + formats[0])

@@ -5,7 +5,7 @@ import argparse
 from bihdist_core.counts import counted
 
 from ...commands.mesh import laplacian_of
-from ...commands.options import add_areas, add_distance, add_output, add_pairs, add_two_meshes, specs
+from ...commands.options import add_areas, add_distance, add_output, add_pairs, add_two_meshes, repairs_of, specs
 from ...commands.result import Facts, Result, distance_facts
 from ...commands.terminal import accuracy, progress_line
 from .options import PAIRS_MEANING
@@ -39,7 +39,9 @@ def run(options: argparse.Namespace) -> Result:
     (chosen,) = specs(options, [options.distance])
     pairs = read_pairs(options.pairs) if isinstance(options.pairs, str) else np.array(options.pairs)
     with progress_line() as progress:
-        one, two = (laplacian_of(mesh, options.areas) for mesh in (options.mesh, options.other))
+        one, two = (
+            laplacian_of(mesh, options.areas, repairs_of(options, mesh)) for mesh in (options.mesh, options.other)
+        )
         truth = read_map(options.truth, one.surface, two.surface) if options.truth else None
         sides = Distances(one), Distances(two)
         spec = same_on(chosen, sides, progress)

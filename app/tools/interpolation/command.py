@@ -4,7 +4,7 @@ import argparse
 
 from bihdist_core.counts import counted
 
-from ...commands.mesh import read_laplacian
+from ...commands.mesh import outputs_of, read_laplacian
 from ...commands.options import add_areas, add_distance, add_mesh, add_output, as_argument, positive, share, specs
 from ...commands.result import Result, distance_facts
 from ...commands.terminal import accuracy, progress_line, tell_moved
@@ -82,5 +82,5 @@ def run(options: argparse.Namespace) -> Result:
     write_fields(options.output, surface, fields)
     for line in lines:
         print(f"{options.output}: {line}")
-    about = {"mesh": options.mesh, "outputs": [options.output], "n_anchors": len(known)}
+    about = {"mesh": options.mesh, "outputs": outputs_of(options), "n_anchors": len(known)}
     return Result({**about, "fields": facts})

@@ -29,11 +29,11 @@ def _with_anchors(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
     if len(document.surfaces) != 1:
         raise ParameterError(f"--anchors are on one mesh, and this recipe has {len(document.surfaces)}.")
     if isinstance(marks, AnchorFile):
-        from bihdist_core import read_surface
-
         from ...samples import mesh_path
+        from ...session.repaired_surface import read_repaired
 
-        found = marks.read(read_surface(mesh_path(document.surfaces[0].path)))
+        mesh = document.surfaces[0]
+        found = marks.read(read_repaired(mesh_path(mesh.path), mesh.repairs))
         marks = dict(zip(found.vertices.tolist(), found.values.tolist(), strict=True))
     marks = marks.items() if isinstance(marks, Mapping) else [m if isinstance(m, tuple) else (m, None) for m in marks]
     document = without_orphans(document, document.with_part(replace(document[Anchors], anchors=())))

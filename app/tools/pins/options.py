@@ -38,7 +38,7 @@ def _with_pins(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
         from ...session.chosen_sources import chosen_on
 
         spec = next((spec for panel in document.panels for spec in panel.shows.specs), Spec.of("biharmonic"))
-        pins = chosen_on(pins, document.surfaces[0].path, spec, document.areas).sources
+        pins = chosen_on(pins, document.surfaces[0], spec, document.areas).sources
     places = [_point(checked_source(at)) for at in pins]
     return replace(recipe, document=pin_instead(document, places, document.surfaces[0].name))
 

@@ -15,6 +15,7 @@ from ...commands.options import (
     add_sources,
     chart_page,
     quantities,
+    repairs_of,
 )
 from ...commands.result import Result, panel_facts
 from ...commands.terminal import judged, progress_line, tell_repairs
@@ -55,6 +56,7 @@ def run(options: argparse.Namespace) -> Result:
 
     from ...document.document import comparison
     from ...document.page import Recipe
+    from ...document.repairs import with_repairs
     from ...document.shared_parts.pins import add_pins as pin_at
     from ...figures.draw import FIGURE_FORMATS
     from ...figures.export import compute, open_document
@@ -70,8 +72,9 @@ def run(options: argparse.Namespace) -> Result:
     shows = tuple(quantities(options, options.distance)) if options.distance else COMPARISON
     page, areas = chart_page(options), options.areas or "voronoi"
     with progress_line() as progress:
-        source = one_source(sources_of_document(options.sources, options.mesh, shows, areas, progress))
-        document = comparison(options.mesh, shows, (source,), areas)
+        repairs = repairs_of(options, options.mesh)
+        source = one_source(sources_of_document(options.sources, options.mesh, shows, areas, repairs, progress))
+        document = with_repairs(comparison(options.mesh, shows, (source,), areas), repairs.cut, repairs.merge)
         document, surfaces = open_document(Recipe(document, page), ArrayStore())
         surface = surfaces[document.surfaces[0].name].surface
         tell_repairs(surface)

@@ -4,7 +4,7 @@ import argparse
 
 from bihdist_core.counts import counted
 
-from ...commands.mesh import read_laplacian
+from ...commands.mesh import ids_beside, read_laplacian
 from ...commands.mesh_sources import sources_on
 from ...commands.options import add_areas, add_distance, add_mesh, add_output, add_sources, specs
 from ...commands.result import Result, distance_facts
@@ -71,7 +71,7 @@ def run(options: argparse.Namespace) -> Result:
     for id, name, vertex, area in zip(ids, pins.names, pins.vertices.tolist(), regions.areas.tolist(), strict=True):
         parts.append({"pin": id, "name": name, "vertex": vertex, "area": area, "area_fraction": area / total})
         print(f"pin {id}{f', {name}' if name else ''}, vertex {vertex}: area {area:.6g}, {area / total:.1%}")
-    files = (options.output, options.region_mesh, options.boundaries)
+    files = (options.output, ids_beside(options), options.region_mesh, options.boundaries)
     facts = {
         "mesh": options.mesh,
         **distance_facts(distance, chosen),

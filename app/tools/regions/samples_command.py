@@ -4,7 +4,7 @@ import argparse
 
 from bihdist_core.counts import counted
 
-from ...commands.mesh import read_laplacian
+from ...commands.mesh import outputs_of, read_laplacian
 from ...commands.mesh_sources import sources_on
 from ...commands.options import add_areas, add_distance, add_mesh, add_output, add_sources, specs
 from ...commands.result import Result, distance_facts
@@ -41,5 +41,5 @@ def run(options: argparse.Namespace) -> Result:
         estimate = accuracy(distance) if by else ""
     write_samples(options.output, laplacian.surface, found)
     print(f"{options.output}: {counted(len(found), 'sample')}{by}{estimate}")
-    about = {"mesh": options.mesh, **(distance_facts(distance, chosen) if by else {}), "outputs": [options.output]}
+    about = {"mesh": options.mesh, **(distance_facts(distance, chosen) if by else {}), "outputs": outputs_of(options)}
     return Result({**about, "vertices": found})

@@ -29,7 +29,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_output(parser, "a .off, .obj, .ply or .vtp file")
     add_distance(parser, "say how much each changes (default: none)")
     parser.add_argument("--pose", default="", metavar="FILE", help="another pose, with the same vertices and faces")
-    parser.add_argument("--cut", type=_faces, default=(), metavar="FACES", help="take out faces, as in 3+10-20")
+    parser.add_argument("--faces", type=_faces, default=(), metavar="FACES", help="take these out, as in 3+10-20")
     parser.add_argument("--simplify", type=count, metavar="N", help="leave N vertices, at their places")
     parser.add_argument("--noise", type=positive, metavar="S", help="Gaussian, of S mean edge lengths")
     parser.add_argument("--along", choices=("xyz", "normals"), default="xyz", help="for --noise (default: xyz)")
@@ -56,7 +56,7 @@ def run(options: argparse.Namespace) -> Result:
     check_output(options.output, MESH_FORMATS)
     change = Perturbation(
         pose=mesh_path(options.pose) if options.pose else "",
-        cut=options.cut,
+        cut=options.faces,
         simplify=options.simplify,
         noise=options.noise or 0.0,
         along=options.along,
@@ -67,7 +67,7 @@ def run(options: argparse.Namespace) -> Result:
         seed=options.seed,
     )
     if change.changes_nothing:
-        options_named = "--pose, --cut, --simplify, --noise, --holes, --weld or --handle"
+        options_named = "--pose, --faces, --simplify, --noise, --holes, --weld or --handle"
         raise ParameterError(f"Nothing would change; say {options_named}.")
     chosen = specs(options, list(dict.fromkeys(options.distance or [])))
     with progress_line() as progress:

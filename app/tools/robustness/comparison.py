@@ -6,7 +6,7 @@ from bihdist_core.applications.changes import Perturbation
 from bihdist_core.errors import ParameterError
 
 from ...document.derived_surfaces import COLUMNS, changed_mesh, numbered, without_changed
-from ...document.document import Document, MeshFile, Panel, Point
+from ...document.document import Document, Panel, Point
 from ...document.edits import MOST_ADDED, add_another
 from ...document.quantities import DistanceFrom
 from .quantity import ChangeOf
@@ -46,7 +46,7 @@ def with_changed(document: Document, change: Perturbation, with_others: bool = F
     return numbered(
         replace(
             document,
-            surfaces=(mesh, MeshFile(name, mesh.path, mesh.sha256, change)),
+            surfaces=(mesh, replace(mesh, name=name, change=change)),
             points=(*document.points, *(Point(image_name(point), None, name, point) for point in starts)),
         ),
         panels,

@@ -1,0 +1,59 @@
+"""What is done to the surface in a file before anything is measured on it."""
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from bihdist_core.errors import ParameterError
+from bihdist_core.formats.mesh_names import mesh_name
+
+if TYPE_CHECKING:
+    from .document import Document
+
+NAME = "{name}"
+"""In a path it stands for the name of each mesh."""
+
+
+@dataclass(frozen=True)
+class Repairs:
+    """cut: a file with 1 for each vertex that stays and 0 for each that is cut out, in the order of the mesh's file, ""
+    for none.  cut_sha256: of its bytes, empty as long as any content will do.  merge: what is as near to each other, in
+    mesh units, or nearer, becomes one vertex, after the cut; None for nothing."""
+
+    cut: str = ""
+    cut_sha256: str = ""
+    merge: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.merge is not None and not (math.isfinite(self.merge) and self.merge >= 0):
+            raise ParameterError(f"Vertices are merged within a length, 0 or more, not {self.merge:g}.")
+
+    def of(self, mesh: str) -> "Repairs":
+        """These of the mesh at a path, whose name stands for {name}."""
+        return replace(self, cut=self.cut.replace(NAME, mesh_name(mesh)))
+
+    def is_same(self, there: "Repairs") -> bool:
+        """Whether what has been made by others will do."""
+        return replace(self, cut_sha256=self.cut_sha256 or there.cut_sha256) == there
+
+
+NO_REPAIRS = Repairs()
+
+
+def with_repairs(document: "Document", cut: str | None, merge: float | None, surface: str = "") -> "Document":
+    """The document with other repairs of its meshes, or of one of them with what is made from it.
+
+    None leaves them as they are, and "" takes the cut back.  ParameterError where one mask would be that of two meshes.
+    """
+    path = document.mesh(surface).path if surface else ""
+    meant = [mesh for mesh in document.surfaces if not surface or mesh.path == path]
+    if cut and NAME not in cut and len({mesh.path for mesh in meant}) > 1:
+        raise ParameterError(f"{cut} would cut two meshes; write {NAME} in the path for the name of each.")
+    meshes = []
+    for mesh in document.surfaces:
+        if mesh not in meant:
+            meshes.append(mesh)
+            continue
+        repairs = mesh.repairs if cut is None else replace(mesh.repairs, cut=cut, cut_sha256="").of(mesh.path)
+        meshes.append(replace(mesh, repairs=repairs if merge is None else replace(repairs, merge=merge)))
+    return replace(document, surfaces=tuple(meshes))

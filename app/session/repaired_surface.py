@@ -1,0 +1,44 @@
+"""A surface with what is cut out of it, and vertices merged, as a document or a command says."""
+
+import numpy as np
+
+from bihdist_core import MeshError, ParameterError, Surface, read_surface
+from bihdist_core.analysis.parcels import checked_mask
+from bihdist_core.arrays import IntArray
+from bihdist_core.formats.whole_numbers import read_whole_numbers
+
+from ..document.file import checksum
+from ..document.repairs import Repairs
+
+
+def repaired(surface: Surface, repairs: Repairs, remedy: str = "") -> tuple[Surface, IntArray | None]:
+    """The surface after the repairs, and (n,) the id there of each vertex here, None where all keep theirs.
+
+    remedy: what to do, in a sentence, where the mask is not the one meant.  ParameterError for a mask that cannot be
+    read, does not fit, or has changed since its checksum was taken; MeshError where no face is left.
+    """
+    if repairs.cut:
+        mask = read_whole_numbers(repairs.cut, "mask")
+        if repairs.cut_sha256 and checksum(repairs.cut) != repairs.cut_sha256:
+            sentence = f"The mask {repairs.cut} is not what it was when it was written down (its checksum differs)."
+            raise ParameterError(f"{sentence} {remedy}".strip())
+        try:
+            surface = surface.without(~checked_mask(surface, mask))
+        except (ParameterError, MeshError) as error:
+            raise type(error)(f"{repairs.cut}: {error}") from None
+    return (surface, None) if repairs.merge is None else surface.merged(repairs.merge)
+
+
+def read_repaired(path: str, repairs: Repairs) -> Surface:
+    """The surface in a file after the repairs; the errors of `read_surface` and of `repaired`."""
+    return repaired(read_surface(path), repairs)[0]
+
+
+def ids_table(ids: IntArray) -> str:
+    """The new id of each vertex of a file, as rows `old,new`; ids: as `repaired` gives them."""
+    return "".join(["old,new\n", *(f"{old},{new}\n" for old, new in enumerate(ids.tolist()))])
+
+
+def kept_ids(ids: IntArray | None, count: int) -> IntArray:
+    """(k,) the vertices of so many in a file that those of the repaired surface are; ids: as `repaired` gives them."""
+    return np.arange(count) if ids is None else np.unique(ids, return_index=True)[1]

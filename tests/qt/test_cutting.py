@@ -1,0 +1,93 @@
+"""A mesh of which a file cuts something out, in the window: shown, undone, saved, put back; and two with masks."""
+
+import numpy as np
+import pytest
+from qtpy import QtWidgets
+
+from app.document.edits import move_source
+from app.document.file import read_recipe
+from app.qt.files.mesh_repairs import MeshRepairs
+from app.qt.files.session_actions import SessionFile
+from bihdist_core import BiharmonicDistance
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy
+
+ONE = (Spec.of("biharmonic"),)
+BALL = bumpy(300)
+KEEPS = BALL.vertices[:, 2] < 0.5
+LOW, HIGH = int(BALL.vertices[:, 2].argmin()), int(BALL.vertices[:, 2].argmax())
+
+
+@pytest.fixture(autouse=True)
+def own_folder(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+
+
+@pytest.fixture
+def s(screen, mesh_file, tmp_path):
+    s = screen(ONE)
+    s.open(mesh_file(BALL, "first.off"), LOW)
+    np.save(tmp_path / "mask.npy", KEEPS)
+    return s
+
+
+def cut(s, tmp_path, monkeypatch):
+    chosen = str(tmp_path / "mask.npy"), ""
+    monkeypatch.setattr(QtWidgets.QFileDialog, "getOpenFileName", lambda *_: chosen)
+    s.window.actions_by_word["cut"].trigger()
+    s.until(lambda: s.document.surfaces[0].repairs.cut and s.session.is_complete)
+
+
+def test_a_mask_cuts_and_what_it_cuts_comes_back(s, tmp_path, monkeypatch):
+    cut(s, tmp_path, monkeypatch)
+    expected = BALL.without(~KEEPS)
+    assert s.session.surface.n_faces == expected.n_faces
+    np.testing.assert_allclose(s.answers[0].field, BiharmonicDistance(expected).from_source(LOW), rtol=1e-9)
+    assert expected.repairs[0] in s.window.status.notes.sentences
+    s.window.actions_by_word["undo"].trigger()
+    s.until(lambda: not s.document.surfaces[0].repairs.cut and s.session.is_complete)
+    assert s.session.surface.n_faces == BALL.n_faces
+    s.window.actions_by_word["redo"].trigger()
+    s.until(lambda: s.document.surfaces[0].repairs.cut and s.session.is_complete)
+    s.window.actions_by_word["put back"].trigger()
+    s.until(lambda: not s.document.surfaces[0].repairs.cut and s.session.is_complete)
+    assert s.session.surface.n_faces == BALL.n_faces
+    s.window.actions_by_word["put back"].trigger()
+    assert s.window.status.message.text == "Nothing has been cut out of this mesh."
+
+
+def test_a_source_that_goes_starts_anew(s, tmp_path, monkeypatch):
+    s.session.show(move_source(s.document, 0, HIGH))
+    s.until(lambda: s.session.is_complete)
+    cut(s, tmp_path, monkeypatch)
+    assert KEEPS[s.document.sources[0]]
+
+
+def test_a_session_of_a_cut_mesh_opens_again(s, tmp_path, monkeypatch, screen):
+    cut(s, tmp_path, monkeypatch)
+    path = str(tmp_path / "session.json")
+    s.window.context[SessionFile].save(path)
+    assert read_recipe(path).document.surfaces[0].repairs.cut_sha256
+    other = screen(ONE)
+    other.window.context[SessionFile].open(path)
+    other.until(lambda: other.session.is_complete and other.document.surfaces)
+    assert other.session.surface.n_faces == BALL.without(~KEEPS).n_faces
+    np.testing.assert_array_equal(other.answers[0].field, s.answers[0].field)
+
+
+@pytest.mark.parametrize(("mask", "said"), [(KEEPS[:-1], "this one has the shape"), (0.5 * KEEPS, "not whole")])
+def test_a_mask_that_does_not_fit_is_said(s, tmp_path, mask, said):
+    np.save(tmp_path / "other.npy", mask)
+    s.window.context[MeshRepairs].cut(str(tmp_path / "other.npy"))
+    s.until(lambda: s.refusals)
+    assert said in s.refusals[-1]
+    assert s.session.surface.n_faces == BALL.n_faces
+
+
+def test_of_two_meshes_the_one_is_cut_that_is_active(s, tmp_path, mesh_file):
+    s.session.open_beside(str(mesh_file(bumpy(300, seed=1), "second.off")))
+    s.until(lambda: len(s.document.surfaces) == 2 and s.session.is_complete and not s.session.is_opening)
+    s.window.grid.activate(s.document.panels[1].id)
+    s.window.context[MeshRepairs].cut(str(tmp_path / "mask.npy"))
+    s.until(lambda: s.document.surfaces[1].repairs.cut and s.session.is_complete)
+    assert not s.document.surfaces[0].repairs.cut
