@@ -29,7 +29,7 @@ WAITING = 20
 def main(name: str, seed: str, first: str, last: str, folder: str) -> None:
     """Try the cases."""
     faulthandler.enable()
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, resource.getrlimit(resource.RLIMIT_AS)[1]))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     told = os.fdopen(os.dup(1), "w")
     # What the program prints goes nowhere.

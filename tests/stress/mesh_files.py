@@ -18,7 +18,7 @@ from .sentences import fault_of
 
 WORDS = "damaged mesh files of all formats"
 SEEDS, BLOCK, SECONDS = 400, 500, 20.0
-LARGER = 0.3
+LARGER = 0.5
 """The share of files with more faces than three, of which more can be measured."""
 
 

@@ -29,6 +29,8 @@ SEEDS, BLOCK, SECONDS = 5, 2, 3600.0
 CLICKS, OPENS, HAND_ACTIONS = 10_000, 200, 2_000
 GROWTH = 30 << 20
 """Bytes by which memory may grow after the first tenth: pools of what was freed fill up at different times."""
+SPARE = 5
+"""Handles and threads of pools, which begin and end; one left of each of 200 opens is many more."""
 PATIENCE = 120.0
 
 
@@ -77,7 +79,7 @@ def window(seed: int, folder: Path, actions: int) -> Outcome | None:
     """Random hands on the real window; nothing where there is no screen to be had."""
     if not (shutil.which("xvfb-run") and shutil.which("xdotool")):
         return None
-    resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+    resource.setrlimit(resource.RLIMIT_AS, 2 * resource.getrlimit(resource.RLIMIT_AS)[1:])
     screen = ["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24"]
     command = [*screen, sys.executable, "-m", "tests.qt.random_actions", str(seed), str(actions), str(folder)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
@@ -101,4 +103,4 @@ def _flat(memory: list, handles: list) -> Outcome:
     if growth > GROWTH:
         return Outcome(WRONG, f"memory grows by {growth / 1e6:.0f} MB after the first tenth")
     more = max(handles[-tenth:]) - max(handles[: 2 * tenth + 1])
-    return Outcome(WRONG, f"{more} more handles and threads at the end") if more > 0 else Outcome(OPENED)
+    return Outcome(WRONG, f"{more} more handles and threads at the end") if more > SPARE else Outcome(OPENED)

@@ -1,7 +1,9 @@
 """The run of attacks: that it finds faults, goes on where it was, and a small version of each part."""
 
 import json
+import random
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -23,7 +25,7 @@ from tests.stress import (
 )
 from tests.stress.blocks import block
 from tests.stress.log import FILE
-from tests.stress.outcome import OPENED, WRONG, Outcome, Tally
+from tests.stress.outcome import LOST, OPENED, WRONG, Outcome, Tally
 from tests.stress.parts import PARTS
 from tests.stress.sentences import fault_of
 
@@ -203,6 +205,67 @@ def test_nothing_crashes_hangs_is_lost_or_wrong(part):
     assert tally.tried > 0.8 * SMALL[part]
     assert tally.opened
     assert tally.ratio <= 1
+
+
+def careless(name, folder, out):
+    """Work that writes a file in its place, in two steps, and says nothing where there is no room."""
+
+    def work():
+        try:
+            with out.open("wb", buffering=0) as file:
+                file.write(b"a" * 1000)
+                time.sleep(0.2)
+                file.write(b"b" * 1000)
+        except OSError:
+            pass
+        return 0
+
+    return work
+
+
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+@pytest.mark.parametrize(
+    ("attack", "kind", "words"),
+    [
+        (interruptions._killed, LOST, "field.npy is half written after a kill"),
+        (interruptions._full, WRONG, "field.npy is not whole, and nothing is said"),
+    ],
+)
+def test_careless_writing_is_found(tmp_path, monkeypatch, attack, kind, words):
+    monkeypatch.setattr(interruptions, "_work", careless)
+    sound = interruptions._sound("field.npy", tmp_path)
+    outcomes = [attack("field.npy", tmp_path, sound, random.Random(seed)) for seed in range(9)]
+    assert kind in [outcome.kind for outcome in outcomes]
+    assert any(words in outcome.text for outcome in outcomes)
+
+
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+def test_work_that_is_not_cancelled_soon_is_found(tmp_path, monkeypatch):
+    def deaf(surface, progress):
+        end = time.process_time() + 0.3
+        while time.process_time() < end:
+            pass
+        progress(0.5, "")
+
+    monkeypatch.setattr(interruptions, "LARGE", 60)
+    monkeypatch.setattr(interruptions, "FREE_WITHIN", 0.01)
+    monkeypatch.setattr(interruptions, "WORKS", {"deaf work": deaf})
+    outcome = interruptions.in_fork(lambda: interruptions._cancelled(random.Random(5)), tmp_path / "said")
+    assert "from its cancellation to its end" in outcome.text
+
+
+@pytest.mark.parametrize(
+    ("memory", "handles", "text"),
+    [
+        (np.linspace(1e8, 2e8, 100), [9] * 100, "memory grows by 90 MB"),
+        (np.full(100, 1e8), range(100), "more handles and threads at the end"),
+        (np.full(100, 1e8), [9] * 100, ""),
+    ],
+)
+def test_what_grows_is_found(memory, handles, text):
+    outcome = soak._flat(list(memory), list(handles))
+    assert (outcome.kind == OPENED) == (not text)
+    assert text in outcome.text
 
 
 def test_a_session_stays_as_it_is(tmp_path):
