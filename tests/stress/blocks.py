@@ -54,7 +54,9 @@ def _from(part: ModuleType, seed: int, first: int, last: int, folder: str, tally
         limit = "processor time" if process.returncode == TOO_LONG[0] else "time"
         tally.add(Outcome(HUNG, f"not done within its {limit}"), number)
     else:
-        tally.add(Outcome(CRASHED, f"ended by {_ended(process.returncode)}: {' '.join(words.split())[-300:]}"), number)
+        # What faulthandler says begins so.
+        last = " ".join(words[max(words.find("Fatal Python error"), 0) :].split())[:300]
+        tally.add(Outcome(CRASHED, f"ended by {_ended(process.returncode)}: {last}"), number)
     return number + 1
 
 
