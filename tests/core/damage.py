@@ -1,10 +1,11 @@
-"""Files with damage as it comes: cut off, bytes changed, numbers made longer, pieces lost, doubled or exchanged."""
+"""Files with damage as it comes: cut off, bytes and digits changed, pieces lost, doubled, exchanged or made longer."""
 
 import json
 import random
 from collections.abc import Iterator
 from typing import Any
 
+DIGITS = b"0123456789"
 BYTES = b'0123456789 -./\n\r"<>=AZfv\xff\x00\x80'
 EXTREMES = (
     b"-1",
@@ -27,9 +28,14 @@ def damaged(content: bytes, rng: random.Random) -> bytes:
     kind = rng.random()
     if kind < 0.25:
         del there[begin:]
-    elif kind < 0.65:
+    elif kind < 0.45:
         for _ in range(rng.randint(1, 4)):
             there[rng.randrange(len(there))] = rng.choice(BYTES)
+    elif kind < 0.65:
+        # Other numbers of as many digits, with which most files are still files.
+        digits = [k for k, byte in enumerate(there) if byte in DIGITS]
+        for k in rng.choices(digits, k=rng.randint(1, 9)) if digits else ():
+            there[k] = rng.choice(DIGITS)
     elif kind < 0.75:
         there[begin:begin] = b"9" * rng.randint(1, 14)
     elif kind < 0.8:
