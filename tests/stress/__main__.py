@@ -15,7 +15,7 @@ from pathlib import Path
 
 from tests.bench import machine
 
-from .blocks import block
+from .blocks import block, stop
 from .child import attempt
 from .log import Log
 from .parts import PARTS
@@ -49,8 +49,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     workers = ThreadPoolExecutor(options.workers)
     try:
         list(workers.map(lambda each: do(*each), left))
-    finally:
-        workers.shutdown(cancel_futures=True)
+    except KeyboardInterrupt:
+        workers.shutdown(wait=False, cancel_futures=True)
+        stop()
+        print(f"interrupted; what is done is in {log.path}, and a run goes on from there", file=sys.stderr)
+        return 130
     words = {name: PARTS[name].WORDS for name in options.parts}
     table = f"{', '.join(sorted(log.days))}; {machine.describe()}\n\n{render(log, words)}"
     found = faults(log, words)

@@ -1,17 +1,32 @@
 """Blocks of cases, each tried in a process that is begun again where a case ends it."""
 
 import json
+import os
 import signal
 import subprocess
 import sys
 import tempfile
+from contextlib import suppress
 from pathlib import Path
 from types import ModuleType
 
 from .outcome import CRASHED, HUNG, Outcome, Tally
 
 ROOT = Path(__file__).resolve().parents[2]
+RUNNING: set[subprocess.Popen] = set()
 TOO_LONG = (-signal.SIGPROF, -signal.SIGALRM)
+
+
+class Stopped(Exception):
+    """A block that was stopped: what is known of it does not count."""
+
+
+def stop() -> None:
+    """Stop all blocks."""
+    while RUNNING:
+        process = RUNNING.pop()
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
 
 
 def block(part: ModuleType, seed: int, count: int = 0) -> Tally:
@@ -29,21 +44,22 @@ def _from(part: ModuleType, seed: int, first: int, last: int, folder: str, tally
     command = [sys.executable, "-m", "tests.stress.child", name, *map(str, (seed, first, last, folder))]
     number = first - 1
     with tempfile.TemporaryFile("w+") as said:
-        with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=said, text=True) as process:
-            assert process.stdout is not None
-            try:
-                for line in process.stdout:
-                    data = json.loads(line)
-                    if isinstance(data, int):
-                        number = data
-                    elif data and "memory" in data:
-                        tally.memory = max(tally.memory, data["memory"])
-                        number = last
-                    elif data:
-                        tally.add(Outcome(**data), number)
-            except BaseException:
-                process.kill()
-                raise
+        # Ctrl-C is not meant for it: what it does would look like a crash.
+        options = {"stdout": subprocess.PIPE, "stderr": said, "text": True, "start_new_session": True}
+        with subprocess.Popen(command, cwd=ROOT, **options) as process:
+            RUNNING.add(process)
+            for line in process.stdout or ():
+                data = json.loads(line)
+                if isinstance(data, int):
+                    number = data
+                elif data and "memory" in data:
+                    tally.memory = max(tally.memory, data["memory"])
+                    number = last
+                elif data:
+                    tally.add(Outcome(**data), number)
+        if process not in RUNNING:
+            raise Stopped
+        RUNNING.discard(process)
         if number == last:
             return last
         said.seek(0)

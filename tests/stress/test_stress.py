@@ -4,6 +4,7 @@ import json
 import random
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from tests.shapes import bumpy, two_pieces
 from tests.stress import (
     __main__ as program,
     accuracy,
+    blocks,
     broken_kinds,
     broken_meshes,
     documents,
@@ -51,6 +53,25 @@ def test_a_part_that_does_not_begin_is_an_error(monkeypatch):
     monkeypatch.setattr(faulty, "__name__", "tests.stress.no_such")
     with pytest.raises(RuntimeError, match=r"(?s)no_such does not begin: .*No module named"):
         block(faulty, 0)
+
+
+def test_a_block_that_is_stopped_does_not_count():
+    with ThreadPoolExecutor(1) as workers:
+        going = workers.submit(block, faulty, 0)
+        while not blocks.RUNNING:
+            time.sleep(0.01)
+        blocks.stop()
+        with pytest.raises(blocks.Stopped):
+            going.result()
+
+
+def test_an_interrupted_run_keeps_nothing_of_its_last_block(run, monkeypatch, tmp_path):
+    def interrupted(part, seed):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(program, "block", interrupted)
+    assert run()[0] == 130
+    assert not (tmp_path / FILE).exists()
 
 
 @pytest.fixture
