@@ -1,4 +1,4 @@
-"""Work that is killed, cancelled, or finds the disk full: what is there under a final name is whole, and nothing hangs.
+"""Work that is killed or finds the disk full: what is there under a final name is whole, and the next run goes on.
 
 Commands run in a process that is forked from this one, which has not computed anything yet, so that the moment at
 which they are killed is one of their work and not of Python's start.
@@ -6,7 +6,6 @@ which they are killed is one of their work and not of Python's start.
 
 import contextlib
 import io
-import json
 import os
 import random
 import resource
@@ -24,33 +23,16 @@ from app.document.page import Recipe
 from app.main import main
 from app.session.array_store import comparison_of_arrays
 from app.session.recipe_file import recipe_written
-from bihdist_core import (
-    BiharmonicDistance,
-    Cancelled,
-    DiffusionDistance,
-    GeodesicDistance,
-    Laplacian,
-    OutputError,
-    Surface,
-    write_mesh,
-)
-from bihdist_core.distances.exact_geodesic import ExactGeodesic
-from bihdist_core.progress import Progress
+from bihdist_core import OutputError, write_mesh
 from tests.shapes import bumpy
 
 from .outcome import CRASHED, LOST, OPENED, REFUSED, WRONG, Outcome
 from .sentences import fault_of
 
-WORDS = "work that is killed, cancelled or finds the disk full"
+WORDS = "work that is killed or finds the disk full"
 SEEDS, BLOCK, SECONDS = 40, 50, 60.0
 COUNT = 400
 """Vertices of the mesh that commands work on."""
-LARGE = 3000
-"""Vertices of that on which work is cancelled."""
-FREE_WITHIN = 0.5
-"""Seconds of processor time from a cancellation to its end."""
-THREADS = 2
-"""At most, by which work is done."""
 PARTIAL = ".part"
 """What `pairs` keeps of what it has done, to go on from there."""
 COMMANDS = {
@@ -68,14 +50,11 @@ COMMANDS = {
 
 
 def case(seed: int, number: int, folder: Path) -> Outcome:
-    """A command that is killed or has no room, or work that is cancelled, at a random moment."""
+    """A command, or the saving of a session, that is killed at a random moment or has no room."""
     rng = random.Random(f"interruptions {seed} {number}")
-    kind = rng.random()
-    if kind < 0.2:
-        return in_fork(lambda: _cancelled(rng), folder / "said")
     name = rng.choice(sorted(COMMANDS))
-    sound = _sound(name, folder)
-    return _killed(name, folder, sound, rng) if kind < 0.7 or name == "results" else _full(name, folder, sound, rng)
+    attack = _killed if name == "results" or rng.random() < 0.6 else _full
+    return attack(name, folder, _sound(name, folder), rng)
 
 
 # ---------------------------------------------------------------------- processes
@@ -99,21 +78,6 @@ def forked(work: Callable[[], int], said: Path) -> int:
 def ended(process: int) -> int:
     """The status with which a process ends, the negative number of the signal that ended it."""
     return os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
-
-
-def in_fork(work: Callable[[], Outcome], said: Path) -> Outcome:
-    """The outcome of work in a process of its own; a crash where it ends otherwise."""
-
-    def told() -> int:
-        outcome = work()
-        print(json.dumps([outcome.kind, outcome.text]), file=sys.stderr)
-        return 0
-
-    status = ended(forked(told, said))
-    text = said.read_text()
-    return (
-        Outcome(CRASHED, f"status {status}: {text[-300:]}") if status else Outcome(*json.loads(text.splitlines()[-1]))
-    )
 
 
 # ---------------------------------------------------------------------- kills
@@ -236,36 +200,3 @@ def _full(name: str, folder: Path, sound: tuple[dict[str, bytes], float], rng: r
     last = said.strip().splitlines()[-1] if said.strip() else ""
     fault = fault_of(last.removeprefix("bihdist: "), name.partition(".")[0])
     return Outcome(WRONG, f"{name} on a full disk: {fault}") if fault else Outcome(REFUSED)
-
-
-# ---------------------------------------------------------------------- cancelled work
-WORKS: dict[str, Callable[[Surface, Progress], object]] = {
-    "biharmonic distances": lambda surface, progress: BiharmonicDistance(surface, progress=progress).from_sources(
-        list(range(40)), progress
-    ),
-    "diffusion": lambda surface, progress: DiffusionDistance(Laplacian(surface), progress=progress),
-    "the heat method": lambda surface, progress: GeodesicDistance(surface, "heat", progress).from_source(3, progress),
-    "exact geodesics": lambda surface, progress: ExactGeodesic(surface).columns(range(30), progress),
-}
-
-
-def _cancelled(rng: random.Random) -> Outcome:
-    """Long work that its progress stops at a random moment; afterwards there are answers again."""
-    name = rng.choice(sorted(WORKS))
-    WORKS[name](bumpy(60), lambda share, text: None)  # what is imported late is there
-    surface = bumpy(LARGE, rng.randrange(5))
-    moment = time.process_time() + rng.uniform(0, 1)
-
-    def stop(_share: float, _text: str) -> None:
-        if time.process_time() >= moment:
-            raise Cancelled
-
-    try:
-        WORKS[name](surface, stop)
-    except Cancelled:
-        late = time.process_time() - moment
-        if late > THREADS * FREE_WITHIN:
-            return Outcome(WRONG, f"{name}: {late:.2f} s of processor time from its cancellation to its end")
-    if not np.isfinite(BiharmonicDistance(bumpy(60)).from_source(0)).all():
-        return Outcome(WRONG, f"{name}: no answers after it was cancelled")
-    return Outcome(OPENED)

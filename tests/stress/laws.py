@@ -126,4 +126,5 @@ def _pairs(distance: Distance, fields: np.ndarray, ids: np.ndarray, accuracy: fl
     i, j = int(ids[0]), int(ids[-1])
     allowed = 2 * accuracy * float(np.nanmax(fields))
     found.differ(distance.between(i, j), fields[j, 0], allowed, f"{name}: `between` is not `from_source`")
+    found.differ(distance.from_source(i)[ids], fields[ids, 0], allowed, f"{name}: `from_source` is not `from_sources`")
     found.differ(distance.pairwise(ids), fields[ids], allowed, f"{name}: `pairwise` is not `from_sources`")

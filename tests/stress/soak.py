@@ -2,27 +2,22 @@
 
 import json
 import os
-import queue
 import random
 import resource
 import shutil
 import subprocess
 import sys
 import threading
-import time
 from pathlib import Path
 
 import numpy as np
 
-from app.document.document import comparison
-from app.document.edits import move_source
-from app.session.session import Session
 from bihdist_core import write_mesh
-from tests.app.conftest import RecordingView
+from tests.app.conftest import Desk
 from tests.shapes import bumpy, grid, torus
 
 from .blocks import ROOT
-from .outcome import HUNG, OPENED, WRONG, Outcome
+from .outcome import OPENED, WRONG, Outcome
 
 WORDS = "10,000 clicks and 200 opens, with and without a window"
 SEEDS, BLOCK, SECONDS = 5, 2, 3600.0
@@ -41,37 +36,27 @@ def case(seed: int, number: int, folder: Path) -> Outcome | None:
 
 def session(seed: int, folder: Path, clicks: int, opens: int) -> Outcome:
     """Clicks at random vertices, with another mesh opened now and then."""
-    rng, posted = random.Random(f"soak {seed}"), queue.Queue()
+    rng = random.Random(f"soak {seed}")
     paths = []
     for k, surface in enumerate((bumpy(200), torus(20, 10), grid(12, 10))):
         paths.append(str(folder / f"{k}.off"))
         write_mesh(paths[-1], surface)
-    view = RecordingView()
-    shown = Session(view, posted.put)
+    desk = Desk()
     memory, handles, every = [], [], max(clicks // opens, 1)
     try:
         for k in range(clicks):
             if k % every == 0:
-                shown.show(comparison(paths[k // every % len(paths)]))
+                desk.show(paths[k // every % len(paths)])
             else:
-                count = len(shown.surface.vertices)
-                shown.show(move_source(shown.document, rng.choice(shown.document.panels).id, rng.randrange(count)))
-            end = time.monotonic() + PATIENCE
-            while not shown.is_complete:
-                if time.monotonic() > end:
-                    return Outcome(HUNG, f"no answer to click {k}")
-                try:
-                    posted.get(timeout=0.05)()
-                except queue.Empty:
-                    continue
-            view.told.clear()
+                document, count = desk.session.document, len(desk.session.surface.vertices)
+                desk.click(rng.randrange(count), rng.choice(document.panels).id)
+            desk.until(lambda: desk.session.is_complete, PATIENCE)
+            desk.view.told.clear()
             if k % max(clicks // 100, 1) == 0:
                 memory.append(_resident())
                 handles.append(len(os.listdir("/proc/self/fd")) + threading.active_count())
     finally:
-        shown.close()
-    if view.unexpected:
-        return Outcome(WRONG, f"refused: {view.unexpected[0]}")
+        desk.session.close()
     return _flat(memory, handles)
 
 

@@ -18,6 +18,7 @@ from tests.stress import (
     blocks,
     broken_kinds,
     broken_meshes,
+    cancellations,
     documents,
     faulty,
     interruptions,
@@ -217,6 +218,7 @@ SMALL = {
     broken_meshes: len(broken_kinds.KINDS),
     accuracy: 25,
     interruptions: 12,
+    cancellations: 4,
 }
 
 
@@ -261,19 +263,17 @@ def test_careless_writing_is_found(tmp_path, monkeypatch, attack, kind, words):
     assert any(words in outcome.text for outcome in outcomes)
 
 
-@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
-def test_work_that_is_not_cancelled_soon_is_found(tmp_path, monkeypatch):
+def test_work_that_is_not_cancelled_soon_is_found(monkeypatch):
     def deaf(surface, progress):
         end = time.process_time() + 0.3
         while time.process_time() < end:
             pass
         progress(0.5, "")
 
-    monkeypatch.setattr(interruptions, "LARGE", 60)
-    monkeypatch.setattr(interruptions, "FREE_WITHIN", 0.01)
-    monkeypatch.setattr(interruptions, "WORKS", {"deaf work": deaf})
-    outcome = interruptions.in_fork(lambda: interruptions._cancelled(random.Random(0)), tmp_path / "said")
-    assert "from its cancellation to its end" in outcome.text
+    monkeypatch.setattr(cancellations, "LARGE", 60)
+    monkeypatch.setattr(cancellations, "FREE_WITHIN", 0.01)
+    monkeypatch.setattr(cancellations, "WORKS", {"deaf work": deaf})
+    assert "from its cancellation to its end" in cancellations._cancelled(random.Random(0)).text
 
 
 @pytest.mark.parametrize(
