@@ -193,6 +193,11 @@ REFUSED = {
         "announces 5 of vertex and 3 of face, one a line, but 7 lines follow",
     ),
     "PLY text line": ("a.ply", ply("ascii").replace(b"3 3 4 0", b"3 3 4"), "the line of face 2 does not hold"),
+    "PLY wrapped, no vertices": (
+        "a.ply",
+        ply("ascii").replace(b"vertex 5", b"vertex 0").replace(b"1.0 1.0", b"1.0\n1.0"),
+        "announces 0 of vertex",
+    ),
     "PLY text longer": ("a.ply", ply("ascii").replace(b"3 3 4 0", b"3 3 4 0 1"), "the line of face 2 does not hold"),
     "PLY list": ("a.ply", ply("ascii").replace(b"3 3 4 0", b"-3 3 4 0"), "face 2 announces a list of -3 entries"),
     "PLY index": ("a.ply", ply("binary_big_endian", [[0, 1, 5]]), "face 0 names vertex 5, but ids run from 0 to 4"),

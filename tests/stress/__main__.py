@@ -38,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if (name, seed) not in log.tallies
     ]
     # All parts get on alike, so that a run of any length tries something of each.
-    left.sort(key=lambda each: ((each[1] + 1) / PARTS[each[0]].SEEDS, each[0]))
+    left.sort(key=lambda each: each[1] / PARTS[each[0]].SEEDS)
 
     def do(name: str, seed: int) -> None:
         if time.monotonic() < end:
