@@ -21,6 +21,7 @@ from bihdist_core.file_content import MOST_JSON_BYTES, json_value
 from bihdist_core.formats.array_file import array_in, put_array
 from bihdist_core.formats.gifti_output import write_gifti_values
 
+from ..document.json_values import Reader, listed, number, or_none, text, whole
 from .storage import Folder
 from .work_order import ARRAYS, GIFTI
 
@@ -78,9 +79,27 @@ def facts_in(folder: Folder, name: str) -> dict[str, Any] | None:
 
 
 def is_complete(folder: Folder, facts: Mapping[str, Any]) -> bool:
-    """Whether the file of a result is there with all its bytes."""
+    """Whether the file of a result is there with all its bytes, and what is said of it is as it is written here."""
     file = facts.get("file")
-    return isinstance(file, str) and folder.size(file) == facts.get("bytes", -1)
+    return isinstance(file, str) and folder.size(file) == facts.get("bytes", -1) and _are_of_their_kinds(facts)
+
+
+_NUMBERS = ("accuracy", "mean", "median", "area_under_curve", "seconds")
+_KINDS: dict[str, Reader] = {
+    "shape": listed(whole),
+    "repairs": listed(text),
+    **{name: or_none(number) for name in _NUMBERS},
+}
+"""Of facts that stand in tables."""
+
+
+def _are_of_their_kinds(facts: Mapping[str, Any]) -> bool:
+    try:
+        for name in facts.keys() & _KINDS.keys():
+            _KINDS[name](facts[name], name)
+    except ParameterError:
+        return False
+    return True
 
 
 def write_result(

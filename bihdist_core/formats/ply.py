@@ -181,7 +181,7 @@ def _text_row(lines: TextLines, elements: list[_Element]) -> dict[str, dict[str,
         # For each property where it stands at each record.
         starts = np.empty((len(element.properties), element.count), np.int64)
         if not any(item.count_kind for item in element.properties):
-            starts[:] = at + np.arange(starts.size).reshape(element.count, -1).T
+            starts[:] = at + np.arange(starts.size).reshape(element.count, len(element.properties)).T
             at += starts.size
         else:
             for record in range(element.count):

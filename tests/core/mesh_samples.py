@@ -269,3 +269,17 @@ SINGLE = {
     "sub-01_rh.white.gz": gzip.compress(freesurfer()),
 }
 """Those that hold single precision."""
+
+
+def samples_of_all_formats(folder):
+    """The bytes of the mesh in every format and encoding, by the names of files; folder: for what VTK writes."""
+    samples = {name: content if isinstance(content, bytes) else content.encode() for name, content in SAMPLES.items()}
+    samples |= SINGLE | {"text.stl": stl_text().encode(), "binary.stl": stl_binary()}
+    samples |= {"mixed.ply": ply("binary_little_endian", QUAD_AND_TRIANGLE, with_colour=True)}
+    for compressor in ("zlib", "lz4"):
+        samples[f"{compressor}.vtp"] = written_by_vtk(folder / "a.vtp", compressor=compressor).read_bytes()
+    samples["grid.vtu"] = grid_written_by_vtk(folder / "a.vtu", FACES.tolist()).read_bytes()
+    for mode in ("ascii", "binary", "appended base64"):
+        samples[f"{mode.replace(' ', '_')}.vtp"] = written_by_vtk(folder / "a.vtp", mode=mode).read_bytes()
+    samples["new.vtk"] = written_by_vtk(folder / "a.vtk", QUAD_AND_TRIANGLE, "binary", 51).read_bytes()
+    return samples

@@ -16,18 +16,17 @@ from bihdist_core.formats.field_output import write_fields
 from bihdist_core.formats.mesh_io import read_surface
 from bihdist_core.formats.mesh_names import MESH_FORMATS
 from bihdist_core.surface import Surface
+from tests.core.damage import damaged
 from tests.core.mesh_samples import (
     FACES,
     QUAD_AND_TRIANGLE,
-    SAMPLES,
-    SINGLE,
     VERTICES,
     assert_same,
-    grid_written_by_vtk,
     obj,
     off,
     off_binary,
     ply,
+    samples_of_all_formats,
     stl_binary,
     stl_text,
     vtk_old,
@@ -194,6 +193,11 @@ REFUSED = {
         "announces 5 of vertex and 3 of face, one a line, but 7 lines follow",
     ),
     "PLY text line": ("a.ply", ply("ascii").replace(b"3 3 4 0", b"3 3 4"), "the line of face 2 does not hold"),
+    "PLY wrapped, no vertices": (
+        "a.ply",
+        ply("ascii").replace(b"vertex 5", b"vertex 0").replace(b"1.0 1.0", b"1.0\n1.0"),
+        "announces 0 of vertex",
+    ),
     "PLY text longer": ("a.ply", ply("ascii").replace(b"3 3 4 0", b"3 3 4 0 1"), "the line of face 2 does not hold"),
     "PLY list": ("a.ply", ply("ascii").replace(b"3 3 4 0", b"-3 3 4 0"), "face 2 announces a list of -3 entries"),
     "PLY index": ("a.ply", ply("binary_big_endian", [[0, 1, 5]]), "face 0 names vertex 5, but ids run from 0 to 4"),
@@ -329,34 +333,11 @@ def test_damaged_compressed_xml(tmp_path, put):
 
 
 # ---------------------------------------------------------------------- damage
-def damaged(content, rng):
-    content = bytearray(content)
-    kind = rng.random()
-    if kind < 0.3:
-        return bytes(content[: rng.randrange(len(content))])
-    if kind < 0.8:
-        for _ in range(rng.randint(1, 4)):
-            content[rng.randrange(len(content))] = rng.choice(b'0123456789 -./\n\r"<>=AZfv\xff\x00\x80')
-    else:
-        at = rng.randrange(len(content))
-        content[at:at] = b"9" * rng.randint(1, 14)
-    return bytes(content)
-
-
 def test_damaged_files_give_a_surface_or_one_sentence(tmp_path, put, capfd):
-    samples = {name: content if isinstance(content, bytes) else content.encode() for name, content in SAMPLES.items()}
-    samples |= SINGLE | {"text.stl": stl_text().encode(), "binary.stl": stl_binary()}
-    samples |= {"mixed.ply": ply("binary_little_endian", QUAD_AND_TRIANGLE, with_colour=True)}
-    for compressor in ("zlib", "lz4"):
-        samples[f"{compressor}.vtp"] = written_by_vtk(tmp_path / "a.vtp", compressor=compressor).read_bytes()
-    samples["grid.vtu"] = grid_written_by_vtk(tmp_path / "a.vtu", FACES.tolist()).read_bytes()
-    for mode in ("ascii", "binary", "appended base64"):
-        samples[f"{mode.replace(' ', '_')}.vtp"] = written_by_vtk(tmp_path / "a.vtp", mode=mode).read_bytes()
-    samples["new.vtk"] = written_by_vtk(tmp_path / "a.vtk", QUAD_AND_TRIANGLE, "binary", 51).read_bytes()
     rng = random.Random(20)
     refusals = 0
-    for name, content in samples.items():
-        for _ in range(int(os.environ.get("BIHDIST_FUZZ", "60"))):
+    for name, content in samples_of_all_formats(tmp_path).items():
+        for _ in range(60):
             message = outcome(put(name, damaged(content, rng)))
             assert message is None or name in message
             refusals += message is not None

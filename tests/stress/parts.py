@@ -1,0 +1,11 @@
+"""The parts of a run, each a module with its words for the table and a function `case(seed, number, folder)`.
+
+SEEDS: how many blocks the recorded run has; BLOCK: the cases of a block; SECONDS: of processor time for a case.
+"""
+
+from types import ModuleType
+
+from . import accuracy, broken_meshes, cancellations, documents, interruptions, mesh_files, soak
+
+_MODULES = (mesh_files, documents, broken_meshes, accuracy, interruptions, cancellations, soak)
+PARTS: dict[str, ModuleType] = {module.__name__.rpartition(".")[2]: module for module in _MODULES}

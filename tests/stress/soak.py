@@ -1,0 +1,91 @@
+"""Many clicks and opens, in a session without a window and in a window: memory and handles stay as they are."""
+
+import json
+import os
+import random
+import resource
+import shutil
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import numpy as np
+
+from bihdist_core import write_mesh
+from tests.app.conftest import Desk
+from tests.shapes import bumpy, grid, torus
+
+from .blocks import ROOT
+from .outcome import OPENED, WRONG, Outcome
+
+WORDS = "10,000 clicks and 200 opens, with and without a window"
+SEEDS, BLOCK, SECONDS = 5, 2, 3600.0
+CLICKS, OPENS, HAND_ACTIONS = 10_000, 200, 2_000
+GROWTH = 30 << 20
+"""Bytes by which memory may grow after the first tenth: pools of what was freed fill up at different times."""
+SPARE = 5
+"""Handles and threads of pools, which begin and end; one left of each of 200 opens is many more."""
+PATIENCE = 120.0
+
+
+def case(seed: int, number: int, folder: Path) -> Outcome | None:
+    """A session, then a window where there can be one."""
+    return session(seed, folder, CLICKS, OPENS) if number == 0 else window(seed, folder, HAND_ACTIONS)
+
+
+def session(seed: int, folder: Path, clicks: int, opens: int) -> Outcome:
+    """Clicks at random vertices, with another mesh opened now and then."""
+    rng = random.Random(f"soak {seed}")
+    paths = []
+    for k, surface in enumerate((bumpy(200), torus(20, 10), grid(12, 10))):
+        paths.append(str(folder / f"{k}.off"))
+        write_mesh(paths[-1], surface)
+    desk = Desk()
+    memory, handles, every = [], [], max(clicks // opens, 1)
+    try:
+        for k in range(clicks):
+            if k % every == 0:
+                desk.show(paths[k // every % len(paths)])
+            else:
+                document, count = desk.session.document, len(desk.session.surface.vertices)
+                desk.click(rng.randrange(count), rng.choice(document.panels).id)
+            desk.until(lambda: desk.session.is_complete, PATIENCE)
+            desk.view.told.clear()
+            if k % max(clicks // 100, 1) == 0:
+                memory.append(_resident())
+                handles.append(len(os.listdir("/proc/self/fd")) + threading.active_count())
+    finally:
+        desk.session.close()
+    return _flat(memory, handles)
+
+
+def window(seed: int, folder: Path, actions: int) -> Outcome | None:
+    """Random hands on the real window; nothing where there is no screen to be had."""
+    if not (shutil.which("xvfb-run") and shutil.which("xdotool")):
+        return None
+    resource.setrlimit(resource.RLIMIT_AS, 2 * resource.getrlimit(resource.RLIMIT_AS)[1:])
+    screen = ["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24"]
+    command = [*screen, sys.executable, "-m", "tests.qt.random_actions", str(seed), str(actions), str(folder)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    if done.returncode:
+        return Outcome(WRONG, f"the window ended with status {done.returncode}: {done.stderr[-300:]}")
+    found = json.loads(done.stdout.splitlines()[-1])
+    faults = [*found["errors"], *found["faults"]]
+    if faults:
+        return Outcome(WRONG, " ".join(faults[0].split())[-300:])
+    return _flat([1e6 * megabytes for megabytes in found["rss"]], [0])
+
+
+def _resident() -> int:
+    return 1024 * int(Path("/proc/self/status").read_text().split("VmRSS:")[1].split()[0])
+
+
+def _flat(memory: list, handles: list) -> Outcome:
+    """Whether neither grows after the first tenth; memory by its median of then and of the last tenth."""
+    tenth = max(len(memory) // 10, 1)
+    growth = float(np.median(memory[-tenth:]) - np.median(memory[tenth : 2 * tenth + 1]))
+    if growth > GROWTH:
+        return Outcome(WRONG, f"memory grows by {growth / 1e6:.0f} MB after the first tenth")
+    more = max(handles[-tenth:]) - max(handles[: 2 * tenth + 1])
+    return Outcome(WRONG, f"{more} more handles and threads at the end") if more > SPARE else Outcome(OPENED)
