@@ -223,15 +223,13 @@ class Surface:
         (Surface(surface: 4 vertices, 1 faces), 1)
         """
         gone = self._chosen(vertices)
-        left = ~gone[self.faces].any(axis=1)
-        if not left.any():
+        left = np.flatnonzero(~gone[self.faces].any(axis=1))
+        if not len(left):
             raise MeshError(f"{self.name}: no face is left without {counted(int(gone.sum()), 'vertex', 'vertices')}.")
-        if left.all():
+        if len(left) == len(self.faces):
             return self
-        cut = (
-            f"{counted(int(gone.sum()), 'vertex', 'vertices')} cut out, with "
-            f"{counted(len(left) - int(left.sum()), 'face')}"
-        )
+        n_faces = counted(len(self.faces) - len(left), "face")
+        cut = f"{counted(int(gone.sum()), 'vertex', 'vertices')} cut out, with {n_faces}"
         return Surface(self.vertices, self.faces[left], self.name, (*self.repairs, cut), self.facts)
 
     def _chosen(self, vertices: npt.ArrayLike) -> BoolArray:

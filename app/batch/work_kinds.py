@@ -36,8 +36,7 @@ def _kind(
     return WorkKind(word, meaning, frozenset(fields.split()), by_distance, frozenset(options.split()), function)
 
 
-OF_MESH = "areas cut merge"
-OF_IDS = f"{OF_MESH} sources arrays one_based mask normalise"
+OF_IDS = "areas cut merge sources arrays one_based mask normalise"
 OF_SOURCES = f"{OF_IDS} dtype"
 
 KINDS = {
@@ -46,7 +45,7 @@ KINDS = {
         _kind("fields", "distances of all vertices from the sources", OF_SOURCES, by_distance=True, function="fields"),
         _kind("pairs", "among the sources", f"{OF_SOURCES} labels layout", by_distance=True, function="pairs"),
         _kind("nearest", "their nearest vertices", f"{OF_SOURCES} nearest", by_distance=True, function="neighbours"),
-        _kind("eigen", "eigenpairs", f"{OF_MESH} eigenpairs dtype arrays normalise", function="eigen"),
+        _kind("eigen", "eigenpairs", "areas cut merge eigenpairs dtype arrays normalise", function="eigen"),
         _kind("fps", "farthest points", OF_IDS, by_distance=True, function="fps"),
         _kind("figure", "a picture", "recipe range maxima cut merge", options="sources distance areas"),
         _kind("evaluate", "errors of maps", "areas samples arrays", options="maps truth symmetry"),

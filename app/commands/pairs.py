@@ -5,9 +5,10 @@ from typing import TYPE_CHECKING
 
 from bihdist_core.counts import counted
 
+from ..document.repairs import NAME
 from ..document.sources import ALL, Sources
 from ..version import version
-from .mesh import NAME, add_meshes, found_mesh, into_each, read_laplacian
+from .mesh import add_meshes, found_mesh, into_each, read_laplacian
 from .mesh_sources import sources_of_mesh, sources_on
 from .options import (
     DTYPES,
