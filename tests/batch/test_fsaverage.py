@@ -1,5 +1,6 @@
 """fsaverage5 as nilearn has it on disk, from GIFTI to a matrix of parcels by one command; skipped without nilearn."""
 
+import shutil
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -33,8 +34,10 @@ def test_parcels_of_both_hemispheres_without_the_medial_wall(tmp_path):
         expected[side] = parcel_means(BiharmonicDistance(surface.without(~cortex)), labels[side]).distances
     options = ("--labels", tmp_path / "{name}.labels.npy", "--cut", tmp_path / "{name}.cortex.npy")
     out = tmp_path / "out"
-    meshes = [f"{folder}/pial_{side}.gii.gz" for side in ("left", "right")]
-    assert batch(meshes[0], out, meshes[1], "--do", "pairs", *options) == 0
+    (tmp_path / "surf").mkdir()
+    for side in ("left", "right"):
+        shutil.copy(folder / f"pial_{side}.gii.gz", tmp_path / "surf")
+    assert batch(tmp_path / "surf", out, "--do", "pairs", *options) == 0
     assert [row["mesh"] for row in rows(out)] == ["pial_left", "pial_right"]
     for side in ("left", "right"):
         np.testing.assert_allclose(np.load(out / f"pial_{side}.pairs.biharmonic.npy"), expected[side], rtol=1e-9)
