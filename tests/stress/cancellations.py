@@ -86,7 +86,7 @@ def _escaped(folder: Path, rng: random.Random) -> Outcome:
         desk.until(partial(_is_over, time.monotonic() + rng.uniform(0, 2)))
         begin = time.process_time()
         desk.session.cancel()
-        _until_idle(desk)
+        until_idle(desk)
         late = time.process_time() - begin
         desk.loaded(str(folder / "short.off"))
     finally:
@@ -96,7 +96,7 @@ def _escaped(folder: Path, rng: random.Random) -> Outcome:
     return Outcome(OPENED)
 
 
-def _until_idle(desk: Desk) -> None:
+def until_idle(desk: Desk) -> None:
     """Until a tenth of a second costs next to nothing."""
     before, cost = time.process_time(), math.inf
     while cost > IDLE:

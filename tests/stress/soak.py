@@ -17,15 +17,17 @@ from tests.app.conftest import Desk
 from tests.shapes import bumpy, grid, torus
 
 from .blocks import ROOT
+from .cancellations import until_idle
 from .outcome import OPENED, WRONG, Outcome
 
-WORDS = "10,000 clicks and 200 opens, with and without a window"
+WORDS = "10,000 clicks and 200 opens in a session, 2,000 acts of hands in a window"
 SEEDS, BLOCK, SECONDS = 5, 2, 3600.0
 CLICKS, OPENS, HAND_ACTIONS = 10_000, 200, 2_000
 GROWTH = 30 << 20
-"""Bytes by which memory may grow after the first tenth: pools of what was freed fill up at different times."""
+"""Bytes by which memory may grow after the first tenth: answers are kept, and pools of what was freed fill up."""
 SPARE = 5
-"""Handles and threads of pools, which begin and end; one left of each of 200 opens is many more."""
+"""Handles and threads of pools; one left of each open is many more."""
+SAMPLES = 20
 PATIENCE = 120.0
 
 
@@ -52,7 +54,8 @@ def session(seed: int, folder: Path, clicks: int, opens: int) -> Outcome:
                 desk.click(rng.randrange(count), rng.choice(document.panels).id)
             desk.until(lambda: desk.session.is_complete, PATIENCE)
             desk.view.told.clear()
-            if k % max(clicks // 100, 1) == 0:
+            if k % max(clicks // SAMPLES, 1) == 0:
+                until_idle(desk)  # what was given up has ended
                 memory.append(_resident())
                 handles.append(len(os.listdir("/proc/self/fd")) + threading.active_count())
     finally:
@@ -82,10 +85,10 @@ def _resident() -> int:
 
 
 def _flat(memory: list, handles: list) -> Outcome:
-    """Whether neither grows after the first tenth; memory by its median of then and of the last tenth."""
+    """Whether neither grows after the first tenth, by their medians of the tenth after that and of the last."""
     tenth = max(len(memory) // 10, 1)
     growth = float(np.median(memory[-tenth:]) - np.median(memory[tenth : 2 * tenth + 1]))
     if growth > GROWTH:
         return Outcome(WRONG, f"memory grows by {growth / 1e6:.0f} MB after the first tenth")
-    more = max(handles[-tenth:]) - max(handles[: 2 * tenth + 1])
+    more = round(float(np.median(handles[-tenth:]) - np.median(handles[tenth : 2 * tenth + 1])))
     return Outcome(WRONG, f"{more} more handles and threads at the end") if more > SPARE else Outcome(OPENED)
