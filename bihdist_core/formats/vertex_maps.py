@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -71,7 +72,7 @@ def write_map(path: str | os.PathLike[str], found: npt.ArrayLike) -> None:
 
 
 def read_pairs(path: str | os.PathLike[str], source: Surface | None = None, target: Surface | None = None) -> IntArray:
-    """(k, 2) ids from a file with a line `i,j` for each pair; a first line of words is a header.
+    """(k, 2) ids from a file with a line `i,j`, `i:j` or `i j` for each pair; a first line of words is a header.
 
     source, target: the surfaces whose vertices i and j must be, if they are known.
 
@@ -86,8 +87,8 @@ def pairs_in(
     """(k, 2) ids from numbered lines such as `read_pairs` reads; path: how messages call the file."""
     pairs = []
     for number, line in lines:
-        words = [word.strip() for word in line.replace(";", ",").split(",")]
-        if number == 1 and not WHOLE.fullmatch(words[0]):
+        words = re.split(r"\s*[,;:]\s*|\s+", line)
+        if number == 1 and line[:1].isalpha():
             continue
         if len(words) < 2 or not all(WHOLE.fullmatch(word) for word in words[:2]):
             raise ParameterError(

@@ -139,9 +139,16 @@ def test_pairs_are_read_with_and_without_a_header(tmp_path):
     path = tmp_path / "p.csv"
     path.write_text("a,b\n1,2\n\n3;4\n")
     assert read_pairs(path).tolist() == [[1, 2], [3, 4]]
-    path.write_text("1,2\n3\n")
-    with pytest.raises(ParameterError, match="line 2: '3' is not a pair"):
-        read_pairs(path)
+    path.write_text("1:2\n3 4\n 5 , 6\n")
+    assert read_pairs(path).tolist() == [[1, 2], [3, 4], [5, 6]]
+    for text, said in (
+        ("1,2\n3\n", "line 2: '3' is"),
+        ("1.5,2\n", "line 1: '1.5,2' is"),
+        ("-1,2\nx,3\n", "line 2: 'x,3'"),
+    ):
+        path.write_text(text)
+        with pytest.raises(ParameterError, match=f"{said}.*pair"):
+            read_pairs(path)
 
 
 def test_maps_of_a_set_have_the_same_weight(surface):
