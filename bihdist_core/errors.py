@@ -34,7 +34,7 @@ class SolverError(BihdistError, RuntimeError):
     """A numerical result that cannot be trusted."""
 
 
-class NotEnoughMemory(BihdistError, MemoryError):
+class NotEnoughMemory(MemoryError, BihdistError):  # in this order, or it is not made again from a pickle
     """Work that needs more memory than there is, found out before it begins."""
 
 

@@ -67,12 +67,14 @@ class CompiledFactor:
         self._diagonals: tuple[FloatArray, FloatArray] | None = None
         self._arena: Arena | None = None
         if len(tree.tasks) == 1 and job.is_silent:
-            self._factor_alone(matrix)
+            room = library().bih_factor_room(ctypes.byref(tree.struct), areas is not None)
+            self._check_memory(room)
+            self._factor_alone(matrix, room)
             return
         self._rooms = {task: (self._elimination_room(task), self._inversion_room(task)) for task in tree.tasks}
         most = max(max(rooms) for rooms in self._rooms.values())
         room = tree.blocks_room + min(WORKERS, len(self._rooms)) * most
-        check_memory(self.nbytes + 8.0 * room, f"The factor for {tree.n:,} vertices", REMEDY)
+        self._check_memory(room)
         self._arena = Arena(room)
         self._eliminate(matrix, job)
         if areas is None:
@@ -91,14 +93,18 @@ class CompiledFactor:
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in self.__dict__.items() if name != "_struct"}
 
-    def _factor_alone(self, matrix: sp.csr_matrix) -> None:
+    def _check_memory(self, room: int) -> None:
+        """For the factor, and so many doubles to make it in, all of which are there on paper only."""
+        check_memory(self.nbytes + 8.0 * room, f"The factor for {self.tree.n:,} vertices", REMEDY)
+
+    def _factor_alone(self, matrix: sp.csr_matrix, room: int) -> None:
         """All of it, diagonals included, by one call."""
-        lib, tree, where = library(), ctypes.byref(self.tree.struct), np.empty(2, np.int64)
+        lib, where = library(), np.empty(2, np.int64)
         rows = rows_of(matrix.indptr, matrix.indices, matrix.data)
         is_dual = self._areas is not None
         if is_dual:
             self._diagonals = np.empty(self.tree.n), np.empty(self.tree.n)
-        both, work = self._diagonals or (None, None), np.empty(lib.bih_factor_room(tree, is_dual))
+        both, work = self._diagonals or (None, None), np.empty(room)
         _check(lib.bih_factor(ctypes.byref(self._struct), ctypes.byref(rows), work, *both, where), where)
 
     def _elimination_room(self, task: tuple[int, int]) -> int:
