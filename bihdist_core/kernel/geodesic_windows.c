@@ -8,7 +8,8 @@
 #define NARROW 4e-12         /* of an edge: windows overlap less only by rounding */
 #define THIN 1e-2            /* of the longest edge: the height of a face below which it is thin */
 #define NEARER 1e-13         /* ratio by which a window is nearer that comes after another one crossed, */
-#define NEARER_BY 1e-14      /* and of the edge */
+#define NEARER_BY 1e-14      /* and of the edge, */
+#define COME_AGAIN 0.1       /* if their sources are no farther apart than so much of it */
 
 static double distance_at(const Window *w, double x) {
   return w->parallel ? w->s + x * w->px : w->s + length_of(x - w->px, w->py);
@@ -166,7 +167,9 @@ static void cross(Run *run, i32 h, const Window *entering) {
 
 /* Whether a is nowhere farther than b on [x0, x1] of an edge of this length.  Their difference has one extremum at most, where rays are parallel. */
 static int beats(const Window *a, const Window *b, double x0, double x1, double length) {
-  double ratio = 1 - NEARER * (a->crossed - b->crossed), slack = NEARER_BY * length * (a->crossed - b->crossed), x;
+  double apart = COME_AGAIN * length, x; /* on an edge as short as rounding, others than the same come as near */
+  int again = __builtin_fabs(a->px - b->px) <= apart && __builtin_fabs(a->py - b->py) <= apart;
+  double known = again ? a->crossed - b->crossed : 0, ratio = 1 - NEARER * known, slack = NEARER_BY * length * known;
   if (distance_at(a, x0) * ratio - slack > distance_at(b, x0) || distance_at(a, x1) * ratio - slack > distance_at(b, x1)) return 0;
   if (a->parallel && b->parallel) return 1;
   if (a->parallel) x = b->px + b->py * (a->px / a->py);
