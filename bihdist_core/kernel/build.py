@@ -33,7 +33,7 @@ SANITIZED = ("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover
 WASM = (
     "-O2", "-fno-unroll-loops", "-fno-vectorize", "-target", "wasm32-freestanding",
     "-mcpu=generic+simd128+bulk_memory", "-nostdlib", "-s", "-fno-sanitize=all", "-Wl,--no-entry",
-    "-Wl,--export-dynamic", "-Wl,--export=__heap_base", "-Wl,-z,stack-size=1048576",
+    "-Wl,-z,stack-size=1048576",
 )  # fmt: skip
 
 Command = tuple[str, ...]

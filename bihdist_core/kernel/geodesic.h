@@ -140,4 +140,12 @@ void leave(Run *run, i32 h, Window w);
 void cross_all(Run *run, i32 h);
 void bend(Run *run, i32 vertex);
 double nearest_share(const Run *run, i32 source, i32 h, double x, double y);
+
+/* geodesic_mesh.c */
+API i64 bih_geodesic_mesh(const Mesh *mesh, const double *X, const i32 *faces, const i32 *label, i32 *a, i32 *b,
+                          i32 *put);
+
+/* geodesic_run.c */
+API i32 bih_geodesic_begin(Run *run);
+API i32 bih_geodesic_run(Run *run, Watch *watch);
 #endif

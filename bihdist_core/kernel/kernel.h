@@ -134,8 +134,8 @@ static inline double *block_N(const Factor *f, i64 q) { return f->boundaries + b
 
 /* elimination.c */
 API void bih_elimination_room(const Tree *t, i32 dual, i64 first, i64 last, i64 *room);
-API i32 bih_eliminate(const Factor *factor, const Rows *matrix, i64 first, i64 last, double *const *blocks, double *work,
-                      i64 *where, Watch *watch);
+API i32 bih_eliminate(const Factor *factor, const Rows *matrix, i64 first, i64 last, double *const *blocks,
+                      double *work, i64 *where, Watch *watch);
 
 /* dense.c */
 void add_product(i64 rows, i64 columns, i64 inner, double scale, const double *A, i64 row, i64 column, const double *B,
@@ -144,6 +144,35 @@ void add_upper_product(i64 rows, i64 columns, i64 inner, double scale, const dou
                        const double *B, i64 ldb, double *C, i64 ldc);
 int sweep(i64 c, i64 s, double *F, i64 ld, const double *scale, double *work, double *left);
 i64 sweep_work(i64 c, i64 sp);
+
+/* assembly.c */
+API void bih_measures(i64 m, const double *x, const i64 *faces, double *area, double *longest);
+API void bih_corners(i64 m, const double *x, const i64 *faces, const double *area, double *cotangent, double *square);
+API void bih_voronoi_areas(i64 m, const i64 *faces, const double *cotangent, const double *square, const double *area,
+                           double *areas);
+API i64 bih_stiffness(i64 n, i64 m, const i64 *faces, const double *weight, i32 *start, i32 *index, double *value,
+                      i32 *work);
+
+/* ordering.c */
+API i64 bih_dissection_room(i64 n, i64 entries);
+API i64 bih_order(const Rows *matrix, const double *x, Dissection *D, i32 *vertices, i32 *place, i32 *last,
+                  i32 *subtrees);
+
+/* symbolic.c */
+API i64 bih_lay_out(const Rows *g, Tree *t, const i32 *last, const i32 *subtrees, i64 tasks, i64 room, i32 *work,
+                    i64 *totals);
+
+/* inversion.c */
+API i64 bih_factor_room(const Tree *t, i32 dual);
+API i32 bih_factor(const Factor *factor, const Rows *matrix, double *work, double *diagonal, double *sandwich,
+                   i64 *where);
+
+/* substitution.c */
+API void bih_solve(const Factor *factor, i64 k, i64 w, const double *b, i64 ldb, double *out, i64 ldo, double *x,
+                   double *work);
+API void bih_send_units(const Factor *factor, const i32 *places, i64 k, i64 w, double *xy, i32 *count, double *work);
+API i32 bih_sweep_down_both(const Factor *factor, i64 first, i64 last, i64 w, double *xy, const i32 *count,
+                            double *work, Watch *watch);
 
 static inline void zero(void *p, i64 bytes) { __builtin_memset(p, 0, (size_t)bytes); }
 static inline void copy(void *to, const void *from, i64 bytes) { __builtin_memcpy(to, from, (size_t)bytes); }

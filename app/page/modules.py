@@ -1,0 +1,51 @@
+"""The page's modules as one script: what they import of each other is put before them."""
+
+import re
+from pathlib import Path
+
+VIEWER = Path(__file__).parent / "viewer"
+IMPORT = re.compile(r'^import \{ ([\w, ]+) \} from "\./([\w-]+\.js)";\n', re.M)
+EXPORT = re.compile(r"^export (?=(?:async )?(?:function|class|const)\b)", re.M)
+NAMES = re.compile(r"^(?:export )?(?:async )?(?:function\*?|class|const|let) (\w+|[\[{][^=]*[\]}])", re.M)
+
+
+def joined(entry: str, folder: Path = VIEWER) -> str:
+    """The module `entry` of a folder, behind all that it needs, each once.
+
+    A module imports by `import { a, b } from "./other.js";`, at its beginning, and exports functions, classes and
+    constants where they are defined; no two have a name at their top in common.  ValueError where that is not so.
+    """
+    texts: dict[str, str] = {}
+    _collect(entry, folder, texts, ())
+    owner: dict[str, str] = {}
+    for module, text in texts.items():
+        for name in top_names(text):
+            if owner.setdefault(name, module) != module:
+                raise ValueError(f"{module} and {owner[name]} both have {name} at their top.")
+    return "\n".join(texts.values())
+
+
+def top_names(text: str) -> list[str]:
+    """What a module defines at its top, as its lines begin."""
+    return [name for found in NAMES.findall(text) for name in re.findall(r"\w+", found)]
+
+
+def _collect(module: str, folder: Path, texts: dict[str, str], above: tuple[str, ...]) -> None:
+    if module in above:
+        raise ValueError(f"{module} imports itself by way of {', '.join(above)}.")
+    if module in texts:
+        return
+    text = (folder / module).read_text(encoding="utf-8")
+    for names, other in IMPORT.findall(text):
+        _collect(other, folder, texts, (*above, module))
+        offered = _exported((folder / other).read_text(encoding="utf-8"))
+        if missing := [name for name in names.split(", ") if name not in offered]:
+            raise ValueError(f"{module} imports {', '.join(missing)} of {other}, which does not export it.")
+    rest = EXPORT.sub("", IMPORT.sub("", text))
+    if bad := re.search(r"^(import|export)\b.*", rest, re.M):
+        raise ValueError(f"{module}: {bad[0]!r} is neither an import nor an export of the kinds that can be joined.")
+    texts[module] = rest
+
+
+def _exported(text: str) -> set[str]:
+    return set(top_names("\n".join(re.findall(r"^export .*", text, re.M))))

@@ -1,0 +1,80 @@
+// What a page holds, from base64 of raw deflate to arrays; app/page/stored_mesh.py and points.py pack it.
+
+/** @param {string} text @returns {Promise<Uint8Array>} */
+export async function inflated(text) {
+  const bytes = Uint8Array.from(atob(text.trim()), (c) => c.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+// Whole numbers of 7 bits a byte, least first, with the sign in the lowest bit.
+function* varints(bytes) {
+  for (let p = 0; p < bytes.length; ) {
+    let x = 0, shift = 1, byte;
+    do (byte = bytes[p++]), (x += (byte & 127) * shift), (shift *= 128);
+    while (byte > 127);
+    yield x % 2 ? -(x + 1) / 2 : x / 2;
+  }
+}
+
+/**
+ * @typedef {object} Mesh
+ * @property {number} n vertices that faces have
+ * @property {number} m faces
+ * @property {Float64Array} positions (3 n)
+ * @property {Int32Array} faces (3 m)
+ * @property {Int32Array} ids (n) the file's number of each vertex
+ * @property {Int32Array} components (c + 1) the first vertex of each, and n
+ * @property {Int32Array} faceComponents (c + 1) the first face of each, and m
+ */
+
+/** @param {Uint8Array} bytes @returns {Mesh} */
+export function unpackedMesh(bytes) {
+  const [lowX, lowY, lowZ, step] = new Float64Array(bytes.slice(0, 32).buffer);
+  const numbers = varints(bytes.subarray(32)), next = () => numbers.next().value;
+  const [n, m, count, floats] = [next(), next(), next(), next()];
+  const sums = (array, stride, first) => {
+    for (let k = first, sum = 0; k < array.length; k += stride) array[k] = sum += next();
+    return array;
+  };
+  const components = sums(new Int32Array(count + 1), 1, 0), faceComponents = sums(new Int32Array(count + 1), 1, 0);
+  const faces = sums(new Int32Array(3 * m), 3, 0);
+  for (let k = 0; k < 3 * m; k += 3) (faces[k + 1] = faces[k] + next()), (faces[k + 2] = faces[k] + next());
+  const ids = sums(new Int32Array(n), 1, 0), positions = new Float64Array(3 * n);
+  if (floats) positions.set(floatsOf(bytes.subarray(bytes.length - 12 * n), 3 * n));
+  else
+    [lowX, lowY, lowZ].forEach((low, axis) => {
+      sums(positions, 3, axis);
+      for (let k = axis; k < 3 * n; k += 3) positions[k] = positions[k] * step + low;
+    });
+  return { n, m, positions, faces, ids, components, faceComponents };
+}
+
+// Floats whose first bytes come first, then all second ones: alike bytes are beside each other.
+function floatsOf(planes, count) {
+  const bytes = new Uint8Array(4 * count);
+  for (let k = 0; k < count; k++) for (let b = 0; b < 4; b++) bytes[4 * k + b] = planes[b * count + k];
+  return new Float32Array(bytes.buffer);
+}
+
+/**
+ * Points that stand for vertices, so that their distances are those of the vertices.
+ * @typedef {object} Points
+ * @property {number} k coordinates
+ * @property {Float32Array} at (k, n)
+ */
+
+/** Each coordinate has a scale for each component, and 16 bits.
+ * @param {Uint8Array} bytes @param {Mesh} mesh @returns {Points} */
+export function unpackedPoints(bytes, mesh) {
+  const { n, components } = mesh, parts = components.length - 1, k = bytes.length / (2 * n + 8 * parts);
+  const scales = new Float64Array(bytes.slice(0, 8 * k * parts).buffer);
+  const planes = bytes.subarray(8 * k * parts), at = new Float32Array(k * n);
+  for (let c = 0; c < k; c++)
+    for (let part = 0; part < parts; part++)
+      for (let v = components[part]; v < components[part + 1]; v++) {
+        const j = c * n + v;
+        at[j] = (((planes[j] | (planes[k * n + j] << 8)) << 16) >> 16) * scales[c * parts + part];
+      }
+  return { k, at };
+}
