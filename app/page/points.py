@@ -37,7 +37,9 @@ class StoredPoints:
         for number, (component, points) in enumerate(zip(components, found, strict=True)):
             k = points.shape[1]
             scales[number, :k] = np.abs(points).max(axis=0, initial=0) / LARGEST
-            coordinates[component.vertices, :k] = np.rint(points / np.where(scales[number, :k] > 0, scales[number, :k], 1))
+            coordinates[component.vertices, :k] = np.rint(
+                points / np.where(scales[number, :k] > 0, scales[number, :k], 1)
+            )
         return cls(coordinates, scales, float(np.sqrt((scales**2).sum(axis=1)).max()))
 
     @property

@@ -13,9 +13,10 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 from bihdist_core.degenerate_faces import DegenerateFaces
+from bihdist_core.distances.biharmonic import NEAR, NEAR_BY_HEIGHT
 from bihdist_core.errors import ParameterError
-from bihdist_core.operators import face_weights, vertex_areas
-from bihdist_core.surface import Surface
+from bihdist_core.operators import vertex_areas
+from bihdist_core.surface import FLAT, Surface
 
 FLOAT32 = "float32"
 PRECISIONS = ("24", FLOAT32)
@@ -56,9 +57,7 @@ class StoredMesh:
         counts = np.bincount(component[order])
         face_counts = np.bincount(component[order][faces[:, 0]])
         first_vertices, first_faces = (np.concatenate([[0], np.cumsum(c)]) for c in (counts, face_counts))
-        return cls(
-            Surface(stored, faces, name=surface.name), order, precision, low, step, first_vertices, first_faces
-        )
+        return cls(Surface(stored, faces, name=surface.name), order, precision, low, step, first_vertices, first_faces)
 
     @cached_property
     def packed(self) -> bytes:
@@ -82,18 +81,21 @@ class StoredMesh:
             planes = b""
         return np.array([*self.low, self.step], "<f8").tobytes() + varints(np.concatenate(ints)) + planes
 
-    @cached_property
-    def corrections(self) -> dict[str, list[list[float]]]:
-        """What a page cannot compute: weights of degenerate faces, and the areas of vertices that differ by them."""
+    @property
+    def near(self) -> list[float]:
+        """Of each component the share of the largest distance below which biharmonic ones are computed as pairs."""
+        thinnest = np.minimum.reduceat(self.surface.face_heights, self.first_faces[:-1])
+        shares: list[float] = np.maximum(NEAR, NEAR_BY_HEIGHT / np.maximum(thinnest, FLAT)).tolist()
+        return shares
+
+    def corrections(self, areas: str) -> dict[str, list[list[float]]]:
+        """What a page does not compute of vertex areas of that kind: weights of degenerate faces, and areas beside."""
         s = self.surface
         faces = s.degenerate_faces
-        if not len(faces):
-            return {"weights": [], "areas": []}
-        weights, areas = DegenerateFaces.of(s).weights(), vertex_areas(s)
-        beside = np.unique(s.faces[faces])
+        weights, of_vertex, beside = DegenerateFaces.of(s).weights(), vertex_areas(s, areas), np.unique(s.faces[faces])
         return {
             "weights": [[int(f), *map(float, w)] for f, w in zip(faces, weights.T, strict=True)],
-            "areas": [[int(v), float(areas[v])] for v in beside],
+            "areas": [[int(v), float(of_vertex[v])] for v in beside],
         }
 
 
@@ -126,7 +128,8 @@ def _order(faces: IntArray, n: int) -> IntArray:
     i, j = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
     ends = np.concatenate([i, j]), np.concatenate([j, i])
     graph = sp.csr_matrix((np.ones(len(ends[0]), np.int8), ends), (n, n))
-    return reverse_cuthill_mckee(graph, symmetric_mode=True).astype(np.int64)
+    order: IntArray = reverse_cuthill_mckee(graph, symmetric_mode=True).astype(np.int64)
+    return order
 
 
 def _sorted(faces: AnyArray) -> IntArray:

@@ -48,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--output", type=Path, default=HERE, metavar="FOLDER", help="by default where it is looked for")
     parser.add_argument("--target", help="another kind of machine, by zig: aarch64-macos, x86_64-linux-gnu.2.17")
-    parser.add_argument("--wasm", action="store_true", help="a WebAssembly module without imports, by zig")
+    parser.add_argument("--wasm", action="store_true", help="kernel.wasm, which web pages have, by zig")
     parser.add_argument("--sanitize", action="store_true", help="with the address and undefined behavior sanitizers")
     parser.add_argument("--strict", action="store_true", help="warnings are errors")
     parser.add_argument("--check", action="store_true", help="only try, strictly, each compiler there is")
@@ -88,8 +88,8 @@ def build(folder: Path, command: Command | None, flags: Command, target: str | N
 
 
 def build_wasm(folder: Path) -> None:
-    """Make the WebAssembly module in a folder: its caller's arrays lie from `__heap_base` on."""
-    call(ZIG, *LANGUAGE, *WASM, *STRICT, *map(str, HERE.glob("*.c")), "-o", str(folder / f"{NAME}.wasm"))
+    """Make the WebAssembly module in a folder: it has what `page.c` exports, and imports nothing."""
+    call(ZIG, *LANGUAGE, *WASM, *STRICT, *map(str, sorted(HERE.glob("*.c"))), "-o", str(folder / "kernel.wasm"))
 
 
 def check() -> None:

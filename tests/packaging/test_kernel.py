@@ -1,24 +1,18 @@
 """The compiled kernel: by each compiler there is, with what watches over memory, and as a WebAssembly module."""
 
 import ctypes
-import json
 import os
 import platform
 import re
 import shutil
 import subprocess
 import sys
+from importlib.metadata import version
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from bihdist_core import BiharmonicDistance, Laplacian
-from bihdist_core.distances.exact_geodesic import ExactGeodesic
 from bihdist_core.kernel import build, library
-from bihdist_core.solver.elimination_tree import canonical
-from bihdist_core.sources.pieces import Pieces
-from tests.shapes import bumpy, fin, slivers
 
 ROOT = Path(__file__).parents[2]
 ON_X86 = platform.machine().lower() in ("x86_64", "amd64")
@@ -168,65 +162,13 @@ def test_sanitizers_see_what_is_out_of_place(sanitized):
 
 
 # ---------------------------------------------------------------------- WebAssembly
-@pytest.fixture(scope="module")
-def by_module(tmp_path_factory):
-    """What a script answers to a question by the kernel's WebAssembly module."""
+ZIG_OF_PAGES = "0.17.1"
+"""The version of PyPI's ziglang that has compiled the kernel of web pages."""
+
+
+def test_the_kernel_of_pages_is_what_its_sources_make(tmp_path):
     found("zig")
-    if not shutil.which("node"):
-        pytest.skip("there is no node")
-    folder = tmp_path_factory.mktemp("module")
-    build.build_wasm(folder)
-
-    def answer(script: str, question: dict) -> dict:
-        arguments = ROOT / "tests" / "packaging" / script, folder / "libbihdist.wasm"
-        return json.loads(run("node", *arguments, input=json.dumps(question)))
-
-    return answer
-
-
-def test_as_a_web_assembly_module_it_computes_the_same_field(by_module):
-    surface, source = bumpy(400), 123
-    laplacian = Laplacian(surface)
-    matrix = canonical(laplacian.stiffness[1:, 1:])  # vertex 0 is pinned
-    said = by_module("kernel.mjs", {
-        "start": matrix.indptr.tolist(), "index": matrix.indices.tolist(), "value": matrix.data.tolist(),
-        "x": (surface.vertices[1:] / np.abs(surface.vertices).max()).ravel().tolist(),
-        "areas": laplacian.areas[1:].tolist(), "column": source - 1,
-    })  # fmt: skip
-    sandwich, column, mean = (np.concatenate([[0], said[name]]) for name in ("sandwich", "column", "mean"))
-    area = laplacian.areas.sum()
-    diagonal = sandwich - mean**2 / area
-    squares = diagonal + diagonal[source] - 2 * (column - mean * mean[source] / area)
-    field = BiharmonicDistance(laplacian).from_source(source)
-    assert np.abs(np.sqrt(np.maximum(squares, 0)) - field)[np.arange(len(field)) != source].max() < 1e-12 * field.max()
-
-
-@pytest.mark.parametrize("surface", [bumpy(400), fin(), slivers()], ids=["sound", "not manifold", "with flat faces"])
-def test_as_a_web_assembly_module_it_finds_the_same_geodesics(by_module, surface):
-    """From a vertex, a place and a straight piece at a time, and the path to a place."""
-    rng, m = np.random.default_rng(0), len(surface.faces)
-    faces, begin, end = np.array([0, m // 2, m // 3]), rng.dirichlet([1, 1, 1], 3), rng.dirichlet([1, 1, 1], 3)
-    begin[0] = end[0] = [0, 1, 0]
-    end[1] = begin[1]
-    sources = Pieces(faces, surface.faces[faces], begin, end, (begin != end).any(axis=1))
-    faces, at = np.array([m // 4, m // 5, m - 1]), rng.dirichlet([1, 1, 1], 3)
-    targets = Pieces(faces, surface.faces[faces], at, at, np.zeros(3, bool))
-
-    def lists(pieces):
-        return {
-            "face": pieces.faces.tolist(),
-            "begin": pieces.start.ravel().tolist(),
-            "end": pieces.stop.ravel().tolist(),
-        }
-
-    said = by_module("geodesic.mjs", {
-        "x": surface.vertices.ravel().tolist(), "faces": surface.faces.ravel().tolist(),
-        "sources": lists(sources), "targets": lists(targets),
-    })  # fmt: skip
-    field = ExactGeodesic(surface).field(sources, targets)
-    expected = np.concatenate([field.distances, field.at_places])
-    assert np.abs(np.array(said["distances"]) - expected).max() < 1e-12 * expected.max()
-    path = field.path_to_place(2)
-    assert said["face"] == path.faces.tolist()
-    for name, weights in (("begin", path.begins), ("end", path.ends)):
-        assert np.abs(np.reshape(said[name], (-1, 3)) - weights).max() < 1e-9  # of an edge, where a line meets it
+    if (there := version("ziglang")) != ZIG_OF_PAGES:
+        pytest.skip(f"there is ziglang {there}, and {ZIG_OF_PAGES} has compiled the kernel of web pages")
+    build.build_wasm(tmp_path)
+    assert (tmp_path / "kernel.wasm").read_bytes() == (ROOT / "app/page/kernel.wasm").read_bytes()

@@ -1,0 +1,57 @@
+"""One HTML file that computes: the kernel, a mesh, what is shown of it, and the viewer, with nothing to load."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+from base64 import b64encode
+from collections.abc import Mapping
+from hashlib import sha256
+from pathlib import Path
+
+from .modules import VIEWER, joined
+from .points import StoredPoints
+from .stored_mesh import StoredMesh, deflated
+
+KERNEL = Path(__file__).with_name("kernel.wasm")
+MARK = re.compile(r"@([A-Z]+)@")
+
+
+def page_text(scene: Mapping[str, object], mesh: StoredMesh, points: Mapping[str, StoredPoints]) -> str:
+    """The file.  scene: what is shown, with `title`; points: by the names that its panels have for them.
+
+    The page may run its own script only, and fetch nothing (Content-Security-Policy).  ValueError where a number of the
+    scene is not finite.
+    """
+    whole = {**scene, "near": mesh.near, "corrections": mesh.corrections(str(scene["areas"]))}
+    contents = {
+        "kernel": deflated(KERNEL.read_bytes()),
+        "mesh": deflated(mesh.packed),
+        **{f"points-{name}": deflated(each.packed) for name, each in points.items()},
+    }
+    elements = [f'<script type="text/plain" id="{name}">{content}</script>' for name, content in contents.items()]
+    elements.append(f'<script type="application/json" id="scene">{_as_json(whole)}</script>')
+    script, style = joined("main.js"), (VIEWER / "page.css").read_text(encoding="utf-8")
+    filled = {
+        "TITLE": html.escape(str(scene["title"])),
+        "POLICY": html.escape(_policy(script, style)),
+        "STYLE": style,
+        "CONTENT": "\n".join(elements),
+        "SCRIPT": script,
+    }
+    return MARK.sub(lambda mark: filled[mark[1]], (VIEWER / "page.html").read_text(encoding="utf-8"))
+
+
+def _policy(script: str, style: str) -> str:
+    """What the page may do: only what stands in it, of scripts and styles only these."""
+    hashes = [f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'" for text in (script, style)]
+    return (
+        f"default-src 'none'; script-src {hashes[0]} 'wasm-unsafe-eval'; style-src {hashes[1]}; worker-src blob:; "
+        "img-src data: blob:; base-uri 'none'; form-action 'none'"
+    )
+
+
+def _as_json(value: object) -> str:
+    """JSON in which nothing ends an element, or begins one."""
+    return json.dumps(value, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")

@@ -1,0 +1,43 @@
+// What the page's solver answers, in node: node solver.mjs VIEWER < question.json
+//
+// Of the contents of a page's elements (kernel, mesh, points), and what it knows of its scene: the unpacked mesh, and for
+// each source the distances by names, NaN as null.
+import { resolveObjectURL } from "node:buffer";
+import { readFileSync } from "node:fs";
+import vm from "node:vm";
+
+// What node lacks: a worker whose text is a blob, and which ends with the question.
+globalThis.Worker = class {
+  constructor(url) {
+    const send = (data) => setTimeout(() => this.onmessage({ data }));
+    const scope = vm.createContext({ postMessage: send, performance, WebAssembly, RangeError });
+    this.scope = resolveObjectURL(url).text().then((text) => (vm.runInContext(text, scope), scope));
+  }
+  postMessage(data) {
+    this.scope.then((scope) => scope.onmessage({ data }));
+  }
+  terminate() {}
+};
+
+const { inflated, unpackedMesh, unpackedPoints } = await import(`${process.argv[2]}/unpack.js`);
+const { Solver } = await import(`${process.argv[2]}/solver.js`);
+const { kernel, mesh: packed, points: packedPoints, scene, sources, names } = JSON.parse(readFileSync(0, "utf8"));
+
+const mesh = unpackedMesh(await inflated(packed));
+const points = {};
+for (const [name, content] of Object.entries(packedPoints)) points[name] = unpackedPoints(await inflated(content), mesh);
+const said = [];
+const solver = new Solver({ wasm: await inflated(kernel), mesh, points, scene, onprogress: (words) => said.push(words) });
+const answers = [];
+for (const source of sources) {
+  try {
+    const { fields } = await solver.field(source, names);
+    answers.push(Object.fromEntries(Object.entries(fields).map(([name, field]) => [name, [...field]])));
+  } catch (error) {
+    answers.push({ error: error.message });
+  }
+}
+// Of many at a time, the first and the last are answered.
+const both = await Promise.all(sources.map((source) => solver.field(source, ["biharmonic"]).catch(() => 1)));
+const content = Object.fromEntries(Object.entries(mesh).map(([name, a]) => [name, typeof a === "number" ? a : [...a]]));
+console.log(JSON.stringify({ mesh: content, said, answers, dropped: both.filter((answer) => answer === null).length }));

@@ -1,0 +1,174 @@
+"""What a page holds of a surface, and what its solver makes of it in node, held to the library."""
+
+import json
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+from app.page.modules import VIEWER
+from app.page.page import KERNEL
+from app.page.points import StoredPoints
+from app.page.stored_mesh import StoredMesh, deflated, varints
+from bihdist_core import BiharmonicDistance, CommuteTimeDistance, DiffusionDistance, ParameterError, Surface
+from bihdist_core.distances.exact_geodesic import ExactGeodesic
+from bihdist_core.distances.spectral import TruncatedBiharmonicDistance
+from bihdist_core.laplacian import Laplacian
+from tests.shapes import bumpy, fin, grid, slivers, sphere, tetrahedron, torus, two_pieces
+
+
+def scaled(surface: Surface, by: float) -> Surface:
+    return Surface(surface.vertices * by + by, surface.faces, surface.name)
+
+
+def with_near_vertices() -> Surface:
+    """A sphere with three faces around a point, much smaller than all others."""
+    s = sphere(300)
+    x, faces = [*s.vertices], [tuple(f) for f in s.faces]
+    for _ in range(11):
+        a, b, c = faces[0]
+        i = len(x)
+        x.append(x[a] + 0.3 * (x[b] - x[a]) + 0.3 * (x[c] - x[a]))
+        faces[0] = (a, b, i)
+        faces += [(b, c, i), (c, a, i)]
+        x[i] = x[a] + 0.3 * (x[b] - x[a]) + 0.3 * (x[c] - x[a])
+    return Surface(np.array(x), faces, "with near vertices")
+
+
+SURFACES = {
+    "closed": bumpy(400), "boundary": grid(9, 7), "genus 1": torus(), "four vertices": tetrahedron(),
+    "pieces": two_pieces(), "not manifold": fin(), "small": scaled(bumpy(200), 1e-7), "large": scaled(bumpy(200), 1e7),
+    "near vertices": with_near_vertices(),
+}  # fmt: skip
+
+
+def said(mesh: StoredMesh, sources, names, points=None, areas="voronoi"):
+    """What the page's solver answers in node."""
+    if not shutil.which("node"):
+        pytest.skip("there is no node")
+    question = {
+        "kernel": deflated(KERNEL.read_bytes()), "mesh": deflated(mesh.packed),
+        "points": {name: deflated(each.packed) for name, each in (points or {}).items()},
+        "scene": {"near": mesh.near, "corrections": mesh.corrections(areas), "areas": areas},
+        "sources": [int(v) for v in sources], "names": names,
+    }  # fmt: skip
+    script = VIEWER.parents[2] / "tests/page/solver.mjs"
+    run = subprocess.run(
+        ["node", script, VIEWER], input=json.dumps(question), capture_output=True, text=True, timeout=300
+    )
+    assert run.returncode == 0, run.stderr
+    return json.loads(run.stdout)
+
+
+def field(values) -> np.ndarray:
+    return np.array([np.nan if value is None else value for value in values], float)
+
+
+def worst(found: np.ndarray, expected: np.ndarray) -> float:
+    assert (np.isnan(found) == np.isnan(expected)).all()
+    return float(np.nanmax(np.abs(found - expected)) / np.nanmax(expected))
+
+
+def some_of(surface: Surface) -> list[int]:
+    """The pinned vertex of the first component, the last vertex, and two more."""
+    n = len(surface.vertices)
+    return [0, n - 1, n // 3, n // 2]
+
+
+# ---------------------------------------------------------------------- what is held
+@pytest.mark.parametrize("precision", ["24", "float32"])
+@pytest.mark.parametrize("name", SURFACES)
+def test_a_page_unpacks_what_was_packed(name, precision):
+    mesh = StoredMesh.of(SURFACES[name], precision)
+    unpacked, stored = said(mesh, [0], [])["mesh"], mesh.surface
+    assert (np.reshape(unpacked["positions"], (-1, 3)) == stored.vertices).all()
+    assert (np.reshape(unpacked["faces"], (-1, 3)) == stored.faces).all()
+    assert unpacked["ids"] == mesh.ids.tolist()
+    assert unpacked["components"] == mesh.first_vertices.tolist()
+    assert unpacked["faceComponents"] == mesh.first_faces.tolist()
+
+
+@pytest.mark.parametrize(("precision", "share"), [("24", 2**-25), ("float32", 2**-24)])
+@pytest.mark.parametrize("name", SURFACES)
+def test_the_stored_surface_is_the_surface_but_for_rounding(name, precision, share):
+    surface = SURFACES[name]
+    mesh = StoredMesh.of(surface, precision)
+    moved = np.abs(mesh.surface.vertices - surface.vertices[mesh.ids]).max()
+    size = np.abs(surface.vertices).max() if precision == "float32" else np.ptp(surface.vertices, axis=0).max()
+    assert moved <= 1.001 * share * size
+
+    def turned(faces):
+        return sorted(tuple(np.roll(f, -int(np.argmin(f)))) for f in faces)
+
+    assert turned(mesh.ids[mesh.surface.faces]) == turned(surface.faces)
+    label = surface.component_of_vertex[mesh.ids]
+    assert (np.diff(label) >= 0).all()
+    assert label.min() == 0
+
+
+def test_vertices_without_faces_are_left_out():
+    assert 60 not in StoredMesh.of(two_pieces()).ids
+
+
+def test_an_unknown_precision_is_refused():
+    with pytest.raises(ParameterError, match="24, float32, not '16'"):
+        StoredMesh.of(tetrahedron(), "16")
+
+
+def test_varints_have_seven_bits_a_byte():
+    assert varints(np.array([0, -1, 1, 63, 64, -8192])) == bytes([0, 1, 2, 126, 128, 1, 255, 127])
+
+
+# ---------------------------------------------------------------------- what it answers
+@pytest.mark.parametrize("areas", ["voronoi", "barycentric"])
+@pytest.mark.parametrize("name", SURFACES)
+def test_the_solver_of_a_page_equals_the_library(name, areas):
+    mesh = StoredMesh.of(SURFACES[name])
+    laplacian, geodesic = Laplacian(mesh.surface, areas), ExactGeodesic(mesh.surface)
+    biharmonic, commute_time = BiharmonicDistance(laplacian), CommuteTimeDistance(laplacian)
+    sources = some_of(mesh.surface)
+    found = said(mesh, sources, ["biharmonic", "commute_time", "geodesic"], areas=areas)["answers"]
+    for source, fields in zip(sources, found, strict=True):
+        assert worst(field(fields["biharmonic"]), biharmonic.from_source(source)) < 1e-9
+        assert worst(field(fields["commute_time"]), commute_time.from_source(source)) < 1e-10
+        assert worst(field(fields["geodesic"]), geodesic.distances(source)) < 1e-13
+
+
+def test_small_distances_have_as_many_digits():
+    mesh = StoredMesh.of(with_near_vertices(), "float32")
+    source = int(np.flatnonzero(mesh.ids == 310)[0])
+    expected = BiharmonicDistance(mesh.surface).from_source(source)
+    found = field(said(mesh, [source], ["biharmonic"])["answers"][0]["biharmonic"])
+    others = np.delete(np.arange(len(expected)), source)
+    assert expected[others].min() < 1e-5 * expected.max()
+    assert np.abs(found[others] / expected[others] - 1).max() < 1e-6
+
+
+def test_flat_faces_count_as_in_the_library_but_geodesics_are_refused():
+    mesh = StoredMesh.of(slivers(), "float32")
+    assert len(mesh.surface.degenerate_faces)
+    laplacian = Laplacian(mesh.surface)
+    found = said(mesh, [5], ["biharmonic"])["answers"][0]["biharmonic"]
+    assert worst(field(found), BiharmonicDistance(laplacian).from_source(5)) < 1e-9
+    assert "without flat faces" in said(mesh, [5], ["geodesic"])["answers"][0]["error"]
+
+
+def test_the_latest_question_comes_first():
+    found = said(StoredMesh.of(bumpy(200)), [1, 2, 3, 4, 5], ["biharmonic"])
+    assert found["dropped"] == 3
+    assert found["said"] == ["Ordering the vertices", "Factoring"]
+
+
+@pytest.mark.parametrize("name", ["closed", "pieces"])
+def test_points_have_the_distances_of_the_library_to_their_error(name):
+    mesh = StoredMesh.of(SURFACES[name])
+    laplacian = Laplacian(mesh.surface)
+    distances = {"a": TruncatedBiharmonicDistance(laplacian, 20), "b": DiffusionDistance(laplacian, 1.0)}
+    points = {each: StoredPoints.of(distance) for each, distance in distances.items()}
+    sources = some_of(mesh.surface)
+    for source, fields in zip(sources, said(mesh, sources, ["a", "b"], points)["answers"], strict=True):
+        for each, distance in distances.items():
+            expected = distance.from_source(source)
+            off = worst(field(fields[each]), expected) * np.nanmax(expected)
+            assert off < 1.01 * points[each].error < 1e-3 * np.nanmax(expected)
