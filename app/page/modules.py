@@ -3,6 +3,8 @@
 import re
 from pathlib import Path
 
+from bihdist_core.file_content import file_text
+
 VIEWER = Path(__file__).parent / "viewer"
 IMPORT = re.compile(r'^import \{ ([\w, ]+) \} from "\./([\w-]+\.js)";\n', re.M)
 EXPORT = re.compile(r"^export (?=(?:async )?(?:function|class|const)\b)", re.M)
@@ -35,10 +37,10 @@ def _collect(module: str, folder: Path, texts: dict[str, str], above: tuple[str,
         raise ValueError(f"{module} imports itself by way of {', '.join(above)}.")
     if module in texts:
         return
-    text = (folder / module).read_text(encoding="utf-8")
+    text = file_text(folder / module, "a module of pages")
     for names, other in IMPORT.findall(text):
         _collect(other, folder, texts, (*above, module))
-        offered = _exported((folder / other).read_text(encoding="utf-8"))
+        offered = _exported(file_text(folder / other, "a module of pages"))
         if missing := [name for name in names.split(", ") if name not in offered]:
             raise ValueError(f"{module} imports {', '.join(missing)} of {other}, which does not export it.")
     rest = EXPORT.sub("", IMPORT.sub("", text))

@@ -10,6 +10,8 @@ from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
 
+from bihdist_core.file_content import file_text
+
 from .modules import VIEWER, joined
 from .points import StoredPoints
 from .stored_mesh import StoredMesh, deflated
@@ -32,7 +34,7 @@ def page_text(scene: Mapping[str, object], mesh: StoredMesh, points: Mapping[str
     }
     elements = [f'<script type="text/plain" id="{name}">{content}</script>' for name, content in contents.items()]
     elements.append(f'<script type="application/json" id="scene">{_as_json(whole)}</script>')
-    script, style = joined("main.js"), (VIEWER / "page.css").read_text(encoding="utf-8")
+    script, style = joined("main.js"), file_text(VIEWER / "page.css", "the style of pages")
     filled = {
         "TITLE": html.escape(str(scene["title"])),
         "POLICY": html.escape(_policy(script, style)),
@@ -40,7 +42,7 @@ def page_text(scene: Mapping[str, object], mesh: StoredMesh, points: Mapping[str
         "CONTENT": "\n".join(elements),
         "SCRIPT": script,
     }
-    return MARK.sub(lambda mark: filled[mark[1]], (VIEWER / "page.html").read_text(encoding="utf-8"))
+    return MARK.sub(lambda mark: filled[mark[1]], file_text(VIEWER / "page.html", "the frame of pages"))
 
 
 def _policy(script: str, style: str) -> str:
