@@ -1,0 +1,62 @@
+/** Source, pins and camera in the part of an address behind "#", read strictly: anybody may have written it. */
+import { minus, cross } from "./vectors.js";
+
+const NUMBER = /^-?\d{1,17}(\.\d{1,17})?(e[+-]?\d{1,2})?$/,
+  ID = /^\d{1,10}$/;
+const MOST_PINS = 100,
+  LONGEST_NAME = 80;
+
+/** @param {{source: number, pins: {id: number, name: string}[], camera: number[][]}} state camera: position, focal, up */
+export function addressOf({ source, pins, camera }) {
+  const places = pins.map(({ id, name }) => (name ? `${id}:${encodeURIComponent(name)}` : id));
+  const numbers = camera.flat().map((x) => String(Number(x.toPrecision(6))));
+  return `#source=${source}${places.length ? `&pins=${places}` : ""}&camera=${numbers}`;
+}
+
+/**
+ * @param {(id: number) => boolean} isVertex
+ * @returns {{source?: number, pins?: {id: number, name: string}[], camera?: number[][], ignored: string[]}} what is
+ *   valid, and the names of what is not
+ */
+export function readAddress(hash, isVertex) {
+  const read = { source: (text) => vertexOf(text, isVertex), pins: (text) => pinsOf(text, isVertex), camera: cameraOf };
+  const found = { ignored: [] };
+  for (const part of hash
+    .slice(1)
+    .split("&")
+    .filter((part) => part)) {
+    const [name, text] = [part.split("=", 1)[0], part.slice(part.indexOf("=") + 1)];
+    const value = Object.hasOwn(read, name) ? read[name](text) : null;
+    if (value === null) found.ignored.push(Object.hasOwn(read, name) ? name : "an unknown part");
+    else found[name] = value;
+  }
+  return found;
+}
+
+const vertexOf = (text, isVertex) => (ID.test(text) && isVertex(Number(text)) ? Number(text) : null);
+
+function pinsOf(text, isVertex) {
+  const pins = text.split(",").map((each) => {
+    const [id, name = ""] = each.split(":");
+    const read = vertexOf(id, isVertex);
+    return read === null ? null : { id: read, name: nameOf(name) };
+  });
+  return pins.length > MOST_PINS || pins.some((pin) => pin === null || pin.name === null) ? null : pins;
+}
+
+function nameOf(text) {
+  try {
+    const name = decodeURIComponent(text);
+    return name.length > LONGEST_NAME ? null : name;
+  } catch {
+    return null;
+  }
+}
+
+function cameraOf(text) {
+  const words = text.split(",");
+  if (words.length !== 9 || !words.every((word) => NUMBER.test(word))) return null;
+  const [position, focal, up] = [0, 3, 6].map((k) => words.slice(k, k + 3).map(Number));
+  const across = cross(up, minus(position, focal));
+  return Math.hypot(...across) > 0 && Number.isFinite(Math.hypot(...across)) ? [position, focal, up] : null;
+}

@@ -1,0 +1,189 @@
+/** The surface in WebGL: one context for all panels, drawn when asked. */
+import { VERTEX_SHADER, FRAGMENT_SHADER } from "./shaders.js";
+
+const UNDEFINED = -1000,
+  MOST_PIXELS = 2 ** 24;
+
+export class Drawing {
+  /** Throws an Error with a sentence where the browser cannot draw. */
+  constructor(canvas, shape, panels) {
+    this.canvas = canvas;
+    this.shape = shape;
+    this.isSoftware = isSoftware();
+    const gl = (this.gl = canvas.getContext("webgl2", { antialias: !this.isSoftware, alpha: false }));
+    if (!gl)
+      throw new Error(
+        "This browser has no WebGL 2, which the surface is drawn with. Switch on hardware acceleration, or try another browser.",
+      );
+    this.#prepare(panels);
+  }
+
+  /** All that the graphics hold; anew where they were lost. */
+  #prepare(panels) {
+    const { gl, shape } = this;
+    const program = linked(gl);
+    gl.useProgram(program);
+    this.at = new Proxy({}, { get: (known, name) => (known[name] ??= gl.getUniformLocation(program, name)) });
+    gl.uniform1i(this.at.levels, 1);
+    gl.enable(gl.DEPTH_TEST);
+    gl.enable(gl.SCISSOR_TEST);
+    const shared = [buffered(gl, gl.ARRAY_BUFFER, shape.places), buffered(gl, gl.ARRAY_BUFFER, shape.normals)];
+    const corners = buffered(gl, gl.ELEMENT_ARRAY_BUFFER, shape.faces);
+    this.panels = Array.from({ length: panels }, () => {
+      const held = gl.createVertexArray(),
+        values = buffered(gl, gl.ARRAY_BUFFER, new Float32Array(shape.n).fill(UNDEFINED));
+      gl.bindVertexArray(held);
+      for (const [k, [buffer, size]] of [
+        [shared[0], 3],
+        [shared[1], 3],
+        [values, 1],
+      ].entries()) {
+        gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+        gl.enableVertexAttribArray(k);
+        gl.vertexAttribPointer(k, size, gl.FLOAT, false, 0, 0);
+      }
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, corners);
+      gl.bindVertexArray(null);
+      return {
+        held,
+        values,
+        colours: gl.createTexture(),
+        levels: gl.createTexture(),
+        lines: { first: 0, step: 0, count: 0 },
+        signed: false,
+      };
+    });
+  }
+
+  restore() {
+    this.#prepare(this.panels.length);
+  }
+
+  /** Colours (256 of r, g, b from 0 to 255) of a panel. */
+  setColours(panel, map) {
+    const { gl } = this,
+      bytes = Uint8Array.from(map.flat());
+    gl.bindTexture(gl.TEXTURE_2D, this.panels[panel].colours);
+    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB8, map.length, 1, 0, gl.RGB, gl.UNSIGNED_BYTE, bytes);
+    sampled(gl, gl.LINEAR);
+  }
+
+  /** Values of a panel, see `panelAnswer`, and its isolines, see `isolineLevels`. */
+  setAnswer(panel, { values, low, high, signed }, { values: levels, step }) {
+    const { gl } = this,
+      held = this.panels[panel],
+      scale = high > low ? 1 / (high - low) : 0;
+    const shares = Float32Array.from(values, (value) => (value === value ? (value - low) * scale : UNDEFINED));
+    gl.bindBuffer(gl.ARRAY_BUFFER, held.values);
+    gl.bufferSubData(gl.ARRAY_BUFFER, 0, shares);
+    const at = Float32Array.from(levels, (value) => (value - low) * scale);
+    held.lines = { first: at[0] ?? 0, step: step * scale, count: at.length };
+    held.signed = signed;
+    gl.bindTexture(gl.TEXTURE_2D, held.levels);
+    gl.texImage2D(
+      gl.TEXTURE_2D,
+      0,
+      gl.R32F,
+      Math.max(at.length, 1),
+      1,
+      0,
+      gl.RED,
+      gl.FLOAT,
+      at.length ? at : new Float32Array(1),
+    );
+    sampled(gl, gl.NEAREST);
+  }
+
+  /** Let the picture have this size in CSS pixels. @returns {number} pixels of the screen for each, at most `wanted` */
+  resize(width, height, wanted) {
+    const { gl } = this,
+      [widest, highest] = gl.getParameter(gl.MAX_VIEWPORT_DIMS);
+    const most = Math.min(widest / width, highest / height, Math.sqrt(MOST_PIXELS / (width * height)));
+    const scale = Math.min(wanted, most);
+    this.canvas.width = Math.max(Math.round(width * scale), 1);
+    this.canvas.height = Math.max(Math.round(height * scale), 1);
+    return scale;
+  }
+
+  /**
+   * Draw all panels.
+   * @param {{x, y, width, height}[]} boxes of the views, in CSS pixels from the upper left
+   * @param {{background: number[], undefined: number[], line: number[], width: number}} look colours from 0 to 1
+   */
+  draw(camera, boxes, scale, look) {
+    const { gl, at, canvas } = this;
+    gl.scissor(0, 0, canvas.width, canvas.height);
+    gl.clearColor(...look.background, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.uniform3fv(at.undefinedColour, look.undefined);
+    gl.uniform3fv(at.lineColour, look.line);
+    gl.uniform1f(at.halfWidth, Math.max(look.width * scale, 1) / 2);
+    gl.uniform1f(at.parallel, Number(camera.parallel));
+    for (const [k, { x, y, width, height }] of boxes.entries()) {
+      const panel = this.panels[k],
+        box = [x, canvas.height / scale - y - height, width, height].map((v) => Math.round(v * scale));
+      if (!(width > 0 && height > 0)) continue;
+      const { view, picture } = camera.matrices(width / height);
+      gl.viewport(...box);
+      gl.scissor(...box);
+      gl.uniformMatrix4fv(at.view, false, view);
+      gl.uniformMatrix4fv(at.picture, false, picture);
+      gl.uniform1f(at.lineFirst, panel.lines.first);
+      gl.uniform1f(at.lineStep, panel.lines.step);
+      gl.uniform1i(at.lineCount, panel.lines.count);
+      gl.uniform1f(at.signedField, Number(panel.signed));
+      gl.activeTexture(gl.TEXTURE1);
+      gl.bindTexture(gl.TEXTURE_2D, panel.levels);
+      gl.activeTexture(gl.TEXTURE0);
+      gl.bindTexture(gl.TEXTURE_2D, panel.colours);
+      gl.bindVertexArray(panel.held);
+      gl.drawElements(gl.TRIANGLES, 3 * this.shape.m, gl.UNSIGNED_INT, 0);
+    }
+    gl.bindVertexArray(null);
+  }
+
+  destroy() {
+    this.gl.getExtension("WEBGL_lose_context")?.loseContext();
+  }
+}
+
+function buffered(gl, kind, data) {
+  const made = gl.createBuffer();
+  gl.bindBuffer(kind, made);
+  gl.bufferData(kind, data, gl.STATIC_DRAW);
+  return made;
+}
+
+function sampled(gl, filter) {
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, filter);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, filter);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+}
+
+function linked(gl) {
+  const program = gl.createProgram();
+  for (const [kind, text] of [
+    [gl.VERTEX_SHADER, VERTEX_SHADER],
+    [gl.FRAGMENT_SHADER, FRAGMENT_SHADER],
+  ]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    gl.attachShader(program, shader);
+  }
+  gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
+    throw new Error("The graphics driver refused the program that draws the surface; try another browser.");
+  }
+  return program;
+}
+
+/** Whether the processor draws: multisampling would then cost three times as much. */
+function isSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2"),
+    named = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = gl?.getParameter(named ? named.UNMASKED_RENDERER_WEBGL : gl.RENDERER) ?? "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}

@@ -1,0 +1,103 @@
+/** The table of pins: their values in each panel, their names, and a box for another one. */
+import { element, iconButton } from "./elements.js";
+import { written, percentage } from "./numbers.js";
+import { reading } from "./fields.js";
+import { PIN_COLOURS } from "./marks.js";
+
+export class PinTable {
+  /**
+   * @param {{label: string}[]} panels
+   * @param {{add: (text: string) => string, rename: (index: number, name: string) => void,
+   *   remove: (index: number) => void, choose: (id: number) => void}} acts add gives what is wrong, or ""
+   */
+  constructor(panels, acts) {
+    this.acts = acts;
+    this.wrong = element("span", { class: "wrong", role: "alert" });
+    const box = element("input", {
+      class: "number",
+      inputmode: "numeric",
+      "aria-label": "Vertex to pin",
+      placeholder: "vertex",
+    });
+    const form = element(
+      "form",
+      { class: "adding", submit: (event) => this.#add(event, box) },
+      box,
+      element("button", { class: "plain", text: "Pin it" }),
+      this.wrong,
+    );
+    const heads = ["Pin", "Name", ...panels.map((panel) => panel.label), ""];
+    this.body = element("tbody");
+    const head = element("thead", {}, element("tr", {}, ...heads.map((text) => element("th", { scope: "col", text }))));
+    this.none = element("p", { class: "quiet", text: "No pins yet: press P at a place, or type a vertex." });
+    this.element = element(
+      "section",
+      { class: "pins", "aria-label": "Pins", hidden: true },
+      form,
+      this.none,
+      element("div", { class: "scrolled" }, element("table", {}, head, this.body)),
+    );
+  }
+
+  #add(event, box) {
+    event.preventDefault();
+    this.wrong.textContent = this.acts.add(box.value);
+    box.setAttribute("aria-invalid", String(this.wrong.textContent !== ""));
+    if (!this.wrong.textContent) box.value = "";
+  }
+
+  /** @param {{id: number, vertex: number, name: string}[]} pins @param {(object | null)[]} answers of the panels */
+  show(pins, answers) {
+    this.none.hidden = pins.length > 0;
+    this.body.closest("table").hidden = !pins.length;
+    if (this.body.rows.length !== pins.length)
+      this.body.replaceChildren(...pins.map((pin, k) => this.#row(k, answers)));
+    for (const [k, pin] of pins.entries()) this.#fill(this.body.rows[k], pin, answers);
+  }
+
+  #row(k, answers) {
+    const colour = PIN_COLOURS[k % PIN_COLOURS.length],
+      badge = element("span", { class: "badge", text: k + 1 });
+    badge.style.background = colour;
+    const id = element("button", {
+      type: "button",
+      class: "link",
+      click: (event) => this.acts.choose(Number(event.target.textContent)),
+    });
+    const name = element("input", {
+      "aria-label": `Name of pin ${k + 1}`,
+      maxlength: 80,
+      change: () => this.acts.rename(k, name.value),
+    });
+    const values = answers.map(() => element("td", { class: "value" }));
+    return element(
+      "tr",
+      {},
+      element("th", { scope: "row" }, badge, id),
+      element("td", {}, name),
+      ...values,
+      element(
+        "td",
+        {},
+        iconButton("remove", `Remove pin ${k + 1}`, () => this.acts.remove(k), { class: "bare" }),
+      ),
+    );
+  }
+
+  #fill(row, pin, answers) {
+    row.querySelector(".link").textContent = pin.id;
+    row.querySelector(".link").title = `Set the source at vertex ${pin.id}`;
+    const box = row.querySelector("input");
+    if (document.activeElement !== box) box.value = pin.name;
+    for (const [k, cell] of [...row.querySelectorAll(".value")].entries())
+      cell.textContent = valueWords(answers[k], pin.vertex);
+  }
+}
+
+/** "0.3244 (46.8 %)" */
+export function valueWords(answer, vertex) {
+  if (!answer) return "…";
+  const { value, fraction } = reading(answer, vertex);
+  if (Number.isNaN(value)) return "not connected";
+  return written(value, answer.signed) + (Number.isNaN(fraction) ? "" : ` (${percentage(fraction)})`);
+}

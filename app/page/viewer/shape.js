@@ -1,0 +1,64 @@
+/** A mesh as it is drawn: moved to the origin and of radius about 1, so that single precision is enough. */
+
+export class Shape {
+  /** @param {{n: number, m: number, positions: Float64Array, faces: Int32Array}} mesh */
+  constructor({ n, m, positions, faces }) {
+    const low = [Infinity, Infinity, Infinity],
+      high = [-Infinity, -Infinity, -Infinity];
+    for (let k = 0; k < 3 * n; k++) {
+      low[k % 3] = Math.min(low[k % 3], positions[k]);
+      high[k % 3] = Math.max(high[k % 3], positions[k]);
+    }
+    this.n = n;
+    this.m = m;
+    this.faces = faces;
+    this.centre = low.map((x, axis) => (x + high[axis]) / 2);
+    this.radius = Math.hypot(...low.map((x, axis) => high[axis] - x)) / 2 || 1;
+    this.places = new Float32Array(3 * n);
+    for (let k = 0; k < 3 * n; k++) this.places[k] = (positions[k] - this.centre[k % 3]) / this.radius;
+    this.normals = vertexNormals(this.places, faces);
+  }
+
+  place(vertex) {
+    return [...this.places.subarray(3 * vertex, 3 * vertex + 3)];
+  }
+
+  /** A point of the file's coordinates in those of the picture, and back. */
+  inward(point) {
+    return point.map((x, axis) => (x - this.centre[axis]) / this.radius);
+  }
+
+  outward(point) {
+    return point.map((x, axis) => x * this.radius + this.centre[axis]);
+  }
+}
+
+/** Sums of the faces' normals by area, over the sum of areas: short where the faces around a vertex disagree. */
+function vertexNormals(places, faces) {
+  const sums = new Float32Array(places.length),
+    areas = new Float32Array(places.length / 3);
+  for (let k = 0; k < faces.length; k += 3) {
+    const a = 3 * faces[k],
+      b = 3 * faces[k + 1],
+      c = 3 * faces[k + 2];
+    const ux = places[b] - places[a],
+      uy = places[b + 1] - places[a + 1],
+      uz = places[b + 2] - places[a + 2];
+    const vx = places[c] - places[a],
+      vy = places[c + 1] - places[a + 1],
+      vz = places[c + 2] - places[a + 2];
+    const x = uy * vz - uz * vy,
+      y = uz * vx - ux * vz,
+      z = ux * vy - uy * vx,
+      area = Math.sqrt(x * x + y * y + z * z);
+    for (let corner = k; corner < k + 3; corner++) {
+      const at = 3 * faces[corner];
+      sums[at] += x;
+      sums[at + 1] += y;
+      sums[at + 2] += z;
+      areas[faces[corner]] += area;
+    }
+  }
+  for (let k = 0; k < sums.length; k++) sums[k] /= areas[(k / 3) | 0] || 1;
+  return sums;
+}
