@@ -9,10 +9,11 @@ VIEWER = Path(__file__).parent / "viewer"
 IMPORT = re.compile(r'^import \{ ([\w, ]+) \} from "\./([\w-]+\.js)";\n', re.M)
 EXPORT = re.compile(r"^export (?=(?:async )?(?:function|class|const)\b)", re.M)
 NAMES = re.compile(r"^(?:export )?(?:async )?(?:function\*?|class|const|let) (\w+|[\[{][^=]*[\]}])", re.M)
+PADDING = re.compile(r"^\s*(?://.*\n|/\*(?:[^*]|\*(?!/))*\*/\s*\n)|^\s+", re.M)
 
 
 def joined(entry: str, folder: Path = VIEWER) -> str:
-    """The module `entry` of a folder, behind all that it needs, each once.
+    """The module `entry` of a folder, behind all that it needs, each once, without indents and lines of comments.
 
     A module imports by `import { a, b } from "./other.js";`, at its beginning, and exports functions, classes and
     constants where they are defined; no two have a name at their top in common.  ValueError where that is not so.
@@ -24,7 +25,7 @@ def joined(entry: str, folder: Path = VIEWER) -> str:
         for name in top_names(text):
             if owner.setdefault(name, module) != module:
                 raise ValueError(f"{module} and {owner[name]} both have {name} at their top.")
-    return "\n".join(texts.values())
+    return PADDING.sub("", "\n".join(texts.values()))
 
 
 def top_names(text: str) -> list[str]:

@@ -1,5 +1,5 @@
 /** The page: what it holds is read from its elements and handed to the viewer. */
-import { inflated, unpackedMesh } from "./unpack.js";
+import { inflated, unpackedMesh, unpackedPoints } from "./unpack.js";
 import { Solver } from "./solver.js";
 import { Viewer } from "./viewer.js";
 import { lacking } from "./support.js";
@@ -13,7 +13,10 @@ async function main() {
   const scene = JSON.parse(held("scene"));
   document.title = scene.title;
   const [wasm, mesh] = [await inflated(held("kernel")), unpackedMesh(await inflated(held("mesh")))];
-  const solver = new Solver({ wasm, mesh, scene, points: {}, onprogress: (words) => root.viewer.progress(words) });
+  const points = {};
+  for (const { id, textContent } of document.querySelectorAll("[id^=points-]"))
+    points[id.slice("points-".length)] = unpackedPoints(await inflated(textContent), mesh);
+  const solver = new Solver({ wasm, mesh, scene, points, onprogress: (words) => root.viewer.progress(words) });
   root.viewer = new Viewer(root, { mesh, scene, solver, hasAddress: true });
 }
 
