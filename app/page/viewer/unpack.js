@@ -40,21 +40,43 @@ export function unpackedMesh(bytes) {
   const components = sums(new Int32Array(count + 1), 1, 0), faceComponents = sums(new Int32Array(count + 1), 1, 0);
   const faces = sums(new Int32Array(3 * m), 3, 0);
   for (let k = 0; k < 3 * m; k += 3) (faces[k + 1] = faces[k] + next()), (faces[k + 2] = faces[k] + next());
-  const ids = sums(new Int32Array(n), 1, 0), positions = new Float64Array(3 * n);
-  if (floats) positions.set(floatsOf(bytes.subarray(bytes.length - 12 * n), 3 * n));
-  else
-    [lowX, lowY, lowZ].forEach((low, axis) => {
-      sums(positions, 3, axis);
-      for (let k = axis; k < 3 * n; k += 3) positions[k] = positions[k] * step + low;
-    });
+  const ids = sums(new Int32Array(n), 1, 0);
+  const words = fromPlanes(bytes.subarray(bytes.length - 12 * n), 3 * n);
+  const positions = floats ? new Float64Array(new Float32Array(words.buffer)) : predicted(words, faces);
+  if (!floats) for (let k = 0; k < 3 * n; k++) positions[k] = positions[k] * step + [lowX, lowY, lowZ][k % 3];
   return { n, m, positions, faces, ids, components, faceComponents };
 }
 
-// Floats whose first bytes come first, then all second ones: alike bytes are beside each other.
-function floatsOf(planes, count) {
-  const bytes = new Uint8Array(4 * count);
-  for (let k = 0; k < count; k++) for (let b = 0; b < 4; b++) bytes[4 * k + b] = planes[b * count + k];
-  return new Float32Array(bytes.buffer);
+// Words of 4 bytes, of which all first bytes come first, then all second ones: alike bytes are beside each other.
+function fromPlanes(planes, count) {
+  const words = new Uint32Array(count);
+  for (let b = 0; b < 4; b++) for (let k = 0; k < count; k++) words[k] |= planes[b * count + k] << (8 * b);
+  return words;
+}
+
+// Each vertex is where it differs by so much from the mean of its neighbours with lesser numbers, once for each face.
+function predicted(differences, faces) {
+  const n = differences.length / 3, first = new Int32Array(n + 1), lesser = new Int32Array(faces.length);
+  const sides = function* () {
+    for (let k = 0; k < faces.length; k++) {
+      const [a, b] = [faces[k], faces[k % 3 === 2 ? k - 2 : k + 1]];
+      yield a < b ? [b, a] : [a, b];
+    }
+  };
+  for (const [v] of sides()) first[v + 1]++;
+  for (let v = 0; v < n; v++) first[v + 1] += first[v];
+  const put = first.slice();
+  for (const [v, neighbour] of sides()) lesser[put[v]++] = neighbour;
+  const at = new Float64Array(3 * n);
+  for (let v = 0; v < n; v++)
+    for (let axis = 0, count = first[v + 1] - first[v]; axis < 3; axis++) {
+      const word = differences[3 * v + axis];
+      let sum = 0;
+      for (let k = first[v]; k < first[v + 1]; k++) sum += at[3 * lesser[k] + axis];
+      const mean = count ? Math.floor((2 * sum + count) / (2 * count)) : 0;
+      at[3 * v + axis] = mean + ((word >>> 1) ^ -(word & 1));
+    }
+  return at;
 }
 
 /**
