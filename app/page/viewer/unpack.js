@@ -1,8 +1,9 @@
 // What a page holds, from base64 of raw deflate to arrays; app/page/stored_mesh.py and points.py pack it.
 
-/** @param {string} text @returns {Promise<Uint8Array>} */
-export async function inflated(text) {
-  const bytes = Uint8Array.from(atob(text.trim()), (c) => c.charCodeAt(0));
+/** Bytes of raw deflate, or base64 of them. @param {Uint8Array | string} packed @returns {Promise<Uint8Array>} */
+export async function inflated(packed) {
+  const isText = typeof packed === "string";
+  const bytes = isText ? Uint8Array.from(atob(packed.trim()), (c) => c.charCodeAt(0)) : packed;
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
