@@ -72,7 +72,8 @@ export function outside({ places, faces, faceComponents }) {
   let side = 0;
   for (let part = 1; part < faceComponents.length; part++) {
     // Each edge is to be there as often in one direction as in the other; then these sums of hashes are 0.
-    let edges = 0, volume = 0;
+    let edges = 0,
+      volume = 0;
     for (let k = 3 * faceComponents[part - 1]; k < 3 * faceComponents[part]; k += 3) {
       const [a, b, c] = [faces[k], faces[k + 1], faces[k + 2]];
       edges = (edges + hash(a, b) + hash(b, c) + hash(c, a)) | 0;
