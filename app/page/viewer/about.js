@@ -1,6 +1,6 @@
 /** What the page is: a box with the mesh, how exact it is, and notes. */
 import { element, dialog } from "./elements.js";
-import { counted } from "./numbers.js";
+import { counted, written } from "./numbers.js";
 import { HELP } from "./keys.js";
 
 const facts = (rows) =>
@@ -8,9 +8,7 @@ const facts = (rows) =>
 
 export function aboutBox({ mesh, panels, areas, notes }) {
   const kept = mesh.bits === "float32" ? "single precision" : `${mesh.bits} bits of each coordinate`;
-  const differs = Object.entries(mesh.differs ?? {}).map(
-    ([name, x]) => `${name.replace(/_/g, "-")} ${x.toExponential(1)}`,
-  );
+  const differs = Object.entries(mesh.differs ?? {}).map(([name, x]) => `${name.replace(/_/g, "-")} ${written(x)}`);
   return dialog(
     "What this page is",
     element("p", {

@@ -1,4 +1,5 @@
 /** The surface in WebGL: one context for all panels, drawn when asked. */
+import { outside } from "./shape.js";
 import { VERTEX_SHADER, FRAGMENT_SHADER } from "./shaders.js";
 
 const UNDEFINED = -1000,
@@ -27,6 +28,10 @@ export class Drawing {
     gl.uniform1i(this.at.levels, 1);
     gl.enable(gl.DEPTH_TEST);
     gl.enable(gl.SCISSOR_TEST);
+    // What is behind a closed surface costs as much as the rest.
+    const side = this.isSoftware ? outside(shape) : 0;
+    gl.cullFace(side < 0 ? gl.FRONT : gl.BACK);
+    if (side) gl.enable(gl.CULL_FACE);
     const shared = [buffered(gl, gl.ARRAY_BUFFER, shape.places), buffered(gl, gl.ARRAY_BUFFER, shape.normals)];
     const corners = buffered(gl, gl.ELEMENT_ARRAY_BUFFER, shape.faces);
     this.panels = Array.from({ length: panels }, () => {
@@ -66,7 +71,7 @@ export class Drawing {
     gl.bindTexture(gl.TEXTURE_2D, this.panels[panel].colours);
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB8, map.length, 1, 0, gl.RGB, gl.UNSIGNED_BYTE, bytes);
-    sampled(gl, gl.LINEAR);
+    sampled(gl);
   }
 
   /** Values of a panel, see `panelAnswer`, and its isolines, see `isolineLevels`. */
@@ -92,7 +97,7 @@ export class Drawing {
       gl.FLOAT,
       at.length ? at : new Float32Array(1),
     );
-    sampled(gl, gl.NEAREST);
+    sampled(gl);
   }
 
   /** Let the picture have this size in CSS pixels. @returns {number} pixels of the screen for each, at most `wanted` */
@@ -155,9 +160,9 @@ function buffered(gl, kind, data) {
   return made;
 }
 
-function sampled(gl, filter) {
-  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, filter);
-  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, filter);
+function sampled(gl) {
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
 }
 

@@ -22,7 +22,8 @@ export class FaceTree {
       for (let i = 0; i < 6; i++) boxes[box + i] = Math.min(boxes[2 * box + i], boxes[2 * box + 6 + i]);
       return;
     }
-    for (const face of this.#of(node)) {
+    for (let at = this.#first(node); at < this.#first(node + 1); at++) {
+      const face = this.order[at];
       for (let corner = 3 * face; corner < 3 * face + 3; corner++) {
         for (let axis = 0; axis < 3; axis++) {
           const x = places[3 * faces[corner] + axis];
@@ -33,9 +34,9 @@ export class FaceTree {
     }
   }
 
-  #of(leaf) {
-    const start = (leaf - this.leaves) * LEAF;
-    return this.order.subarray(start, start + LEAF);
+  /** Where the faces of a leaf begin in their order. */
+  #first(leaf) {
+    return Math.min((leaf - this.leaves) * LEAF, this.order.length);
   }
 
   /**
@@ -51,9 +52,11 @@ export class FaceTree {
       const node = waiting.pop();
       if (this.#enters(node, origin, inverse) >= away) continue;
       if (node >= this.leaves) {
-        for (const each of this.#of(node)) {
-          const at = this.#meets(each, origin, direction);
-          if (at < away) [away, face] = [at, each];
+        for (let k = this.#first(node); k < this.#first(node + 1); k++) {
+          const at = this.#meets(this.order[k], origin, direction);
+          if (at >= away) continue;
+          away = at;
+          face = this.order[k];
         }
         continue;
       }

@@ -1,28 +1,34 @@
 /** How the surface is painted: lit like the window's, with isolines of constant width on the screen. */
 
+/** Light is computed at vertices: where the processor draws, that is the cheapest place. */
 export const VERTEX_SHADER = `#version 300 es
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in float value;
 uniform mat4 view, picture;
-out vec3 placeAt, normalAt;
-out float valueAt;
+uniform float parallel;
+out float valueAt, lightAt, shineAt;
+const vec3 KEY = normalize(vec3(-0.5, 0.6, 1.0)), FILL = normalize(vec3(0.8, -0.2, 0.7));
 void main() {
   vec4 local = view * vec4(place, 1.0);
   gl_Position = picture * local;
-  placeAt = local.xyz;
-  normalAt = mat3(view) * normal;
+  vec3 toEye = parallel > 0.5 ? vec3(0.0, 0.0, 1.0) : normalize(-local.xyz), n = mat3(view) * normal;
+  // Both sides are lit, and what has no normal as if it faced the eye.
+  float agreed = length(n), leaning = dot(n, toEye);
+  if (leaning < 0.0) n -= 2.0 * leaning * toEye;
+  n = normalize(mix(toEye, n, smoothstep(0.02, 0.2, agreed)));
+  lightAt = 0.26 + 0.8 * (0.85 * max(dot(n, KEY), 0.0) + 0.42 * max(dot(n, FILL), 0.0));
+  shineAt = 0.05 * pow(max(dot(reflect(-KEY, n), toEye), 0.0), 20.0);
   valueAt = value;
 }`;
 
 /** Values go from 0 to 1 over the colours; below -900 they are undefined. */
 export const FRAGMENT_SHADER = `#version 300 es
 precision highp float;
-in vec3 placeAt, normalAt;
-in float valueAt;
+in float valueAt, lightAt, shineAt;
 uniform sampler2D colours, levels;
 uniform vec3 undefinedColour, lineColour;
-uniform float lineFirst, lineStep, halfWidth, signedField, parallel;
+uniform float lineFirst, lineStep, halfWidth, signedField;
 uniform int lineCount;
 out vec4 colour;
 const vec3 INK = vec3(0.08, 0.085, 0.1);
@@ -40,37 +46,25 @@ int nearestLine() {
   return above;
 }
 
-vec3 lit(vec3 base) {
-  vec3 toEye = parallel > 0.5 ? vec3(0.0, 0.0, 1.0) : normalize(-placeAt);
-  vec3 flatNormal = normalize(cross(dFdx(placeAt), dFdy(placeAt)));
-  flatNormal *= sign(dot(flatNormal, toEye));
-  vec3 smoothNormal = normalAt;
-  float leaning = dot(smoothNormal, toEye);
-  if (leaning < 0.0) smoothNormal -= 2.0 * leaning * toEye;
-  vec3 n = normalize(mix(flatNormal, smoothNormal, smoothstep(0.05, 0.3, length(normalAt))));
-  vec3 key = normalize(vec3(-0.5, 0.6, 1.0)), fill = normalize(vec3(0.8, -0.2, 0.7));
-  float diffuse = 0.85 * max(dot(n, key), 0.0) + 0.42 * max(dot(n, fill), 0.0);
-  float shine = 0.06 * 0.85 * pow(max(dot(reflect(-key, n), toEye), 0.0), 20.0);
-  return base * (0.26 + 0.8 * diffuse) + shine;
-}
-
 float painted(float fromLine, float reach) { return 1.0 - smoothstep(reach - 0.6, reach + 0.6, fromLine); }
 
 void main() {
   float perPixel = length(vec2(dFdx(valueAt), dFdy(valueAt)));
   bool isUndefined = valueAt < -900.0;
-  float along = (0.5 + 255.0 * clamp(valueAt, 0.0, 1.0)) / 256.0;
-  vec3 shown = lit(isUndefined ? undefinedColour : texture(colours, vec2(along, 0.5)).rgb);
+  int along = int(0.5 + 255.0 * clamp(valueAt, 0.0, 1.0));
+  vec3 shown = (isUndefined ? undefinedColour : texelFetch(colours, ivec2(along, 0), 0).rgb) * lightAt + shineAt;
   // None where all is of one value but for rounding, nor where the range passes in a few pixels.
   if (lineCount > 0 && !isUndefined && perPixel > 5e-7) {
     int k = nearestLine();
-    float at = level(k), room = lineStep;
-    if (lineStep == 0.0) room = min(k > 0 ? at - level(k - 1) : 1e9, k + 1 < lineCount ? level(k + 1) - at : 1e9);
-    bool isZero = signedField > 0.5 && abs(at - 0.5) < 1e-6;
-    float fromLine = abs(valueAt - at) / perPixel, wide = isZero ? 1.1 * halfWidth : halfWidth;
-    float seen = (1.0 - smoothstep(0.2, 0.4, perPixel)) * smoothstep(2.0, 4.0, room / perPixel);
-    if (signedField > 0.5 && !isZero) shown = mix(shown, INK, 0.6 * seen * painted(fromLine, wide + 0.8));
-    shown = mix(shown, isZero ? INK : lineColour, seen * painted(fromLine, wide));
+    float at = level(k), room = lineStep, fromLine = abs(valueAt - at) / perPixel;
+    if (fromLine < halfWidth + 2.0) {
+      if (lineStep == 0.0) room = min(k > 0 ? at - level(k - 1) : 1e9, k + 1 < lineCount ? level(k + 1) - at : 1e9);
+      bool isZero = signedField > 0.5 && abs(at - 0.5) < 1e-6;
+      float wide = isZero ? 1.1 * halfWidth : halfWidth;
+      float seen = (1.0 - smoothstep(0.2, 0.4, perPixel)) * smoothstep(2.0, 4.0, room / perPixel);
+      if (signedField > 0.5 && !isZero) shown = mix(shown, INK, 0.6 * seen * painted(fromLine, wide + 0.8));
+      shown = mix(shown, isZero ? INK : lineColour, seen * painted(fromLine, wide));
+    }
   }
   colour = vec4(shown, 1.0);
 }`;

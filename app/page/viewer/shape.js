@@ -2,7 +2,7 @@
 
 export class Shape {
   /** @param {{n: number, m: number, positions: Float64Array, faces: Int32Array}} mesh */
-  constructor({ n, m, positions, faces }) {
+  constructor({ n, m, positions, faces, faceComponents }) {
     const low = [Infinity, Infinity, Infinity],
       high = [-Infinity, -Infinity, -Infinity];
     for (let k = 0; k < 3 * n; k++) {
@@ -12,6 +12,7 @@ export class Shape {
     this.n = n;
     this.m = m;
     this.faces = faces;
+    this.faceComponents = faceComponents;
     this.centre = low.map((x, axis) => (x + high[axis]) / 2);
     this.radius = Math.hypot(...low.map((x, axis) => high[axis] - x)) / 2 || 1;
     this.places = new Float32Array(3 * n);
@@ -62,3 +63,36 @@ function vertexNormals(places, faces) {
   for (let k = 0; k < sums.length; k++) sums[k] /= areas[(k / 3) | 0] || 1;
   return sums;
 }
+
+/**
+ * Which side of a closed surface is outside: 1 if the faces turn counterclockwise there, -1 if clockwise, 0 where it is
+ * not closed or its components disagree.
+ */
+export function outside({ places, faces, faceComponents }) {
+  let side = 0;
+  for (let part = 1; part < faceComponents.length; part++) {
+    // Each edge is to be there as often in one direction as in the other; then these sums of hashes are 0.
+    let edges = 0,
+      volume = 0;
+    for (let k = 3 * faceComponents[part - 1]; k < 3 * faceComponents[part]; k += 3) {
+      const [a, b, c] = [faces[k], faces[k + 1], faces[k + 2]];
+      edges = (edges + hash(a, b) + hash(b, c) + hash(c, a)) | 0;
+      volume += tripleProduct(places, 3 * a, 3 * b, 3 * c);
+    }
+    if (edges || !volume || side === -Math.sign(volume)) return 0;
+    side = Math.sign(volume);
+  }
+  return side;
+}
+
+/** A number of an edge, negative in the other direction. */
+function hash(a, b) {
+  if (a > b) return -hash(b, a);
+  const mixed = Math.imul(Math.imul(a, 0x9e3779b1) ^ b, 0x85ebca6b);
+  return Math.imul(mixed ^ (mixed >>> 15), 0xc2b2ae35) ^ (mixed >>> 13);
+}
+
+const tripleProduct = (x, a, b, c) =>
+  x[a] * (x[b + 1] * x[c + 2] - x[b + 2] * x[c + 1]) +
+  x[a + 1] * (x[b + 2] * x[c] - x[b] * x[c + 2]) +
+  x[a + 2] * (x[b] * x[c + 1] - x[b + 1] * x[c]);

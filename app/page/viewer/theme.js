@@ -22,5 +22,19 @@ export function coloursOf({ colours }, theme) {
   const { map, dark_map, diverging, background, dark_background } = colours;
   const chosen = theme.isDark ? (dark_map ?? map) : map;
   const behind = (theme.isDark ? dark_background : background) ?? bytesOf(theme.canvas);
-  return { map: chosen, diverging: diverging ?? chosen, background: behind, undefined: colours.undefined };
+  return {
+    map: stretched(chosen),
+    diverging: stretched(diverging ?? chosen),
+    background: behind,
+    undefined: colours.undefined,
+  };
+}
+
+/** 256 colours that lead evenly through those of a map. */
+function stretched(map) {
+  return Array.from({ length: 256 }, (_, k) => {
+    const at = (k / 255) * (map.length - 1),
+      below = Math.min(Math.floor(at), map.length - 2);
+    return map[below].map((x, channel) => Math.round(x + (at - below) * (map[below + 1][channel] - x)));
+  });
 }

@@ -19,7 +19,8 @@ const NOTICED = 150,
   ADDRESSED = 400,
   MOST_VISITED = 200,
   TURN = 3.5,
-  KEY_ZOOM = 1.15;
+  KEY_ZOOM = 1.15,
+  ROOM_FOR_PINS = 600;
 
 export class Viewer {
   /**
@@ -153,7 +154,7 @@ export class Viewer {
     this.pins = pins
       .filter(({ id }) => this.vertices.has(id))
       .map(({ id, name }) => ({ id, name, vertex: this.vertices.get(id) }));
-    if (this.pins.length) this.#showPins(true);
+    if (this.pins.length && this.root.clientWidth > ROOM_FOR_PINS) this.#showPins(true);
     this.redraw(false);
   }
 
@@ -181,6 +182,7 @@ export class Viewer {
   // ------------------------------------------------------------ source and fields
   /** The user chose a source. */
   #chosen(vertex, since = performance.now()) {
+    this.notice.hidden = true;
     this.#visit(vertex, since);
     this.#addressSoon();
     this.onsource(this.mesh.ids[vertex]);
