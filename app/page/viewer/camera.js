@@ -1,8 +1,9 @@
 /** Where the picture is seen from: one camera for all panels, in the coordinates of the shape. */
 import { plus, minus, dot, cross, unit } from "./vectors.js";
 
-const NEAREST = 1e-3,
-  FARTHEST = 100;
+const NEAREST = 1e-3;
+
+export const FARTHEST = 100;
 
 export class Camera {
   /**

@@ -1,7 +1,7 @@
 /** Distances on a surface in linked panels: what is shown, and what becomes of clicks and keys. */
 import { element } from "./elements.js";
 import { Shape } from "./shape.js";
-import { Camera } from "./camera.js";
+import { Camera, FARTHEST } from "./camera.js";
 import { FaceTree } from "./picking.js";
 import { Stage } from "./stage.js";
 import { ToolBar } from "./tool_bar.js";
@@ -50,6 +50,7 @@ export class Viewer {
       this.stage.start(this.shape);
     } catch (error) {
       this.say(error.message, true);
+      root.replaceChildren(this.notice);
       return;
     }
     this.#listen();
@@ -428,13 +429,19 @@ export class Viewer {
     this.timers.address = setTimeout(() => this.#address(), ADDRESSED);
   }
 
+  /** Take a camera's position, focal point and way up. @returns {boolean} whether it is anywhere near the surface */
+  #look([position, focal, up]) {
+    const places = [position, focal].map((point) => this.shape.inward(point));
+    if (places.some((place) => Math.hypot(...place) > FARTHEST)) return false;
+    this.camera.look(...places, up);
+    this.#moved();
+    return true;
+  }
+
   /** Show what an address holds. @returns {boolean} whether it had a source */
   #follow(hash) {
     const { source, pins, camera, ignored } = readAddress(hash, (id) => this.vertices.has(id));
-    if (camera) {
-      this.camera.look(this.shape.inward(camera[0]), this.shape.inward(camera[1]), camera[2]);
-      this.#moved();
-    }
+    if (camera) this.#look(camera) || ignored.push("camera");
     if (pins) this.setPins(pins);
     if (source !== undefined) this.#visit(this.vertices.get(source));
     if (ignored.length) this.say(`The link was not understood in part, and left out: ${ignored.join(", ")}.`, true);

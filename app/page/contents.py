@@ -1,0 +1,147 @@
+"""What of a document a page can compute: its distances under the page's names, and sentences on what it cannot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.errors import ParameterError
+from bihdist_core.sources.words import short_words_of
+
+from ..document.document import Document, Panel
+from ..document.quantities import DistanceFrom, OwnField, Quantity
+from ..document.shared_parts.pins import Pins
+
+NAMES = {
+    "biharmonic": "biharmonic",
+    "commute-time": "commute_time",
+    "truncated": "truncated",
+    "diffusion": "diffusion",
+    "geodesic": "geodesic",
+}
+"""What the page's solver calls our distances."""
+
+BY_EIGENPAIRS = ("truncated", "diffusion")
+"""The distances that need eigenpairs, which a page takes along."""
+
+OFFERED = "biharmonic, commute-time, truncated, diffusion and exact geodesic distance, and differences of two of them"
+
+
+@dataclass(frozen=True)
+class Contents:
+    """What a page computes.
+
+    document: with geodesic distances that are exact.  fields: the distances by the names that the solver has for them;
+    of two that differ in a parameter the second is "diffusion_2".
+    """
+
+    document: Document
+    fields: dict[str, Spec]
+
+    @classmethod
+    def of(cls, document: Document) -> Contents:
+        """ParameterError for a document of which a page cannot show all panels: which, why, and what to do."""
+        if not document.panels:
+            raise ParameterError("There is nothing to show on a page; add a panel.")
+        if len(document.surfaces) != 1:
+            raise ParameterError(
+                f"A page that computes has one mesh, and here are {len(document.surfaces)}; make a page of each."
+            )
+        for number, panel in enumerate(document.panels, 1):
+            _check_panel(document, panel, f"Panel {number} ({panel.shows})")
+        _check_source(document)
+        panels = tuple(replace(panel, shows=_exact(panel.shows)) for panel in document.panels)
+        specs = dict.fromkeys(spec for panel in panels for spec in panel.shows.specs)
+        return cls(replace(document, panels=panels), _named(specs))
+
+    def name_of(self, spec: Spec) -> str:
+        """The name of one of the distances."""
+        return next(name for name, each in self.fields.items() if each == spec)
+
+    @property
+    def by_eigenpairs(self) -> dict[str, Spec]:
+        """Those of the distances that need eigenpairs."""
+        return {name: spec for name, spec in self.fields.items() if spec.word in BY_EIGENPAIRS}
+
+    @property
+    def source(self) -> int:
+        """The vertex from which all panels' distances start, once the document is settled."""
+        at = self.document.point(self.document.panels[0].shows.points[0]).at
+        assert isinstance(at, int)  # the surface has put it somewhere
+        return at
+
+
+def _check_panel(document: Document, panel: Panel, which: str) -> None:
+    for part in panel.shows.parts:
+        if isinstance(part, OwnField):
+            raise ParameterError(
+                f"{which} is a field of your own, which a page cannot compute from other sources; leave it out, or "
+                "draw it with bihdist figure."
+            )
+        if not isinstance(part, DistanceFrom) or part.spec.word not in NAMES:
+            raise ParameterError(
+                f"{which} cannot be on a page that computes, which has {OFFERED}; leave it out, or draw it with "
+                "bihdist figure."
+            )
+        if part.spec.word == "geodesic" and part.spec["method"] not in ("auto", "exact"):
+            raise ParameterError(
+                f"{which} is not exact: geodesic distances on a page are; say geodesic(method=exact), or leave it out."
+            )
+
+
+def _check_source(document: Document) -> None:
+    if len(document.sources) > 1:
+        raise ParameterError(
+            f"The panels start from {len(document.sources)} sources, and those of a page from one, which a click "
+            "moves; choose one of them."
+        )
+    (at,) = document.sources
+    if at is not None and not isinstance(at, int):
+        raise ParameterError(
+            f"The panels start from {short_words_of(at)}, and those of a page from one vertex; choose one with "
+            "--sources, or by a click in the window that snaps to vertices."
+        )
+
+
+def _exact(shows: Quantity) -> Quantity:
+    """With "auto" made exact: a page knows no other geodesic distance."""
+
+    def made_exact(spec: Spec) -> Spec:
+        return spec.changed(method="exact") if spec.word == "geodesic" else spec
+
+    return shows.with_parts(tuple(part.with_spec(made_exact(part.specs[0])) for part in shows.parts))
+
+
+def _named(specs: Iterable[Spec]) -> dict[str, Spec]:
+    found: dict[str, Spec] = {}
+    for spec in specs:
+        name = NAMES[spec.word]
+        count = sum(each.word == spec.word for each in found.values())
+        found[f"{name}_{count + 1}" if count else name] = spec
+    return found
+
+
+def notes_on(document: Document, page_views: int) -> list[str]:
+    """Sentences on what a page leaves out of what figures and the window show; page_views: how many the page has."""
+    lines, colours, shading = document.isolines, document.colours, document.shading
+    left_out = {
+        "isolines through points": bool(lines.through),
+        "bold isolines": bool(lines.bold),
+        "the values of isolines": lines.labels,
+        "bands of one colour": colours.bands,
+        "insets": bool(document.zooms),
+        "the triangles at extrema": document.extrema,
+        "the height of a height field": bool(document.height),
+        "the wireframe": shading.wireframe,
+        "flat and creased shading": shading.normals in ("flat", "creased"),
+        "directions of axes": document.axes,
+        "views but the first": page_views > 1,
+        "what tools mark, but for pins": any(not isinstance(part, Pins) for part in document.parts),
+    }
+    words = [name for name, is_there in left_out.items() if is_there]
+    return [f"The page leaves out {_listed(words)}."] if words else []
+
+
+def _listed(words: list[str]) -> str:
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"

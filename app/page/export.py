@@ -1,0 +1,170 @@
+"""From a recipe to a page that computes: one HTML file with the mesh, the kernel and what is shown."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bihdist_core import Laplacian, ParameterError, Surface
+from bihdist_core.distances.answers import Distances
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.spectral import SpectralDistance
+from bihdist_core.progress import Progress, part, silent
+from bihdist_core.whole_file import check_output, whole_file
+
+from ..document.page import Recipe
+from ..figures.export import compute, open_document
+from ..session.array_store import ArrayStore
+from ..session.loaded_mesh import LoadedMesh
+from .contents import Contents
+from .page import page_text
+from .points import StoredPoints
+from .scene import scene_of
+from .stored_mesh import StoredMesh
+
+MOST_VERTICES = 200_000
+"""Of a page: with more, browsers have no memory for the kernel, or people no patience."""
+
+SIMPLIFIED = 100_000
+
+BYTES_EACH = 2.6
+"""Of the file, for a coordinate of a vertex in eigenpairs."""
+
+
+@dataclass(frozen=True)
+class Page:
+    """What a page holds.
+
+    size: bytes of the file.  precision: of coordinates, "24" bits or "float32".  differs: by the names of distances, by
+    how much these differ on the page's mesh from those on the original, as fractions of their maxima, from the source
+    and three vertices far apart.  eigenpairs: how many of them distances took along.
+    """
+
+    path: str
+    size: int
+    vertices: int
+    faces: int
+    precision: str
+    labels: tuple[str, ...]
+    source: int
+    differs: Mapping[str, float]
+    eigenpairs: Mapping[str, int]
+    notes: tuple[str, ...]
+
+
+def write_page(
+    recipe: Recipe,
+    path: str | os.PathLike[str],
+    given: ArrayStore | None = None,
+    precision: str = "24",
+    eigenpairs: int = 0,
+    progress: Progress | None = None,
+) -> Page:
+    """Read, compute, and write the page, all or nothing.
+
+    eigenpairs: up to so many may go into the file for each distance that needs them.  ParameterError for what a page
+    cannot show, a mesh of more than MOST_VERTICES vertices, and eigenpairs beyond those allowed; OutputError.
+    """
+    check_output(path, (".html",))
+    Contents.of(recipe.document)  # before a mesh is read
+    document, surfaces = open_document(recipe, given or ArrayStore.read(recipe))
+    contents = Contents.of(document)
+    loaded = surfaces[document.surfaces[0].name]
+    check_size(loaded.surface, loaded.mesh.path)
+    _check_eigenpairs(contents, loaded, eigenpairs, part(progress, 0, 0.3))
+    recipe = replace(recipe, document=contents.document)
+    answers = compute(contents.document, surfaces, part(progress, 0.3, 0.5))
+    mesh = StoredMesh.of(loaded.surface, precision)
+    distances = Distances(Laplacian(mesh.surface, document.areas))
+    differs = _differences(contents, loaded, mesh, distances, part(progress, 0.5, 0.9))
+    points = {name: StoredPoints.of(_spectral(distances, spec)) for name, spec in contents.by_eigenpairs.items()}
+    for name, each in points.items():
+        differs[name] += each.error / max(_maximum(loaded, document.areas, contents, name), 1e-300)
+    (progress or silent)(0.9, "writing the page")
+    stored = {"bits": 24 if precision == "24" else precision, "differs": differs}
+    scene = scene_of(recipe, contents, surfaces, answers, stored)
+    text = page_text(scene, mesh, points).encode()
+    with whole_file(path) as temporary:
+        temporary.write_bytes(text)
+    return Page(
+        os.fspath(path),
+        len(text),
+        len(mesh.ids),
+        len(loaded.surface.faces),
+        precision,
+        tuple(answer.label for answer in answers),
+        contents.source,
+        differs,
+        {name: each.scales.shape[1] for name, each in points.items()},
+        tuple(scene["notes"]),
+    )
+
+
+def check_size(surface: Surface, path: str = "") -> None:
+    """ParameterError for a mesh that is too large for a page, with what makes it smaller."""
+    if len(surface.vertices) > MOST_VERTICES:
+        raise ParameterError(
+            f"{surface.name} has {len(surface.vertices):,} vertices, and a page has up to {MOST_VERTICES:,}; make it "
+            f"smaller with: bihdist perturb {path or 'MESH'} --simplify {SIMPLIFIED} -o smaller.ply"
+        )
+
+
+def needed_eigenpairs(contents: Contents, loaded: LoadedMesh, progress: Progress | None = None) -> dict[str, int]:
+    """How many eigenpairs each distance that needs them takes along, by its name; they are computed for that."""
+    distances = loaded.distances(contents.document.areas)
+    needed = {}
+    for name, spec in contents.by_eigenpairs.items():
+        distance = _spectral(distances, spec, progress)
+        needed[name] = max(distance.points(component, progress).shape[1] for component in distance.laplacian.components)
+    return needed
+
+
+def eigenpair_bytes(count: int, vertices: int) -> int:
+    """What so many eigenpairs take of the file, about."""
+    return round(BYTES_EACH * count * vertices)
+
+
+def _check_eigenpairs(contents: Contents, loaded: LoadedMesh, allowed: int, progress: Progress | None) -> None:
+    count = len(loaded.surface.vertices)
+    for name, needed in needed_eigenpairs(contents, loaded, progress).items():
+        if needed > allowed:
+            raise ParameterError(
+                f"{contents.fields[name]} needs {needed:,} eigenpairs in the page, some "
+                f"{eigenpair_bytes(needed, count) / 1e6:.1f} MB; allow them with --eigenpairs {needed} (in Python "
+                f"eigenpairs={needed}), or leave it out."
+            )
+
+
+def _differences(
+    contents: Contents, loaded: LoadedMesh, mesh: StoredMesh, stored: Distances, progress: Progress | None
+) -> dict[str, float]:
+    """By the names of distances, the largest difference between the stored and the original mesh's, as a fraction."""
+    original, n = loaded.distances(contents.document.areas), len(mesh.ids)
+    (at,) = np.flatnonzero(mesh.ids == contents.source)
+    sources = list(dict.fromkeys([int(at), 0, n // 2, n - 1]))
+    steps = [(name, spec, source) for name, spec in contents.fields.items() for source in sources]
+    differs = dict.fromkeys(contents.fields, 0.0)
+    for k, (name, spec, source) in enumerate(steps):
+        step = part(progress, k / len(steps), (k + 1) / len(steps))
+        answers = original.answer(spec, int(mesh.ids[source]), step), stored.answer(spec, source, step)
+        a, b = (answer.field for answer in answers)
+        if a is None or b is None:
+            raise ParameterError(next(answer.failure for answer in answers if answer.field is None))
+        top = float(np.nanmax(a, initial=0.0))
+        if top > 0:
+            differs[name] = max(differs[name], float(np.nanmax(np.abs(a[mesh.ids] - b))) / top)
+    return differs
+
+
+def _maximum(loaded: LoadedMesh, areas: str, contents: Contents, name: str) -> float:
+    """The largest distance from the source by one of the distances."""
+    return loaded.distances(areas).answer(contents.fields[name], contents.source).maximum
+
+
+def _spectral(distances: Distances, spec: Spec, progress: Progress | None = None) -> SpectralDistance:
+    distance = distances.get(spec, progress)
+    assert isinstance(distance, SpectralDistance)
+    return distance

@@ -1,0 +1,268 @@
+"""What a page shows is what figures and the window show of a document; what it cannot show is refused in a sentence."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.document.beside_edits import open_beside
+from app.document.camera import Camera
+from app.document.document import FieldArray, MeshFile, Zoom, comparison
+from app.document.looks import Colours, Isolines, Shading
+from app.document.page import Page, Recipe
+from app.document.quantities import OwnField, quantity
+from app.document.shared_parts.pins import Pins, add_pins, change_pin
+from app.figures.export import compute, figure_of, open_document
+from app.page.contents import Contents
+from app.page.scene import _check_numbers, scene_of
+from app.scene.camera import standard_camera
+from app.scene.levels import levels
+from app.scene.style import DARK, PAPER, style_of
+from app.session.array_store import ArrayStore
+from bihdist_core import ParameterError, Surface
+from bihdist_core.distances.kinds import Spec
+from bihdist_core.sources.source import SourceSet, SurfacePoint
+
+from ..shapes import bumpy
+
+SHOWN = ("biharmonic", "commute-time", "biharmonic - geodesic")
+
+
+@pytest.fixture
+def scene(mesh_file):
+    """The scene of a small mesh, of a document that a function has changed; with the figure of the same."""
+
+    def make(shows=SHOWN, edit=lambda document: document, page=None, surface=None, name="mesh.off", source=5):
+        path = mesh_file(surface or bumpy(300), name)
+        document = edit(comparison(path, tuple(map(quantity, shows)), (source,)))
+        recipe = Recipe(Contents.of(document).document, page or Page())
+        document, surfaces = open_document(recipe, ArrayStore())
+        recipe = replace(recipe, document=document)
+        contents = Contents.of(document)
+        answers = compute(document, surfaces)
+        made = scene_of(recipe, contents, surfaces, answers, {"bits": 24, "differs": {"biharmonic": 1e-7}})
+        json.dumps(made, allow_nan=False)
+        make.figure = figure_of(recipe, surfaces, answers)
+        make.surface = surfaces["A"].surface
+        return made
+
+    return make
+
+
+# ---------------------------------------------------------------------- what is refused
+@pytest.mark.parametrize(
+    ("shows", "sentence"),
+    [
+        ("power", r"Panel 2 \(power\) cannot be on a page that computes, which has biharmonic, .*leave it out"),
+        ("geodesic(method=heat)", r"Panel 2 \(geodesic\(method=heat\)\) is not exact: .*say geodesic\(method=exact\)"),
+        ("biharmonic - geodesic(method=dijkstra)", "is not exact"),
+        ("biharmonic - power", "cannot be on a page"),
+        ("interpolant by biharmonic", "cannot be on a page"),
+    ],
+)
+def test_a_panel_that_a_page_cannot_compute_is_named_with_the_reason(shows, sentence):
+    with pytest.raises(ParameterError, match=sentence):
+        Contents.of(comparison("hand", (quantity("biharmonic"), quantity(shows))))
+
+
+def test_a_field_of_ones_own_several_sources_and_sets_are_refused():
+    own = comparison("hand", (OwnField("mine"),), (None,), fields=(FieldArray("mine", "0" * 64),))
+    with pytest.raises(ParameterError, match=r"Panel 1 \(mine\) is a field of your own"):
+        Contents.of(own)
+    with pytest.raises(ParameterError, match=r"start from 2 sources, .*choose one of them"):
+        Contents.of(comparison("hand", sources=(1, 2)))
+    for source, words in ((SourceSet((1, 2)), r"1\+2"), (SurfacePoint(3, (0.2, 0.5, 0.3)), "f3:")):
+        with pytest.raises(ParameterError, match=f"start from {words}.*choose one with --sources"):
+            Contents.of(comparison("hand", (Spec.of("biharmonic"),), (source,)))
+
+
+def test_two_meshes_and_no_panels_are_refused():
+    with pytest.raises(ParameterError, match="one mesh, and here are 2; make a page of each"):
+        Contents.of(open_beside(comparison("hand"), MeshFile("", "hare")))
+    with pytest.raises(ParameterError, match="nothing to show"):
+        Contents.of(replace(comparison("hand"), panels=()))
+
+
+def test_a_number_that_is_not_finite_is_refused_with_its_place():
+    with pytest.raises(ParameterError, match=r"the scene\.camera\.up\[1\] is nan"):
+        _check_numbers({"camera": {"up": [0.0, math.nan]}}, "the scene")
+
+
+# ---------------------------------------------------------------------- panels
+def test_geodesic_distances_are_exact_and_each_distance_has_a_name():
+    shows = ("geodesic", "diffusion", "diffusion(t=1/4)", "biharmonic - diffusion(t=1/4)", "truncated(k=20)")
+    contents = Contents.of(comparison("hand", tuple(map(quantity, shows)), (3,)))
+    assert {name: str(spec) for name, spec in contents.fields.items()} == {
+        "geodesic": "geodesic(method=exact)",
+        "diffusion": "diffusion",
+        "diffusion_2": "diffusion(t=1/4)",
+        "biharmonic": "biharmonic",
+        "truncated": "truncated(k=20)",
+    }
+    assert set(contents.by_eigenpairs) == {"diffusion", "diffusion_2", "truncated"}
+    assert contents.source == 3
+
+
+def test_vertices_without_faces_do_not_count(scene):
+    s = bumpy(100)
+    alone = Surface(np.vstack([s.vertices, [[9.0, 9, 9]]]), s.faces, name="alone")
+    assert scene(surface=alone)["mesh"]["vertices"] == 100
+
+
+def test_panels_say_what_they_show(scene):
+    made = scene()
+    assert [panel["distance"] for panel in made["panels"]] == ["biharmonic", "commute_time", "difference"]
+    assert made["panels"][2]["of"] == ["biharmonic", "geodesic"]
+    assert [panel["label"] for panel in made["panels"]] == [p.heading for p in scene.figure.panels]
+    assert [panel["unit"] for panel in made["panels"]] == ["mesh units", "no unit", "percentage points"]
+    assert [panel["range"] for panel in made["panels"]] == [None] * 3
+    assert made["source"] == 5
+    assert made["mesh"] == {
+        "name": "mesh.off", "vertices": 300, "faces": len(scene.surface.faces), "unit": "mesh units", "bits": 24,
+        "differs": {"biharmonic": 1e-7},
+    }  # fmt: skip
+
+
+def test_parameters_are_with_their_panels(scene):
+    made = scene(("truncated(k=20)", "diffusion(t=1/4)"))
+    assert [panel["parameters"] for panel in made["panels"]] == [{"k": 20}, {"time": 0.25}]
+
+
+def test_an_end_that_was_typed_is_that_of_the_bar(scene):
+    def typed(document):
+        first, second, third = document.panels
+        return replace(document, panels=(replace(first, maximum=0.5), second, replace(third, maximum=0.1)))
+
+    made = scene(edit=typed)
+    assert [panel["range"] for panel in made["panels"]] == [[0.0, 0.5], None, [-10.0, 10.0]]
+
+
+def test_shared_ranges_end_alike_and_say_so(scene):
+    made = scene(("biharmonic", "geodesic"), lambda document: replace(document, range="shared"))
+    (one, two), tops = (panel["range"] for panel in made["panels"]), scene.figure.tops()
+    assert one == two == [0.0, pytest.approx(tops[0])]
+    assert "end where the largest does from vertex 5" in made["notes"][0]
+    alone = scene(("biharmonic",), lambda document: replace(document, range="shared"))
+    assert alone["panels"][0]["range"] is None
+    assert alone["notes"] == []
+
+
+def test_in_shares_each_bar_ends_at_its_own_maximum_from_any_source(scene):
+    made = scene(edit=lambda document: replace(document, range="shares"))
+    assert [panel["shares"] for panel in made["panels"]] == [True, True, False]
+    assert [panel["range"] for panel in made["panels"]] == [None] * 3
+
+
+# ---------------------------------------------------------------------- isolines
+def test_isolines_are_counted_or_listed(scene):
+    made = scene()
+    assert made["isolines"] == {
+        "count": 20, "values": None, "equal": False, "colour": [255, 255, 255], "width": PAPER.isoline_width
+    }  # fmt: skip
+    assert all("isolines" not in panel for panel in made["panels"])
+
+    def with_lines(**how):
+        return lambda document: replace(document, isolines=Isolines(**how))
+
+    assert scene(edit=with_lines(count=8, round=False))["isolines"]["equal"]
+    made = scene(edit=with_lines(values=(0.1, 0.25)))
+    assert made["isolines"]["values"] == [0.1, 0.25]
+    assert made["panels"][2]["isolines"]["values"] == [10.0, 25.0]
+
+
+def test_a_spacing_is_listed_as_far_as_it_may_be_needed(scene):
+    made = scene(edit=lambda document: replace(document, isolines=Isolines(spacing=0.05)))
+    biharmonic, _, difference = scene.figure.panels
+    for listed, panel in ((made["isolines"], biharmonic), (made["panels"][2]["isolines"], difference)):
+        inside = [v for v in listed["values"] if (-panel.own_top if panel.signed else 0) < v < panel.own_top]
+        shown = levels(panel.isolines, panel.top, panel.own_top, panel.signed).values
+        np.testing.assert_allclose(inside, shown, rtol=1e-12)
+        assert max(listed["values"]) > 3 * panel.own_top
+
+
+def test_a_spacing_that_makes_too_many_lines_is_cut_short(scene):
+    made = scene(("biharmonic",), lambda document: replace(document, isolines=Isolines(spacing=1e-6)))
+    assert len(made["isolines"]["values"]) == 500
+
+
+# ---------------------------------------------------------------------- pins, camera, colours
+def test_pins_have_ids_of_the_file_and_names_as_they_are(scene):
+    hostile = "</script><b onmouseover=alert(1)>"
+
+    def pinned(document):
+        document = add_pins(document, [7, SurfacePoint(3, (0.2, 0.7, 0.1))])
+        return change_pin(document, replace(document[Pins].pins[0], name=hostile))
+
+    made = scene(edit=pinned)
+    corner = int(scene.surface.faces[3][1])
+    assert made["pins"] == [{"id": 7, "name": hostile}, {"id": corner, "name": ""}]
+    assert made["notes"] == [f"Pin 2 is in a face; on this page it is at the nearest corner, vertex {corner}."]
+
+
+def test_a_standard_view_is_that_of_the_shape(scene):
+    made = scene(edit=lambda document: replace(document, camera="left", up="z"))["camera"]
+    camera = standard_camera(scene.surface.vertices, 1.0, "left", up="z")
+    np.testing.assert_allclose(made["position"], camera.position)
+    np.testing.assert_allclose(made["focal"], camera.focal_point)
+    assert made["angle"] == pytest.approx(math.degrees(2 * math.atan(camera.extent[1])))
+    assert made["parallel"] is None
+
+
+def test_a_camera_of_the_window_is_that_of_the_page(scene):
+    camera = Camera((0.0, 0, 10), (0, 0, 1), (0, 1, 0), (0.4, 0.2))
+    made = scene(edit=lambda document: replace(document, camera=camera, projection="orthographic"))["camera"]
+    assert made["position"] == [0, 0, 10]
+    assert made["up"] == [0, 1, 0]
+    assert made["parallel"] == pytest.approx(0.2 * 9)
+
+
+@pytest.mark.parametrize("word", ["paper", "dark"])
+def test_colours_by_day_and_night_are_those_of_the_styles(scene, word):
+    colours = scene(page=Page(style=word))["colours"]
+    for name, style in (("map", PAPER), ("dark_map", DARK)):
+        np.testing.assert_array_equal(colours[name], np.rint(255 * style.colours(256)))
+    np.testing.assert_array_equal(colours["diverging"], np.rint(255 * PAPER.colours(256, signed=True)))
+    assert colours["background"] is None
+
+
+def test_a_chosen_map_is_that_of_the_page(scene):
+    chosen = Colours(map="ember", reversed=True)
+    made = scene(edit=lambda document: replace(document, colours=chosen))
+    style = style_of("paper", chosen)
+    np.testing.assert_array_equal(made["colours"]["map"], np.rint(255 * style.colours(256)))
+    assert made["isolines"]["colour"] == [round(255 * x) for x in style.isoline]
+
+
+# ---------------------------------------------------------------------- what is said
+def test_what_the_page_leaves_out_is_said(scene):
+    def adorned(document):
+        return replace(
+            document,
+            isolines=Isolines(bold=5, labels=True, through=("source",)),
+            zooms=(Zoom(3),),
+            colours=Colours(bands=True),
+            shading=Shading("flat", wireframe=True),
+            extrema=True,
+            axes=True,
+        )
+
+    (note,) = scene(edit=adorned, page=Page(views=("front", "back")))["notes"]
+    assert note == (
+        "The page leaves out isolines through points, bold isolines, the values of isolines, bands of one colour, "
+        "insets, the triangles at extrema, the wireframe, flat and creased shading, directions of axes and views but "
+        "the first."
+    )
+    assert scene()["notes"] == []
+
+
+def test_names_of_files_are_plain_text(scene):
+    made = scene(name="a<b>&\u202e\x07.off")
+    assert made["mesh"]["name"] == "a<b>&��.off"
+    assert made["title"] == "Distances on a<b>&��.off"
+
+
+def test_a_panel_without_a_field_is_refused(scene, no_exact_geodesics):
+    with pytest.raises(ParameterError, match=r"has no field: .*no room for windows"):
+        scene(("biharmonic", "geodesic"))
