@@ -26,23 +26,41 @@ def page_text(scene: Mapping[str, object], mesh: StoredMesh, points: Mapping[str
     The page may run its own script only, and fetch nothing (Content-Security-Policy).  ValueError where a number of the
     scene is not finite.
     """
-    whole = {**scene, "near": mesh.near, "corrections": mesh.corrections(str(scene["areas"]))}
+    whole = whole_scene(scene, mesh)
     contents = {
-        "kernel": deflated(KERNEL.read_bytes()),
+        "kernel": kernel(),
         "mesh": deflated(mesh.packed),
         **{f"points-{name}": deflated(each.packed) for name, each in points.items()},
     }
-    elements = [f'<script type="text/plain" id="{name}">{content}</script>' for name, content in contents.items()]
+    elements = [
+        f'<script type="text/plain" id="{name}">{b64encode(content).decode()}</script>'
+        for name, content in contents.items()
+    ]
     elements.append(f'<script type="application/json" id="scene">{_as_json(whole)}</script>')
-    script, style = joined("main.js"), file_text(VIEWER / "page.css", "the style of pages")
+    script, its_style = joined("main.js"), style()
     filled = {
         "TITLE": html.escape(str(scene["title"])),
-        "POLICY": html.escape(_policy(script, style)),
-        "STYLE": style,
+        "POLICY": html.escape(_policy(script, its_style)),
+        "STYLE": its_style,
         "CONTENT": "\n".join(elements),
         "SCRIPT": script,
     }
     return MARK.sub(lambda mark: filled[mark[1]], file_text(VIEWER / "page.html", "the frame of pages"))
+
+
+def whole_scene(scene: Mapping[str, object], mesh: StoredMesh) -> dict[str, object]:
+    """With what the solver needs to know of the mesh."""
+    return {**scene, "near": mesh.near, "corrections": mesh.corrections(str(scene["areas"]))}
+
+
+def kernel() -> bytes:
+    """The compiled module, as the viewer inflates it."""
+    return deflated(KERNEL.read_bytes())
+
+
+def style() -> str:
+    """The viewer's."""
+    return file_text(VIEWER / "page.css", "the style of pages")
 
 
 def _policy(script: str, style: str) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import zlib
-from base64 import b64encode
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -108,10 +107,10 @@ class StoredMesh:
         }
 
 
-def deflated(content: bytes) -> str:
-    """The content of an element of a page: base64 of raw deflate."""
+def deflated(content: bytes) -> bytes:
+    """As the viewer inflates it: raw, without a head."""
     packer = zlib.compressobj(9, zlib.DEFLATED, -15)
-    return b64encode(packer.compress(content) + packer.flush()).decode()
+    return packer.compress(content) + packer.flush()
 
 
 def varints(numbers: IntArray) -> bytes:

@@ -3,6 +3,7 @@
 import json
 import shutil
 import subprocess
+from base64 import b64encode
 
 import numpy as np
 import pytest
@@ -43,13 +44,17 @@ SURFACES = {
 }  # fmt: skip
 
 
+def text_of(content: bytes) -> str:
+    return b64encode(deflated(content)).decode()
+
+
 def said(mesh: StoredMesh, sources, names, points=None, areas="voronoi"):
     """What the page's solver answers in node."""
     if not shutil.which("node"):
         pytest.skip("there is no node")
     question = {
-        "kernel": deflated(KERNEL.read_bytes()), "mesh": deflated(mesh.packed),
-        "points": {name: deflated(each.packed) for name, each in (points or {}).items()},
+        "kernel": text_of(KERNEL.read_bytes()), "mesh": text_of(mesh.packed),
+        "points": {name: text_of(each.packed) for name, each in (points or {}).items()},
         "scene": {"near": mesh.near, "corrections": mesh.corrections(areas), "areas": areas},
         "sources": [int(v) for v in sources], "names": names,
     }  # fmt: skip

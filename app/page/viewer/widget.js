@@ -21,7 +21,7 @@ async function render({ model, el }) {
   const changed = (name) => (value) => (model.set(name, value), model.save_changes());
   const viewer = new Viewer(root, {
     mesh, scene: { ...scene, source: model.get("source"), pins: model.get("pins") }, solver,
-    onsource: changed("source"), onpins: changed("pins"),
+    onsource: (id) => (changed("source")(id), model.send({ picked: id })), onpins: changed("pins"),
   });
   const followed = {
     "change:source": () => viewer.setSource(model.get("source")),
