@@ -37,7 +37,7 @@ class DistanceWidget(anywidget.AnyWidget):
     contents = traitlets.Dict().tag(sync=True)
     scene = traitlets.Dict().tag(sync=True)
     source = traitlets.Int().tag(sync=True)
-    pins = traitlets.List().tag(sync=True)
+    pins: traitlets.List[Any] = traitlets.List().tag(sync=True)
 
     def __init__(self, ids: frozenset[int], **traits: Any) -> None:
         self._ids = ids

@@ -4,7 +4,7 @@ import { Solver } from "./solver.js";
 import { Viewer } from "./viewer.js";
 import { lacking } from "./support.js";
 
-const bytesOf = (view) => new Uint8Array(view.buffer, view.byteOffset, view.byteLength);
+const bytesIn = (view) => new Uint8Array(view.buffer, view.byteOffset, view.byteLength);
 
 /** Called by anywidget for each place where the widget is shown; what it returns is called when it is gone. */
 async function render({ model, el }) {
@@ -13,10 +13,10 @@ async function render({ model, el }) {
   el.append(root);
   if (lack) return void (root.textContent = lack);
   const contents = model.get("contents"), scene = model.get("scene");
-  const [wasm, mesh] = [await inflated(bytesOf(contents.kernel)), unpackedMesh(await inflated(bytesOf(contents.mesh)))];
+  const [wasm, mesh] = [await inflated(bytesIn(contents.kernel)), unpackedMesh(await inflated(bytesIn(contents.mesh)))];
   const points = {};
   for (const [name, view] of Object.entries(contents.points))
-    points[name] = unpackedPoints(await inflated(bytesOf(view)), mesh);
+    points[name] = unpackedPoints(await inflated(bytesIn(view)), mesh);
   const solver = new Solver({ wasm, mesh, scene, points, onprogress: (words) => viewer?.progress(words) });
   const changed = (name) => (value) => (model.set(name, value), model.save_changes());
   const viewer = new Viewer(root, {
