@@ -1,0 +1,59 @@
+"""Pages that compute, in browsers with no network: what they show is what the library says of their mesh."""
+
+import pytest
+
+from app.document.quantities import quantity
+
+from .shown_page import VIEW, ShownPage, made
+
+DISTANCES = ("biharmonic", "commute-time", "geodesic(method=exact)")
+SPECS = [quantity(each).specs[0] for each in DISTANCES]
+
+
+@pytest.fixture(scope="module", params=["hand", "hare"])
+def hand_or_pieces(request, tmp_path_factory):
+    """A closed mesh, and one in pieces with boundaries."""
+    return made(request.param, DISTANCES, tmp_path_factory.mktemp("page"))
+
+
+def test_each_click_shows_the_distances_of_the_library(browser, hand_or_pieces):
+    shown, sources = ShownPage(browser, *hand_or_pieces), set()
+    for x, y in shown.places(4):
+        shown.click(x, y)
+        sources.add(shown.shown[0])
+        assert max(shown.worst(SPECS)) < 1e-9
+    assert len(sources) == 4
+    assert browser.errors == []
+    assert browser.requests == []
+
+
+def test_a_click_of_the_mouse_sets_the_source_and_a_drag_turns(browser, hand_or_pieces):
+    shown = ShownPage(browser, *hand_or_pieces)
+    box = browser.evaluate(f"{VIEW}.stage.views[0].getBoundingClientRect().toJSON()")
+    (x, y), *_ = shown.places(1, seed=3)
+    before, at = shown.shown[0], (box["x"] + x * box["width"], box["y"] + y * box["height"])
+    browser.click(*at)
+    browser.until(f"{VIEW}.mesh.ids[{VIEW}.source] !== {before}")
+    after = shown.shown[0]
+    camera = browser.evaluate(f"JSON.stringify({VIEW}.camera)")
+    browser.drag(at, (at[0] + 60, at[1] + 20))
+    assert shown.shown[0] == after
+    assert browser.evaluate(f"JSON.stringify({VIEW}.camera)") != camera
+
+
+def test_a_page_in_the_scene_of_a_stranger_runs_nothing_of_it(browser, tmp_path):
+    """Names end no element, and what would get in all the same is refused by the page's policy."""
+    page, path = made("hand", ("biharmonic",), tmp_path)
+    hostile = "</script><script>document.title = 'taken'</script><img src=x onerror=\"document.title = 'taken'\">"
+    page.scene["mesh"]["name"] = page.scene["title"] = hostile
+    page.scene["panels"][0]["label"] = hostile
+    page.scene["pins"] = [{"id": page.scene["source"], "name": hostile}]
+    page.write(path)
+    ShownPage(browser, page, path)
+    assert browser.evaluate("document.title") == hostile
+    assert browser.evaluate("document.querySelectorAll('img, script:not([type]):not(:last-of-type)').length") == 0
+    text = path.read_text(encoding="utf-8").replace("<main", "<img src=x onerror=\"document.title = 'taken'\"><main")
+    path.write_text(text, encoding="utf-8")
+    browser.open(path)
+    browser.until(f"{VIEW}?.answers.every(Boolean)", 240)
+    assert browser.evaluate("document.title") == hostile
