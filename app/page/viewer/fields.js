@@ -14,8 +14,7 @@ export const fieldNames = (panel) => (panel.distance === "difference" ? panel.of
 export function panelAnswer(panel, fields) {
   const signed = panel.distance === "difference";
   const values = signed ? difference(panel, fields) : fields[panel.distance];
-  const own = largest(values),
-    [low, high] = panel.range ?? [signed ? -own : 0, own];
+  const own = largest(values), [low, high] = panel.range ?? [signed ? -own : 0, own];
   return { values, own, low, high, signed };
 }
 
@@ -38,14 +37,12 @@ function largest(values) {
  * @returns {{values: number[], step: number}} step: from one to the next, 0 where they are given
  */
 export function isolineLevels({ count, values }, { own, high, signed }) {
-  const least = signed ? -own : 0,
-    room = 1e-6 * own;
+  const least = signed ? -own : 0, room = 1e-6 * own;
   if (values)
     return { values: values.filter((v) => v > least + room && v < own - room).sort((a, b) => a - b), step: 0 };
   if (!count || !(high > 0 && own > 0)) return { values: [], step: 0 };
   const step = roundStep(high, signed ? Math.max(Math.round(count / 2), 1) : count);
-  const last = Math.min(Math.ceil(own / step - 1e-6) - 1, 1000),
-    first = signed ? -last : 1;
+  const last = Math.min(Math.ceil(own / step - 1e-6) - 1, 1000), first = signed ? -last : 1;
   return { values: Array.from({ length: Math.max(last - first + 1, 0) }, (_, k) => (first + k) * step), step };
 }
 
