@@ -10,10 +10,10 @@ import { fieldNames, panelAnswer, isolineLevels } from "./fields.js";
 import { addGestures } from "./gestures.js";
 import { addKeys } from "./keys.js";
 import { aboutBox, helpBox } from "./about.js";
-import { addressOf, readAddress } from "./address.js";
+import { Link } from "./link.js";
 import { savePicture, copyLink } from "./saving.js";
 
-const NOTICED = 150, ADDRESSED = 400, MOST_VISITED = 200, ROOM_FOR_PINS = 600;
+const NOTICED = 150, MOST_VISITED = 200, ROOM_FOR_PINS = 600;
 
 export class Viewer {
   /**
@@ -32,6 +32,7 @@ export class Viewer {
     this.pins = [];
     this.visited = [];
     this.at = -1;
+    this.link = new Link(this);
     this.timers = {};
     this.ended = new AbortController();
     const shape = new Shape(mesh);
@@ -46,7 +47,7 @@ export class Viewer {
     this.sight = new Sight(shape, scene.camera, this.stage.boxes);
     this.#listen();
     this.setPins(scene.pins);
-    if (!hasAddress || !this.#follow(location.hash)) this.#visit(this.source);
+    if (!hasAddress || !this.link.follow()) this.visit(this.source);
     this.timers.tree = setTimeout(() => this.sight.tree, NOTICED);
   }
 
@@ -73,7 +74,7 @@ export class Viewer {
     this.resized.observe(stage.element);
     listen(stage.surface, "webglcontextlost", (event) => event.preventDefault());
     listen(stage.surface, "webglcontextrestored", () => this.#restore());
-    if (this.hasAddress) listen(window, "hashchange", () => this.#follow(location.hash));
+    if (this.hasAddress) listen(window, "hashchange", () => this.link.follow());
     for (const [k, view] of stage.views.entries()) {
       addGestures(view, this.#intents(k), signal);
       addKeys(view, k, this, signal);
@@ -86,7 +87,7 @@ export class Viewer {
   /** Show distances from a vertex of the file. */
   setSource(id) {
     const vertex = this.vertices.get(id);
-    if (vertex !== undefined && vertex !== this.source) this.#visit(vertex);
+    if (vertex !== undefined && vertex !== this.source) this.visit(vertex);
   }
 
   /** @param {{id: number, name: string}[]} pins */
@@ -113,6 +114,7 @@ export class Viewer {
     this.ended.abort();
     this.resized?.disconnect();
     this.pointing.destroy();
+    this.link.destroy();
     for (const timer of Object.values(this.timers)) clearTimeout(timer);
     cancelAnimationFrame(this.asked);
     this.stage.drawing?.destroy();
@@ -123,12 +125,13 @@ export class Viewer {
   /** The user chose a source. */
   choose(vertex, since) {
     this.notice.hidden = true;
-    this.#visit(vertex, since);
-    this.#addressSoon();
+    this.visit(vertex, since);
+    this.link.writeSoon();
     this.onsource(this.mesh.ids[vertex]);
   }
 
-  #visit(vertex, since) {
+  /** Show distances from a stored vertex. */
+  visit(vertex, since) {
     if (this.visited[this.at] !== vertex) {
       this.visited = [...this.visited.slice(0, this.at + 1), vertex].slice(-MOST_VISITED);
       this.at = this.visited.length - 1;
@@ -198,7 +201,7 @@ export class Viewer {
   changePins(pins) {
     this.pins = pins;
     this.onpins(pins.map(({ id, name }) => ({ id, name })));
-    this.#addressSoon();
+    this.link.writeSoon();
     this.redraw(false);
   }
 
@@ -212,7 +215,7 @@ export class Viewer {
   move(act, ...given) {
     this.sight[act](...given);
     if (!this.pointing.cursor) this.pointing.place = null;
-    this.#addressSoon();
+    this.link.writeSoon();
     this.redraw();
   }
 
@@ -241,34 +244,8 @@ export class Viewer {
   }
 
   async copyLink() {
-    this.#address();
+    this.link.write();
     this.say(await copyLink());
-  }
-
-  #address() {
-    const state = { source: this.mesh.ids[this.source], pins: this.pins, camera: this.sight.numbers };
-    try {
-      history.replaceState(null, "", addressOf(state));
-    } catch {
-      this.hasAddress = false; // where the page is shown inside another
-    }
-  }
-
-  #addressSoon() {
-    if (!this.hasAddress) return;
-    clearTimeout(this.timers.address);
-    this.timers.address = setTimeout(() => this.#address(), ADDRESSED);
-  }
-
-  /** Show what an address holds. @returns {boolean} whether it had a source */
-  #follow(hash) {
-    const { source, pins, camera, ignored } = readAddress(hash, (id) => this.vertices.has(id));
-    if (camera && !this.sight.look(camera)) ignored.push("camera");
-    if (pins) this.setPins(pins);
-    if (source !== undefined) this.#visit(this.vertices.get(source));
-    if (ignored.length) this.say(`The link was not understood in part, and left out: ${ignored.join(", ")}.`, true);
-    this.redraw();
-    return source !== undefined;
   }
 
   // ------------------------------------------------------------ drawing
