@@ -54,7 +54,7 @@ export class Drawing {
         colours: gl.createTexture(),
         levels: gl.createTexture(),
         lines: { first: 0, step: 0, count: 0 },
-        signed: false,
+        zero: -1,
       };
     });
   }
@@ -80,7 +80,7 @@ export class Drawing {
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, shares);
     const at = Float32Array.from(levels, (value) => (value - low) * scale);
     held.lines = { first: at[0] ?? 0, step: step * scale, count: at.length };
-    held.signed = signed;
+    held.zero = signed ? -low * scale : -1;
     gl.bindTexture(gl.TEXTURE_2D, held.levels);
     gl.texImage2D(
       gl.TEXTURE_2D,
@@ -132,7 +132,7 @@ export class Drawing {
       gl.uniform1f(at.lineFirst, panel.lines.first);
       gl.uniform1f(at.lineStep, panel.lines.step);
       gl.uniform1i(at.lineCount, panel.lines.count);
-      gl.uniform1f(at.signedField, Number(panel.signed));
+      gl.uniform1f(at.zeroAt, panel.zero);
       gl.activeTexture(gl.TEXTURE1);
       gl.bindTexture(gl.TEXTURE_2D, panel.levels);
       gl.activeTexture(gl.TEXTURE0);

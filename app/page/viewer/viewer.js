@@ -171,7 +171,7 @@ export class Viewer {
   #show({ source, fields, took }, since) {
     for (const [k, panel] of this.scene.panels.entries()) {
       this.answers[k] = panelAnswer(panel, fields);
-      this.levels[k] = isolineLevels(this.scene.isolines, this.answers[k]);
+      this.levels[k] = isolineLevels(panel.isolines ?? this.scene.isolines, this.answers[k]);
       this.stage.drawing.setAnswer(k, this.answers[k], this.levels[k]);
     }
     const { length } = this.names, id = this.mesh.ids[source];
