@@ -41,6 +41,7 @@ export function addKeys(view, panel, viewer, signal) {
     const then = KEYS[key === "=" ? "+" : key.length === 1 ? key.toLowerCase() : key];
     if (ctrlKey || metaKey || altKey || !(arrow || then)) return;
     event.preventDefault();
+    event.stopPropagation();
     if (arrow && shiftKey) return viewer.pointing.move(panel, CURSOR_STEP * arrow[0], CURSOR_STEP * arrow[1]);
     if (arrow) viewer.move("turn", panel, STEP * arrow[0], STEP * arrow[1]);
     else then(viewer, panel, [view.clientWidth / 2, view.clientHeight / 2]);

@@ -17,7 +17,7 @@ const NOTICED = 150, MOST_VISITED = 200, ROOM_FOR_PINS = 600;
 
 export class Viewer {
   /**
-   * @param {HTMLElement} root of the class "bihdist", in the document; all of the viewer is inside it
+   * @param {HTMLElement} root of the class "bihdist"; all of the viewer is inside it
    * @param {{mesh: object, scene: object, solver: {field: Function}, hasAddress?: boolean,
    *   onsource?: (id: number) => void, onpins?: (pins: {id: number, name: string}[]) => void}} host
    *   hasAddress: the page's address holds what is shown; onsource, onpins: the user has changed them
@@ -35,6 +35,7 @@ export class Viewer {
     this.link = new Link(this);
     this.timers = {};
     this.ended = new AbortController();
+    root.dataset.lmSuppressShortcuts = ""; // JupyterLab's, of the keys that views take
     const shape = new Shape(mesh);
     this.#build();
     try {
@@ -68,7 +69,6 @@ export class Viewer {
   #listen() {
     const { signal } = this.ended, { stage, pointing } = this;
     const listen = (what, name, then) => what.addEventListener(name, then, { signal });
-    stage.dress();
     listen(matchMedia("(prefers-color-scheme: dark)"), "change", () => this.#dress());
     this.resized = new ResizeObserver(() => this.#fit());
     this.resized.observe(stage.element);
@@ -270,6 +270,7 @@ export class Viewer {
   }
 
   #fit() {
+    if (!this.stage.theme) this.stage.dress(); // not before the root is in a document
     this.stage.fit();
     this.stale = true;
     this.#frame();
