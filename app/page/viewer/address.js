@@ -1,10 +1,8 @@
 /** Source, pins and camera in the part of an address behind "#", read strictly: anybody may have written it. */
 import { minus, cross } from "./vectors.js";
 
-const NUMBER = /^-?\d{1,17}(\.\d{1,17})?(e[+-]?\d{1,2})?$/,
-  ID = /^\d{1,10}$/;
-const MOST_PINS = 100,
-  LONGEST_NAME = 80;
+const NUMBER = /^-?\d{1,17}(\.\d{1,17})?(e[+-]?\d{1,2})?$/, ID = /^\d{1,10}$/;
+const MOST_PINS = 100, LONGEST_NAME = 80;
 
 /** @param {{source: number, pins: {id: number, name: string}[], camera: number[][]}} state camera: position, focal, up */
 export function addressOf({ source, pins, camera }) {

@@ -20,8 +20,7 @@ export class Camera {
 
   /** Half of what is seen at distance 1, sideways and upwards: of any panel at least this. */
   #reach(places) {
-    let wide = 0,
-      high = 0;
+    let wide = 0, high = 0;
     for (let k = 0; k < places.length; k += 3) {
       const [x, y, depth] = this.#local([places[k], places[k + 1], places[k + 2]]);
       if (depth <= 0) return [Infinity, Infinity];
@@ -61,15 +60,13 @@ export class Camera {
 
   /** -1 … 1 in a panel of width / height `aspect`; null for what is behind the eye. */
   project(point, aspect) {
-    const [x, y, depth] = this.#local(point),
-      high = this.slope(aspect) * (this.parallel ? this.distance : depth);
+    const [x, y, depth] = this.#local(point), high = this.slope(aspect) * (this.parallel ? this.distance : depth);
     return depth > 0 || this.parallel ? [x / (high * aspect), y / high] : null;
   }
 
   /** The line of sight through a place (-1 … 1) of a panel. */
   ray(x, y, aspect) {
-    const high = this.slope(aspect),
-      side = plus(plus([0, 0, 0], this.right, x * high * aspect), this.up, y * high);
+    const high = this.slope(aspect), side = plus(plus([0, 0, 0], this.right, x * high * aspect), this.up, y * high);
     if (!this.parallel) return { origin: this.position, direction: unit(minus(side, this.back)) };
     const start = plus(plus(this.focal, side, this.distance), this.back, FARTHEST);
     return { origin: start, direction: plus([0, 0, 0], this.back, -1) };
@@ -83,13 +80,9 @@ export class Camera {
 
   /** Column-major matrices: of directions to those of the eye, of points to the eye's, and from there to the picture. */
   matrices(aspect) {
-    const { right: r, up: u, back: b } = this,
-      eye = this.position;
-    const middle = dot(eye, b),
-      far = Math.max(middle + 1.01, 0.02),
-      near = Math.max(middle - 1.01, far * 1e-3);
-    const high = this.slope(aspect),
-      sizes = this.parallel ? high * this.distance : high;
+    const { right: r, up: u, back: b } = this, eye = this.position;
+    const middle = dot(eye, b), far = Math.max(middle + 1.01, 0.02), near = Math.max(middle - 1.01, far * 1e-3);
+    const high = this.slope(aspect), sizes = this.parallel ? high * this.distance : high;
     const view = new Float32Array([
       r[0],
       u[0],
@@ -108,8 +101,7 @@ export class Camera {
       -middle,
       1,
     ]);
-    const x = 1 / (sizes * aspect),
-      y = 1 / sizes;
+    const x = 1 / (sizes * aspect), y = 1 / sizes;
     const picture = this.parallel
       ? [x, 0, 0, 0, 0, y, 0, 0, 0, 0, -1 / 1.01, 0, 0, 0, -middle / 1.01, 1]
       : [x, 0, 0, 0, 0, y, 0, 0, 0, 0, -(far + near) / (far - near), -1, 0, 0, (-2 * far * near) / (far - near), 0];

@@ -1,11 +1,7 @@
 /** A panel's colour bar: range, unit, round ticks, isolines, and the value at the pointer. */
 import { written, percentage, shortest, roundTicks } from "./numbers.js";
 
-const WIDEST = 440,
-  MARGIN = 16,
-  TICK_ROOM = 72,
-  LINE_ROOM = 5,
-  NARROW = 200;
+const WIDEST = 440, MARGIN = 16, TICK_ROOM = 72, LINE_ROOM = 5, NARROW = 200;
 
 /** The words above a bar: left, bold and quiet, and right. */
 export function barWords({ unit }, answer, value) {
@@ -26,11 +22,8 @@ export function barWords({ unit }, answer, value) {
  * @param {{map: number[][], levels: number[], theme: object}} look
  */
 export function paintBar(brush, box, panel, answer, value, { map, levels, theme }) {
-  const width = Math.min(box.width - 2 * MARGIN, WIDEST),
-    x = Math.round(box.x + (box.width - width) / 2),
-    y = box.y;
-  const { bold, left, right } = barWords(panel, answer, value),
-    isNarrow = width < NARROW;
+  const width = Math.min(box.width - 2 * MARGIN, WIDEST), x = Math.round(box.x + (box.width - width) / 2), y = box.y;
+  const { bold, left, right } = barWords(panel, answer, value), isNarrow = width < NARROW;
   brush.textBaseline = "alphabetic";
   paintWords(brush, theme, x, y + 16, width, bold, isNarrow && bold ? "" : left, right);
   brush.save();
@@ -89,15 +82,13 @@ function paintLines(brush, places, { signed }, theme, zero, [start, end], y) {
 }
 
 function paintTicks(brush, { shares }, answer, theme, place, [start, end], y) {
-  const scale = shares ? 100 / answer.high : 1,
-    unit = shares ? " %" : "";
+  const scale = shares ? 100 / answer.high : 1, unit = shares ? " %" : "";
   const most = Math.floor((end - start) / TICK_ROOM);
   brush.font = `400 12px ${theme.font}`;
   brush.fillStyle = theme.quiet;
   let free = -Infinity;
   for (const value of roundTicks(answer.low * scale, answer.high * scale, most)) {
-    const text = shortest(value) + unit,
-      wide = brush.measureText(text).width;
+    const text = shortest(value) + unit, wide = brush.measureText(text).width;
     const at = Math.min(Math.max(place(value / scale) - wide / 2, start), end - wide);
     if (at < free) continue;
     brush.fillText(text, at, y);

@@ -2,8 +2,7 @@
 import { outside } from "./shape.js";
 import { VERTEX_SHADER, FRAGMENT_SHADER } from "./shaders.js";
 
-const UNDEFINED = -1000,
-  MOST_PIXELS = 2 ** 24;
+const UNDEFINED = -1000, MOST_PIXELS = 2 ** 24;
 
 export class Drawing {
   /** Throws an Error with a sentence where the browser cannot draw. */
@@ -55,7 +54,7 @@ export class Drawing {
         colours: gl.createTexture(),
         levels: gl.createTexture(),
         lines: { first: 0, step: 0, count: 0 },
-        signed: false,
+        zero: -1,
       };
     });
   }
@@ -66,8 +65,7 @@ export class Drawing {
 
   /** Colours (256 of r, g, b from 0 to 255) of a panel. */
   setColours(panel, map) {
-    const { gl } = this,
-      bytes = Uint8Array.from(map.flat());
+    const { gl } = this, bytes = Uint8Array.from(map.flat());
     gl.bindTexture(gl.TEXTURE_2D, this.panels[panel].colours);
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB8, map.length, 1, 0, gl.RGB, gl.UNSIGNED_BYTE, bytes);
@@ -76,15 +74,13 @@ export class Drawing {
 
   /** Values of a panel, see `panelAnswer`, and its isolines, see `isolineLevels`. */
   setAnswer(panel, { values, low, high, signed }, { values: levels, step }) {
-    const { gl } = this,
-      held = this.panels[panel],
-      scale = high > low ? 1 / (high - low) : 0;
+    const { gl } = this, held = this.panels[panel], scale = high > low ? 1 / (high - low) : 0;
     const shares = Float32Array.from(values, (value) => (value === value ? (value - low) * scale : UNDEFINED));
     gl.bindBuffer(gl.ARRAY_BUFFER, held.values);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, shares);
     const at = Float32Array.from(levels, (value) => (value - low) * scale);
     held.lines = { first: at[0] ?? 0, step: step * scale, count: at.length };
-    held.signed = signed;
+    held.zero = signed ? -low * scale : -1;
     gl.bindTexture(gl.TEXTURE_2D, held.levels);
     gl.texImage2D(
       gl.TEXTURE_2D,
@@ -102,8 +98,7 @@ export class Drawing {
 
   /** Let the picture have this size in CSS pixels. @returns {number} pixels of the screen for each, at most `wanted` */
   resize(width, height, wanted) {
-    const { gl } = this,
-      [widest, highest] = gl.getParameter(gl.MAX_VIEWPORT_DIMS);
+    const { gl } = this, [widest, highest] = gl.getParameter(gl.MAX_VIEWPORT_DIMS);
     const most = Math.min(widest / width, highest / height, Math.sqrt(MOST_PIXELS / (width * height)));
     const scale = Math.min(wanted, most);
     this.canvas.width = Math.max(Math.round(width * scale), 1);
@@ -137,7 +132,7 @@ export class Drawing {
       gl.uniform1f(at.lineFirst, panel.lines.first);
       gl.uniform1f(at.lineStep, panel.lines.step);
       gl.uniform1i(at.lineCount, panel.lines.count);
-      gl.uniform1f(at.signedField, Number(panel.signed));
+      gl.uniform1f(at.zeroAt, panel.zero);
       gl.activeTexture(gl.TEXTURE1);
       gl.bindTexture(gl.TEXTURE_2D, panel.levels);
       gl.activeTexture(gl.TEXTURE0);

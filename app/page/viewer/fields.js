@@ -14,8 +14,7 @@ export const fieldNames = (panel) => (panel.distance === "difference" ? panel.of
 export function panelAnswer(panel, fields) {
   const signed = panel.distance === "difference";
   const values = signed ? difference(panel, fields) : fields[panel.distance];
-  const own = largest(values),
-    [low, high] = panel.range ?? [signed ? -own : 0, own];
+  const own = largest(values), [low, high] = panel.range ?? [signed ? -own : 0, own];
   return { values, own, low, high, signed };
 }
 
@@ -35,17 +34,18 @@ function largest(values) {
 /**
  * The values that have an isoline, from small to large: none at a distance's 0 nor at the farthest point, where a line
  * would be a blot; a difference has one at 0.
+ * @param {{count: number | null, values: number[] | null, equal?: boolean}} isolines about so many at round values, or
+ *   values; equal: so many equal steps to the end of the colour bar
  * @returns {{values: number[], step: number}} step: from one to the next, 0 where they are given
  */
-export function isolineLevels({ count, values }, { own, high, signed }) {
-  const least = signed ? -own : 0,
-    room = 1e-6 * own;
+export function isolineLevels({ count, values, equal }, { own, high, signed }) {
+  const least = signed ? -own : 0, room = 1e-6 * own;
   if (values)
     return { values: values.filter((v) => v > least + room && v < own - room).sort((a, b) => a - b), step: 0 };
   if (!count || !(high > 0 && own > 0)) return { values: [], step: 0 };
-  const step = roundStep(high, signed ? Math.max(Math.round(count / 2), 1) : count);
-  const last = Math.min(Math.ceil(own / step - 1e-6) - 1, 1000),
-    first = signed ? -last : 1;
+  const steps = signed ? Math.max(Math.round(count / 2), 1) : count;
+  const step = equal ? high / steps : roundStep(high, steps);
+  const last = Math.min(Math.ceil(own / step - 1e-6) - 1, 1000), first = signed ? -last : 1;
   return { values: Array.from({ length: Math.max(last - first + 1, 0) }, (_, k) => (first + k) * step), step };
 }
 

@@ -1,7 +1,6 @@
 /** What mouse and fingers mean in a view. */
 
-const STILL = 4,
-  WHEEL = 0.0015;
+const STILL = 4, WHEEL = 0.0015;
 
 /**
  * @typedef {object} Intents places are in pixels from the view's upper left corner
@@ -18,9 +17,7 @@ const STILL = 4,
 /** Listen in a view until the signal. @param {Intents} intents */
 export function addGestures(view, intents, signal) {
   const fingers = new Map();
-  let moved = false,
-    mode = "",
-    start = null;
+  let moved = false, mode = "", start = null;
 
   const place = (event) => {
     const box = view.getBoundingClientRect();
@@ -38,8 +35,7 @@ export function addGestures(view, intents, signal) {
   });
 
   listen("pointermove", (event) => {
-    const [x, y] = place(event),
-      before = fingers.get(event.pointerId);
+    const [x, y] = place(event), before = fingers.get(event.pointerId);
     if (!before) return event.pointerType === "mouse" && intents.hover(x, y);
     if (!moved && Math.hypot(x - start[0], y - start[1]) < STILL) return;
     if (fingers.size === 2) pinch(event.pointerId, [x, y]);
@@ -50,8 +46,7 @@ export function addGestures(view, intents, signal) {
   });
 
   function pinch(id, place) {
-    const other = [...fingers].find(([each]) => each !== id)[1],
-      before = fingers.get(id);
+    const other = [...fingers].find(([each]) => each !== id)[1], before = fingers.get(id);
     const away = ([x, y]) => Math.hypot(x - other[0], y - other[1]);
     const middle = [(place[0] + other[0]) / 2, (place[1] + other[1]) / 2];
     intents.pan((place[0] - before[0]) / 2, (place[1] - before[1]) / 2);

@@ -1,20 +1,23 @@
 /** What keys mean in a view, and the list of all that can be done. */
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
-const STEP = 24,
-  CURSOR_STEP = 8;
+const STEP = 24, CURSOR_STEP = 8, KEY_ZOOM = 1.15;
 
-const ACTS = {
-  "+": "nearer",
-  "=": "nearer",
-  "-": "farther",
-  Home: "home",
-  Enter: "source",
-  "[": "back",
-  "]": "forward",
-  p: "pin",
-  "?": "help",
+const KEYS = {
+  "+": (viewer, panel, middle) => viewer.move("zoom", panel, KEY_ZOOM, ...middle),
+  "-": (viewer, panel, middle) => viewer.move("zoom", panel, 1 / KEY_ZOOM, ...middle),
+  Home: (viewer) => viewer.move("home"),
+  Enter: (viewer, panel) => at(viewer, panel, (vertex) => viewer.choose(vertex)),
+  p: (viewer, panel) => at(viewer, panel, (vertex) => viewer.pin(vertex)),
+  "[": (viewer) => viewer.step(-1),
+  "]": (viewer) => viewer.step(1),
+  "?": (viewer) => viewer.help.showModal(),
 };
+
+function at(viewer, panel, then) {
+  const vertex = viewer.pointing.vertex(panel);
+  if (vertex !== undefined) then(vertex);
+}
 
 export const HELP = [
   ["Click or tap", "set the source"],
@@ -31,16 +34,18 @@ export const HELP = [
   ["?", "this list"],
 ];
 
-/**
- * Act on a key of a view.
- * @param {{turn, cursor: (dx: number, dy: number) => void} & Object<string, () => void>} acts
- */
-export function act(event, acts) {
-  if (event.ctrlKey || event.metaKey || event.altKey) return;
-  const arrow = ARROWS[event.key],
-    name = ACTS[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-  if (arrow && event.shiftKey) acts.cursor(CURSOR_STEP * arrow[0], CURSOR_STEP * arrow[1]);
-  else if (arrow) acts.turn(STEP * arrow[0], STEP * arrow[1]);
-  else if (name) acts[name]();
-  if (arrow || name) event.preventDefault();
+/** Listen to the keys of a panel's view until the signal. @param {import("./viewer.js").Viewer} viewer */
+export function addKeys(view, panel, viewer, signal) {
+  const listener = (event) => {
+    const { key, shiftKey, ctrlKey, metaKey, altKey } = event, arrow = ARROWS[key];
+    const then = KEYS[key === "=" ? "+" : key.length === 1 ? key.toLowerCase() : key];
+    if (ctrlKey || metaKey || altKey || !(arrow || then)) return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (arrow && shiftKey) return viewer.pointing.move(panel, CURSOR_STEP * arrow[0], CURSOR_STEP * arrow[1]);
+    if (arrow) viewer.move("turn", panel, STEP * arrow[0], STEP * arrow[1]);
+    else then(viewer, panel, [view.clientWidth / 2, view.clientHeight / 2]);
+    if (viewer.pointing.cursor) viewer.pointing.move(panel, 0, 0);
+  };
+  view.addEventListener("keydown", listener, { signal });
 }

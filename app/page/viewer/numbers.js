@@ -6,8 +6,7 @@ const signs = (text) => text.replace(/-/g, "−");
 export function written(value, signed = false) {
   if (!Number.isFinite(value)) return "–";
   if (!value) return "0";
-  const size = Math.abs(value),
-    plus = signed && value > 0 ? "+" : "";
+  const size = Math.abs(value), plus = signed && value > 0 ? "+" : "";
   if (size < 1e-4 || size >= 1e7) return plus + signs(value.toExponential(3).replace("+", ""));
   const places = Math.max(3 - Number(value.toExponential(3).split("e")[1]), 0);
   return plus + signs(value.toLocaleString("en-US", { minimumFractionDigits: places, maximumFractionDigits: places }));
@@ -28,8 +27,7 @@ export function roundTicks(low, high, most) {
   const power = 10 ** Math.floor(Math.log10((high - low) / Math.max(most, 1)));
   for (const factor of [1, 2, 2.5, 5, 10, 20, 25, 50, 100]) {
     const step = factor * power;
-    const first = Math.ceil(low / step - 1e-9),
-      last = Math.floor(high / step + 1e-9);
+    const first = Math.ceil(low / step - 1e-9), last = Math.floor(high / step + 1e-9);
     if (last - first < Math.max(most, 2)) return Array.from({ length: last - first + 1 }, (_, k) => (first + k) * step);
   }
   return [];
@@ -37,8 +35,7 @@ export function roundTicks(low, high, most) {
 
 /** The round step of which so many lead from 0 to the top as nearly as can be, in proportion. */
 export function roundStep(top, steps) {
-  const power = Math.floor(Math.log10(top / steps)),
-    away = (step) => Math.abs(Math.log(top / steps / step));
+  const power = Math.floor(Math.log10(top / steps)), away = (step) => Math.abs(Math.log(top / steps / step));
   const found = [power, power + 1].flatMap((p) => [1, 2, 2.5, 5].map((digits) => Number(`${digits}e${p}`)));
   return found.reduce((best, step) => (away(step) < away(best) ? step : best));
 }

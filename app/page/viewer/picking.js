@@ -1,7 +1,6 @@
 /** What a line of sight meets: a tree of boxes over faces that lie near each other. */
 
-const LEAF = 8,
-  AXIS_BITS = 10;
+const LEAF = 8, AXIS_BITS = 10;
 
 export class FaceTree {
   /** @param {{m: number, places: Float32Array, faces: Int32Array}} shape */
@@ -16,8 +15,7 @@ export class FaceTree {
 
   /** Node k has the children 2k and 2k + 1; a box is low and negated high, so that the least is taken of all six. */
   #fit(node) {
-    const { boxes, faces, places } = this,
-      box = 6 * node;
+    const { boxes, faces, places } = this, box = 6 * node;
     if (node < this.leaves) {
       for (let i = 0; i < 6; i++) boxes[box + i] = Math.min(boxes[2 * box + i], boxes[2 * box + 6 + i]);
       return;
@@ -44,10 +42,8 @@ export class FaceTree {
    * @returns {{vertex: number, point: number[], away: number} | null}
    */
   hit({ origin, direction }) {
-    const inverse = direction.map((x) => 1 / (x || 1e-30)),
-      waiting = [1];
-    let away = Infinity,
-      face = -1;
+    const inverse = direction.map((x) => 1 / (x || 1e-30)), waiting = [1];
+    let away = Infinity, face = -1;
     while (waiting.length) {
       const node = waiting.pop();
       if (this.#enters(node, origin, inverse) >= away) continue;
@@ -71,8 +67,7 @@ export class FaceTree {
 
   /** How far off the box of a node is entered; Infinity if it is missed. */
   #enters(node, origin, inverse) {
-    let near = 0,
-      far = Infinity;
+    let near = 0, far = Infinity;
     for (let axis = 0; axis < 3; axis++) {
       const a = (this.boxes[6 * node + axis] - origin[axis]) * inverse[axis];
       const b = (-this.boxes[6 * node + 3 + axis] - origin[axis]) * inverse[axis];
@@ -84,31 +79,15 @@ export class FaceTree {
 
   /** How far off a face is met, by Möller and Trumbore, on either side; Infinity if it is missed. */
   #meets(face, o, d) {
-    const { places, faces } = this,
-      a = 3 * faces[3 * face],
-      b = 3 * faces[3 * face + 1],
-      c = 3 * faces[3 * face + 2];
-    const ax = places[a],
-      ay = places[a + 1],
-      az = places[a + 2];
-    const ux = places[b] - ax,
-      uy = places[b + 1] - ay,
-      uz = places[b + 2] - az;
-    const vx = places[c] - ax,
-      vy = places[c + 1] - ay,
-      vz = places[c + 2] - az;
-    const px = d[1] * vz - d[2] * vy,
-      py = d[2] * vx - d[0] * vz,
-      pz = d[0] * vy - d[1] * vx;
+    const { places, faces } = this, a = 3 * faces[3 * face], b = 3 * faces[3 * face + 1], c = 3 * faces[3 * face + 2];
+    const ax = places[a], ay = places[a + 1], az = places[a + 2];
+    const ux = places[b] - ax, uy = places[b + 1] - ay, uz = places[b + 2] - az;
+    const vx = places[c] - ax, vy = places[c + 1] - ay, vz = places[c + 2] - az;
+    const px = d[1] * vz - d[2] * vy, py = d[2] * vx - d[0] * vz, pz = d[0] * vy - d[1] * vx;
     const size = ux * px + uy * py + uz * pz;
     if (!size) return Infinity;
-    const x = o[0] - ax,
-      y = o[1] - ay,
-      z = o[2] - az,
-      s = (x * px + y * py + z * pz) / size;
-    const qx = y * uz - z * uy,
-      qy = z * ux - x * uz,
-      qz = x * uy - y * ux,
+    const x = o[0] - ax, y = o[1] - ay, z = o[2] - az, s = (x * px + y * py + z * pz) / size;
+    const qx = y * uz - z * uy, qy = z * ux - x * uz, qz = x * uy - y * ux,
       t = (d[0] * qx + d[1] * qy + d[2] * qz) / size;
     const away = (vx * qx + vy * qy + vz * qz) / size;
     return s >= -1e-9 && t >= -1e-9 && s + t <= 1 + 1e-9 && away > 0 ? away : Infinity;
@@ -122,8 +101,7 @@ export class FaceTree {
 
 /** The faces by their middles along a Morton curve. */
 function nearInOrder(m, places, faces) {
-  const keys = new Uint32Array(m),
-    most = 2 ** AXIS_BITS - 1;
+  const keys = new Uint32Array(m), most = 2 ** AXIS_BITS - 1;
   for (let k = 0; k < m; k++) {
     for (let axis = 0; axis < 3; axis++) {
       let middle = 0;
@@ -131,8 +109,7 @@ function nearInOrder(m, places, faces) {
       keys[k] |= spread(Math.min(Math.max(((middle / 3 + 1) / 2) * most, 0), most)) << axis;
     }
   }
-  let order = Uint32Array.from(keys, (_, k) => k),
-    next = new Uint32Array(m);
+  let order = Uint32Array.from(keys, (_, k) => k), next = new Uint32Array(m);
   for (let shift = 0; shift < 3 * AXIS_BITS; shift += AXIS_BITS) {
     const starts = new Uint32Array(most + 2);
     for (const key of keys) starts[((key >>> shift) & most) + 1]++;

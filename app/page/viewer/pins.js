@@ -5,13 +5,9 @@ import { reading } from "./fields.js";
 import { PIN_COLOURS } from "./marks.js";
 
 export class PinTable {
-  /**
-   * @param {{label: string}[]} panels
-   * @param {{add: (text: string) => string, rename: (index: number, name: string) => void,
-   *   remove: (index: number) => void, choose: (id: number) => void}} acts add gives what is wrong, or ""
-   */
-  constructor(panels, acts) {
-    this.acts = acts;
+  /** @param {import("./viewer.js").Viewer} viewer */
+  constructor(viewer) {
+    this.viewer = viewer;
     this.wrong = element("span", { class: "wrong", role: "alert" });
     const box = element("input", {
       class: "number",
@@ -26,7 +22,7 @@ export class PinTable {
       element("button", { class: "plain", text: "Pin it" }),
       this.wrong,
     );
-    const heads = ["Pin", "Name", ...panels.map((panel) => panel.label), ""];
+    const heads = ["Pin", "Name", ...viewer.scene.panels.map(({ label }) => label), ""];
     this.body = element("tbody");
     const head = element("thead", {}, element("tr", {}, ...heads.map((text) => element("th", { scope: "col", text }))));
     this.none = element("p", { class: "quiet", text: "No pins yet: press P at a place, or type a vertex." });
@@ -41,7 +37,7 @@ export class PinTable {
 
   #add(event, box) {
     event.preventDefault();
-    this.wrong.textContent = this.acts.add(box.value);
+    this.wrong.textContent = this.viewer.typed(box.value, (vertex) => this.viewer.pin(vertex));
     box.setAttribute("aria-invalid", String(this.wrong.textContent !== ""));
     if (!this.wrong.textContent) box.value = "";
   }
@@ -56,18 +52,17 @@ export class PinTable {
   }
 
   #row(k, answers) {
-    const colour = PIN_COLOURS[k % PIN_COLOURS.length],
-      badge = element("span", { class: "badge", text: k + 1 });
+    const colour = PIN_COLOURS[k % PIN_COLOURS.length], badge = element("span", { class: "badge", text: k + 1 });
     badge.style.background = colour;
     const id = element("button", {
       type: "button",
       class: "link",
-      click: (event) => this.acts.choose(Number(event.target.textContent)),
+      click: () => this.viewer.choose(this.viewer.pins[k].vertex),
     });
     const name = element("input", {
       "aria-label": `Name of pin ${k + 1}`,
       maxlength: 80,
-      change: () => this.acts.rename(k, name.value),
+      change: () => this.#rename(k, name.value),
     });
     const values = answers.map(() => element("td", { class: "value" }));
     return element(
@@ -79,9 +74,17 @@ export class PinTable {
       element(
         "td",
         {},
-        iconButton("remove", `Remove pin ${k + 1}`, () => this.acts.remove(k), { class: "bare" }),
+        iconButton("remove", `Remove pin ${k + 1}`, () => this.#remove(k), { class: "bare" }),
       ),
     );
+  }
+
+  #rename(k, name) {
+    this.viewer.changePins(this.viewer.pins.map((pin, each) => (each === k ? { ...pin, name } : pin)));
+  }
+
+  #remove(k) {
+    this.viewer.changePins(this.viewer.pins.filter((_, each) => each !== k));
   }
 
   #fill(row, pin, answers) {

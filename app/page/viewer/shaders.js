@@ -28,7 +28,7 @@ precision highp float;
 in float valueAt, lightAt, shineAt;
 uniform sampler2D colours, levels;
 uniform vec3 undefinedColour, lineColour;
-uniform float lineFirst, lineStep, halfWidth, signedField;
+uniform float lineFirst, lineStep, halfWidth, zeroAt;
 uniform int lineCount;
 out vec4 colour;
 const vec3 INK = vec3(0.08, 0.085, 0.1);
@@ -59,10 +59,10 @@ void main() {
     float at = level(k), room = lineStep, fromLine = abs(valueAt - at) / perPixel;
     if (fromLine < halfWidth + 2.0) {
       if (lineStep == 0.0) room = min(k > 0 ? at - level(k - 1) : 1e9, k + 1 < lineCount ? level(k + 1) - at : 1e9);
-      bool isZero = signedField > 0.5 && abs(at - 0.5) < 1e-6;
+      bool isSigned = zeroAt >= 0.0, isZero = isSigned && abs(at - zeroAt) < 1e-6;
       float wide = isZero ? 1.1 * halfWidth : halfWidth;
       float seen = (1.0 - smoothstep(0.2, 0.4, perPixel)) * smoothstep(2.0, 4.0, room / perPixel);
-      if (signedField > 0.5 && !isZero) shown = mix(shown, INK, 0.6 * seen * painted(fromLine, wide + 0.8));
+      if (isSigned && !isZero) shown = mix(shown, INK, 0.6 * seen * painted(fromLine, wide + 0.8));
       shown = mix(shown, isZero ? INK : lineColour, seen * painted(fromLine, wide));
     }
   }

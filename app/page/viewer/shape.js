@@ -3,8 +3,7 @@
 export class Shape {
   /** @param {{n: number, m: number, positions: Float64Array, faces: Int32Array}} mesh */
   constructor({ n, m, positions, faces, faceComponents }) {
-    const low = [Infinity, Infinity, Infinity],
-      high = [-Infinity, -Infinity, -Infinity];
+    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
     for (let k = 0; k < 3 * n; k++) {
       low[k % 3] = Math.min(low[k % 3], positions[k]);
       high[k % 3] = Math.max(high[k % 3], positions[k]);
@@ -36,21 +35,12 @@ export class Shape {
 
 /** Sums of the faces' normals by area, over the sum of areas: short where the faces around a vertex disagree. */
 function vertexNormals(places, faces) {
-  const sums = new Float32Array(places.length),
-    areas = new Float32Array(places.length / 3);
+  const sums = new Float32Array(places.length), areas = new Float32Array(places.length / 3);
   for (let k = 0; k < faces.length; k += 3) {
-    const a = 3 * faces[k],
-      b = 3 * faces[k + 1],
-      c = 3 * faces[k + 2];
-    const ux = places[b] - places[a],
-      uy = places[b + 1] - places[a + 1],
-      uz = places[b + 2] - places[a + 2];
-    const vx = places[c] - places[a],
-      vy = places[c + 1] - places[a + 1],
-      vz = places[c + 2] - places[a + 2];
-    const x = uy * vz - uz * vy,
-      y = uz * vx - ux * vz,
-      z = ux * vy - uy * vx,
+    const a = 3 * faces[k], b = 3 * faces[k + 1], c = 3 * faces[k + 2];
+    const ux = places[b] - places[a], uy = places[b + 1] - places[a + 1], uz = places[b + 2] - places[a + 2];
+    const vx = places[c] - places[a], vy = places[c + 1] - places[a + 1], vz = places[c + 2] - places[a + 2];
+    const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx,
       area = Math.sqrt(x * x + y * y + z * z);
     for (let corner = k; corner < k + 3; corner++) {
       const at = 3 * faces[corner];
@@ -72,8 +62,7 @@ export function outside({ places, faces, faceComponents }) {
   let side = 0;
   for (let part = 1; part < faceComponents.length; part++) {
     // Each edge is to be there as often in one direction as in the other; then these sums of hashes are 0.
-    let edges = 0,
-      volume = 0;
+    let edges = 0, volume = 0;
     for (let k = 3 * faceComponents[part - 1]; k < 3 * faceComponents[part]; k += 3) {
       const [a, b, c] = [faces[k], faces[k + 1], faces[k + 2]];
       edges = (edges + hash(a, b) + hash(b, c) + hash(c, a)) | 0;

@@ -33,8 +33,7 @@ export function coloursOf({ colours }, theme) {
 /** 256 colours that lead evenly through those of a map. */
 function stretched(map) {
   return Array.from({ length: 256 }, (_, k) => {
-    const at = (k / 255) * (map.length - 1),
-      below = Math.min(Math.floor(at), map.length - 2);
+    const at = (k / 255) * (map.length - 1), below = Math.min(Math.floor(at), map.length - 2);
     return map[below].map((x, channel) => Math.round(x + (at - below) * (map[below + 1][channel] - x)));
   });
 }

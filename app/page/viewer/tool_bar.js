@@ -3,26 +3,19 @@ import { element, iconButton } from "./elements.js";
 import { counted } from "./numbers.js";
 
 export class ToolBar {
-  /** @param {Object<string, () => void>} acts by the names of the buttons, and `source: (text) => string`: what is wrong */
-  constructor({ title, mesh }, acts, hasAddress) {
+  /** @param {import("./viewer.js").Viewer} viewer */
+  constructor(viewer) {
+    const { title, mesh } = viewer.scene;
     this.box = element("input", { class: "number", inputmode: "numeric", "aria-label": "Source: a vertex" });
     this.wrong = element("span", { class: "wrong", role: "alert" });
-    const form = element(
-      "form",
-      {
-        class: "source",
-        submit: (event) => {
-          event.preventDefault();
-          this.say(acts.source(this.box.value));
-        },
-      },
-      element("span", { class: "quiet", text: "Source", "aria-hidden": true }),
-      this.box,
-      this.wrong,
-    );
-    this.back = iconButton("back", "Source before", acts.back, { class: "bare" });
-    this.forward = iconButton("forward", "Source after", acts.forward, { class: "bare" });
-    this.pins = iconButton("pin", "Pins", acts.pins, { "aria-expanded": "false" });
+    const send = (event) => {
+      event.preventDefault();
+      this.say(viewer.typed(this.box.value, (vertex) => viewer.choose(vertex)));
+    };
+    const name = element("span", { class: "quiet", text: "Source", "aria-hidden": true });
+    this.back = iconButton("back", "Source before", () => viewer.step(-1), { class: "bare" });
+    this.forward = iconButton("forward", "Source after", () => viewer.step(1), { class: "bare" });
+    this.pins = iconButton("pin", "Pins", () => viewer.showPins(), { "aria-expanded": "false" });
     this.element = element(
       "header",
       { class: "tools" },
@@ -33,14 +26,14 @@ export class ToolBar {
       }),
       this.back,
       this.forward,
-      form,
+      element("form", { class: "source", submit: send }, name, this.box, this.wrong),
       element("span", { class: "gap" }),
-      iconButton("home", "Home", acts.home),
+      iconButton("home", "Home", () => viewer.move("home")),
       this.pins,
-      ...(hasAddress ? [iconButton("link", "Copy link", acts.link)] : []),
-      iconButton("picture", "Save picture", acts.picture),
-      iconButton("about", "About", acts.about),
-      iconButton("keys", "Keys", acts.help),
+      ...(viewer.hasAddress ? [iconButton("link", "Copy link", () => viewer.copyLink())] : []),
+      iconButton("picture", "Save picture", () => viewer.savePicture()),
+      iconButton("about", "About", () => viewer.about.showModal()),
+      iconButton("keys", "Keys", () => viewer.help.showModal()),
     );
   }
 

@@ -1,26 +1,19 @@
 /** Distances on a surface in linked panels: what is shown, and what becomes of clicks and keys. */
 import { element } from "./elements.js";
 import { Shape } from "./shape.js";
-import { Camera, FARTHEST } from "./camera.js";
-import { FaceTree } from "./picking.js";
+import { Sight } from "./sight.js";
 import { Stage } from "./stage.js";
 import { ToolBar } from "./tool_bar.js";
-import { PinTable, valueWords } from "./pins.js";
+import { PinTable } from "./pins.js";
+import { Pointing } from "./pointing.js";
 import { fieldNames, panelAnswer, isolineLevels } from "./fields.js";
 import { addGestures } from "./gestures.js";
-import { act } from "./keys.js";
+import { addKeys } from "./keys.js";
 import { aboutBox, helpBox } from "./about.js";
-import { addressOf, readAddress } from "./address.js";
+import { Link } from "./link.js";
 import { savePicture, copyLink } from "./saving.js";
-import { written } from "./numbers.js";
 
-const NOTICED = 150,
-  SPOKEN = 500,
-  ADDRESSED = 400,
-  MOST_VISITED = 200,
-  TURN = 3.5,
-  KEY_ZOOM = 1.15,
-  ROOM_FOR_PINS = 600;
+const NOTICED = 150, MOST_VISITED = 200, ROOM_FOR_PINS = 600;
 
 export class Viewer {
   /**
@@ -35,111 +28,58 @@ export class Viewer {
     this.names = [...new Set(scene.panels.flatMap(fieldNames))];
     this.answers = scene.panels.map(() => null);
     this.levels = scene.panels.map(() => null);
-    this.shape = new Shape(mesh);
     this.source = this.vertices.get(scene.source) ?? 0;
     this.pins = [];
-    this.pointed = this.cursor = null;
     this.visited = [];
     this.at = -1;
-    this.seen = new Map();
+    this.link = new Link(this);
     this.timers = {};
     this.ended = new AbortController();
+    root.dataset.lmSuppressShortcuts = ""; // JupyterLab's, of the keys that views take
+    const shape = new Shape(mesh);
     this.#build();
-    this.#home();
     try {
-      this.stage.start(this.shape);
+      this.stage.start(shape);
     } catch (error) {
       this.say(error.message, true);
       root.replaceChildren(this.notice);
       return;
     }
+    this.sight = new Sight(shape, scene.camera, this.stage.boxes);
     this.#listen();
     this.setPins(scene.pins);
-    if (!hasAddress || !this.#follow(location.hash)) this.#visit(this.source);
-    this.timers.tree = setTimeout(() => this.tree, NOTICED);
+    if (!hasAddress || !this.link.follow()) this.visit(this.source);
+    this.timers.tree = setTimeout(() => this.sight.tree, NOTICED);
   }
 
   #build() {
-    const { scene } = this;
-    this.stage = new Stage(this.root, scene);
-    this.bar = new ToolBar(
-      scene,
-      {
-        source: (text) => this.#typed(text, (vertex) => this.#chosen(vertex)),
-        back: () => this.#step(-1),
-        forward: () => this.#step(1),
-        home: () => {
-          this.#home();
-          this.#addressSoon();
-        },
-        pins: () => this.#showPins(this.table.element.hidden),
-        link: async () => this.#address() || this.say(await copyLink()),
-        picture: () => {
-          savePicture(this.stage.picture(this), scene.title);
-          this.redraw();
-        },
-        about: () => this.about.showModal(),
-        help: () => this.help.showModal(),
-      },
-      this.hasAddress,
-    );
-    this.table = new PinTable(scene.panels, {
-      add: (text) => this.#typed(text, (vertex) => this.#pin(vertex)),
-      rename: (k, name) => this.#changePins(this.pins.map((pin, each) => (each === k ? { ...pin, name } : pin))),
-      remove: (k) => this.#changePins(this.pins.filter((_, each) => each !== k)),
-      choose: (id) => this.#chosen(this.vertices.get(id)),
-    });
+    this.stage = new Stage(this.root, this.scene);
+    this.bar = new ToolBar(this);
+    this.table = new PinTable(this);
+    this.pointing = new Pointing(this);
     this.notice = element("p", { class: "notice", role: "alert", hidden: true });
     this.message = element("span", { role: "status" });
-    this.where = element("span", { class: "where" });
-    this.spoken = element("div", { class: "spoken", "aria-live": "polite" });
-    this.about = aboutBox(scene);
+    this.about = aboutBox(this.scene);
     this.help = helpBox();
-    this.root.replaceChildren(
-      this.bar.element,
-      this.notice,
-      this.stage.element,
-      this.table.element,
-      element("footer", { class: "status" }, this.message, this.where),
-      this.spoken,
-      this.about,
-      this.help,
-    );
+    const { bar, notice, stage, table, message, pointing, about, help } = this;
+    const footer = element("footer", { class: "status" }, message, pointing.where);
+    this.root.replaceChildren(bar.element, notice, stage.element, table.element, footer, pointing.spoken, about, help);
   }
 
   #listen() {
-    const { signal } = this.ended,
-      { stage } = this;
-    stage.dress();
-    const theme = matchMedia("(prefers-color-scheme: dark)");
-    theme.addEventListener(
-      "change",
-      () => {
-        stage.dress();
-        this.redraw();
-      },
-      { signal },
-    );
-    this.resized = new ResizeObserver(() => {
-      stage.fit();
-      this.#frame();
-    });
+    const { signal } = this.ended, { stage, pointing } = this;
+    const listen = (what, name, then) => what.addEventListener(name, then, { signal });
+    listen(matchMedia("(prefers-color-scheme: dark)"), "change", () => this.#dress());
+    this.resized = new ResizeObserver(() => this.#fit());
     this.resized.observe(stage.element);
-    stage.surface.addEventListener("webglcontextlost", (event) => event.preventDefault(), { signal });
-    stage.surface.addEventListener("webglcontextrestored", () => this.#restore(), { signal });
-    if (this.hasAddress) addEventListener("hashchange", () => this.#follow(location.hash), { signal });
+    listen(stage.surface, "webglcontextlost", (event) => event.preventDefault());
+    listen(stage.surface, "webglcontextrestored", () => this.#restore());
+    if (this.hasAddress) listen(window, "hashchange", () => this.link.follow());
     for (const [k, view] of stage.views.entries()) {
       addGestures(view, this.#intents(k), signal);
-      view.addEventListener("keydown", (event) => act(event, this.#keys(k)), { signal });
-      view.addEventListener("focus", () => view.matches(":focus-visible") && this.#moveCursor(k, 0, 0), { signal });
-      view.addEventListener(
-        "blur",
-        () => {
-          this.cursor = null;
-          this.#point(null);
-        },
-        { signal },
-      );
+      addKeys(view, k, this, signal);
+      listen(view, "focus", () => view.matches(":focus-visible") && pointing.move(k, 0, 0));
+      listen(view, "blur", () => pointing.at(null));
     }
   }
 
@@ -147,15 +87,14 @@ export class Viewer {
   /** Show distances from a vertex of the file. */
   setSource(id) {
     const vertex = this.vertices.get(id);
-    if (vertex !== undefined && vertex !== this.source) this.#visit(vertex);
+    if (vertex !== undefined && vertex !== this.source) this.visit(vertex);
   }
 
   /** @param {{id: number, name: string}[]} pins */
   setPins(pins) {
-    this.pins = pins
-      .filter(({ id }) => this.vertices.has(id))
-      .map(({ id, name }) => ({ id, name, vertex: this.vertices.get(id) }));
-    if (this.pins.length && this.root.clientWidth > ROOM_FOR_PINS) this.#showPins(true);
+    const known = pins.filter(({ id }) => this.vertices.has(id));
+    this.pins = known.map(({ id, name }) => ({ id, name, vertex: this.vertices.get(id) }));
+    if (known.length && this.root.clientWidth > ROOM_FOR_PINS) this.showPins(true);
     this.redraw(false);
   }
 
@@ -166,7 +105,7 @@ export class Viewer {
 
   /** A sentence for the user. */
   say(words, isWrong = false) {
-    if (!isWrong) return void (this.message.textContent = words);
+    if (!isWrong) return this.progress(words);
     this.notice.textContent = words;
     this.notice.hidden = false;
   }
@@ -174,7 +113,9 @@ export class Viewer {
   destroy() {
     this.ended.abort();
     this.resized?.disconnect();
-    Object.values(this.timers).forEach(clearTimeout);
+    this.pointing.destroy();
+    this.link.destroy();
+    for (const timer of Object.values(this.timers)) clearTimeout(timer);
     cancelAnimationFrame(this.asked);
     this.stage.drawing?.destroy();
     this.root.replaceChildren();
@@ -182,14 +123,15 @@ export class Viewer {
 
   // ------------------------------------------------------------ source and fields
   /** The user chose a source. */
-  #chosen(vertex, since = performance.now()) {
+  choose(vertex, since) {
     this.notice.hidden = true;
-    this.#visit(vertex, since);
-    this.#addressSoon();
+    this.visit(vertex, since);
+    this.link.writeSoon();
     this.onsource(this.mesh.ids[vertex]);
   }
 
-  #visit(vertex, since) {
+  /** Show distances from a stored vertex. */
+  visit(vertex, since) {
     if (this.visited[this.at] !== vertex) {
       this.visited = [...this.visited.slice(0, this.at + 1), vertex].slice(-MOST_VISITED);
       this.at = this.visited.length - 1;
@@ -197,10 +139,11 @@ export class Viewer {
     this.#compute(vertex, since);
   }
 
-  #step(by) {
+  /** To the source before (-1) or after (1). */
+  step(by) {
     if (!(this.at + by in this.visited)) return;
     this.at += by;
-    this.#chosen(this.visited[this.at]);
+    this.choose(this.visited[this.at]);
   }
 
   async #compute(vertex, since = performance.now()) {
@@ -213,239 +156,96 @@ export class Viewer {
     try {
       const answer = await this.solver.field(vertex, this.names);
       if (!answer || ended.signal.aborted) return;
+      if (this.hasFailed) this.notice.hidden = true;
+      this.hasFailed = false;
       this.#show(answer, since);
     } catch (error) {
       this.hasFailed = true;
       this.say(error.message, true);
     }
-    if (vertex === this.source) {
-      clearTimeout(timers.busy);
-      root.classList.remove("computing");
-    }
+    if (vertex !== this.source) return;
+    clearTimeout(timers.busy);
+    root.classList.remove("computing");
   }
 
   #show({ source, fields, took }, since) {
-    if (this.hasFailed) this.notice.hidden = true;
-    this.hasFailed = false;
     for (const [k, panel] of this.scene.panels.entries()) {
       this.answers[k] = panelAnswer(panel, fields);
-      this.levels[k] = isolineLevels(this.scene.isolines, this.answers[k]);
+      this.levels[k] = isolineLevels(panel.isolines ?? this.scene.isolines, this.answers[k]);
       this.stage.drawing.setAnswer(k, this.answers[k], this.levels[k]);
     }
+    const { length } = this.names, id = this.mesh.ids[source];
+    this.say(`${length} ${length === 1 ? "field" : "fields"} in ${took.toFixed(took < 10 ? 1 : 0)} ms`);
+    // The picture is told of, for those who measure: `since` is the time from the click to it.
+    const detail = () => ({ source: id, took, since: performance.now() - since });
+    this.drawn = () => this.root.dispatchEvent(new CustomEvent("picture", { detail: detail() }));
     this.redraw();
-    const count = this.names.length === 1 ? "1 field" : `${this.names.length} fields`;
-    this.say(`${count} in ${took.toFixed(took < 10 ? 1 : 0)} ms`);
-    this.drawn = () =>
-      this.root.dispatchEvent(
-        new CustomEvent("picture", {
-          detail: { source: this.mesh.ids[source], took, since: performance.now() - since },
-        }),
-      );
   }
 
-  /** Do something with a typed vertex; what is wrong, or "". */
-  #typed(text, then) {
+  /** Do something with a typed vertex. @returns {string} what is wrong, or "" */
+  typed(text, then) {
     const vertex = /^\d{1,10}$/.test(text.trim()) ? this.vertices.get(Number(text)) : undefined;
-    if (vertex !== undefined) return then(vertex) ?? "";
-    let last = 0;
-    for (const id of this.mesh.ids) last = Math.max(last, id);
-    return `No vertex ${text.trim().slice(0, 12) || "without a number"} here: 0 to ${last}`;
+    const last = this.mesh.ids.reduce((most, id) => Math.max(most, id));
+    if (vertex === undefined) return `No vertex ${text.trim().slice(0, 12)} here: 0 to ${last}`;
+    then(vertex);
+    return "";
   }
 
   // ------------------------------------------------------------ pins
-  #pin(vertex) {
+  pin(vertex) {
     if (this.pins.some((pin) => pin.vertex === vertex)) return;
-    this.#changePins([...this.pins, { id: this.mesh.ids[vertex], name: "", vertex }]);
-    this.#showPins(true);
+    this.changePins([...this.pins, { id: this.mesh.ids[vertex], name: "", vertex }]);
+    this.showPins(true);
   }
 
-  #changePins(pins) {
+  changePins(pins) {
     this.pins = pins;
     this.onpins(pins.map(({ id, name }) => ({ id, name })));
-    this.#addressSoon();
+    this.link.writeSoon();
     this.redraw(false);
   }
 
-  #showPins(isShown) {
+  showPins(isShown = this.table.element.hidden) {
     this.table.element.hidden = !isShown;
     this.bar.pins.setAttribute("aria-expanded", String(isShown));
   }
 
   // ------------------------------------------------------------ camera
-  #home() {
-    const { position, focal, ...rest } = this.scene.camera,
-      { shape } = this;
-    const parallel = rest.parallel === null || rest.parallel === undefined ? null : rest.parallel / shape.radius;
-    this.camera = new Camera(
-      { ...rest, position: shape.inward(position), focal: shape.inward(focal), parallel },
-      shape.places,
-    );
-    this.#moved();
-  }
-
-  #moved() {
-    this.seen.clear();
+  /** Change the camera by one of the acts of `Sight`. */
+  move(act, ...given) {
+    this.sight[act](...given);
+    if (!this.pointing.cursor) this.pointing.place = null;
+    this.link.writeSoon();
     this.redraw();
   }
 
-  #aspect(k) {
-    const { width, height } = this.stage.boxes[k];
-    return width / height;
-  }
-
-  /** A place in pixels of a view as -1 … 1. */
-  #inView(k, x, y) {
-    const { width, height } = this.stage.boxes[k];
-    return [(2 * x) / width - 1, 1 - (2 * y) / height];
-  }
-
-  get tree() {
-    return (this.faceTree ??= new FaceTree(this.shape));
-  }
-
-  #hit(k, x, y) {
-    return this.tree.hit(this.camera.ray(...this.#inView(k, x, y), this.#aspect(k)));
-  }
-
-  /** Whether the surface leaves a vertex in sight. */
-  isSeen(vertex) {
-    if (!this.seen.has(vertex)) {
-      const ray = this.camera.rayTo(this.shape.place(vertex)),
-        hit = this.tree.hit(ray);
-      const away = Math.hypot(...this.shape.place(vertex).map((x, axis) => x - ray.origin[axis]));
-      this.seen.set(vertex, !hit || hit.away > away - 0.01);
-    }
-    return this.seen.get(vertex);
-  }
-
-  // ------------------------------------------------------------ gestures and keys
   /** @returns {import("./gestures.js").Intents} */
   #intents(k) {
-    const moved =
-      (change) =>
-      (...given) => {
-        change(...given);
-        this.pointed = null;
-        this.#moved();
-        this.#addressSoon();
-      };
-    const size = () => this.stage.boxes[k];
-    return {
-      hover: (x, y) => {
-        this.cursor = null;
-        this.#point({ panel: k, x, y });
-      },
-      leave: () => this.#point(null),
-      pick: (x, y, since) => this.#pick(k, x, y, since),
-      live: (x, y) => this.#follows(k, x, y),
-      settle: () => this.#chosen(this.source),
-      turn: moved((dx, dy) => this.camera.turn((TURN * dx) / size().height, (TURN * dy) / size().height)),
-      pan: moved((dx, dy) => this.camera.pan((2 * dx) / size().width, (-2 * dy) / size().height, this.#aspect(k))),
-      zoom: moved((factor, x, y) => this.camera.zoom(factor, ...this.#inView(k, x, y), this.#aspect(k))),
-    };
-  }
-
-  #keys(k) {
-    const intents = this.#intents(k),
-      { width, height } = this.stage.boxes[k];
-    const zoom = (factor) => {
-      intents.zoom(factor, width / 2, height / 2);
-      this.#moveCursor(k, 0, 0);
-    };
-    const here = (then) => {
-      if (!this.pointed) this.#moveCursor(k, 0, 0);
-      if (this.pointed) then(this.pointed.vertex);
+    const onSurface = (then) => (x, y, since) => {
+      const hit = this.sight.hit(k, x, y);
+      if (hit) then(hit.vertex, since);
     };
     return {
-      turn: (dx, dy) => {
-        intents.turn(dx, dy);
-        if (this.cursor) this.#moveCursor(k, 0, 0);
-      },
-      cursor: (dx, dy) => this.#moveCursor(k, dx, dy),
-      nearer: () => zoom(KEY_ZOOM),
-      farther: () => zoom(1 / KEY_ZOOM),
-      home: () => this.#home(),
-      source: () => here((vertex) => this.#chosen(vertex)),
-      pin: () => here((vertex) => this.#pin(vertex)),
-      back: () => this.#step(-1),
-      forward: () => this.#step(1),
-      help: () => this.help.showModal(),
+      hover: (x, y) => this.pointing.at({ panel: k, x, y }),
+      leave: () => this.pointing.at(null),
+      pick: onSurface((vertex, since) => this.choose(vertex, since)),
+      live: onSurface((vertex) => vertex !== this.source && this.#compute(vertex)),
+      settle: () => this.choose(this.source),
+      turn: (...by) => this.move("turn", k, ...by),
+      pan: (...by) => this.move("pan", k, ...by),
+      zoom: (...by) => this.move("zoom", k, ...by),
     };
   }
 
-  #pick(k, x, y, since) {
-    const hit = this.#hit(k, x, y);
-    if (hit) this.#chosen(hit.vertex, since);
+  // ------------------------------------------------------------ what leaves the page
+  savePicture() {
+    savePicture(this.stage.picture(this), this.scene.title);
+    this.redraw();
   }
 
-  #follows(k, x, y) {
-    const hit = this.#hit(k, x, y);
-    if (hit && hit.vertex !== this.source) this.#compute(hit.vertex);
-  }
-
-  #moveCursor(k, dx, dy) {
-    const { width, height } = this.stage.boxes[k],
-      { x, y } = this.cursor ?? { x: width / 2, y: height / 2 };
-    this.cursor = { x: Math.min(Math.max(x + dx, 0), width), y: Math.min(Math.max(y + dy, 0), height) };
-    this.#point({ panel: k, ...this.cursor, isCursor: true });
-  }
-
-  /** Show the values at a place of a view. */
-  #point(place) {
-    const hit = place && this.#hit(place.panel, place.x, place.y);
-    this.pointed = hit ? { ...place, vertex: hit.vertex } : null;
-    this.redraw(false);
-    if (hit || place?.isCursor) this.timers.speak ??= setTimeout(() => this.#speak(), SPOKEN);
-  }
-
-  #speak() {
-    delete this.timers.speak;
-    const values = (vertex) =>
-      this.scene.panels.map(({ label }, k) => `${label} ${valueWords(this.answers[k], vertex)}`);
-    this.spoken.textContent = this.pointed
-      ? `Vertex ${this.mesh.ids[this.pointed.vertex]}: ${values(this.pointed.vertex).join("; ")}`
-      : "No surface here.";
-  }
-
-  // ------------------------------------------------------------ address
-  #address() {
-    if (!this.hasAddress) return;
-    const { camera, shape } = this;
-    const numbers = [shape.outward(camera.position), shape.outward(camera.focal), camera.up];
-    try {
-      history.replaceState(
-        null,
-        "",
-        addressOf({ source: this.mesh.ids[this.source], pins: this.pins, camera: numbers }),
-      );
-    } catch {
-      this.hasAddress = false;
-    }
-  }
-
-  #addressSoon() {
-    if (!this.hasAddress) return;
-    clearTimeout(this.timers.address);
-    this.timers.address = setTimeout(() => this.#address(), ADDRESSED);
-  }
-
-  /** Take a camera's position, focal point and way up. @returns {boolean} whether it is anywhere near the surface */
-  #look([position, focal, up]) {
-    const places = [position, focal].map((point) => this.shape.inward(point));
-    if (places.some((place) => Math.hypot(...place) > FARTHEST)) return false;
-    this.camera.look(...places, up);
-    this.#moved();
-    return true;
-  }
-
-  /** Show what an address holds. @returns {boolean} whether it had a source */
-  #follow(hash) {
-    const { source, pins, camera, ignored } = readAddress(hash, (id) => this.vertices.has(id));
-    if (camera) this.#look(camera) || ignored.push("camera");
-    if (pins) this.setPins(pins);
-    if (source !== undefined) this.#visit(this.vertices.get(source));
-    if (ignored.length) this.say(`The link was not understood in part, and left out: ${ignored.join(", ")}.`, true);
-    return source !== undefined;
+  async copyLink() {
+    this.link.write();
+    this.say(await copyLink());
   }
 
   // ------------------------------------------------------------ drawing
@@ -458,31 +258,33 @@ export class Viewer {
   #frame() {
     cancelAnimationFrame(this.asked);
     this.asked = null;
-    const { stage } = this;
-    if (!stage.drawing || !stage.boxes.length || !stage.grid.offsetWidth) return;
-    if (this.stale) stage.draw(this);
+    const { stage, sight, pointing } = this;
+    if (!sight || !stage.boxes.length || !stage.grid.offsetWidth) return;
+    if (this.stale) stage.draw(sight.camera);
     this.stale = false;
     stage.paint(this);
     this.table.show(this.pins, this.answers);
-    this.#showWhere();
+    pointing.show();
     this.drawn?.();
     this.drawn = null;
   }
 
-  #showWhere() {
-    const vertex = this.pointed?.vertex;
-    const place = vertex === undefined ? [] : this.mesh.positions.subarray(3 * vertex, 3 * vertex + 3);
-    this.where.textContent =
-      vertex === undefined
-        ? ""
-        : `vertex ${this.mesh.ids[vertex]}   ${Array.from(place, (x) => written(x)).join("  ")}`;
+  #fit() {
+    if (!this.stage.theme) this.stage.dress(); // not before the root is in a document
+    this.stage.fit();
+    this.stale = true;
+    this.#frame();
+  }
+
+  #dress() {
+    this.stage.dress();
+    this.redraw();
   }
 
   #restore() {
     this.stage.drawing.restore();
-    this.stage.dress();
     for (const [k, answer] of this.answers.entries())
       if (answer) this.stage.drawing.setAnswer(k, answer, this.levels[k]);
-    this.redraw();
+    this.#dress();
   }
 }

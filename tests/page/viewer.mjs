@@ -1,0 +1,79 @@
+// What the viewer's modules make of a question, as JSON: node tests/page/viewer.mjs FOLDER < question > answer
+import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { tmpdir } from "node:os";
+
+// Copies that node takes for modules.
+const folder = mkdtempSync(join(tmpdir(), "viewer-"));
+writeFileSync(join(folder, "package.json"), '{"type": "module"}');
+for (const name of readdirSync(process.argv[2]).filter((name) => name.endsWith(".js")))
+  writeFileSync(join(folder, name), readFileSync(join(process.argv[2], name)));
+const use = (name) => import(join(folder, name));
+
+const shapeOf = async ({ vertices, faces, components }) => {
+  const { Shape } = await use("shape.js"), [positions, corners] = [vertices.flat(), faces.flat()];
+  return new Shape({
+    n: vertices.length, m: faces.length, positions: Float64Array.from(positions), faces: Int32Array.from(corners),
+    faceComponents: Int32Array.from(components ?? [0, faces.length]),
+  });
+};
+
+const answers = {
+  async numbers({ values }) {
+    const { written } = await use("numbers.js");
+    return values.map((value) => written(value));
+  },
+  async ticks({ low, high, most }) {
+    const { roundTicks } = await use("numbers.js");
+    return roundTicks(low, high, most);
+  },
+  async levels({ isolines, own, high, signed }) {
+    const { isolineLevels } = await use("fields.js");
+    return isolineLevels(isolines, { own, high, signed }).values;
+  },
+  async panel({ panel, fields }) {
+    const { panelAnswer } = await use("fields.js");
+    const arrays = Object.entries(fields).map(([name, field]) => [name, Float64Array.from(field, (x) => x ?? NaN)]);
+    const { values, ...rest } = panelAnswer(panel, Object.fromEntries(arrays));
+    return { ...rest, values: Array.from(values, (x) => (Number.isNaN(x) ? null : x)) };
+  },
+  async address({ hash, ids }) {
+    const { readAddress } = await use("address.js");
+    return readAddress(hash, (id) => ids.includes(id));
+  },
+  async written_address({ state }) {
+    const { addressOf } = await use("address.js");
+    return addressOf(state);
+  },
+  async hits({ mesh, rays }) {
+    const { FaceTree } = await use("picking.js"), shape = await shapeOf(mesh), tree = new FaceTree(shape);
+    return rays.map(([origin, direction]) => {
+      const hit = tree.hit({ origin: shape.inward(origin), direction });
+      return hit && { vertex: hit.vertex, point: shape.outward(hit.point) };
+    });
+  },
+  async projected({ mesh, view, aspect, acts }) {
+    const { Sight } = await use("sight.js"), shape = await shapeOf(mesh);
+    const sight = new Sight(shape, view, [{ x: 0, y: 0, width: 100 * aspect, height: 100 }]);
+    for (const [act, ...given] of acts) sight[act](...given);
+    const { view: turned, picture } = sight.camera.matrices(aspect), place = (v) => [...shape.place(v), 1];
+    const times = (m, x) => [0, 1, 2, 3].map((row) => x.reduce((sum, each, k) => sum + m[4 * k + row] * each, 0));
+    return mesh.vertices.map((_, v) => {
+      const clip = times(picture, times(turned, place(v))), [x, y] = sight.placed(0, v), hit = sight.hit(0, x, y);
+      const drawn = clip.slice(0, 3).map((c) => c / clip[3]);
+      return { drawn, placed: [x, y], hit: hit?.vertex ?? null, seen: sight.isSeen(v) };
+    });
+  },
+  async outside({ mesh }) {
+    const { outside } = await use("shape.js");
+    return outside(await shapeOf(mesh));
+  },
+  async colours({ scene, isDark }) {
+    const { coloursOf } = await use("theme.js");
+    return coloursOf(scene, { isDark, canvas: "#16181b" });
+  },
+};
+
+const { question, ...given } = JSON.parse(readFileSync(0, "utf8"));
+process.stdout.write(JSON.stringify(await answers[question](given)));
+rmSync(folder, { recursive: true });
