@@ -34,16 +34,18 @@ BYTES_EACH = 2.6
 """Of the file, for a coordinate of a vertex in eigenpairs."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Page:
     """What a page holds.
 
-    size: bytes of the file.  precision: of coordinates, "24" bits or "float32".  differs: by the names of distances, by
-    how much these differ on the page's mesh from those on the original, as fractions of their maxima, from the source
-    and three vertices far apart.  eigenpairs: how many of them distances took along.
+    surface: the original.  size: bytes of the file.  precision: of coordinates, "24" bits or "float32".  differs: by
+    the names of distances, by how much these differ on the page's mesh from those on the original, as fractions of
+    their maxima, from the source and three vertices far apart.  eigenpairs: how many of them distances took along.
+    notes: sentences on what figures and the window show besides.
     """
 
     path: str
+    surface: Surface
     size: int
     vertices: int
     faces: int
@@ -91,6 +93,7 @@ def write_page(
         temporary.write_bytes(text)
     return Page(
         os.fspath(path),
+        loaded.surface,
         len(text),
         len(mesh.ids),
         len(loaded.surface.faces),
