@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from ..page.options import USUAL, other_names, page_rows
 from .figure_options import add_recipe, chosen_recipe
 from .options import MESH, add_distance, add_output, add_rows, add_sources, count
-from .result import Facts, Result, facts_of
+from .result import Facts, Result
 from .terminal import progress_line, tell, tell_repairs
 
 if TYPE_CHECKING:
@@ -62,7 +62,16 @@ def run(options: argparse.Namespace) -> Result:
     facts: Facts = {
         "meshes": [{"mesh": mesh.path} for mesh in recipe.document.surfaces],
         "outputs": [path],
-        **facts_of(page, "size", "vertices", "faces", "precision", "labels", "source", "differs", "eigenpairs"),
+        "bytes": page.size,
+        "n_vertices": page.vertices,
+        "n_faces": page.faces,
+        "precision": page.precision,
+        "source": page.source,
+        "panels": [{"label": label} for label in page.labels],
+        "distances": [
+            {"distance": str(spec), "difference": page.differs[name], "n_eigenpairs": page.eigenpairs.get(name, 0)}
+            for name, spec in page.fields.items()
+        ],
     }
     return Result(facts)
 

@@ -38,10 +38,10 @@ BYTES_EACH = 2.6
 class Page:
     """What a page holds.
 
-    surface: the original.  size: bytes of the file.  precision: of coordinates, "24" bits or "float32".  differs: by
-    the names of distances, by how much these differ on the page's mesh from those on the original, as fractions of
-    their maxima, from the source and three vertices far apart.  eigenpairs: how many of them distances took along.
-    notes: sentences on what figures and the window show besides.
+    surface: the original.  size: bytes of the file.  precision: of coordinates, "24" bits or "float32".  labels: of the
+    panels.  fields: the distances that it computes, by their names in it.  differs: by how much each differs on the
+    page's mesh from that on the original, as a fraction of its maximum, from the source and three vertices far apart.
+    eigenpairs: how many of them distances took along.  notes: sentences on what figures and the window show besides.
     """
 
     path: str
@@ -52,6 +52,7 @@ class Page:
     precision: str
     labels: tuple[str, ...]
     source: int
+    fields: Mapping[str, Spec]
     differs: Mapping[str, float]
     eigenpairs: Mapping[str, int]
     notes: tuple[str, ...]
@@ -100,6 +101,7 @@ def write_page(
         precision,
         tuple(answer.label for answer in answers),
         contents.source,
+        contents.fields,
         differs,
         {name: each.scales.shape[1] for name, each in points.items()},
         tuple(scene["notes"]),

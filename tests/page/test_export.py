@@ -62,10 +62,10 @@ def test_its_json_has_the_differences(mesh_file, in_folder, capsys):
     assert main(["page", mesh_file(bumpy(300)), "-o", "p.html", "--bits", "float32", "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
     assert facts["outputs"] == ["p.html"]
-    assert facts["precision"] == "float32"
-    assert facts["size"] == Path("p.html").stat().st_size
-    assert set(facts["differs"]) == {"biharmonic", "geodesic"}
-    assert 0 <= max(facts["differs"].values()) < 1e-6
+    assert (facts["precision"], facts["n_vertices"]) == ("float32", 300)
+    assert facts["bytes"] == Path("p.html").stat().st_size
+    assert [each["distance"] for each in facts["distances"]] == ["biharmonic", "geodesic(method=exact)"]
+    assert all(0 <= each["difference"] < 1e-6 for each in facts["distances"])
     assert scene_in("p.html")["mesh"]["bits"] == "float32"
 
 
