@@ -41,11 +41,16 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     add_sources(parser, "where distances start, a row of panels each")
     add_output(parser, files)
     add_distance(parser, PANELS, is_field=True)
-    parser.add_argument("--recipe", metavar="FILE.json", help="draw this again; all other options change it")
+    add_recipe(parser, "draw this again; all other options change it")
+    add_rows(parser, *rows())
+
+
+def add_recipe(parser: argparse.ArgumentParser, what: str) -> None:
+    """Add the options of a recipe, or a session, that is taken instead of a mesh."""
+    parser.add_argument("--recipe", metavar="FILE.json", help=what)
     parser.add_argument(
         "--mesh", dest="other_mesh", metavar="MESH", help="with --recipe: the same of another mesh with these vertices"
     )
-    add_rows(parser, *rows())
 
 
 def chosen_recipe(options: argparse.Namespace) -> "Recipe":

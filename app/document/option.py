@@ -1,6 +1,6 @@
 """What a figure can be told: an option of `bihdist figure`, an argument of `bihdist.figure`, a part of a recipe."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from typing import Any
@@ -71,6 +71,12 @@ class Option:
     def is_switch(self) -> bool:
         """Whether the option has no value: given or not."""
         return self.default is False and self.bare is None
+
+    def is_usual(self, value: Any) -> bool:
+        """Whether an argument is as if it were not given; one without elements is."""
+        if not isinstance(value, str) and (isinstance(value, Mapping | Sequence) or hasattr(value, "__array__")):
+            return len(value) == 0
+        return bool(value == self.default)
 
     def from_text(self, text: str) -> Any:
         """The value that the text behind the option means; ParameterError, or ValueError of a number, for none."""

@@ -23,7 +23,6 @@ from ..document.camera import View
 from ..document.document import Document
 from ..document.file import read_recipe
 from ..document.looks import Colours, Isolines
-from ..document.option import Option
 from ..document.page import Page, Recipe
 from ..document.quantities import Quantity
 from ..session.array_store import ArrayStore, Mesh, comparison_of_arrays, with_beside
@@ -169,7 +168,7 @@ def figure(
     unknown = named.keys() - known.keys() - {"mesh", "distances", "source", "fields", "beside", "progress"}
     if unknown:
         raise TypeError(f"figure() got an unexpected keyword argument {min(unknown)!r}")
-    values = {name: value for name, value in named.items() if name in known and not _is_usual(value, known[name])}
+    values = {name: value for name, value in named.items() if name in known and not known[name].is_usual(value)}
     document, store = comparison_of_arrays(mesh, distances, {} if fields is None else fields, sources)
     columns = len(distances) if several and len(sources) > 1 else None
 
@@ -182,12 +181,6 @@ def figure(
     # What cannot be drawn is refused before the long work.
     figure_of(recipe, surfaces, [Answer(label="")] * len(document.panels))
     return Picture(recipe, surfaces, store, compute(document, surfaces, progress))
-
-
-def _is_usual(value: Any, option: Option) -> bool:
-    if isinstance(value, np.ndarray | Mapping | Sequence) and not isinstance(value, str):
-        return len(value) == 0
-    return bool(value == option.default)
 
 
 def figure_again(recipe: str | os.PathLike[str], progress: Progress | None = None) -> Picture:

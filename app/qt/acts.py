@@ -113,6 +113,8 @@ FILE = (
     Act("figure", "&Export figure…", lambda c: c[Files].export_figure(), ("Ctrl+E",),
         "A figure of what is shown, for a paper or a slide", "export-figure"),
     Act("movie", "Export &movie…", lambda c: c[Files].export_movie(), ("Ctrl+M",)),
+    Act("page", "Export &web page…", lambda c: c[Files].export_page(),
+        tip="An HTML file in which distances are computed anew wherever one clicks, without a network"),
     Act("screenshot", "S&creenshot of the window…", lambda c: c[Files].choose_screenshot(), ("Ctrl+P",)),
     Act("save fields", "Save all &fields…", lambda c: c[FieldFiles].save_all(),
         tip="The values of all panels at the vertices, in one file"),

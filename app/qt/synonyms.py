@@ -14,6 +14,7 @@ SYNONYMS = {
     "save as": "store keep project",
     "figure": "save picture image pdf svg png print paper",
     "movie": "save video animation gif mp4",
+    "page": "save html browser internet interactive share",
     "screenshot": "save picture image grab png",
     "save fields": "export write values distances data npy csv ply vtp",
     "quit": "exit close end",

@@ -22,13 +22,13 @@ def options_of(parser: argparse.ArgumentParser) -> list[str]:
 
 
 def option_table() -> str:
-    """A row for each option that several commands have, and a list of the others; figure and movie are one."""
+    """A row for each option that several commands have, and a list of the others; figure, movie and page are one."""
     known = {word: options_of(parser) for word, parser in commands().items()}
     holders: dict[str, list[str]] = {}
     for word, names in known.items():
         for name in names:
             holders.setdefault(name, []).append(word)
-    shared = [name for name, words in holders.items() if {*words} - {"figure", "movie"} and len(words) > 1]
+    shared = [name for name, words in holders.items() if {*words} - {"figure", "movie", "page"} and len(words) > 1]
     shared.sort(key=lambda name: (-len(holders[name]), name))
     lines = [f"| | {' | '.join(known)} |", f"| --- |{' :-: |' * len(known)}"]
     lines += [f"| `{name}` | {' | '.join('•' if w in holders[name] else ' ' for w in known)} |" for name in shared]

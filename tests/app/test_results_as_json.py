@@ -34,6 +34,7 @@ LINES = {
     "perturb": "perturb a.off --noise 0.1 -o noisy.off --distance biharmonic --sources 3",
     "figure": "figure a.off --sources 3 --distance biharmonic --size 300px --tex -o figure.png",
     "movie": "movie a.off --sources 3 --distance biharmonic --size 200px --frames 2 --workers 1 -o movie.gif",
+    "page": "page a.off --sources 3 --distance biharmonic -o page.html",
     "batch": "batch meshes -o results --do fields --workers 1",
     "paper": "paper -o paper --only fig3 --quick --mesh a.off",
 }

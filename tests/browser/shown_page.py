@@ -55,7 +55,7 @@ class ShownPage:
     def is_hit(self, x: float, y: float) -> bool:
         """Whether the surface is there."""
         ask = f"(() => {{ const v = {VIEW}; return !!v.tree.hit(v.camera.ray(2 * {x} - 1, 1 - 2 * {y}, "
-        box = f"v.stage.boxes[0].width / v.stage.boxes[0].height)); }})()"
+        box = "v.stage.boxes[0].width / v.stage.boxes[0].height)); })()"
         return self.browser.evaluate(ask + box)
 
     def places(self, count: int, seed: int = 0) -> list[tuple[float, float]]:
@@ -83,5 +83,3 @@ class ShownPage:
             assert (np.isnan(field) == np.isnan(expected)).all()
             worst.append(float(np.nanmax(np.abs(field - expected)) / np.nanmax(expected)))
         return worst
-
-

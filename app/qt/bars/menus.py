@@ -115,7 +115,7 @@ class Menus:
         self._fill(file, ["open", self.recent, self.samples, None, "open beside", "close beside", None])
         self._fill(file, ["cut", "put back", None])
         self._fill(file, ["save", "save as", None])
-        self._fill(file, ["save fields", "figure", "movie", "screenshot", None, "quit"])
+        self._fill(file, ["save fields", "figure", "movie", "page", "screenshot", None, "quit"])
         self._fill(edit, ["undo", "redo", None, "copy picture", "copy command", "copy python", None])
         self._fill(edit, ["copy camera", "paste camera", None, "preferences"])
         # What the tool bar's menu shows one below the other has submenus here, so that all is seen on small screens.

@@ -1,9 +1,9 @@
-"""The window's figures: exported, as movies, and copied."""
+"""The window's figures: exported, as movies and web pages, and copied."""
 
 import os
 from dataclasses import replace
 from functools import partial
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from bihdist_core import BihdistError
 from bihdist_core.distances.answers import Answer
@@ -15,10 +15,14 @@ from ..context import Context
 from .copies import copy_line, copy_picture
 from .export_dialog import ExportDialog
 from .exports import Export, Exports
+from .job_dialog import JobDialog
 from .looks_dialog import LooksDialog
 from .movie_dialog import MovieDialog
 
-Dialog = TypeVar("Dialog", bound=LooksDialog)
+if TYPE_CHECKING:
+    from .page_dialog import PageDialog
+
+Dialog = TypeVar("Dialog", bound=JobDialog)
 
 
 def export_figure(context: Context) -> ExportDialog | None:
@@ -29,6 +33,7 @@ def export_figure(context: Context) -> ExportDialog | None:
     given, surfaces, answers = context.session.given, _surfaces(context, recipe), _answers(context, recipe)
     dialog = ExportDialog(recipe, surfaces, given, answers, version(), context[Exports], context.widget)
     dialog.copying.connect(partial(_copy, context))
+    _allow_sharing(dialog, context)
     return _opened(dialog, context)
 
 
@@ -38,7 +43,20 @@ def export_movie(context: Context) -> MovieDialog | None:
     if recipe is None:
         return None
     given, surfaces = context.session.given, _surfaces(context, recipe)
-    return _opened(MovieDialog(recipe, surfaces, given, context[Exports], context.widget), context)
+    dialog = MovieDialog(recipe, surfaces, given, context[Exports], context.widget)
+    _allow_sharing(dialog, context)
+    return _opened(dialog, context)
+
+
+def export_page(context: Context) -> "PageDialog | None":
+    """Open the dialog of a web page of what the window shows; the same."""
+    from .page_dialog import PageDialog
+
+    recipe = _complete_recipe(context)
+    if recipe is None:
+        return None
+    given, surfaces = context.session.given, _surfaces(context, recipe)
+    return _opened(PageDialog(recipe, surfaces, given, context[Exports], context.widget), context)
 
 
 def copy(context: Context, what: str) -> None:
@@ -80,10 +98,12 @@ def _complete_recipe(context: Context) -> Recipe | None:
     return shown_recipe(context)
 
 
-def _opened(dialog: Dialog, context: Context) -> Dialog:
+def _allow_sharing(dialog: LooksDialog, context: Context) -> None:
     answers = [shown.answer for shown in context.session.shown.values()]
     dialog.allow_sharing(len({answer.unit for answer in answers if answer.field is not None}) <= 1)
 
+
+def _opened(dialog: Dialog, context: Context) -> Dialog:
     def announce(export: Export) -> None:
         export.saved.connect(lambda path: context.tell(f"Saved {os.path.basename(path)}"))
         export.failed.connect(lambda sentence: context.fail(f"{os.path.basename(export.path)}: {sentence}"))

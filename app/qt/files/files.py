@@ -17,7 +17,7 @@ from .session_actions import FILES, SessionFile
 
 
 class Files(QtCore.QObject):
-    """Opening by a dialog or by a drop; pictures of the window, figures and movies."""
+    """Opening by a dialog or by a drop; pictures of the window, figures, movies and web pages."""
 
     dropping = QtCore.Signal(bool)  # whether something is held over the window that may be dropped
 
@@ -82,6 +82,12 @@ class Files(QtCore.QObject):
         from .figure_actions import export_movie
 
         export_movie(self._context)
+
+    def export_page(self) -> None:
+        """Open the dialog of web pages."""
+        from .figure_actions import export_page
+
+        export_page(self._context)
 
     def copy(self, what: str) -> None:
         """Copy the figure: "picture", or the line that makes it: "command", "python"."""

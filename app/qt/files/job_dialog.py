@@ -82,10 +82,12 @@ class JobDialog(QtWidgets.QDialog):
         self._sentences: dict[QtWidgets.QWidget, QtWidgets.QLabel] = {}
         self._side = side
         self._fill()
-        self.section("Format")
-        self.kinds = Segments({kind.name: kind.name for kind in self.file_kinds}, "The format of the file")
+        self.kinds = Segments({kind.name: kind.name for kind in self.file_kinds}, "The format of the file", self)
         self.kinds.choose(self.file_kinds[0].name)
-        self.column.addWidget(self.kinds, 0, QtCore.Qt.AlignmentFlag.AlignLeft)
+        self.kinds.setVisible(len(self.file_kinds) > 1)
+        if len(self.file_kinds) > 1:
+            self.section("Format")
+            self.column.addWidget(self.kinds, 0, QtCore.Qt.AlignmentFlag.AlignLeft)
 
     def check(self) -> None:
         """BihdistError, or `WrongBox`, for what stands in the dialog and makes no sense."""

@@ -22,7 +22,7 @@ class Segments(QtWidgets.QWidget):
         row.setSpacing(0)
         self._group = QtWidgets.QButtonGroup(self)
         self.buttons: dict[str, QtWidgets.QPushButton] = {}
-        places = ["first", *["middle"] * (len(choices) - 2), "last"]
+        places = ["first", *["middle"] * (len(choices) - 2), "last"][: len(choices)]
         for place, (text, word) in zip(places, choices.items(), strict=True):
             button = QtWidgets.QPushButton(text, checkable=True, autoDefault=False)
             button.setProperty("segment", place)

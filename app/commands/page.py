@@ -1,0 +1,87 @@
+"""`bihdist page`: an HTML file in which distances are computed anew wherever one clicks."""
+
+import argparse
+from typing import TYPE_CHECKING
+
+from ..page.options import USUAL, other_names, page_rows
+from .figure_options import add_recipe, chosen_recipe
+from .options import MESH, add_distance, add_output, add_rows, add_sources, count
+from .result import Facts, Result
+from .terminal import progress_line, tell, tell_repairs
+
+if TYPE_CHECKING:
+    from ..page.export import Page
+
+WORDS = "a web page that computes distances by itself, from wherever one clicks"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `page` to its parser."""
+    parser.add_argument("mesh", metavar="MESH", nargs="?", help=MESH)
+    add_sources(parser, "the vertex where distances start at first")
+    add_output(parser, "a .html file (default: the mesh's name with .html)", required=False, metavar="OUT.html")
+    add_distance(parser, f"a panel each (default: {','.join(USUAL)})", is_field=True)
+    add_recipe(parser, "the panels of this recipe or session; all other options change it")
+    add_rows(parser, *page_rows())
+    # What else there is of figures means nothing on a page.
+    parser.set_defaults(beside=None, **dict.fromkeys(other_names()))
+    parser.add_argument(
+        "--bits",
+        choices=("24", "float32"),
+        default="24",
+        help="how exactly coordinates are kept: 24 bits of the largest side, or single precision (default: 24)",
+    )
+    parser.add_argument(
+        "--eigenpairs",
+        type=count,
+        default=0,
+        metavar="N",
+        help="allow up to N eigenpairs in the file, which truncated and diffusion distance need (default: none)",
+    )
+
+
+def run(options: argparse.Namespace) -> Result:
+    """Write the page, and print what it holds."""
+    from bihdist_core.formats.mesh_names import mesh_name
+
+    from ..page.export import write_page
+
+    if options.distance is None and options.recipe is None:
+        options.distance = list(USUAL)
+    recipe = chosen_recipe(options)
+    path = options.output or f"{mesh_name(recipe.document.surfaces[0].path)}.html"
+    with progress_line() as progress:
+        page = write_page(recipe, path, precision=options.bits, eigenpairs=options.eigenpairs, progress=progress)
+    tell_repairs(page.surface)
+    for note in page.notes:
+        tell(note)
+    print(f"{path}: {_size(page.size)}, opened by any browser, without a network")
+    kept = "single precision" if page.mesh.precision == "float32" else f"{page.mesh.precision} bits of each coordinate"
+    print(
+        f"{page.surface.name}: {len(page.mesh.ids):,} vertices with {kept}; {'; '.join(page.labels)}; from {page.source}"
+    )
+    print(f"distances equal those on the original mesh within {_differences(page)}")
+    facts: Facts = {
+        "meshes": [{"mesh": mesh.path} for mesh in recipe.document.surfaces],
+        "outputs": [path],
+        "bytes": page.size,
+        "n_vertices": len(page.mesh.ids),
+        "n_faces": len(page.mesh.surface.faces),
+        "precision": page.mesh.precision,
+        "source": page.source,
+        "panels": [{"label": label} for label in page.labels],
+        "distances": [
+            {"distance": str(spec), "difference": page.differs[name], "n_eigenpairs": page.eigenpairs.get(name, 0)}
+            for name, spec in page.fields.items()
+        ],
+    }
+    return Result(facts)
+
+
+def _size(size: int) -> str:
+    return f"{size / 1e6:.1f} MB" if size >= 1e6 else f"{size / 1e3:.0f} kB"
+
+
+def _differences(page: "Page") -> str:
+    each = [f"{name.replace('_', '-')} {share:.1e}" for name, share in page.differs.items()]
+    return f"{max(page.differs.values()):.1e} of the maximum" + (f" ({', '.join(each)})" if len(each) > 1 else "")

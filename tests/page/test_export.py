@@ -1,0 +1,204 @@
+"""Pages by the command and from Python: what the file holds, what is said of it, and what is refused."""
+
+import json
+import re
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import app as bihdist
+from app.document.document import comparison
+from app.document.file import recipe_text
+from app.document.page import Recipe
+from app.document.quantities import quantity
+from app.main import main
+from bihdist_core import BiharmonicDistance, OutputError, ParameterError, Surface
+
+from ..shapes import bumpy, two_pieces
+
+pytest.importorskip("app.page.page")
+export = pytest.importorskip("app.page.export")
+
+
+def scene_in(path):
+    """What a page's file says that it shows."""
+    text = Path(path).read_text(encoding="utf-8")
+    return json.loads(re.search(r'<script type="application/json" id="scene">(.*?)</script>', text, re.S)[1])
+
+
+@pytest.fixture
+def in_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+# ---------------------------------------------------------------------- the command
+def test_the_command_writes_a_page_and_says_what_it_holds(mesh_file, in_folder, capsys):
+    mesh = mesh_file(bumpy(400))
+    options = ["--sources", "7", "--pins", "3,9", "--distance", "biharmonic,biharmonic - commute-time", "--up", "z"]
+    assert main(["page", mesh, "-o", "out.html", *options, "--colours", "ember", "--isolines", "8"]) == 0
+    size = (in_folder / "out.html").stat().st_size
+    said = capsys.readouterr().out
+    assert said.startswith(f"out.html: {size / 1e3:.0f} kB, opened by any browser, without a network\n")
+    assert "mesh.off: 400 vertices with 24 bits of each coordinate; biharmonic, exact; biharmonic" in said
+    assert re.search(r"within \d\.\de-\d\d of the maximum \(biharmonic \d\S*, commute-time \d\S*\)", said)
+    scene = scene_in("out.html")
+    assert scene["source"] == 7
+    assert [pin["id"] for pin in scene["pins"]] == [3, 9]
+    assert [panel["distance"] for panel in scene["panels"]] == ["biharmonic", "difference"]
+    assert scene["isolines"]["count"] == 8
+    assert scene["camera"]["up"] == pytest.approx([0, 0, 1], abs=0.9)
+
+
+def test_without_words_it_is_named_after_the_mesh_and_needs_no_eigenpairs(mesh_file, in_folder, capsys):
+    assert main(["page", mesh_file(bumpy(300), "a shape.off"), "--quiet"]) == 0
+    assert [panel["distance"] for panel in scene_in("a shape.html")["panels"]] == ["biharmonic", "geodesic"]
+
+
+def test_its_json_has_the_differences(mesh_file, in_folder, capsys):
+    assert main(["page", mesh_file(bumpy(300)), "-o", "p.html", "--bits", "float32", "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["outputs"] == ["p.html"]
+    assert (facts["precision"], facts["n_vertices"]) == ("float32", 300)
+    assert facts["bytes"] == Path("p.html").stat().st_size
+    assert [each["distance"] for each in facts["distances"]] == ["biharmonic", "geodesic(method=exact)"]
+    assert all(0 <= each["difference"] < 1e-6 for each in facts["distances"])
+    assert scene_in("p.html")["mesh"]["bits"] == "float32"
+
+
+def test_eigenpairs_are_allowed_in_number_and_their_size_is_said_before(mesh_file, in_folder, capsys):
+    mesh = mesh_file(bumpy(300))
+    assert main(["page", mesh, "-o", "p.html", "--distance", "truncated(k=30)"]) == 2
+    said = capsys.readouterr().err
+    assert "truncated(k=30) needs 30 eigenpairs in the page, some 0.0 MB; allow them with --eigenpairs 30" in said
+    assert not Path("p.html").exists()
+    assert main(["page", mesh, "-o", "p.html", "--distance", "truncated(k=30)", "--eigenpairs", "30"]) == 0
+    text = Path("p.html").read_text()
+    assert 'id="points-truncated"' in text
+    assert scene_in("p.html")["panels"][0]["parameters"] == {"k": 30}
+
+
+def test_a_recipe_is_taken_and_changed(mesh_file, in_folder, capsys):
+    mesh = mesh_file(bumpy(300))
+    document = comparison(mesh, tuple(map(quantity, ("commute-time", "biharmonic"))), (4,))
+    Path("r.json").write_text(recipe_text(Recipe(replace(document, range="shares")), "0"))
+    assert main(["page", "--recipe", "r.json", "-o", "p.html", "--sources", "9"]) == 0
+    scene = scene_in("p.html")
+    assert scene["source"] == 9
+    assert [(panel["distance"], panel["shares"]) for panel in scene["panels"]] == [
+        ("commute_time", True), ("biharmonic", True),
+    ]  # fmt: skip
+
+
+def test_vertices_that_are_cut_out_are_not_on_the_page(mesh_file, in_folder):
+    np.savetxt("mask.txt", np.arange(400) < 390, fmt="%d")
+    assert main(["page", mesh_file(bumpy(400)), "--cut", "mask.txt", "-o", "p.html", "--sources", "0"]) == 0
+    assert scene_in("p.html")["mesh"]["vertices"] < 400
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--distance", "power"], "cannot be on a page that computes"),
+        (["--sources", "1,2"], "start from 2 sources"),
+        (["--sources", "1+2"], "start from 1+2"),
+        (["--distance", "biharmonic", "--method", "heat"], "--method heat is no parameter"),
+        (["--distance", "geodesic", "--method", "heat"], "is not exact"),
+    ],
+)
+def test_what_it_cannot_do_is_a_sentence(mesh_file, in_folder, capsys, options, sentence):
+    assert main(["page", mesh_file(bumpy(200)), "-o", "p.html", *options]) == 2
+    assert sentence in capsys.readouterr().err
+    assert list(Path().glob("*.html")) == []
+
+
+@pytest.mark.parametrize(("path", "words"), [("p.png", "extension '.png'"), ("nowhere/p.html", "nowhere")])
+def test_a_path_that_cannot_be_is_refused_before_the_work(in_folder, capsys, path, words):
+    assert main(["page", "hand", "-o", path]) == 2
+    assert words in capsys.readouterr().err
+
+
+def test_options_of_figures_that_mean_nothing_here_are_refused(mesh_file, in_folder, capsys):
+    with pytest.raises(SystemExit):
+        main(["page", mesh_file(bumpy(200)), "--size", "85mm"])
+    assert "no option --size" in capsys.readouterr().err
+
+
+def test_a_large_mesh_is_refused_with_what_makes_it_smaller(monkeypatch, mesh_file, in_folder, capsys):
+    monkeypatch.setattr(export, "MOST_VERTICES", 100)
+    mesh = mesh_file(bumpy(200))
+    assert main(["page", mesh, "-o", "p.html"]) == 2
+    said = capsys.readouterr().err
+    assert "has 200 vertices, and a page has up to 100; make it smaller with: " in said
+    words = said.split("smaller with: bihdist ")[1].replace("100000", "90").split()
+    assert main(words) == 0
+    assert main(["page", "smaller.ply", "-o", "p.html"]) == 0
+
+
+def test_a_page_that_fails_leaves_what_was_there(mesh_file, in_folder, monkeypatch):
+    Path("p.html").write_text("before")
+
+    def fails(*_):
+        raise OutputError("no room")
+
+    monkeypatch.setattr(export, "page_text", fails)
+    assert main(["page", mesh_file(bumpy(200)), "-o", "p.html"]) == 2
+    assert Path("p.html").read_text() == "before"
+    assert [path.suffix for path in Path().iterdir()].count(".html") == 1
+
+
+# ---------------------------------------------------------------------- Python
+def test_the_function_takes_arrays_and_says_what_the_page_holds(tmp_path):
+    s = bumpy(300)
+    page = bihdist.web_page((s.vertices, s.faces), tmp_path / "p.html", ["commute-time"], 5, pins=[2], isolines=0)
+    assert (page.source, len(page.mesh.ids), len(page.mesh.surface.faces), page.mesh.precision) == (
+        5,
+        300,
+        len(s.faces),
+        "24",
+    )
+    assert page.size == (tmp_path / "p.html").stat().st_size
+    scene = scene_in(tmp_path / "p.html")
+    assert scene["mesh"]["differs"] == page.differs
+    assert scene["isolines"]["count"] == 0
+    assert [pin["id"] for pin in scene["pins"]] == [2]
+
+
+def test_the_function_refuses_as_the_command_does(tmp_path):
+    with pytest.raises(TypeError, match=r"web_page\(\) got an unexpected keyword argument 'size'"):
+        bihdist.web_page("hand", tmp_path / "p.html", size="85mm")
+    with pytest.raises(ParameterError, match="one of 24, float32, not '8'"):
+        bihdist.web_page(bumpy(200), tmp_path / "p.html", ["biharmonic"], precision="8")
+    with pytest.raises(ParameterError, match="eigenpairs in the page"):
+        bihdist.web_page(bumpy(200), tmp_path / "p.html", ["diffusion"])
+
+
+def test_differences_are_those_of_the_rounded_mesh(tmp_path):
+    """Of a mesh that single precision holds there are none but those of renumbering."""
+    s = bumpy(300)
+    single = Surface(s.vertices.astype(np.float32).astype(float), s.faces)
+    assert max(bihdist.web_page(single, tmp_path / "p.html", precision="float32").differs.values()) < 1e-11
+    page = bihdist.web_page(s, tmp_path / "p.html", ["biharmonic"], 0)
+    step = np.ptp(s.vertices, axis=0).max() / (2**24 - 1)
+    low = s.vertices.min(axis=0)
+    rounded = Surface(low + step * np.rint((s.vertices - low) / step), s.faces)
+    a, b = (BiharmonicDistance(each).from_source(0) for each in (s, rounded))
+    assert 0 < np.abs(a - b).max() / a.max() <= page.differs["biharmonic"] * (1 + 1e-6)
+
+
+def test_several_components_and_all_sorts_of_distances(tmp_path):
+    page = bihdist.web_page(two_pieces(), tmp_path / "p.html", ["biharmonic", "truncated(k=2)"], eigenpairs=2)
+    assert page.eigenpairs == {"truncated": 2}
+    assert all(np.isfinite(list(page.differs.values())))
+
+
+def test_names_cannot_end_the_element_that_has_them(mesh_file, in_folder):
+    name = "<!--<script>&.off"
+    mesh = mesh_file(bumpy(200), "m.off")
+    shutil.move(mesh, in_folder / name)
+    assert main(["page", name, "-o", "p.html"]) == 0
+    assert scene_in("p.html")["mesh"]["name"] == name
+    assert "<!--<script>&" not in Path("p.html").read_text()
