@@ -56,18 +56,17 @@ def run(options: argparse.Namespace) -> Result:
     for note in page.notes:
         tell(note)
     print(f"{path}: {_size(page.size)}, opened by any browser, without a network")
-    kept = "single precision" if page.mesh.precision == "float32" else f"{page.mesh.precision} bits of each coordinate"
-    print(
-        f"{page.surface.name}: {len(page.mesh.ids):,} vertices with {kept}; {'; '.join(page.labels)}; from {page.source}"
-    )
+    mesh, count = page.mesh, len(page.mesh.ids)
+    kept = "single precision" if mesh.precision == "float32" else f"{mesh.precision} bits of each coordinate"
+    print(f"{page.surface.name}: {count:,} vertices with {kept}; {'; '.join(page.labels)}; from {page.source}")
     print(f"distances equal those on the original mesh within {_differences(page)}")
     facts: Facts = {
         "meshes": [{"mesh": mesh.path} for mesh in recipe.document.surfaces],
         "outputs": [path],
         "bytes": page.size,
-        "n_vertices": len(page.mesh.ids),
-        "n_faces": len(page.mesh.surface.faces),
-        "precision": page.mesh.precision,
+        "n_vertices": count,
+        "n_faces": len(mesh.surface.faces),
+        "precision": mesh.precision,
         "source": page.source,
         "panels": [{"label": label} for label in page.labels],
         "distances": [

@@ -52,16 +52,17 @@ def test_top_names_are_what_lines_begin_with():
     assert top_names(text) == ["a", "b", "c", "d", "e", "F"]
 
 
-def test_the_joined_script_is_one_that_node_takes():
+@pytest.mark.parametrize("entry", ["main.js", "widget.js"])
+def test_the_joined_script_is_one_that_node_takes(entry):
     if not shutil.which("node"):
         pytest.skip("there is no node")
     said = subprocess.run(
-        ["node", "--check", "--input-type=module", "-"], input=joined("main.js"), capture_output=True, text=True
+        ["node", "--check", "--input-type=module", "-"], input=joined(entry), capture_output=True, text=True
     )
     assert said.returncode == 0, said.stderr
 
 
-def test_every_module_is_in_the_page():
-    text = joined("main.js")
+def test_every_module_is_in_a_page_or_in_the_widget():
+    text = joined("main.js") + joined("widget.js")
     for module in VIEWER.glob("*.js"):
         assert set(top_names(module.read_text(encoding="utf-8"))) <= set(top_names(text)), module.name
