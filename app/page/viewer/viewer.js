@@ -270,13 +270,15 @@ export class Viewer {
   }
 
   #fit() {
-    if (!this.stage.theme) this.stage.dress(); // not before the root is in a document
+    if (!this.root.isConnected) return; // without a style
+    if (!this.stage.theme) this.stage.dress();
     this.stage.fit();
     this.stale = true;
     this.#frame();
   }
 
   #dress() {
+    if (!this.stage.theme) return;
     this.stage.dress();
     this.redraw();
   }
