@@ -12,7 +12,7 @@ from bihdist_core import Laplacian, ParameterError, Surface
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.distances.spectral import SpectralDistance
-from bihdist_core.progress import Progress, part, silent
+from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.page import Recipe
@@ -22,8 +22,10 @@ from ..session.loaded_mesh import LoadedMesh
 from .contents import Contents
 from .page import page_text
 from .points import StoredPoints
-from .scene import scene_of
+from .scene import Json, scene_of
 from .stored_mesh import StoredMesh
+
+FORMATS = (".html",)
 
 MOST_VERTICES = 200_000
 """Of a page: with more, browsers have no memory for the kernel, or people no patience."""
@@ -34,44 +36,46 @@ BYTES_EACH = 2.6
 """Of the file, for a coordinate of a vertex in eigenpairs."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Page:
     """What a page holds.
 
-    surface: the original.  size: bytes of the file.  precision: of coordinates, "24" bits or "float32".  labels: of the
-    panels.  fields: the distances that it computes, by their names in it.  differs: by how much each differs on the
-    page's mesh from that on the original, as a fraction of its maximum, from the source and three vertices far apart.
-    eigenpairs: how many of them distances took along.  notes: sentences on what figures and the window show besides.
+    differs: by the names of distances, by how much these differ on the page's mesh from those on the original, as
+    fractions of their maxima, from the source and three vertices far apart.
     """
 
-    path: str
-    surface: Surface
-    size: int
-    vertices: int
-    faces: int
-    precision: str
+    scene: Json
+    mesh: StoredMesh
+    points: Mapping[str, StoredPoints]
     labels: tuple[str, ...]
-    source: int
-    fields: Mapping[str, Spec]
     differs: Mapping[str, float]
-    eigenpairs: Mapping[str, int]
-    notes: tuple[str, ...]
+
+    @property
+    def eigenpairs(self) -> dict[str, int]:
+        """How many of them distances took along, by the names of these."""
+        return {name: each.scales.shape[1] for name, each in self.points.items()}
+
+    def write(self, path: str | os.PathLike[str]) -> int:
+        """Into a .html file, all or nothing; how many bytes these are.  OutputError."""
+        check_output(path, FORMATS)
+        text = page_text(self.scene, self.mesh, self.points).encode()
+        with whole_file(path) as temporary:
+            temporary.write_bytes(text)
+        return len(text)
 
 
-def write_page(
+def page_of(
     recipe: Recipe,
-    path: str | os.PathLike[str],
     given: ArrayStore | None = None,
     precision: str = "24",
     eigenpairs: int = 0,
     progress: Progress | None = None,
 ) -> Page:
-    """Read, compute, and write the page, all or nothing.
+    """Read and compute what a page of a recipe holds.
 
-    eigenpairs: up to so many may go into the file for each distance that needs them.  ParameterError for what a page
-    cannot show, a mesh of more than MOST_VERTICES vertices, and eigenpairs beyond those allowed; OutputError.
+    eigenpairs: up to so many may go along for each distance that needs them.  ParameterError for what a page cannot
+    show, a mesh of more than MOST_VERTICES vertices, and eigenpairs beyond those allowed.
     """
-    check_output(path, (".html",))
     Contents.of(recipe.document)  # before a mesh is read
     document, surfaces = open_document(recipe, given or ArrayStore.read(recipe))
     contents = Contents.of(document)
@@ -82,30 +86,13 @@ def write_page(
     answers = compute(contents.document, surfaces, part(progress, 0.3, 0.5))
     mesh = StoredMesh.of(loaded.surface, precision)
     distances = Distances(Laplacian(mesh.surface, document.areas))
-    differs = _differences(contents, loaded, mesh, distances, part(progress, 0.5, 0.9))
+    differs = _differences(contents, loaded, mesh, distances, part(progress, 0.5, 1))
     points = {name: StoredPoints.of(_spectral(distances, spec)) for name, spec in contents.by_eigenpairs.items()}
     for name, each in points.items():
         differs[name] += each.error / max(_maximum(loaded, document.areas, contents, name), 1e-300)
-    (progress or silent)(0.9, "writing the page")
     stored = {"bits": 24 if precision == "24" else precision, "differs": differs}
     scene = scene_of(recipe, contents, surfaces, answers, stored)
-    text = page_text(scene, mesh, points).encode()
-    with whole_file(path) as temporary:
-        temporary.write_bytes(text)
-    return Page(
-        os.fspath(path),
-        loaded.surface,
-        len(text),
-        len(mesh.ids),
-        len(loaded.surface.faces),
-        precision,
-        tuple(answer.label for answer in answers),
-        contents.source,
-        contents.fields,
-        differs,
-        {name: each.scales.shape[1] for name, each in points.items()},
-        tuple(scene["notes"]),
-    )
+    return Page(scene, mesh, points, tuple(answer.label for answer in answers), differs)
 
 
 def check_size(surface: Surface, path: str = "") -> None:
@@ -173,3 +160,17 @@ def _spectral(distances: Distances, spec: Spec, progress: Progress | None = None
     distance = distances.get(spec, progress)
     assert isinstance(distance, SpectralDistance)
     return distance
+
+
+def write_page(
+    recipe: Recipe,
+    path: str | os.PathLike[str],
+    given: ArrayStore | None = None,
+    precision: str = "24",
+    eigenpairs: int = 0,
+    progress: Progress | None = None,
+) -> tuple[Page, int]:
+    """Make a page and write it, see `page_of`; the page, and how many bytes its file has.  OutputError."""
+    check_output(path, FORMATS)
+    page = page_of(recipe, given, precision, eigenpairs, progress)
+    return page, page.write(path)
