@@ -7,7 +7,7 @@ from ..page.options import USUAL, other_names, page_rows
 from .figure_options import add_recipe, chosen_recipe
 from .options import MESH, add_distance, add_output, add_rows, add_sources, count
 from .result import Facts, Result
-from .terminal import progress_line, tell, tell_repairs
+from .terminal import progress_line, tell
 
 if TYPE_CHECKING:
     from ..page.export import Page
@@ -44,6 +44,7 @@ def run(options: argparse.Namespace) -> Result:
     """Write the page, and print what it holds."""
     from bihdist_core.formats.mesh_names import mesh_name
 
+    from ..page.contents import Contents
     from ..page.export import write_page
 
     if options.distance is None and options.recipe is None:
@@ -51,28 +52,28 @@ def run(options: argparse.Namespace) -> Result:
     recipe = chosen_recipe(options)
     path = options.output or f"{mesh_name(recipe.document.surfaces[0].path)}.html"
     with progress_line() as progress:
-        page = write_page(recipe, path, precision=options.bits, eigenpairs=options.eigenpairs, progress=progress)
-    tell_repairs(page.surface)
-    for note in page.notes:
+        page, size = write_page(recipe, path, precision=options.bits, eigenpairs=options.eigenpairs, progress=progress)
+    for note in page.scene["notes"]:
         tell(note)
-    print(f"{path}: {_size(page.size)}, opened by any browser, without a network")
-    mesh, count = page.mesh, len(page.mesh.ids)
-    kept = "single precision" if mesh.precision == "float32" else f"{mesh.precision} bits of each coordinate"
-    print(f"{page.surface.name}: {count:,} vertices with {kept}; {'; '.join(page.labels)}; from {page.source}")
+    mesh, source = page.scene["mesh"], page.scene["source"]
+    kept = "single precision" if options.bits == "float32" else f"{options.bits} bits of each coordinate"
+    print(f"{path}: {_size(size)}, opened by any browser, without a network")
+    print(f"{mesh['name']}: {mesh['vertices']:,} vertices with {kept}; {'; '.join(page.labels)}; from {source}")
     print(f"distances equal those on the original mesh within {_differences(page)}")
+    distances = [
+        {"distance": str(spec), "difference": page.differs[name], "n_eigenpairs": page.eigenpairs.get(name, 0)}
+        for name, spec in Contents.of(recipe.document).fields.items()
+    ]
     facts: Facts = {
-        "meshes": [{"mesh": mesh.path} for mesh in recipe.document.surfaces],
+        "meshes": [{"mesh": each.path} for each in recipe.document.surfaces],
         "outputs": [path],
-        "bytes": page.size,
-        "n_vertices": count,
-        "n_faces": len(mesh.surface.faces),
-        "precision": mesh.precision,
-        "source": page.source,
+        "bytes": size,
+        "n_vertices": mesh["vertices"],
+        "n_faces": mesh["faces"],
+        "precision": options.bits,
+        "source": source,
         "panels": [{"label": label} for label in page.labels],
-        "distances": [
-            {"distance": str(spec), "difference": page.differs[name], "n_eigenpairs": page.eigenpairs.get(name, 0)}
-            for name, spec in page.fields.items()
-        ],
+        "distances": distances,
     }
     return Result(facts)
 

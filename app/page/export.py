@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -37,68 +36,32 @@ BYTES_EACH = 2.6
 """Of the file, for a coordinate of a vertex in eigenpairs."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Page:
     """What a page holds.
 
-    surface: the original; mesh: what the page has of it.  points: by the names of the distances that have them.
-    labels: of the panels.  fields: the distances that it computes, by their names in it.  differs: by how much each
-    differs on the page's mesh from that on the original, as a fraction of its maximum, from the source and three
-    vertices far apart.
+    differs: by the names of distances, by how much these differ on the page's mesh from those on the original, as
+    fractions of their maxima, from the source and three vertices far apart.
     """
 
-    surface: Surface
+    scene: Json
     mesh: StoredMesh
     points: Mapping[str, StoredPoints]
-    scene: Json
     labels: tuple[str, ...]
-    fields: Mapping[str, Spec]
     differs: Mapping[str, float]
-
-    def __repr__(self) -> str:
-        return f"Page({', '.join(self.labels)}, of {self.surface.name}, {self.size / 1e3:.0f} kB)"
-
-    @property
-    def source(self) -> int:
-        """The vertex from which its distances start at first."""
-        source: int = self.scene["source"]
-        return source
 
     @property
     def eigenpairs(self) -> dict[str, int]:
         """How many of them distances took along, by the names of these."""
         return {name: each.scales.shape[1] for name, each in self.points.items()}
 
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """Sentences on what figures and the window show besides."""
-        return tuple(self.scene["notes"])
-
-    @cached_property
-    def content(self) -> bytes:
-        """The file."""
-        return page_text(self.scene, self.mesh, self.points).encode()
-
-    @property
-    def size(self) -> int:
-        """Bytes of the file."""
-        return len(self.content)
-
-
-def write_page(
-    recipe: Recipe,
-    path: str | os.PathLike[str],
-    given: ArrayStore | None = None,
-    precision: str = "24",
-    eigenpairs: int = 0,
-    progress: Progress | None = None,
-) -> Page:
-    """Write what `page_of` makes of a recipe into a .html file, all or nothing; OutputError besides its errors."""
-    check_output(path, FORMATS)
-    page = page_of(recipe, given, precision, eigenpairs, progress)
-    with whole_file(path) as temporary:
-        temporary.write_bytes(page.content)
-    return page
+    def write(self, path: str | os.PathLike[str]) -> int:
+        """Into a .html file, all or nothing; how many bytes these are.  OutputError."""
+        check_output(path, FORMATS)
+        text = page_text(self.scene, self.mesh, self.points).encode()
+        with whole_file(path) as temporary:
+            temporary.write_bytes(text)
+        return len(text)
 
 
 def page_of(
@@ -129,8 +92,7 @@ def page_of(
         differs[name] += each.error / max(_maximum(loaded, document.areas, contents, name), 1e-300)
     stored = {"bits": 24 if precision == "24" else precision, "differs": differs}
     scene = scene_of(recipe, contents, surfaces, answers, stored)
-    labels = tuple(answer.label for answer in answers)
-    return Page(loaded.surface, mesh, points, scene, labels, contents.fields, differs)
+    return Page(scene, mesh, points, tuple(answer.label for answer in answers), differs)
 
 
 def check_size(surface: Surface, path: str = "") -> None:
@@ -198,3 +160,17 @@ def _spectral(distances: Distances, spec: Spec, progress: Progress | None = None
     distance = distances.get(spec, progress)
     assert isinstance(distance, SpectralDistance)
     return distance
+
+
+def write_page(
+    recipe: Recipe,
+    path: str | os.PathLike[str],
+    given: ArrayStore | None = None,
+    precision: str = "24",
+    eigenpairs: int = 0,
+    progress: Progress | None = None,
+) -> tuple[Page, int]:
+    """Make a page and write it, see `page_of`; the page, and how many bytes its file has.  OutputError."""
+    check_output(path, FORMATS)
+    page = page_of(recipe, given, precision, eigenpairs, progress)
+    return page, page.write(path)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from bihdist_core import ParameterError, Surface
+from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
 
@@ -78,10 +79,16 @@ def scene_of(
         "colours": _colours(recipe.page.style, document.colours),
         "isolines": {**_isolines(first), "colour": _bytes(style.isoline), "width": style.isoline_width},
         "areas": document.areas,
-        "notes": [*notes_on(document, len(figure.panels[0].views)), *notes],
+        "notes": [*_of_surface(surface), *notes_on(document, len(figure.panels[0].views)), *notes],
     }
     _check_numbers(scene, "the scene")
     return scene
+
+
+def _of_surface(surface: Surface) -> list[str]:
+    """What was done to the mesh on reading, and what is to be minded about it."""
+    found = surface_notes(surface)
+    return [f"{_text(surface.name)}: {text}" for text in (*found.repairs, *found.warnings)]
 
 
 def _panel(contents: Contents, panel: Panel, figure: Figure, k: int, answer: Answer, usual: FigurePanel) -> Json:

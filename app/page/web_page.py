@@ -34,14 +34,16 @@ def web_page(
     the highest if None.  precision: how exactly coordinates are kept, "24" bits of the largest side or "float32".
     eigenpairs: up to so many may go into the file for each truncated or diffusion distance.  options: those of
     `figure` that mean something here, such as `areas`, `cut`, `merge`, `isolines`, `views`, `camera`, `up`,
-    `projection`, `colours`, `range` and `pins`.  Returns what the page holds and by how much its distances differ from
-    those on the mesh itself.  Raises BihdistError, as the command says its sentences.
+    `projection`, `colours`, `range` and `pins`.  Returns what the page holds; `differs` is by how much its
+    distances differ from those on the mesh itself.  Raises BihdistError, as the command says its sentences.
 
     >>> import bihdist, os, tempfile
     >>> path = os.path.join(tempfile.mkdtemp(), "hand.html")
     >>> page = bihdist.web_page("hand", path, ["biharmonic", "biharmonic - geodesic"], source=12)
-    >>> page.source, len(page.mesh.ids), max(page.differs.values()) < 1e-6
-    (12, 7569, True)
+    >>> page.labels
+    ('biharmonic, exact', 'biharmonic, exact − geodesic, exact')
+    >>> max(page.differs.values()) < 1e-6
+    True
     """
     known = {option.name: option for row in page_rows() for option in row.options}
     if unknown := options.keys() - known.keys():
@@ -49,4 +51,5 @@ def web_page(
     document, store = comparison_of_arrays(mesh, distances, {}, (source,))
     values = {name: value for name, value in options.items() if not known[name].is_usual(value)}
     recipe = with_options(Recipe(document), values, progress=progress)
-    return write_page(recipe, path, store, precision, eigenpairs, progress)
+    page, _ = write_page(recipe, path, store, precision, eigenpairs, progress)
+    return page

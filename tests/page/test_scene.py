@@ -25,7 +25,7 @@ from bihdist_core import ParameterError, Surface
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import SourceSet, SurfacePoint
 
-from ..shapes import bumpy
+from ..shapes import bumpy, two_pieces
 
 SHOWN = ("biharmonic", "commute-time", "biharmonic - geodesic")
 
@@ -255,6 +255,12 @@ def test_what_the_page_leaves_out_is_said(scene):
         "the first."
     )
     assert scene()["notes"] == []
+
+
+def test_what_is_to_be_minded_of_the_mesh_is_said(scene):
+    (note,) = scene(("biharmonic",), surface=two_pieces(), source=0)["notes"]
+    assert note.startswith("mesh.off: ")
+    assert "2 components" in note
 
 
 def test_names_of_files_are_plain_text(scene):
