@@ -1,0 +1,57 @@
+"""The widget in a browser, with a model that stands for that of a notebook."""
+
+import json
+from base64 import b64encode
+
+from app.page.widget import widget
+from tests.shapes import bumpy
+
+HOST = """<!doctype html><meta charset="utf-8"><div id="one"></div><div id="other"></div>
+<script type="module">ESM
+const traits = TRAITS;
+const bytes = (text) => new DataView(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
+traits.contents.kernel = bytes(traits.contents.kernel), traits.contents.mesh = bytes(traits.contents.mesh);
+class Model {
+  constructor(values) { Object.assign(this, { values, heard: {}, sent: [], saved: 0 }); }
+  get(name) { return this.values[name]; }
+  set(name, value) { this.values[name] = value, this.heard["change:" + name]?.forEach((act) => act()); }
+  save_changes() { this.saved++; }
+  send(content) { this.sent.push(content); }
+  on(event, act) { (this.heard[event] ??= new Set()).add(act); }
+  off(event, act) { this.heard[event].delete(act); }
+}
+window.model = new Model(traits);
+window.ends = [];
+for (const id of ["one", "other"]) window.ends.push(await widget.render({ model, el: document.getElementById(id) }));
+</script>"""
+VIEWERS = "[...document.querySelectorAll('.bihdist')].map(root => root.viewer)"
+
+
+def test_source_and_pins_go_both_ways_between_places_and_model(browser, tmp_path):
+    made = widget(bumpy(300), ["biharmonic"], source=12)
+    contents = {name: b64encode(made.contents[name]).decode() for name in ("kernel", "mesh")}
+    traits = {"contents": {**contents, "points": {}}, "scene": made.scene, "source": 12, "pins": []}
+    esm = made._esm.replace("export default { render };", "const widget = { render };")
+    host = tmp_path / "host.html"
+    host.write_text(HOST.replace("ESM", esm).replace("TRAITS", json.dumps(traits)), encoding="utf-8")
+    browser.open(host)
+    browser.until("window.ends.length === 2 && document.querySelectorAll('.bihdist canvas').length === 2", 120)
+    shown = "[...document.querySelectorAll('.bihdist input')].map(each => each.value)"
+    browser.until(f"{shown}.filter(value => value === '12').length === 2")
+    # Python's side sets the source: both places show it, and no click is told.
+    browser.evaluate("model.set('source', 99)")
+    browser.until(f"{shown}.filter(value => value === '99').length === 2")
+    assert browser.evaluate("model.sent") == []
+    # A click in one place goes to the model, and from there to the other.
+    box = browser.evaluate("document.querySelector('#one canvas').getBoundingClientRect().toJSON()")
+    browser.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    browser.until("model.sent.length === 1")
+    picked = browser.evaluate("model.sent[0].picked")
+    assert picked not in (12, 99)
+    assert browser.evaluate("[model.get('source'), model.saved > 0]") == [picked, True]
+    browser.until(f"{shown}.filter(value => value === '{picked}').length === 2")
+    # Places that are gone leave nothing behind.
+    browser.evaluate("window.ends.forEach(end => end())")
+    assert browser.evaluate("Object.values(model.heard).every(each => each.size === 0)")
+    assert browser.evaluate("document.querySelectorAll('canvas').length") == 0
+    assert browser.errors == []

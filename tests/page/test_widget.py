@@ -1,0 +1,78 @@
+"""The widget's side in Python."""
+
+import builtins
+import sys
+
+import numpy as np
+import pytest
+import traitlets
+
+from app.page.widget import DistanceWidget, widget
+from bihdist_core import ParameterError
+from tests.shapes import bumpy, two_pieces
+
+
+@pytest.fixture(scope="module")
+def made():
+    return widget(bumpy(200), ["biharmonic", "geodesic"], source=12, pins=[5, {"id": 7, "name": "tip"}])
+
+
+def test_a_widget_holds_what_a_page_does(made):
+    assert [panel["distance"] for panel in made.scene["panels"]] == ["biharmonic", "geodesic"]
+    assert made.source == 12
+    assert made.pins == [{"id": 5, "name": ""}, {"id": 7, "name": "tip"}]
+    assert {*made.contents} == {"kernel", "mesh", "points"}
+    assert made._esm.endswith("export default { render };\n")
+
+
+@pytest.mark.parametrize("source", [200, -1, "12", True, 1.5])
+def test_a_source_is_a_vertex_of_a_face(made, source):
+    with pytest.raises(traitlets.TraitError):
+        made.source = source
+    assert made.source == 12
+
+
+def test_pins_are_vertices_of_faces(made):
+    before = list(made.pins)
+    for pins in ([200], [{"name": "without"}], [{"id": None}]):
+        with pytest.raises(traitlets.TraitError, match=r"Pin 1 is .* no vertex that a face has"):
+            made.pins = pins
+    assert made.pins == before
+    with pytest.raises(traitlets.TraitError, match="60"):
+        widget(two_pieces(), ["biharmonic"], source=0, pins=[60])
+
+
+def test_linked_widgets_have_one_source():
+    one, other = (widget(bumpy(200), [each], source=0) for each in ("biharmonic", "commute-time"))
+    traitlets.link((one, "source"), (other, "source"))
+    other.source = np.int64(7)
+    assert one.source == 7
+
+
+def test_a_click_in_a_panel_is_told_and_nothing_else():
+    picked = []
+    made = widget(bumpy(200), ["biharmonic"], source=0, on_pick=picked.append)
+    made.source = 3
+    made._handle_custom_msg({"picked": 9}, [])
+    assert picked == [9]
+
+
+def test_eigenpairs_go_along_where_they_are_allowed():
+    with pytest.raises(ParameterError, match="eigenpairs=5"):
+        widget(bumpy(200), ["truncated(k=5)"], source=0)
+    made = widget(bumpy(200), ["truncated(k=5)"], source=0, eigenpairs=5)
+    assert {*made.contents["points"]} == {"truncated"}
+
+
+def test_without_anywidget_there_is_a_sentence(monkeypatch):
+    real = builtins.__import__
+
+    def missing(name, *arguments):
+        if name == "anywidget":
+            raise ImportError(name)
+        return real(name, *arguments)
+
+    monkeypatch.setattr(builtins, "__import__", missing)
+    monkeypatch.delitem(sys.modules, DistanceWidget.__module__)
+    with pytest.raises(ParameterError, match=r"pip install 'bihdist\[widget\]'"):
+        import app.page.widget  # noqa: F401
