@@ -44,10 +44,6 @@ export class Camera {
     return plus(this.focal, this.back, this.distance);
   }
 
-  copy() {
-    return Object.assign(Object.create(Camera.prototype), this);
-  }
-
   slope(aspect) {
     return Math.max(this.extent[1], this.extent[0] / aspect);
   }

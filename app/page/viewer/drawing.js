@@ -13,7 +13,7 @@ export class Drawing {
     const gl = (this.gl = canvas.getContext("webgl2", { antialias: !this.isSoftware, alpha: false }));
     if (!gl)
       throw new Error(
-        "This browser has no WebGL 2, which the surface is drawn with. Switch on hardware acceleration, or try another browser.",
+        "This browser has no WebGL 2, which draws the surface. Switch on hardware acceleration, or try another.",
       );
     this.#prepare(panels);
   }

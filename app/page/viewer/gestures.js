@@ -1,6 +1,6 @@
 /** What mouse and fingers mean in a view. */
 
-const STILL = 4, WHEEL = 0.0015;
+const STILL = { mouse: 4, pen: 4, touch: 10 }, WHEEL = 0.0015;
 
 /**
  * @typedef {object} Intents places are in pixels from the view's upper left corner
@@ -37,7 +37,7 @@ export function addGestures(view, intents, signal) {
   listen("pointermove", (event) => {
     const [x, y] = place(event), before = fingers.get(event.pointerId);
     if (!before) return event.pointerType === "mouse" && intents.hover(x, y);
-    if (!moved && Math.hypot(x - start[0], y - start[1]) < STILL) return;
+    if (!moved && Math.hypot(x - start[0], y - start[1]) < STILL[event.pointerType]) return;
     if (fingers.size === 2) pinch(event.pointerId, [x, y]);
     else if (mode === "live") intents.live(x, y);
     else intents[mode](x - (moved ? before[0] : start[0]), y - (moved ? before[1] : start[1]));
@@ -55,7 +55,7 @@ export function addGestures(view, intents, signal) {
 
   listen("pointerup", (event) => {
     if (!fingers.delete(event.pointerId) || fingers.size) return;
-    if (!moved && mode !== "pan") intents.pick(...place(event), event.timeStamp);
+    if (!moved && mode !== "pan") intents.pick(...start, event.timeStamp);
     else if (mode === "live") intents.settle();
   });
   listen("pointercancel", (event) => fingers.delete(event.pointerId));
