@@ -45,16 +45,16 @@ class ShownPage:
     def __init__(self, browser: Browser, page: Page, path: Path) -> None:
         self.browser, self.page = browser, page
         browser.open(path)
-        browser.until(f"{VIEW}?.answers.every(Boolean)", 240)
+        browser.until(f"{VIEW}?.answers.every(Boolean)", 100)
         self.distances = Distances(Laplacian(page.mesh.surface))
 
     def click(self, x: float, y: float) -> dict:
         """Click at shares of the first panel's sides; what the page says of the picture then, which is waited for."""
-        return self.browser.evaluate(f"{CLICK}([{x}, {y}])", 240)
+        return self.browser.evaluate(f"{CLICK}([{x}, {y}])", 100)
 
     def is_hit(self, x: float, y: float) -> bool:
         """Whether the surface is there."""
-        ask = f"(() => {{ const v = {VIEW}; return !!v.tree.hit(v.camera.ray(2 * {x} - 1, 1 - 2 * {y}, "
+        ask = f"(() => {{ const v = {VIEW}; return !!v.sight.tree.hit(v.sight.camera.ray(2 * {x} - 1, 1 - 2 * {y}, "
         box = "v.stage.boxes[0].width / v.stage.boxes[0].height)); })()"
         return self.browser.evaluate(ask + box)
 
