@@ -45,7 +45,7 @@ def run(options: argparse.Namespace) -> Result:
     from bihdist_core.formats.mesh_names import mesh_name
 
     from ..page.contents import Contents
-    from ..page.export import write_page
+    from ..page.export import size_words, write_page
 
     if options.distance is None and options.recipe is None:
         options.distance = list(USUAL)
@@ -57,7 +57,7 @@ def run(options: argparse.Namespace) -> Result:
         tell(note)
     mesh, source = page.scene["mesh"], page.scene["source"]
     kept = "single precision" if options.bits == "float32" else f"{options.bits} bits of each coordinate"
-    print(f"{path}: {_size(size)}, opened by any browser, without a network")
+    print(f"{path}: {size_words(size)}, opened by any browser, without a network")
     print(f"{mesh['name']}: {mesh['vertices']:,} vertices with {kept}; {'; '.join(page.labels)}; from {source}")
     print(f"distances equal those on the original mesh within {_differences(page)}")
     distances = [
@@ -76,10 +76,6 @@ def run(options: argparse.Namespace) -> Result:
         "distances": distances,
     }
     return Result(facts)
-
-
-def _size(size: int) -> str:
-    return f"{size / 1e6:.1f} MB" if size >= 1e6 else f"{size / 1e3:.0f} kB"
 
 
 def _differences(page: "Page") -> str:

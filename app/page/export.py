@@ -125,7 +125,7 @@ def _check_eigenpairs(contents: Contents, loaded: LoadedMesh, allowed: int, prog
         if needed > allowed:
             raise ParameterError(
                 f"{contents.fields[name]} needs {needed:,} eigenpairs in the page, some "
-                f"{eigenpair_bytes(needed, count) / 1e6:.1f} MB; allow them with --eigenpairs {needed} (in Python "
+                f"{size_words(eigenpair_bytes(needed, count))}; allow them with --eigenpairs {needed} (in Python "
                 f"eigenpairs={needed}), or leave it out."
             )
 
@@ -174,3 +174,8 @@ def write_page(
     check_output(path, FORMATS)
     page = page_of(recipe, given, precision, eigenpairs, progress)
     return page, page.write(path)
+
+
+def size_words(size: int) -> str:
+    """How large a file of so many bytes is: "241 kB", "1.2 MB"."""
+    return f"{size / 1e6:.1f} MB" if size >= 1e6 else f"{size / 1e3:.0f} kB"

@@ -73,7 +73,7 @@ def test_eigenpairs_are_allowed_in_number_and_their_size_is_said_before(mesh_fil
     mesh = mesh_file(bumpy(300))
     assert main(["page", mesh, "-o", "p.html", "--distance", "truncated(k=30)"]) == 2
     said = capsys.readouterr().err
-    assert "truncated(k=30) needs 30 eigenpairs in the page, some 0.0 MB; allow them with --eigenpairs 30" in said
+    assert "truncated(k=30) needs 30 eigenpairs in the page, some 23 kB; allow them with --eigenpairs 30" in said
     assert not Path("p.html").exists()
     assert main(["page", mesh, "-o", "p.html", "--distance", "truncated(k=30)", "--eigenpairs", "30"]) == 0
     text = Path("p.html").read_text()

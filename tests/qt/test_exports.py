@@ -434,7 +434,7 @@ def test_the_size_of_eigenpairs_is_said_before_a_page_is_written(small, out, pag
     _show(small, replace(document, panels=(replace(document.panels[0], shows=quantity("truncated(k=20)")),)))
     dialog = page_dialog()
     assert dialog.carried.isVisibleTo(dialog)
-    assert dialog.carried.text() == "20 eigenpairs in the file, some 0.0 MB"
+    assert dialog.carried.text() == "20 eigenpairs in the file, some 10 kB"
     dialog.export(str(out / "p.html"))
     small.until(lambda: small.said or small.refusals)
     assert (small.said, small.refusals) == (["Saved p.html"], [])

@@ -12,7 +12,7 @@ from ...document.file_names import file_name
 from ...document.page import Recipe
 from ...figures.export import Surfaces
 from ...page.contents import Contents
-from ...page.export import check_size, eigenpair_bytes, needed_eigenpairs, write_page
+from ...page.export import check_size, eigenpair_bytes, needed_eigenpairs, size_words, write_page
 from ...page.stored_mesh import PRECISIONS
 from ...session.array_store import ArrayStore
 from ..look.layouts import quiet_label
@@ -54,13 +54,11 @@ class PageDialog(JobDialog):
         loaded = self._surfaces[document.surfaces[0].name]
         check_size(loaded.surface, loaded.mesh.path)
         if self._eigenpairs is None:
-            count = max(needed_eigenpairs(contents, loaded).values(), default=0)
-            size = eigenpair_bytes(count, len(loaded.surface.vertices))
-            self._eigenpairs = count
-            self.carried.setText(
-                f"{counted(count, 'eigenpair')} in the file, some {size / 1e6:.1f} MB" if count else ""
-            )
-            self.carried.setVisible(bool(count))
+            needed = needed_eigenpairs(contents, loaded).values()
+            self._eigenpairs, total = max(needed, default=0), sum(needed)
+            size = size_words(eigenpair_bytes(total, len(loaded.surface.vertices)))
+            self.carried.setText(f"{counted(total, 'eigenpair')} in the file, some {size}")
+            self.carried.setVisible(bool(total))
 
     def work(self, path: str) -> Callable[..., object]:
         check_output(path, (".html",))
