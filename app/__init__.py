@@ -1,11 +1,11 @@
 """The viewer, the figures, the command line, and the library under one name: `import bihdist`.
 
 From the bottom up, each folder using only what stands before it: `document` (what is shown, as data), `session` (what
-is open, asked and answered), `scene` (VTK and PyVista), `figures` (and movies), `page` (web pages that compute),
+is open, asked and answered), `scene` (VTK and PyVista), `figures` (and movies), `web` (pages that compute),
 `paper` (the paper's figures on one page), `qt` (the window), `commands` (the command line).
 
 In a checkout this folder is called `app`; installed it is the package `bihdist`.  The library's names are those of
-`bihdist_core`, imported when they are first asked for, with `figure` and `figure_again`, which draw, `web_page`, which
+`bihdist_core`, imported when they are first asked for, with `figure` and `figure_again`, which draw, `page`, which
 writes a page that computes, and `show`, which opens the window.
 """
 
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     from bihdist_core import *  # noqa: F403
 
     from .figures.picture import figure as figure, figure_again as figure_again
-    from .page.web_page import web_page as web_page
+    from .web.page import page as page
     from .qt.show import show as show
 
     __version__: str
 
 # In two steps, which type checkers follow.
-__all__ = ["figure", "figure_again", "show", "web_page"]
+__all__ = ["figure", "figure_again", "show", "page"]
 __all__ += _library.__all__
 
 
@@ -32,10 +32,10 @@ def __getattr__(name: str) -> object:
         from .figures import picture
 
         return getattr(picture, name)
-    if name == "web_page":
-        from .page.web_page import web_page
+    if name == "page":
+        from .web.page import page
 
-        return web_page
+        return page
     if name == "show":
         from .qt.screen import check_libraries
 

@@ -3,14 +3,14 @@
 import argparse
 from typing import TYPE_CHECKING
 
-from ..page.options import USUAL, other_names, page_rows
+from ..web.options import USUAL, other_names, page_rows
 from .figure_options import add_recipe, chosen_recipe
 from .options import MESH, add_distance, add_output, add_rows, add_sources, count
 from .result import Facts, Result
 from .terminal import progress_line, tell
 
 if TYPE_CHECKING:
-    from ..page.export import Page
+    from ..web.export import Page
 
 WORDS = "a web page that computes distances by itself, from wherever one clicks"
 
@@ -44,8 +44,8 @@ def run(options: argparse.Namespace) -> Result:
     """Write the page, and print what it holds."""
     from bihdist_core.formats.mesh_names import mesh_name
 
-    from ..page.contents import Contents
-    from ..page.export import size_words, write_page
+    from ..web.contents import Contents
+    from ..web.export import size_words, write_page
 
     if options.distance is None and options.recipe is None:
         options.distance = list(USUAL)

@@ -8,7 +8,7 @@ import numpy as np
 from app.document.document import comparison
 from app.document.page import Recipe
 from app.document.quantities import quantity
-from app.page.export import Page, page_of
+from app.web.export import Page, page_of
 from bihdist_core import Laplacian
 from bihdist_core.distances.answers import Distances
 

@@ -3,7 +3,7 @@
 import json
 from base64 import b64encode
 
-from app.page.widget import widget
+from app.web.widget import widget
 from tests.shapes import bumpy
 
 HOST = """<!doctype html><meta charset="utf-8"><div id="one"></div><div id="other"></div>

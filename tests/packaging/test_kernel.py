@@ -171,4 +171,4 @@ def test_the_kernel_of_pages_is_what_its_sources_make(tmp_path):
     if (there := version("ziglang")) != ZIG_OF_PAGES:
         pytest.skip(f"there is ziglang {there}, and {ZIG_OF_PAGES} has compiled the kernel of web pages")
     build.build_wasm(tmp_path)
-    assert (tmp_path / "kernel.wasm").read_bytes() == (ROOT / "app/page/kernel.wasm").read_bytes()
+    assert (tmp_path / "kernel.wasm").read_bytes() == (ROOT / "app/web/kernel.wasm").read_bytes()

@@ -384,7 +384,7 @@ def test_every_box_has_a_name_and_a_tip(small):
 @pytest.fixture
 def page_dialog(small):
     """Opens the dialog of web pages."""
-    pytest.importorskip("app.page.page")
+    pytest.importorskip("app.web.page")
     from app.qt.files.figure_actions import export_page
 
     return lambda: export_page(small.context)
@@ -396,7 +396,7 @@ def _show(small, document):
 
 
 def test_a_page_is_written_in_the_background_of_what_is_shown(small, out, page_dialog):
-    from tests.page.test_export import scene_in
+    from tests.web.test_export import scene_in
 
     document = small.session.document
     shown = replace(

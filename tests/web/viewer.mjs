@@ -1,4 +1,4 @@
-// What the viewer's modules make of a question, as JSON: node tests/page/viewer.mjs FOLDER < question > answer
+// What the viewer's modules make of a question, as JSON: node tests/web/viewer.mjs FOLDER < question > answer
 import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { tmpdir } from "node:os";

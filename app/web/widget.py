@@ -13,7 +13,7 @@ from ..document.quantities import Quantity
 from ..session.array_store import Mesh, comparison_of_arrays
 from .export import page_of
 from .modules import joined
-from .page import kernel, style, whole_scene
+from .html_file import kernel, style, whole_scene
 from .stored_mesh import deflated
 
 try:

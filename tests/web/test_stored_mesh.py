@@ -8,10 +8,10 @@ from base64 import b64encode
 import numpy as np
 import pytest
 
-from app.page.modules import VIEWER
-from app.page.page import KERNEL
-from app.page.points import StoredPoints
-from app.page.stored_mesh import StoredMesh, deflated, varints
+from app.web.modules import VIEWER
+from app.web.html_file import KERNEL
+from app.web.points import StoredPoints
+from app.web.stored_mesh import StoredMesh, deflated, varints
 from bihdist_core import BiharmonicDistance, CommuteTimeDistance, DiffusionDistance, ParameterError, Surface
 from bihdist_core.distances.exact_geodesic import ExactGeodesic
 from bihdist_core.distances.spectral import TruncatedBiharmonicDistance
@@ -58,7 +58,7 @@ def said(mesh: StoredMesh, sources, names, points=None, areas="voronoi"):
         "scene": {"near": mesh.near, "corrections": mesh.corrections(areas), "areas": areas},
         "sources": [int(v) for v in sources], "names": names,
     }  # fmt: skip
-    script = VIEWER.parents[2] / "tests/page/solver.mjs"
+    script = VIEWER.parents[2] / "tests/web/solver.mjs"
     run = subprocess.run(
         ["node", script, VIEWER], input=json.dumps(question), capture_output=True, text=True, timeout=300
     )

@@ -6,7 +6,7 @@ import subprocess
 
 import pytest
 
-from app.page.modules import VIEWER, joined, top_names
+from app.web.modules import VIEWER, joined, top_names
 
 
 def written(folder, **modules):

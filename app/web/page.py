@@ -1,4 +1,4 @@
-"""`bihdist.web_page`: the command `bihdist page` as a function."""
+"""`bihdist.page`: the command `bihdist page` as a function."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .export import Page, write_page
 from .options import USUAL, page_rows
 
 
-def web_page(
+def page(
     mesh: Mesh,
     path: str | os.PathLike[str],
     distances: Sequence[str | Quantity] = USUAL,
@@ -39,7 +39,7 @@ def web_page(
 
     >>> import bihdist, os, tempfile
     >>> path = os.path.join(tempfile.mkdtemp(), "hand.html")
-    >>> page = bihdist.web_page("hand", path, ["biharmonic", "biharmonic - geodesic"], source=12)
+    >>> page = bihdist.page("hand", path, ["biharmonic", "biharmonic - geodesic"], source=12)
     >>> page.labels
     ('biharmonic, exact', 'biharmonic, exact − geodesic, exact')
     >>> max(page.differs.values()) < 1e-6
@@ -47,7 +47,7 @@ def web_page(
     """
     known = {option.name: option for row in page_rows() for option in row.options}
     if unknown := options.keys() - known.keys():
-        raise TypeError(f"web_page() got an unexpected keyword argument {min(unknown)!r}")
+        raise TypeError(f"page() got an unexpected keyword argument {min(unknown)!r}")
     document, store = comparison_of_arrays(mesh, distances, {}, (source,))
     values = {name: value for name, value in options.items() if not known[name].is_usual(value)}
     recipe = with_options(Recipe(document), values, progress=progress)

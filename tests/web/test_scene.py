@@ -15,8 +15,8 @@ from app.document.page import Page, Recipe
 from app.document.quantities import OwnField, quantity
 from app.document.shared_parts.pins import Pins, add_pins, change_pin
 from app.figures.export import compute, figure_of, open_document
-from app.page.contents import Contents
-from app.page.scene import _check_numbers, scene_of
+from app.web.contents import Contents
+from app.web.scene import _check_numbers, scene_of
 from app.scene.camera import standard_camera
 from app.scene.levels import levels
 from app.scene.style import DARK, PAPER, style_of

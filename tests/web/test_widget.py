@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import traitlets
 
-from app.page.widget import DistanceWidget, widget
+from app.web.widget import DistanceWidget, widget
 from bihdist_core import ParameterError
 from tests.shapes import bumpy, two_pieces
 
@@ -75,4 +75,4 @@ def test_without_anywidget_there_is_a_sentence(monkeypatch):
     monkeypatch.setattr(builtins, "__import__", missing)
     monkeypatch.delitem(sys.modules, DistanceWidget.__module__)
     with pytest.raises(ParameterError, match=r"pip install 'bihdist\[widget\]'"):
-        import app.page.widget  # noqa: F401
+        import app.web.widget  # noqa: F401

@@ -19,8 +19,8 @@ from bihdist_core import BiharmonicDistance, OutputError, ParameterError, Surfac
 
 from ..shapes import bumpy, two_pieces
 
-pytest.importorskip("app.page.page")
-export = pytest.importorskip("app.page.export")
+pytest.importorskip("app.web.page")
+export = pytest.importorskip("app.web.export")
 
 
 def scene_in(path):
@@ -153,7 +153,7 @@ def test_a_page_that_fails_leaves_what_was_there(mesh_file, in_folder, monkeypat
 # ---------------------------------------------------------------------- Python
 def test_the_function_takes_arrays_and_says_what_the_page_holds(tmp_path):
     s = bumpy(300)
-    page = bihdist.web_page((s.vertices, s.faces), tmp_path / "p.html", ["commute-time"], 5, pins=[2], isolines=0)
+    page = bihdist.page((s.vertices, s.faces), tmp_path / "p.html", ["commute-time"], 5, pins=[2], isolines=0)
     assert page.labels == ("commute-time, exact",)
     scene = scene_in(tmp_path / "p.html")
     assert scene["source"] == 5
@@ -164,20 +164,20 @@ def test_the_function_takes_arrays_and_says_what_the_page_holds(tmp_path):
 
 
 def test_the_function_refuses_as_the_command_does(tmp_path):
-    with pytest.raises(TypeError, match=r"web_page\(\) got an unexpected keyword argument 'size'"):
-        bihdist.web_page("hand", tmp_path / "p.html", size="85mm")
+    with pytest.raises(TypeError, match=r"page\(\) got an unexpected keyword argument 'size'"):
+        bihdist.page("hand", tmp_path / "p.html", size="85mm")
     with pytest.raises(ParameterError, match="one of 24, float32, not '8'"):
-        bihdist.web_page(bumpy(200), tmp_path / "p.html", ["biharmonic"], precision="8")
+        bihdist.page(bumpy(200), tmp_path / "p.html", ["biharmonic"], precision="8")
     with pytest.raises(ParameterError, match="eigenpairs in the page"):
-        bihdist.web_page(bumpy(200), tmp_path / "p.html", ["diffusion"])
+        bihdist.page(bumpy(200), tmp_path / "p.html", ["diffusion"])
 
 
 def test_differences_are_those_of_the_rounded_mesh(tmp_path):
     """Of a mesh that single precision holds there are none but those of renumbering."""
     s = bumpy(300)
     single = Surface(s.vertices.astype(np.float32).astype(float), s.faces)
-    assert max(bihdist.web_page(single, tmp_path / "p.html", precision="float32").differs.values()) < 1e-11
-    page = bihdist.web_page(s, tmp_path / "p.html", ["biharmonic"], 0)
+    assert max(bihdist.page(single, tmp_path / "p.html", precision="float32").differs.values()) < 1e-11
+    page = bihdist.page(s, tmp_path / "p.html", ["biharmonic"], 0)
     step = np.ptp(s.vertices, axis=0).max() / (2**24 - 1)
     low = s.vertices.min(axis=0)
     rounded = Surface(low + step * np.rint((s.vertices - low) / step), s.faces)
@@ -186,7 +186,7 @@ def test_differences_are_those_of_the_rounded_mesh(tmp_path):
 
 
 def test_several_components_and_all_sorts_of_distances(tmp_path):
-    page = bihdist.web_page(two_pieces(), tmp_path / "p.html", ["biharmonic", "truncated(k=2)"], eigenpairs=2)
+    page = bihdist.page(two_pieces(), tmp_path / "p.html", ["biharmonic", "truncated(k=2)"], eigenpairs=2)
     assert page.eigenpairs == {"truncated": 2}
     assert all(np.isfinite(list(page.differs.values())))
 

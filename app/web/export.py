@@ -20,7 +20,7 @@ from ..figures.export import compute, open_document
 from ..session.array_store import ArrayStore
 from ..session.loaded_mesh import LoadedMesh
 from .contents import Contents
-from .page import page_text
+from .html_file import page_text
 from .points import StoredPoints
 from .scene import Json, scene_of
 from .stored_mesh import StoredMesh

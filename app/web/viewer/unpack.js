@@ -1,4 +1,4 @@
-// What a page holds, from base64 of raw deflate to arrays; app/page/stored_mesh.py and points.py pack it.
+// What a page holds, from base64 of raw deflate to arrays; app/web/stored_mesh.py and points.py pack it.
 
 /** Bytes of raw deflate, or base64 of them. @param {Uint8Array | string} packed @returns {Promise<Uint8Array>} */
 export async function inflated(packed) {
