@@ -44,14 +44,15 @@ def check_outputs(*outputs: tuple[str | os.PathLike[str] | None, Sequence[str]])
 
 HALF_WRITTEN = re.compile(r"\.(.+)\.half-[0-9a-f]{8}(\..*)?")
 """The names that files have while they are written: the beginning of their own, and its ending."""
+FIRST = 50
+"""Letters of a name that the one of a half-written file begins with: it has at most 255 bytes, a letter up to four."""
 OLD_S = 86400.0
 """Where there are no locks, what nobody has touched for so long is not being written any more."""
 
 
 def half_written(target: Path) -> Path:
     """A new name for what is to be at `target` once it is whole."""
-    # Cut, for a name has at most 255 bytes, and a letter up to four of them.
-    return target.with_name(f".{target.stem[:50]}.half-{secrets.token_hex(4)}{target.suffix}")
+    return target.with_name(f".{target.stem[:FIRST]}.half-{secrets.token_hex(4)}{target.suffix}")
 
 
 @contextmanager
@@ -94,15 +95,17 @@ def _handle(path: Path) -> int:
     return os.open(path, os.O_RDWR if stat.S_ISREG(kind) else os.O_RDONLY)
 
 
-def sweep_half_written(folder: Path, target: Path | None = None) -> None:
-    """Remove the files that killed processes have left half written in a folder, or those for one target in it."""
+def sweep_half_written(folder: Path, name: str = ".*") -> None:
+    """Remove the files that killed processes have left half written in a folder.
+
+    name: an expression for the names, of which the first letters and the extension count, that they were to have.
+    """
     with suppress(OSError), os.scandir(folder) as entries:
         for entry in entries:
             half = HALF_WRITTEN.fullmatch(entry.name)
             if half is None or not entry.is_file(follow_symlinks=False):
                 continue
-            is_wanted = target is None or half.groups("") == (target.stem[:50], target.suffix)
-            if is_wanted and is_left(Path(entry.path)):
+            if re.fullmatch(name, "".join(half.groups(""))) and is_left(Path(entry.path)):
                 with suppress(OSError):
                     os.unlink(entry.path)
 
@@ -120,7 +123,7 @@ def whole_file(path: str | os.PathLike[str], sweeps: bool = True) -> Iterator[Pa
     _check_place(path)
     target = Path(os.path.realpath(path))
     if sweeps:
-        sweep_half_written(target.parent, target)
+        sweep_half_written(target.parent, re.escape(target.stem[:FIRST] + target.suffix))
     try:
         with _temporary(target) as temporary:
             if target.exists():

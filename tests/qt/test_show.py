@@ -351,7 +351,8 @@ def test_the_session_of_such_a_window_is_saved_opened_and_drawn(shown, screen, t
     viewer = shown(SURFACE, ["biharmonic", "biharmonic - height"], {"height": HEIGHT - HEIGHT.min()}, 7)
     fields = [panel.field for panel in viewer.panels]
     parts(viewer._window).session_file.save(str(tmp_path / "s.json"))
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["s.json", "s.npz"]
+    archive = Path(read_recipe(tmp_path / "s.json").arrays)
+    assert sorted(tmp_path.iterdir()) == [archive, tmp_path / "s.json"]
     assert read_recipe(tmp_path / "s.json").document == viewer.document
     s = screen()
     parts(s.window).session_file.open(str(tmp_path / "s.json"))
