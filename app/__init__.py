@@ -9,11 +9,9 @@ In a checkout this folder is called `app`; installed it is the package `bihdist`
 opens the window.
 """
 
-from typing import TYPE_CHECKING
-
-import bihdist_core as _library
-
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    import bihdist_core as _library
     from bihdist_core import *  # noqa: F403
 
     from .figures.picture import figure as figure, figure_again as figure_again
@@ -21,9 +19,9 @@ if TYPE_CHECKING:
 
     __version__: str
 
-# In two steps, which type checkers follow.
-__all__ = ["figure", "figure_again", "show"]
-__all__ += _library.__all__
+    # In two steps, which type checkers follow.
+    __all__ = ["figure", "figure_again", "show"]
+    __all__ += _library.__all__
 
 
 def __getattr__(name: str) -> object:
@@ -42,10 +40,16 @@ def __getattr__(name: str) -> object:
         from .version import version
 
         return version()
-    if name in __all__:
-        return getattr(_library, name)
+    # Nothing is imported above: before the program listens for Ctrl-C, that would be answered by a page of code.
+    import bihdist_core
+
+    names = ["figure", "figure_again", "show", *bihdist_core.__all__]
+    if name == "__all__":
+        return names
+    if name in names:
+        return getattr(bihdist_core, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    return sorted(__getattr__("__all__"))  # type: ignore[call-overload]

@@ -2,6 +2,7 @@
 
 import argparse
 import signal
+import threading
 
 from ..document.option import Row
 from ..document.page import Recipe
@@ -38,6 +39,10 @@ def _rows() -> list[Row]:
 
 def run(options: argparse.Namespace) -> Result:
     """Open the window, until it is closed."""
+    if threading.current_thread() is threading.main_thread():
+        # SIGTERM ends a window at once.  Qt's loop would not let Python see it, and what it raises while modules are
+        # loaded may be caught by any of them.
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
     from ..document.beside_edits import open_beside
     from ..document.document import COMPARISON, Document, MeshFile, comparison
 
@@ -69,8 +74,6 @@ def run(options: argparse.Namespace) -> Result:
     check_screen()
     from ..qt.start import run_viewer
 
-    # Qt's loop would not let Python see it: SIGTERM ends a window at once.
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     status = run_viewer(shown, is_choice, options.screenshot, options.save_session, options.theme)
     files = (options.screenshot, options.save_session)
     facts = {
