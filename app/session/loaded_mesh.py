@@ -86,10 +86,14 @@ class LoadedMesh:
 
     @cached_property
     def up(self) -> str:
-        """The axis that points up: guessed, or that of what it is made from, unless whoever opened it put it here."""
+        """The axis that points up, unless whoever opened it put it here: `guessed_up`."""
+        return self.guessed_up()
+
+    def guessed_up(self, progress: Progress | None = None) -> str:
+        """The axis that points up: guessed, or that of what it is made from."""
         if self.origin is not None:
             return self.origin.up
-        return guess_up(self.surface, mesh_format(self.mesh.path and mesh_path(self.mesh.path)))
+        return guess_up(self.surface, mesh_format(self.mesh.path and mesh_path(self.mesh.path)), progress)
 
     def first_look(self, up: str) -> FirstLook:
         """From where it is seen first with an axis up, and where a field starts; what is made from it is seen alike."""

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Protocol
 
 from bihdist_core import Surface
@@ -139,13 +140,8 @@ class Surfaces:
             report(k / len(opening.meshes), f"{word} {os.path.basename(mesh.path) or mesh.name}")
             making = part(report, k / len(opening.meshes), (k + 0.5) / len(opening.meshes))
             loaded = open_mesh(mesh, self._given, there=[*self._opened, *found], progress=making)
-            report((k + 0.5) / len(opening.meshes), f"assembling {loaded.surface.name}")
-            loaded.prepared = self._prepare(loaded.surface)
-            loaded.up = self._known_up(loaded.mesh.sha256) or loaded.up
-            loaded.first_look(loaded.up)
-            # Told by the view and needed to pick, for whose thread going over all faces would take too long.
-            surface_notes(loaded.surface)
-            _ = loaded.surface.mean_edge_length
+            share, words = (k + 0.5) / len(opening.meshes), f"assembling {loaded.surface.name}"
+            self._assemble(loaded, partial(report, share, words))
             found.append(loaded)
         if opening.ahead is not None:
             opening.ahead(found, part(report, 0.5, 1))
@@ -154,6 +150,20 @@ class Surfaces:
         self._loaded()
         if any(mesh.change is not None for mesh in opening.meshes):
             _give_back()  # of one after another, as a slider moves, nobody else would
+
+    def _assemble(self, loaded: LoadedMesh, check_wanted: Callable[[], None]) -> None:
+        """What is known of a surface once it is shown.  check_wanted: raises Cancelled once nobody wants it."""
+        check_wanted()
+        loaded.prepared = self._prepare(loaded.surface)
+        check_wanted()
+        loaded.up = self._known_up(loaded.mesh.sha256) or loaded.guessed_up(lambda *_: check_wanted())
+        check_wanted()
+        loaded.first_look(loaded.up)
+        check_wanted()
+        # Told by the view and needed to pick, for whose thread going over all faces would take too long.
+        surface_notes(loaded.surface)
+        check_wanted()
+        _ = loaded.surface.mean_edge_length
 
     def _take(self, opening: Opening, found: list[LoadedMesh]) -> None:
         if opening is not self.on_their_way:
