@@ -356,6 +356,9 @@ def _engine(options: argparse.Namespace) -> "Engine":
 
     if options.dask:
         return Cluster(options.dask, tell)
+    from bihdist_core.kernel.library import library
+
+    library()  # where there is none, this process says why, and not each of those
     return Processes(options.workers or os.cpu_count() or 1)
 
 

@@ -6,12 +6,14 @@ import os
 import sys
 import threading
 import time
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext, redirect_stdout
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bihdist_core.counts import counted
+from bihdist_core.errors import PlainSolverWarning
 
 if TYPE_CHECKING:
     from bihdist_core import Distance, Surface
@@ -70,10 +72,20 @@ def telling(quiet: bool = False, clock: Callable[[], float] = time.monotonic) ->
     """While a command runs: whether notes and progress are left out; all notes, said or not."""
     global _telling
     before, _telling = _telling, _Telling(quiet, clock)
+    shown = warnings.showwarning
+
+    def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+        if issubclass(category, PlainSolverWarning):
+            _telling.note(str(message))
+        else:
+            shown(message, category, *where, **more)
+
+    warnings.showwarning = show
     try:
         yield _telling.notes
     finally:
         _telling = before
+        warnings.showwarning = shown
 
 
 def is_quiet() -> bool:

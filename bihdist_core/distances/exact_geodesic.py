@@ -163,7 +163,9 @@ class ExactGeodesic:
 
     def __init__(self, surface: Surface) -> None:
         if kernel.library() is None:
-            raise SolverError("Exact geodesic distance needs the compiled kernel; use the heat method.")
+            why = kernel.why_plain()
+            words = f"needs the compiled kernel{f' ({why})' if why else ''}; use the heat method."
+            raise SolverError(f"Exact geodesic distance {words}")
         self.surface = surface
         self._mesh = UnfoldingMesh(surface)
         self._free: SimpleQueue[_Workspace] = SimpleQueue()
