@@ -43,13 +43,14 @@ def __getattr__(name: str) -> object:
     # Nothing is imported above: before the program listens for Ctrl-C, that would be answered by a page of code.
     import bihdist_core
 
-    names = ["figure", "figure_again", "show", *bihdist_core.__all__]
     if name == "__all__":
-        return names
-    if name in names:
+        return __dir__()
+    if name in bihdist_core.__all__:
         return getattr(bihdist_core, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return sorted(__getattr__("__all__"))  # type: ignore[call-overload]
+    import bihdist_core
+
+    return sorted(["figure", "figure_again", "show", *bihdist_core.__all__])
