@@ -60,15 +60,13 @@ def laplacian_of(
 ) -> "Laplacian":
     """Read a mesh and say what was repaired.  ids_file: where new ids of vertices are written, if anywhere."""
     from bihdist_core import Laplacian, read_surface
-    from bihdist_core.whole_file import whole_file
 
-    from ..session.repaired_surface import ids_table, repaired
+    from ..session.repaired_surface import repaired, write_ids
 
     surface, ids = repaired(read_surface(found_mesh(mesh)), repairs)
     tell_repairs(surface)
     if ids is not None and ids_file is not None:
-        with whole_file(ids_file) as temporary:
-            temporary.write_text(ids_table(ids), encoding="ascii")
+        write_ids(ids_file, ids)
         tell(f"{ids_file}: the new id of each vertex of {surface.name}.")
     return Laplacian(surface, areas or AREAS[0])
 
