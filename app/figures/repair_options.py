@@ -34,7 +34,7 @@ REPAIRS = Row(
         Option(
             "cut",
             "cut vertices out with their faces, which nothing then crosses: a file of 1 for each that stays and 0 for "
-            "each that goes (.npy, .txt, .gii, .annot or FreeSurfer's); {name} is the mesh's name",
+            "each that goes (.npy, .txt, .gii, .annot, .label or another of FreeSurfer's); {name} is the mesh's name",
             "",
             metavar="MASK",
         ),

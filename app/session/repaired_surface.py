@@ -21,7 +21,7 @@ def repaired(surface: Surface, repairs: Repairs, remedy: str = "") -> tuple[Surf
     read, does not fit, or has changed since its checksum was taken; MeshError where no face is left.
     """
     if repairs.cut:
-        mask = read_whole_numbers(repairs.cut, "mask")
+        mask = read_whole_numbers(repairs.cut, "mask", surface.n_vertices)
         if repairs.cut_sha256 and checksum(repairs.cut) != repairs.cut_sha256:
             sentence = f"The mask {repairs.cut} is not what it was when it was written down (its checksum differs)."
             raise ParameterError(f"{sentence} {remedy}".strip())

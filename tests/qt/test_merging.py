@@ -84,7 +84,7 @@ def test_the_dialog_says_what_a_tolerance_would_do(s):
     dialog = asked(s)
     assert "vertices would go, with " in typed(s, dialog, "0.3")
     assert dialog.merge.isEnabled()
-    assert typed(s, dialog, "100") == "No face would be left within 100.0."
+    assert typed(s, dialog, "100") == "No face would be left within 100."
     assert not dialog.merge.isEnabled()
     assert typed(s, dialog, "far") == "'far' is not a length, a number from 0."
     assert not dialog.merge.isEnabled()

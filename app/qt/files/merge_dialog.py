@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from qtpy import QtCore, QtWidgets
+from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import MeshError, Surface
 from bihdist_core.coincident_points import least_apart
@@ -17,7 +17,7 @@ from ..look.look import LOOK
 from ..look.numbers import MINUS, number
 from ..look.text_box import TextBox, mark_wrong
 
-WIDTH = 440
+WIDTH = 470
 """Of its words, in logical pixels."""
 USUAL = 1e-6
 """Of the extent: what single precision tells apart."""
@@ -43,7 +43,7 @@ def merge_in_words(question: MergeCount, progress: Progress) -> Iterator[tuple[b
     try:
         merged, _ = surface.merged(question.tolerance)
     except MeshError:
-        yield False, f"No face would be left within {number(question.tolerance)}."
+        yield False, f"No face would be left within {question.tolerance:g}."
         return
     n, gone = surface.n_vertices, surface.n_vertices - merged.n_vertices
     if gone:
@@ -83,6 +83,7 @@ class MergeDialog(QtWidgets.QDialog):
         self.box.setAccessibleName("Tolerance")
         label = QtWidgets.QLabel("&Tolerance")
         label.setBuddy(self.box)
+        label.setMinimumWidth(QtGui.QFontMetrics(LOOK.font()).horizontalAdvance("Tolerance") + 4)
         units = quiet_label(f"mesh units; the mesh is {number(extent)} across")
         self.count = quiet_label("")
         self.count.setFixedWidth(WIDTH)
