@@ -29,6 +29,9 @@ def _tolerance(text: str) -> float:
         raise ParameterError(f"{text!r} is not a length, a number from 0") from None
 
 
+MERGE = "make vertices one that are no farther apart, in mesh units, after --cut; they are then numbered anew"
+"""What merging does, in words."""
+
 REPAIRS = Row(
     (
         Option(
@@ -40,7 +43,7 @@ REPAIRS = Row(
         ),
         Option(
             "merge",
-            "make vertices one that are no farther apart, in mesh units, after --cut; they are then numbered anew",
+            f"{MERGE}; OUT.ids.csv beside the output has their new ids",
             metavar="TOLERANCE",
             read=_tolerance,
             write=digits,
