@@ -32,15 +32,17 @@ def _tolerance(text: str) -> float:
 MERGE = "make vertices one that are no farther apart, in mesh units, after --cut; they are then numbered anew"
 """What merging does, in words."""
 
+CUT = Option(
+    "cut",
+    "cut vertices out with their faces, which nothing then crosses: a file of 1 for each that stays and 0 for "
+    "each that goes (.npy, .txt, .gii, .annot, .label or another of FreeSurfer's); {name} is the mesh's name",
+    "",
+    metavar="MASK",
+)
+
 REPAIRS = Row(
     (
-        Option(
-            "cut",
-            "cut vertices out with their faces, which nothing then crosses: a file of 1 for each that stays and 0 for "
-            "each that goes (.npy, .txt, .gii, .annot, .label or another of FreeSurfer's); {name} is the mesh's name",
-            "",
-            metavar="MASK",
-        ),
+        CUT,
         Option(
             "merge",
             f"{MERGE}; OUT.ids.csv beside the output has their new ids",
