@@ -74,7 +74,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     one_based = "with --format mat: vertex ids in files count from 1, as MATLAB's do, and files say so"
     parser.add_argument("--one-based", action="store_true", default=None, help=one_based)
     parser.add_argument("--normalise", choices=("area",), help="distances and eigenpairs of each mesh scaled to area 1")
-    kinds = ".npy, .txt, .gii, .annot or a file of FreeSurfer's; {name} is the mesh's name"
+    kinds = ".npy, .txt, .gii, .annot, .label or another file of FreeSurfer's; {name} is the mesh's name"
     parser.add_argument(
         "--mask",
         metavar="FILE",

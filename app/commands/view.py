@@ -8,7 +8,7 @@ from ..document.option import Row
 from ..document.page import Recipe
 from ..figures.look_options import COLOURS
 from ..figures.options import VERTEX_AREAS, tool_rows, with_rows
-from ..figures.repair_options import REPAIRS
+from ..figures.repair_options import MERGE, REPAIRS
 from ..figures.view_options import UP, up_meaning
 from .mesh import found_mesh
 from .mesh_sources import one_source, sources_of_document
@@ -28,7 +28,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--save-session", metavar="OUT.json", help="save the session once the window is complete")
     add_distance(parser, PANELS, is_field=True)
     parser.add_argument("--theme", choices=("light", "dark", "desktop"), default="", help="of the window, this time")
-    add_rows(parser, *_rows(), up=up_meaning("as it was chosen for this mesh before, or guessed"))
+    up = up_meaning("as it was chosen for this mesh before, or guessed")
+    add_rows(parser, *_rows(), up=up, merge=f"{MERGE}; File > Save table of ids… writes their new ids")
 
 
 def _rows() -> list[Row]:

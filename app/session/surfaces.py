@@ -90,7 +90,11 @@ class Surfaces:
 
     def missing(self, document: Document) -> tuple[MeshFile, ...]:
         """Surfaces that have to be read; where any content will do, what the file holds now."""
-        return tuple(mesh for mesh in document.surfaces if not mesh.sha256 or self.found(mesh) is None)
+        return tuple(
+            mesh
+            for mesh in document.surfaces
+            if not mesh.sha256 or (mesh.repairs.cut and not mesh.repairs.cut_sha256) or self.found(mesh) is None
+        )
 
     def start(self, opening: Opening) -> None:
         """Read meshes, and nothing else that is on its way."""
