@@ -262,7 +262,9 @@ class Component:
                 return have
             factor, n = self.factor(part(progress, 0, 0.1)), len(self.areas)
             given = factor, self.pin, self.stiffness, self.areas, count, have
-            check_memory(eigenpair_bytes(n, count, factor.nbytes), f"{count:,} eigenpairs of {n:,} vertices", REMEDY)
+            check_memory(
+                eigenpair_bytes(n, count, factor.nbytes), f"Finding {count:,} eigenpairs of {n:,} vertices", REMEDY
+            )
             work = eigenpair_work(n, count, factor.nbytes)
             try:
                 with Expected("eigenpairs", work, WORKERS, part(progress, 0.1, 1)) as it:

@@ -25,6 +25,7 @@ import numpy.typing as npt
 from ..arrays import AnyArray, IntArray
 from ..distances.distance import Distance
 from ..errors import OutputError, ParameterError
+from ..machine_memory import check_memory
 from ..progress import Progress, silent
 from ..whole_file import check_output
 
@@ -32,6 +33,9 @@ MEMORY = 5e8
 """Bytes that the arrays of one block may take, unless another number is given."""
 BYTES_PER_VALUE = 40
 """In memory, at once, for each distance of a block: the fields, what they are made from, and their rounded copy."""
+
+
+REMEDY = "let blocks be smaller (--memory), or take a larger machine or a cluster."
 
 
 @dataclass(frozen=True)
@@ -74,7 +78,7 @@ def write_all_pairs(
     least one row is computed at a time.  After an interruption, `Cancelled` from the progress included, the same
     call goes on with the rows that are missing; `begun` tells which are there, and fresh computes all of them anew.
     Raises OutputError if the file cannot be written or the disk is too
-    small for it, which is looked up first.
+    small for it, and NotEnoughMemory where a block has no room, which are looked up first.
     """
     dtype = np.dtype(dtype)
     if dtype not in (np.float32, np.float64):
@@ -90,6 +94,7 @@ def write_all_pairs(
     row_bytes = n * dtype.itemsize
     rows = int(np.clip(memory / (n * BYTES_PER_VALUE), 1, n))
     try:
+        check_memory(rows * n * BYTES_PER_VALUE, f"A block of {rows:,} x {n:,} distances", REMEDY)
         done = 0 if fresh else _rows_done(partial, header, row_bytes)
         _check_space(target, len(header) + n * row_bytes, partial.stat().st_size if partial.exists() else 0)
         with _alone(partial, target) as file:

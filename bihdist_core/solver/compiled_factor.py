@@ -14,12 +14,11 @@ from ..kernel import library as kernel
 from ..kernel.library import at, check_stopped, library, rows_of
 from ..machine_memory import check_memory
 from .compiled_tree import PAD, CompiledTree, padded
+from .plain import REMEDY
 from .worker_threads import WORKERS, Arena, Job, Run, Workspaces
 
 PADDING = 8
 """Numbers after the end of an array that the kernel may read."""
-
-REMEDY = "show fewer panels, simplify the mesh (bihdist perturb --simplify N), or take a larger machine or a cluster."
 
 NEVER = ctypes.byref(kernel.Watch())
 """The watch of short work, which nobody stops."""

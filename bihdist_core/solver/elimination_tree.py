@@ -27,7 +27,8 @@ class EliminationTree:
 
     def __init__(self, pattern: sp.spmatrix, coordinates: FloatArray, progress: Progress | None = None) -> None:
         x, matrix = _checked_coordinates(pattern, coordinates), canonical(pattern)
-        with Expected("ordering", len(x), WORKERS, progress) as it:
+        kind, cores = ("ordering", WORKERS) if library() else ("plain ordering", 1)
+        with Expected(kind, len(x), cores, progress) as it:
             self.layout: CompiledTree | PlainTree = (
                 CompiledTree(matrix, x, it.progress) if library() else PlainTree(matrix, _unit_box(x), it.progress)
             )

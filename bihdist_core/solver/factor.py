@@ -64,7 +64,8 @@ class Factor:
         layout = tree.layout
         self._diagonals: tuple[FloatArray, FloatArray] | None = None
         multiplications = layout.work * (1 if weights is None else WITH_DIAGONALS)
-        with Expected("factor", multiplications, WORKERS, progress) as it:
+        kind, cores = ("factor", WORKERS) if isinstance(layout, CompiledTree) else ("plain factor", 1)
+        with Expected(kind, multiplications, cores, progress) as it:
             # The inversion takes about as long as the elimination.
             job = Job(it.progress, "Factoring the matrix", layout.work * (1 + (weights is not None)))
             if isinstance(layout, CompiledTree):

@@ -28,11 +28,11 @@ def mesh(mesh_file, monkeypatch):
     return mesh_file(bumpy(200))
 
 
-@pytest.mark.parametrize(("name", "words"), [("a.png", "20,000 x 20,000 pixels needs about 8 GB"), ("a.pdf", "0.72 GB")])
-def test_a_figure_says_so_at_once(mesh, tmp_path, capsys, name, words):
+@pytest.mark.parametrize("name", ["a.png", "a.pdf"])
+def test_a_figure_says_so_at_once(mesh, tmp_path, capsys, name):
     assert main(["figure", mesh, "--size", HUGE, "-o", str(tmp_path / name)]) == 2
     said = capsys.readouterr().err
-    assert words in said
+    assert "A picture of 20,000 x 20,000 pixels needs about 8 GB of memory" in said
     assert "0.1 GB are free here; choose a smaller --size." in said
     assert not (tmp_path / name).exists()
 
