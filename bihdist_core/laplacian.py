@@ -22,7 +22,7 @@ import scipy.sparse as sp
 from .arrays import FloatArray, IntArray
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError, SolverError
-from .expected_time import Expected
+from .expected_time import Expected, expected_seconds
 from .locked_cached_property import locked_cached_property
 from .machine_memory import check_memory
 from .mesh_like import MeshLike, Rows
@@ -31,7 +31,7 @@ from .progress import Progress, part, turn
 from .scalars import whole_number
 from .solver.aside import aside
 from .solver.elimination_tree import EliminationTree
-from .solver.factor import Factor, share_of_ordering
+from .solver.factor import Factor, share_of_ordering, usual_bytes, usual_seconds
 from .solver.spectrum import Spectrum, eigenpair_bytes, eigenpair_work, is_long, smallest_eigenpairs
 from .solver.worker_threads import WORKERS
 from .surface import Surface
@@ -253,6 +253,22 @@ class Component:
         """How many there are besides the constant (`Laplacian.eigenpair_counts`)."""
         return int(self.laplacian.eigenpair_counts[self.index])
 
+    def check_room_for(self, count: int) -> None:
+        """Before long work: NotEnoughMemory where so many eigenpairs have no room, with the factor if there is none."""
+        n, factor, have = len(self.areas), self._factor, self._spectrum
+        if have is None or len(have.eigenvalues) < count:
+            size = usual_bytes(n) if factor is None else factor.nbytes
+            needed = eigenpair_bytes(n, min(count, self.most_eigenpairs), size) + (size if factor is None else 0)
+            check_memory(needed, f"Finding {count:,} eigenpairs of {n:,} vertices", REMEDY)
+
+    def share_of_factor(self, count: int) -> float:
+        """Which share of the time that the factor, with its diagonals, and so many eigenpairs take is the factor's."""
+        n = len(self.areas)
+        if self._factor is not None and self._factor.has_diagonals:
+            return 0.0
+        factor = usual_seconds(n, True)
+        return factor / (factor + expected_seconds("eigenpairs", eigenpair_work(n, count, usual_bytes(n)), WORKERS))
+
     def spectrum(self, count: int, progress: Progress | None = None) -> Spectrum:
         """At least the first `count` eigenpairs (of at most `most_eigenpairs`); grown and kept."""
         count = min(count, self.most_eigenpairs)
@@ -260,14 +276,13 @@ class Component:
             have = self._spectrum
             if have is not None and len(have.eigenvalues) >= count:
                 return have
-            factor, n = self.factor(part(progress, 0, 0.1)), len(self.areas)
+            factored = 0.0 if self._factor is not None else 0.1
+            factor, n = self.factor(part(progress, 0, factored)), len(self.areas)
             given = factor, self.pin, self.stiffness, self.areas, count, have
-            check_memory(
-                eigenpair_bytes(n, count, factor.nbytes), f"Finding {count:,} eigenpairs of {n:,} vertices", REMEDY
-            )
+            self.check_room_for(count)
             work = eigenpair_work(n, count, factor.nbytes)
             try:
-                with Expected("eigenpairs", work, WORKERS, part(progress, 0.1, 1)) as it:
+                with Expected("eigenpairs", work, WORKERS, part(progress, factored, 1)) as it:
                     if is_long(n, count):
                         self._spectrum = aside(_spectrum, *given, progress=it.progress)
                     else:

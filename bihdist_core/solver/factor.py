@@ -38,6 +38,9 @@ WITH_DIAGONALS = 6
 USUAL = 50
 """Multiplications of a factor of n vertices, times n^1.5, on round shapes; on long ones a third of them."""
 
+USUAL_BYTES = 1_000
+"""Of a factor with its diagonals, for each vertex: 600 to 1,200."""
+
 SMALL = 1 << 23
 """A factor of fewer bytes is read by one thread faster than several begin."""
 
@@ -174,8 +177,18 @@ class Factor:
 
 def share_of_ordering(n: int, diagonals: bool) -> float:
     """Which share of the time that a tree and a factor of n vertices take is the tree's."""
-    ordering = expected_seconds("ordering", n)
-    return ordering / (ordering + expected_seconds("factor", USUAL * n**1.5 * (WITH_DIAGONALS if diagonals else 1)))
+    return expected_seconds("ordering", n, WORKERS) / usual_seconds(n, diagonals)
+
+
+def usual_seconds(n: int, diagonals: bool) -> float:
+    """About how long a tree and a factor of n vertices take, before there is a tree."""
+    multiplications = USUAL * n**1.5 * (WITH_DIAGONALS if diagonals else 1)
+    return expected_seconds("ordering", n, WORKERS) + expected_seconds("factor", multiplications, WORKERS)
+
+
+def usual_bytes(n: int) -> int:
+    """About how many bytes a factor of n vertices with its diagonals holds, before there is a tree."""
+    return USUAL_BYTES * n
 
 
 def _checked_matrix(tree: EliminationTree, matrix: sp.spmatrix) -> sp.csr_matrix:
