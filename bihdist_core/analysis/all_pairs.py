@@ -92,9 +92,9 @@ def write_all_pairs(
     partial = _partial_path(distance, target, dtype)
     header = _header(n, dtype)
     row_bytes = n * dtype.itemsize
-    rows = int(np.clip(memory / (n * BYTES_PER_VALUE), 1, n))
+    rows = _rows_of_block(n, memory)
     try:
-        check_memory(rows * n * BYTES_PER_VALUE, f"A block of {rows:,} x {n:,} distances", REMEDY)
+        check_block(n, memory)
         done = 0 if fresh else _rows_done(partial, header, row_bytes)
         _check_space(target, len(header) + n * row_bytes, partial.stat().st_size if partial.exists() else 0)
         with _alone(partial, target) as file:
@@ -116,6 +116,16 @@ def write_all_pairs(
     except OSError as error:
         raise OutputError(f"{path} could not be written: {error.strerror or error}.") from error
     report(1.0, f"all pairs: {n:,} vertices")
+
+
+def check_block(n: int, memory: float = MEMORY) -> None:
+    """Before long work: NotEnoughMemory where a block of the pairs of n vertices, of so many bytes, has no room."""
+    rows = _rows_of_block(n, memory)
+    check_memory(rows * n * BYTES_PER_VALUE, f"A block of {rows:,} x {n:,} distances", REMEDY)
+
+
+def _rows_of_block(n: int, memory: float) -> int:
+    return int(np.clip(memory / (n * BYTES_PER_VALUE), 1, n))
 
 
 def _fill(rows: AnyArray, distance: Distance, ids: IntArray) -> None:

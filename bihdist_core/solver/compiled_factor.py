@@ -12,9 +12,8 @@ from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..kernel.library import at, check_stopped, library, rows_of
-from ..machine_memory import check_memory
+from ..machine_memory import REMEDY, check_memory
 from .compiled_tree import PAD, CompiledTree, padded
-from .plain import REMEDY
 from .worker_threads import WORKERS, Arena, Job, Run, Workspaces
 
 PADDING = 8

@@ -23,7 +23,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 
 from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
-from ..machine_memory import check_memory
+from ..machine_memory import REMEDY, check_memory
 from ..progress import Progress
 from .blas import one_blas_thread
 from .worker_threads import Job
@@ -38,8 +38,6 @@ rows have entries of size 1 / h, and what K lacks comes back in S magnified by t
 
 FRONTS = 3
 """How many blocks of a front's size there are at a time while it is eliminated."""
-
-REMEDY = "show fewer panels, simplify the mesh (bihdist perturb --simplify N), or take a larger machine or a cluster."
 
 SEPARATOR = 2
 """The side of vertices in neither half, 0 or 1, of a region."""

@@ -8,7 +8,7 @@ import pytest
 import scipy.sparse as sp
 
 from bihdist_core import BiharmonicDistance, Laplacian, NotEnoughMemory, TruncatedBiharmonicDistance, machine_memory
-from bihdist_core.analysis.all_pairs import write_all_pairs
+from bihdist_core.analysis.all_pairs import check_block, write_all_pairs
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.kernel.library import library
@@ -147,4 +147,6 @@ def test_what_has_no_room_for_eigenpairs_or_a_block_of_pairs_says_so(monkeypatch
     with pytest.raises(NotEnoughMemory, match=r"A block of 3,000 x 3,000 distances needs about .*--memory.*cluster"):
         write_all_pairs(distance, tmp_path / "all.npy")
     assert not list(tmp_path.iterdir())
+    with pytest.raises(NotEnoughMemory, match=r"A block of 10 x 100,000 distances"):
+        check_block(100_000, 4e7)
     write_all_pairs(distance, tmp_path / "all.npy", memory=9e5)
