@@ -14,6 +14,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..errors import BihdistError, Cancelled, ParameterError, VertexError
 from ..laplacian import Laplacian
+from ..machine_memory import REMEDY
 from ..progress import Progress, part, silent, turn
 from ..sources.pieces import Pieces, pieces_of
 from ..sources.source import Source
@@ -152,7 +153,7 @@ def failure_in_words(error: Exception) -> str:
     if isinstance(error, BihdistError):
         return str(error)
     if isinstance(error, MemoryError):
-        return "There is not enough memory for this mesh."
+        return f"There is not enough memory for this mesh; {REMEDY}"
     note_unexpected(error)
     return unexpected_words(error)
 

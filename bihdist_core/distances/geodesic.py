@@ -121,7 +121,9 @@ class GeodesicDistance(Distance):
         """Make the solver of a component, if that is not done."""
         if component.index not in self._solvers:
             if self.method == "exact":
-                self._solvers[component.index] = ExactGeodesic(component.surface)
+                self._solvers[component.index] = exact = ExactGeodesic(component.surface)
+                if self.radius == np.inf:
+                    takes_long(exact, progress)  # whose trial tells how long a field will take
             elif self.method == "heat":
                 self._solvers[component.index] = HeatTimes(component, progress)
             else:
