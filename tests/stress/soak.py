@@ -1,12 +1,7 @@
 """Many clicks and opens, in a session without a window and in a window: memory and handles stay as they are."""
 
-import json
 import os
 import random
-import resource
-import shutil
-import subprocess
-import sys
 import threading
 from pathlib import Path
 
@@ -16,9 +11,9 @@ from bihdist_core import write_mesh
 from tests.app.conftest import Desk
 from tests.shapes import bumpy, grid, torus
 
-from .blocks import ROOT
 from .cancellations import until_idle
 from .outcome import OPENED, WRONG, Outcome
+from .screens import found_by, there_is_a_screen
 
 WORDS = "10,000 clicks and 200 opens in a session, 2,000 acts of hands in a window"
 SEEDS, BLOCK, SECONDS = 5, 2, 3600.0
@@ -65,18 +60,11 @@ def session(seed: int, folder: Path, clicks: int, opens: int) -> Outcome:
 
 def window(seed: int, folder: Path, actions: int) -> Outcome | None:
     """Random hands on the real window; nothing where there is no screen to be had."""
-    if not (shutil.which("xvfb-run") and shutil.which("xdotool")):
+    if not there_is_a_screen():
         return None
-    resource.setrlimit(resource.RLIMIT_AS, 2 * resource.getrlimit(resource.RLIMIT_AS)[1:])
-    screen = ["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24"]
-    command = [*screen, sys.executable, "-m", "tests.qt.random_actions", str(seed), str(actions), str(folder)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
-    if done.returncode:
-        return Outcome(WRONG, f"the window ended with status {done.returncode}: {done.stderr[-300:]}")
-    found = json.loads(done.stdout.splitlines()[-1])
-    faults = [*found["errors"], *found["faults"]]
-    if faults:
-        return Outcome(WRONG, " ".join(faults[0].split())[-300:])
+    found = found_by("random_actions", seed, actions, folder)
+    if isinstance(found, Outcome):
+        return found
     return _flat([1e6 * megabytes for megabytes in found["rss"]], [0])
 
 
