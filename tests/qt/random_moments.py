@@ -72,11 +72,14 @@ class MomentHands(Hands):
 
     def repair(self) -> None:
         """A cut, and sometimes the way back of it."""
-        session = self.window.session
-        if session.document.surfaces[0].repairs.cut:
+        session, context = self.window.session, self.window.context
+        if context.active is None:
+            return  # nothing is open
+        shown = session.document.panel(context.active.id)
+        if session.document.mesh(shown.surface).repairs.cut:
             parts(self.window).repairs.put_back()
             return
-        mask = np.ones(len(session.first_surface.vertices), int)
+        mask = np.ones(len(session.surface_in(shown.id).vertices), int)
         mask[: self.chance.randrange(1, len(mask) // 3)] = 0
         path = self.folder / f"mask {self.chance.randrange(10)}.npy"
         np.save(path, mask)
@@ -104,7 +107,7 @@ class MomentHands(Hands):
         elif way == "size":
             self.window.resize(self.chance.randint(640, 1500), self.chance.randint(480, 950))
         elif way == "through":
-            choices.pass_through(self.panel(), self.chance.choice(surface.faces.ravel().tolist()))
+            choices.isoline.pass_through(self.panel(), self.chance.choice(surface.faces.ravel().tolist()))
         else:
             self.window.actions_by_word["wireframe"].trigger()
 
