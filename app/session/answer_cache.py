@@ -10,6 +10,9 @@ from .questions import Question
 MEMORY = 256_000_000
 """Bytes of fields that are kept: 320 of 100,000 vertices, 32 of a million."""
 
+BESIDE = 2_000
+"""Bytes that an answer, its question and their words take beside its arrays."""
+
 
 class AnswerCache:
     """The final answers given last, for any thread: what comes back, by undo or in another panel, costs nothing."""
@@ -29,7 +32,7 @@ class AnswerCache:
 
     def put(self, question: Question, answer: Answer) -> None:
         """Keep an answer with a field or colours; those not asked for the longest go."""
-        if not _size(answer):
+        if answer.field is answer.colours is None:
             return
         with self._lock:
             old = self._answers.pop(question, None)
@@ -41,5 +44,4 @@ class AnswerCache:
 
 
 def _size(answer: Answer) -> int:
-    """Bytes of its arrays."""
-    return sum(each.nbytes for each in (answer.field, answer.colours, answer.leads_to) if each is not None)
+    return BESIDE + sum(each.nbytes for each in (answer.field, answer.colours, answer.leads_to) if each is not None)

@@ -22,6 +22,9 @@ from .loaded_mesh import LoadedMesh, is_same, open_mesh
 SPARED = 120_000
 """Surfaces no longer shown are kept up to so many vertices in all, for undo; with their factors these take 0.4 GB."""
 
+LEAST = 10_000
+"""Vertices that each of them counts for at least: a small one takes half a megabyte for what is made once."""
+
 SPARED_MADE = 2
 """The same of surfaces made from others: made again they are soon there."""
 
@@ -116,7 +119,7 @@ class Surfaces:
         made = [loaded for loaded in others if loaded.origin is not None]
         # Of those that a slider has passed none is come back to.
         others = [loaded for loaded in others if loaded not in made[:-SPARED_MADE]]
-        while others and sum(len(loaded.surface.vertices) for loaded in others) > SPARED:
+        while others and sum(max(len(loaded.surface.vertices), LEAST) for loaded in others) > SPARED:
             others.pop(0)
         self._opened = [*others, *shown]
         for loaded in self._opened:

@@ -18,6 +18,26 @@ def is_read(kept):
 
 
 # ---------------------------------------------------------------------- history
+def test_many_steps_are_kept_and_no_more(monkeypatch):
+    monkeypatch.setattr("app.document.history.LONGEST", 5)
+    document = comparison("mesh.off", [BIHARMONIC])
+    history = History(document)
+    for vertex in range(8):
+        history.change(move_source(document, 0, vertex))
+    back = [history.undo().point("source").at for _ in range(7)]
+    assert back == [6, 5, 4, 3, 2, 2, 2]
+
+
+def test_small_meshes_that_are_no_longer_shown_are_kept_in_small_numbers(desk, mesh_file, monkeypatch):
+    monkeypatch.setattr("app.session.surfaces.SPARED", 35_000)
+    d = desk([BIHARMONIC])
+    for k in range(6):
+        path = mesh_file(grid(3, 3 + k), f"{k}.off")
+        d.show(path)
+        d.until(lambda path=path: d.session.is_complete and d.session.document.surfaces[0].path == path)
+    assert [loaded.surface.name for loaded in d.session._surfaces] == ["2.off", "3.off", "4.off", "5.off"]
+
+
 def test_what_comes_back_by_undo_is_there_at_once(desk, mesh_file):
     d = desk()
     session = d.loaded(mesh_file(bumpy(200)), source=1)

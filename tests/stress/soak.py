@@ -34,10 +34,11 @@ def case(seed: int, number: int, folder: Path) -> Outcome | None:
 def session(seed: int, folder: Path, clicks: int, opens: int) -> Outcome:
     """Clicks at random vertices, with another mesh opened now and then."""
     rng = random.Random(f"soak {seed}")
-    paths = []
-    for k, surface in enumerate((bumpy(200), torus(20, 10), grid(12, 10))):
+    paths: list[str] = []
+    for k in range(opens):
+        shape = (bumpy(200, k), torus(20, 10), grid(12, 10))[k % 3]
         paths.append(str(folder / f"{k}.off"))
-        write_mesh(paths[-1], surface)
+        write_mesh(paths[-1], shape)
     desk = Desk()
     memory, handles, every = [], [], max(clicks // opens, 1)
     try:
@@ -47,8 +48,8 @@ def session(seed: int, folder: Path, clicks: int, opens: int) -> Outcome:
             else:
                 document, count = desk.session.document, len(desk.session.surface.vertices)
                 desk.click(rng.randrange(count), rng.choice(document.panels).id)
-            desk.until(lambda: desk.session.is_complete, PATIENCE)
-            desk.view.told.clear()
+            desk.until(lambda: desk.session.is_complete and not desk.session.is_opening, PATIENCE)
+            desk.drain()
             if k % max(clicks // SAMPLES, 1) == 0:
                 until_idle(desk)  # what was given up has ended
                 memory.append(_resident())
