@@ -10,8 +10,8 @@ from .questions import Question
 MEMORY = 256_000_000
 """Bytes of fields that are kept: 320 of 100,000 vertices, 32 of a million."""
 
-BESIDE = 2_000
-"""Bytes that an answer, its question and their words take beside its arrays."""
+MOST = 1_000
+"""Answers that are kept: of small meshes a memory would hold more than anybody comes back to."""
 
 
 class AnswerCache:
@@ -32,16 +32,17 @@ class AnswerCache:
 
     def put(self, question: Question, answer: Answer) -> None:
         """Keep an answer with a field or colours; those not asked for the longest go."""
-        if answer.field is answer.colours is None:
+        if not _size(answer):
             return
         with self._lock:
             old = self._answers.pop(question, None)
             self._bytes += _size(answer) - (0 if old is None else _size(old))
             self._answers[question] = answer
-            while self._bytes > self._memory and len(self._answers) > 1:
+            while len(self._answers) > (MOST if self._bytes <= self._memory else 1):
                 _, gone = self._answers.popitem(last=False)
                 self._bytes -= _size(gone)
 
 
 def _size(answer: Answer) -> int:
-    return BESIDE + sum(each.nbytes for each in (answer.field, answer.colours, answer.leads_to) if each is not None)
+    """Bytes of its arrays."""
+    return sum(each.nbytes for each in (answer.field, answer.colours, answer.leads_to) if each is not None)

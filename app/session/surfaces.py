@@ -78,6 +78,7 @@ class Surfaces:
         self._opened: list[LoadedMesh] = []  # those shown last come last
         self.on_their_way: Opening | None = None
         self.progress: tuple[float, str] | None = None
+        self._dropped = False  # whether surfaces have been forgotten whose memory may still be held
         self.tried = False  # whether surfaces have been asked for
         self._worker: LatestRequestWorker[Opening] = LatestRequestWorker(
             "load", self._load, self._report, self._failed, leaves=True
@@ -121,6 +122,7 @@ class Surfaces:
         others = [loaded for loaded in others if loaded not in made[:-SPARED_MADE]]
         while others and sum(max(len(loaded.surface.vertices), LEAST) for loaded in others) > SPARED:
             others.pop(0)
+        self._dropped = self._dropped or len(others) + len(shown) < len(self._opened)
         self._opened = [*others, *shown]
         for loaded in self._opened:
             loaded.beside = tuple(shown) if loaded in shown else ()
@@ -155,7 +157,8 @@ class Surfaces:
         report(1, "")
         self._post(lambda: self._take(opening, found))
         self._loaded()
-        if any(mesh.change is not None for mesh in opening.meshes):
+        if self._dropped:
+            self._dropped = False
             _give_back()  # of one after another, as a slider moves, nobody else would
 
     def _take(self, opening: Opening, found: list[LoadedMesh]) -> None:

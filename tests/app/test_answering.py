@@ -13,7 +13,7 @@ from app.document.document import MeshFile
 from app.document.edits import add_panel
 from app.document.quantities import DistanceFrom
 from app.session import loaded_mesh
-from app.session.answer_cache import BESIDE, AnswerCache
+from app.session.answer_cache import AnswerCache
 from app.session.questions import DistanceQuestion
 from bihdist_core import BiharmonicDistance, Cancelled
 from bihdist_core.distances import kinds
@@ -373,8 +373,17 @@ def test_drags_are_steps_of_their_own(desk, mesh_file):
     assert d.source == 0
 
 
+def test_answers_are_kept_up_to_a_number(monkeypatch):
+    monkeypatch.setattr("app.session.answer_cache.MOST", 3)
+    kept = AnswerCache()
+    asked = [DistanceQuestion(MeshFile("A", ""), "voronoi", BIHARMONIC, vertex) for vertex in range(5)]
+    for question in asked:
+        kept.put(question, Answer(label="", field=np.zeros(1)))
+    assert [kept.get(question) is not None for question in asked] == [False, False, True, True, True]
+
+
 def test_answers_are_kept_within_a_memory():
-    kept = AnswerCache(memory=3 * (BESIDE + 800))
+    kept = AnswerCache(memory=2500)
     asked = [DistanceQuestion(MeshFile("A", ""), "voronoi", BIHARMONIC, vertex) for vertex in range(4)]
     for question in asked:
         kept.put(question, Answer(label="", field=np.zeros(100)))
