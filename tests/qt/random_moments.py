@@ -37,6 +37,8 @@ MOST_PANELS = 4
 PATIENCE = 120.0
 SAME = 1e-6
 """Of the maximum, by which fields may differ that are found in another order."""
+IDLE, BUSY = 2.0, 0.1
+"""Seconds that a window is left alone, and the share of a processor that is too much then."""
 TOLD_AFTER = 0.4
 """Seconds without an answer of the window after which it is written down what it is at."""
 
@@ -234,6 +236,18 @@ class MomentHands(Hands):
             if self.window.grid.panel(panel.id).answer is not shown:
                 self.faults.append(f"panel {panel.id} shows something old")
 
+    def rest(self) -> None:
+        """Let Qt wait for what does not come, and see what that costs."""
+        from qtpy import QtCore
+
+        self.settle()
+        loop, begin = QtCore.QEventLoop(), time.process_time()
+        QtCore.QTimer.singleShot(round(1000 * IDLE), loop.quit)
+        loop.exec_()
+        share = (time.process_time() - begin) / IDLE
+        if share > BUSY:
+            self.faults.append(f"a window at rest takes {share:.0%} of a processor")
+
     def _distances(self, mesh: object, surface: Surface) -> Distances:
         """Those of a copy of a surface, which is a mesh's."""
         name = f"{mesh.path} {mesh.repairs}"
@@ -267,6 +281,7 @@ def main() -> None:
             hands.moment()
             if len(hands.errors) + len(hands.faults) > 5:
                 break
+        hands.rest()
     except Exception:
         hands.errors.append(traceback.format_exc())
     found = {
