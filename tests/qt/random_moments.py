@@ -37,7 +37,7 @@ MOST_PANELS = 4
 PATIENCE = 120.0
 SAME = 1e-6
 """Of the maximum, by which fields may differ that are found in another order."""
-IDLE, BUSY = 2.0, 0.1
+IDLE, BUSY = 1.0, 0.05
 """Seconds that a window is left alone, and the share of a processor that is too much then."""
 TOLD_AFTER = 0.4
 """Seconds without an answer of the window after which it is written down what it is at."""
@@ -54,7 +54,6 @@ class MomentHands(Hands):
         self.phases: Counter[str] = Counter()
         self._known: dict[str, Distances] = {}
         self._diary = (folder / "stalls.txt").open("w")
-        self._answered = time.monotonic()
         self._listen()
 
     def _listen(self) -> None:
@@ -158,10 +157,10 @@ class MomentHands(Hands):
         """While all goes on; another window opens a mesh."""
         from app.document.document import COMPARISON, comparison
 
-        begin = time.monotonic()
+        begin, own = time.monotonic(), time.thread_time()
         self.window.close()
         self.spin()
-        self._wait_of(begin, "the window is closed")
+        self._wait_of(begin, own, "the window is closed")
         self.window.deleteLater()
         self.window = self.new_window(type(self.window), comparison("", COMPARISON))
         self._listen()
@@ -187,22 +186,27 @@ class MomentHands(Hands):
         """Press Esc then, which the window may be too busy to see; how long it takes until it answers."""
         from qtpy import QtCore, QtTest
 
+        own = time.thread_time()
         while time.monotonic() < moment:
+            own = time.thread_time()
             self.spin()
         going = " and ".join(sorted({words.partition(":")[0] for _, words in self.window.session.progress.values()}))
         self.phases[going or "nothing"] += 1
         QtTest.QTest.keyClick(self.window, QtCore.Qt.Key.Key_Escape)
         self.spin()
         self.spin()
-        self._wait_of(moment, f"Esc in {self.done[-1]}: {going}")
+        self._wait_of(moment, own, f"Esc in {self.done[-1]}: {going}")
         last = time.monotonic()
         while last < moment + AFTERWARDS:
+            own = time.thread_time()
             self.spin()
-            self._wait_of(last, f"after Esc in {self.done[-1]}: {going}")
+            self._wait_of(last, own, f"after Esc in {self.done[-1]}: {going}")
             last = time.monotonic()
 
-    def _wait_of(self, begin: float, words: str) -> None:
-        seconds = time.monotonic() - begin
+    def _wait_of(self, begin: float, own: float, words: str) -> None:
+        """begin, own: when it began, by the clock and by the processor time of the window's thread."""
+        seconds, own = time.monotonic() - begin, time.thread_time() - own
+        words = f"{words} ({own:.2f} s of processor time)"
         self.waits.append((round(seconds, 3), words))
         if seconds > TOLD_AFTER:
             print(f"-- {seconds:.2f} s: {words}\n", file=self._diary, flush=True)
@@ -240,13 +244,14 @@ class MomentHands(Hands):
         """Let Qt wait for what does not come, and see what that costs."""
         from qtpy import QtCore
 
-        self.settle()
-        loop, begin = QtCore.QEventLoop(), time.process_time()
-        QtCore.QTimer.singleShot(round(1000 * IDLE), loop.quit)
-        loop.exec_()
-        share = (time.process_time() - begin) / IDLE
-        if share > BUSY:
-            self.faults.append(f"a window at rest takes {share:.0%} of a processor")
+        shares: list[float] = []
+        while not shares or (shares[-1] > BUSY and len(shares) < 10):  # what has been given up may still end
+            loop, begin = QtCore.QEventLoop(), time.process_time()
+            QtCore.QTimer.singleShot(round(1000 * IDLE), loop.quit)
+            loop.exec_()
+            shares.append((time.process_time() - begin) / IDLE)
+        if shares[-1] > BUSY:
+            self.faults.append(f"a window at rest takes {shares[-1]:.0%} of a processor")
 
     def _distances(self, mesh: object, surface: Surface) -> Distances:
         """Those of a copy of a surface, which is a mesh's."""
