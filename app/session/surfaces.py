@@ -23,6 +23,9 @@ from .loaded_mesh import LoadedMesh, is_same, open_mesh
 SPARED = 120_000
 """Surfaces no longer shown are kept up to so many vertices in all, for undo; with their factors these take 0.4 GB."""
 
+LEAST = 10_000
+"""Vertices that each of them counts for at least: a small one takes half a megabyte for what is made once."""
+
 SPARED_MADE = 2
 """The same of surfaces made from others: made again they are soon there."""
 
@@ -76,6 +79,7 @@ class Surfaces:
         self._opened: list[LoadedMesh] = []  # those shown last come last
         self.on_their_way: Opening | None = None
         self.progress: tuple[float, str] | None = None
+        self._dropped = False  # whether surfaces have been forgotten whose memory may still be held
         self.tried = False  # whether surfaces have been asked for
         self._worker: LatestRequestWorker[Opening] = LatestRequestWorker(
             "load", self._load, self._report, self._failed, leaves=True
@@ -121,8 +125,9 @@ class Surfaces:
         made = [loaded for loaded in others if loaded.origin is not None]
         # Of those that a slider has passed none is come back to.
         others = [loaded for loaded in others if loaded not in made[:-SPARED_MADE]]
-        while others and sum(len(loaded.surface.vertices) for loaded in others) > SPARED:
+        while others and sum(max(len(loaded.surface.vertices), LEAST) for loaded in others) > SPARED:
             others.pop(0)
+        self._dropped = self._dropped or len(others) + len(shown) < len(self._opened)
         self._opened = [*others, *shown]
         for loaded in self._opened:
             loaded.beside = tuple(shown) if loaded in shown else ()
@@ -152,7 +157,8 @@ class Surfaces:
         report(1, "")
         self._post(lambda: self._take(opening, found))
         self._loaded()
-        if any(mesh.change is not None for mesh in opening.meshes):
+        if self._dropped:
+            self._dropped = False
             _give_back()  # of one after another, as a slider moves, nobody else would
 
     def _assemble(self, loaded: LoadedMesh, check_wanted: Callable[[], None]) -> None:

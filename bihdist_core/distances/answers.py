@@ -259,7 +259,7 @@ class Distances:
                     return answer
                 # Whoever has a newer question need not wait for the certificate of this one.
                 (progress or silent)(1.0, distance.label)
-            estimate = distance.error_estimate(components)
+            estimate = distance.error_estimate(components, part(progress, 1, 1))
             label = f"{answer.label}, {estimate.short}" if estimate.short else answer.label
             return replace(answer, label=label, error_estimate=estimate)
         except (Cancelled, VertexError):
