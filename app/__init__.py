@@ -6,51 +6,59 @@ is open, asked and answered), `scene` (VTK and PyVista), `figures` (and movies),
 
 In a checkout this folder is called `app`; installed it is the package `bihdist`.  The library's names are those of
 `bihdist_core`, imported when they are first asked for, with `figure` and `figure_again`, which draw, `page`, which
-writes a page that computes, and `show`, which opens the window.
+writes a page that computes, `widget`, which shows one in a notebook, and `show`, which opens the window.
 """
 
-from typing import TYPE_CHECKING
-
-import bihdist_core as _library
-
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    import bihdist_core as _library
     from bihdist_core import *  # noqa: F403
 
     from .figures.picture import figure as figure, figure_again as figure_again
-    from .web.page import page as page
     from .qt.show import show as show
+    from .web.page import page as page
+    from .web.widget import widget as widget
 
     __version__: str
 
-# In two steps, which type checkers follow.
-__all__ = ["figure", "figure_again", "show", "page"]
-__all__ += _library.__all__
+    # In two steps, which type checkers follow.
+    __all__ = ["figure", "figure_again", "page", "show", "widget"]
+    __all__ += _library.__all__
+
+_OWN = {
+    "figure": "figures.picture",
+    "figure_again": "figures.picture",
+    "page": "web.page",
+    "show": "qt.show",
+    "widget": "web.widget",
+}
+"""Where the program's own names are defined."""
 
 
 def __getattr__(name: str) -> object:
-    if name in ("figure", "figure_again"):
-        from .figures import picture
+    # Nothing is imported above: before the program listens for Ctrl-C, that would be answered by a page of code.
+    from importlib import import_module
 
-        return getattr(picture, name)
-    if name == "page":
-        from .web.page import page
-
-        return page
     if name == "show":
         from .qt.screen import check_libraries
 
         check_libraries()
-        from .qt.show import show
-
-        return show
+    if name in _OWN:
+        return getattr(import_module(f".{_OWN[name]}", __name__), name)
     if name == "__version__":
         from .version import version
 
         return version()
-    if name in __all__:
-        return getattr(_library, name)
+    import bihdist_core
+
+    if name == "__all__":
+        return __dir__()
+    if name in bihdist_core.__all__:
+        return getattr(bihdist_core, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    import bihdist_core
+
+    return sorted([*_OWN, *bihdist_core.__all__])

@@ -44,8 +44,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     options: argparse.Namespace | None = None
     try:
+        # Before anything has begun, SIGTERM needs no answer but the system's.
+        options = parser_of_all().parse_args(_with_values(_with_command(arguments)))
         with termination_raised():
-            options = parser_of_all().parse_args(_with_values(_with_command(arguments)))
             return _run(options)
     except BihdistError as error:
         return _failed(options, str(error), 2)

@@ -29,6 +29,10 @@ def run() -> int:
             return main()
         finally:
             sys.stdout.flush()
+    except KeyboardInterrupt:
+        # Before the command line has begun, or after its end.
+        _say("interrupted.")
+        return INTERRUPTED
     except OSError as error:
         # Of files our errors tell, or they have a name.
         if error.errno not in UNWRITTEN or error.filename:

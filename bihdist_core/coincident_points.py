@@ -32,6 +32,13 @@ def _merged_by_sorting(points: FloatArray) -> tuple[FloatArray, IntArray]:
     return points[np.sort(first)], rank[group]
 
 
+def least_apart(points: FloatArray) -> float:
+    """How far the two nearest of the (k, 3) points are from each other; infinite where there are not two."""
+    from scipy.spatial import cKDTree  # not at the top: files are read without it
+
+    return float(cKDTree(points).query(points, [2])[0].min(initial=np.inf))
+
+
 def merged_within(points: FloatArray, tolerance: float) -> tuple[IntArray, IntArray]:
     """(n,) which of the (k, 3) points are kept, ascending, and (k,) the place among them of what stands for each.
 

@@ -49,6 +49,10 @@ class Cancelled(BihdistError):
     """
 
 
+class PlainSolverWarning(RuntimeWarning):
+    """The compiled kernel cannot be used; the message says why, and what to do."""
+
+
 def unreadable(what: str, error: Exception) -> ParameterError:
     """The error for a file that was not read, such as "The pins in a.csv", with the reason."""
     reason = getattr(error, "strerror", None) or error

@@ -22,19 +22,25 @@ import scipy.sparse as sp
 from .arrays import FloatArray, IntArray
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError, SolverError
+from .expected_time import Expected, expected_seconds
 from .locked_cached_property import locked_cached_property
+from .machine_memory import check_memory
 from .mesh_like import MeshLike, Rows
 from .operators import AREAS, operators
 from .progress import Progress, part, turn
 from .scalars import whole_number
 from .solver.aside import aside
 from .solver.elimination_tree import EliminationTree
-from .solver.factor import Factor
-from .solver.spectrum import Spectrum, is_long, smallest_eigenpairs
+from .solver.factor import Factor, share_of_ordering, usual_bytes, usual_seconds
+from .solver.spectrum import Spectrum, eigenpair_bytes, eigenpair_work, is_long, smallest_eigenpairs
+from .solver.worker_threads import WORKERS
 from .surface import Surface
 
 Computed = tuple[EliminationTree | None, Factor | None, Spectrum | None]
 """What a component has computed so far: its tree, its factor, its eigenpairs."""
+
+REMEDY = "take fewer of them, simplify the mesh (bihdist perturb --simplify N), or use a larger machine or a cluster."
+"""Where there is no room for eigenpairs."""
 
 
 class Laplacian:
@@ -183,12 +189,13 @@ class Component:
             return have
         with turn(self._factor_lock, progress, "waiting for the factor"):
             if self._factor is None or (diagonals and not self._factor.has_diagonals):
-                tree = self.tree(part(progress, 0, 0.4))
+                ordered = share_of_ordering(len(self.vertices), diagonals)
+                tree = self.tree(part(progress, 0, ordered))
                 areas = self.areas.copy()
                 areas[self.pin] = 0
                 matrix = _pinned(self.stiffness, self.pin)
                 try:
-                    self._factor = Factor(tree, matrix, areas if diagonals else None, part(progress, 0.4, 1))
+                    self._factor = Factor(tree, matrix, areas if diagonals else None, part(progress, ordered, 1))
                 except SolverError as error:
                     raise SolverError(
                         f"The Laplacian of {self.surface.name} cannot be factored: its faces are too thin, or differ "
@@ -246,6 +253,22 @@ class Component:
         """How many there are besides the constant (`Laplacian.eigenpair_counts`)."""
         return int(self.laplacian.eigenpair_counts[self.index])
 
+    def check_room_for(self, count: int) -> None:
+        """Before long work: NotEnoughMemory where so many eigenpairs have no room, with the factor if there is none."""
+        n, factor, have = len(self.areas), self._factor, self._spectrum
+        if have is None or len(have.eigenvalues) < count:
+            size = usual_bytes(n) if factor is None else factor.nbytes
+            needed = eigenpair_bytes(n, min(count, self.most_eigenpairs), size) + (size if factor is None else 0)
+            check_memory(needed, f"Finding {count:,} eigenpairs of {n:,} vertices", REMEDY)
+
+    def share_of_factor(self, count: int) -> float:
+        """Which share of the time that the factor, with its diagonals, and so many eigenpairs take is the factor's."""
+        n = len(self.areas)
+        if self._factor is not None and self._factor.has_diagonals:
+            return 0.0
+        factor = usual_seconds(n, True)
+        return factor / (factor + expected_seconds("eigenpairs", eigenpair_work(n, count, usual_bytes(n)), WORKERS))
+
     def spectrum(self, count: int, progress: Progress | None = None) -> Spectrum:
         """At least the first `count` eigenpairs (of at most `most_eigenpairs`); grown and kept."""
         count = min(count, self.most_eigenpairs)
@@ -253,13 +276,17 @@ class Component:
             have = self._spectrum
             if have is not None and len(have.eigenvalues) >= count:
                 return have
-            work = self.factor(part(progress, 0, 0.1)), self.pin, self.stiffness, self.areas, count, have
-            report = part(progress, 0.1, 1)
+            factored = 0.0 if self._factor is not None else 0.1
+            factor, n = self.factor(part(progress, 0, factored)), len(self.areas)
+            given = factor, self.pin, self.stiffness, self.areas, count, have
+            self.check_room_for(count)
+            work = eigenpair_work(n, count, factor.nbytes)
             try:
-                if is_long(len(self.areas), count):
-                    self._spectrum = aside(_spectrum, *work, progress=report)
-                else:
-                    self._spectrum = _spectrum(*work, progress=report)
+                with Expected("eigenpairs", work, WORKERS, part(progress, factored, 1)) as it:
+                    if is_long(n, count):
+                        self._spectrum = aside(_spectrum, *given, progress=it.progress)
+                    else:
+                        self._spectrum = _spectrum(*given, progress=it.progress)
             except SolverError as error:
                 raise SolverError(f"{self.surface.name}: {error}") from None
             return self._spectrum

@@ -10,6 +10,9 @@ from .errors import NotEnoughMemory
 SMALL = 1 << 26
 """Less is not looked for."""
 
+REMEDY = "show fewer panels, simplify the mesh (bihdist perturb --simplify N), or take a larger machine or a cluster."
+"""Where a mesh has no room."""
+
 PROC, CGROUPS = Path("/proc"), Path("/sys/fs/cgroup")
 
 LIMITS = {

@@ -111,8 +111,16 @@ class Surface:
         if not 0 <= vertex < n:
             raise VertexError(f"{self.name} has no vertex {vertex}; ids run from 0 to {n - 1}.")
         if self.component_of_vertex[vertex] < 0:
-            raise VertexError(f"{self.name}: vertex {vertex} belongs to no face, so no distance is defined from it.")
+            raise VertexError(
+                f"{self.name}: vertex {vertex} belongs to no face, so no distance is defined from it; the nearest that "
+                f"does is {self._nearest_of_a_face(vertex)}."
+            )
         return vertex
+
+    def _nearest_of_a_face(self, vertex: int) -> int:
+        used = np.flatnonzero(self.component_of_vertex >= 0)
+        apart = ((self.vertices[used] - self.vertices[vertex]) ** 2).sum(axis=1)
+        return int(used[int(apart.argmin())])
 
     def check_vertices(self, vertices: npt.ArrayLike | Sequence[object]) -> IntArray:
         """(k,) int64 ids, each checked as by `check_vertex`."""

@@ -1,15 +1,21 @@
 """Files written whole or not at all."""
 
+import errno
 import os
 import re
 import secrets
 import stat
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 from .errors import OutputError
+
+fcntl: Any = None
+with suppress(ImportError):  # on Windows
+    import fcntl
 
 
 def check_output(path: str | os.PathLike[str], formats: Sequence[str]) -> str:
@@ -36,47 +42,117 @@ def check_outputs(*outputs: tuple[str | os.PathLike[str] | None, Sequence[str]])
     return bool(named)
 
 
-HALF_WRITTEN = re.compile(r"\.(.+)-[0-9a-f]{8}(\.\w+)")
+HALF_WRITTEN = re.compile(r"\.(.+)\.half-[0-9a-f]{8}(\..*)?")
 """The names that files have while they are written: the beginning of their own, and its ending."""
-OLD_S = 3600.0
-"""Nothing of ours is written for so long."""
+FIRST = 50
+"""Letters of a name that the one of a half-written file begins with: it has at most 255 bytes, a letter up to four."""
+OLD_S = 86400.0
+"""Where there are no locks, what nobody has touched for so long is not being written any more."""
 
 
-def sweep_half_written(folder: Path) -> None:
-    """Remove what killed processes have left half written in a folder of the program's own."""
-    with suppress(OSError):
-        for path in folder.glob(".*"):
-            is_half = HALF_WRITTEN.fullmatch(path.name) and path.is_file()
-            if is_half and time.time() - path.stat().st_mtime > OLD_S:
-                path.unlink(missing_ok=True)
+def half_written(target: Path) -> Path:
+    """A new name for what is to be at `target` once it is whole."""
+    return target.with_name(f".{target.stem[:FIRST]}.half-{secrets.token_hex(4)}{target.suffix}")
 
 
 @contextmanager
-def whole_file(path: str | os.PathLike[str]) -> Iterator[Path]:
+def held(path: Path) -> Iterator[bool]:
+    """While the block runs `is_left` says of this file or folder, to every process, that somebody writes it; whether
+    it is still there, and has not been swept before."""
+    with ExitStack() as files:
+        if fcntl is not None:
+            with suppress(OSError):  # a file system without locks, or it is gone
+                handle = _handle(path)
+                files.callback(os.close, handle)
+                fcntl.flock(handle, fcntl.LOCK_EX)
+        yield path.exists()
+
+
+def is_left(path: Path) -> bool:
+    """Whether whoever was writing a file or folder is gone.  The system lets go of the locks of those that end."""
+    try:
+        handle = _handle(path)
+        try:
+            if fcntl is None:
+                raise OSError(errno.ENOTSUP, "no locks")
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return True
+        except BlockingIOError:
+            return False
+        except OSError:
+            return time.time() - path.stat().st_mtime > OLD_S
+        finally:
+            os.close(handle)
+    except OSError:
+        return False  # somebody else's, or it is gone
+
+
+def _handle(path: Path) -> int:
+    """OSError also for what is neither a file nor a folder: a pipe would be waited for."""
+    kind = path.lstat().st_mode
+    if not (stat.S_ISREG(kind) or stat.S_ISDIR(kind)):
+        raise OSError(errno.EINVAL, "it is not a regular file")
+    return os.open(path, os.O_RDWR if stat.S_ISREG(kind) else os.O_RDONLY)
+
+
+def sweep_half_written(folder: Path, name: str = ".*") -> None:
+    """Remove the files that killed processes have left half written in a folder.
+
+    name: an expression for the names, of which the first letters and the extension count, that they were to have.
+    """
+    with suppress(OSError), os.scandir(folder) as entries:
+        for entry in entries:
+            half = HALF_WRITTEN.fullmatch(entry.name)
+            if half is None or not entry.is_file(follow_symlinks=False):
+                continue
+            if re.fullmatch(name, "".join(half.groups(""))) and is_left(Path(entry.path)):
+                with suppress(OSError):
+                    os.unlink(entry.path)
+
+
+@contextmanager
+def whole_file(path: str | os.PathLike[str], sweeps: bool = True) -> Iterator[Path]:
     """A temporary path in the same folder, with the same extension, that replaces `path` when the block ends well.
 
     If the block raises (also KeyboardInterrupt), the temporary file is removed and an old file at `path` stays as it
-    was.  A link is followed, not replaced; an old file's permissions are kept.
+    was.  What a process has left that was killed in such a block is removed by the next for the same path, unless
+    sweeps is False, for folders of many files.  A link is followed, not replaced; an old file's permissions are kept.
     OSError inside the block, a full disk for example, becomes OutputError.
     """
     path = Path(path)
     _check_place(path)
     target = Path(os.path.realpath(path))
-    temporary = target.with_name(f".{target.stem[:60]}-{secrets.token_hex(4)}{target.suffix}")
+    if sweeps:
+        sweep_half_written(target.parent, re.escape(target.stem[:FIRST] + target.suffix))
     try:
-        with temporary.open("xb"):
-            pass
-        if target.exists():
-            temporary.chmod(stat.S_IMODE(target.stat().st_mode) | stat.S_IWUSR)
-        yield temporary
-        os.replace(temporary, target)
+        with _temporary(target) as temporary:
+            if target.exists():
+                temporary.chmod(stat.S_IMODE(target.stat().st_mode) | stat.S_IWUSR)
+            yield temporary
+            os.replace(temporary, target)
     except OutputError:
         raise
     except OSError as error:
         raise OutputError(f"{path} could not be written: {error.strerror or error}.") from error
-    finally:
-        with suppress(OSError):
-            temporary.unlink()
+
+
+@contextmanager
+def _temporary(target: Path) -> Iterator[Path]:
+    """A new file for a target that nobody sweeps, to be moved or else removed when the block ends."""
+    with ExitStack() as files:
+        while True:
+            temporary = half_written(target)
+            files.callback(_remove, temporary)
+            temporary.open("xb").close()
+            # Between the two somebody may have taken it for left.
+            if files.enter_context(held(temporary)):
+                break
+        yield temporary
+
+
+def _remove(path: Path) -> None:
+    with suppress(OSError):
+        path.unlink()
 
 
 def _check_place(path: Path) -> None:

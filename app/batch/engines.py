@@ -7,13 +7,14 @@ import os
 import signal
 import threading
 import time
+import warnings
 from collections import Counter, deque
 from collections.abc import Callable, Iterator
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
 from typing import Any, Protocol
 
-from bihdist_core.errors import ParameterError
+from bihdist_core.errors import ParameterError, PlainSolverWarning
 from bihdist_core.machine_memory import available
 
 from ..version import version
@@ -149,6 +150,8 @@ def _begin(memory: int) -> None:
     # A terminal's Ctrl-C reaches all processes; the one that has begun this one ends it.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     share(memory)
+    # The one that has begun it says so, once.
+    warnings.simplefilter("ignore", PlainSolverWarning)
     for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ[name] = "1"
     parent = multiprocessing.parent_process()

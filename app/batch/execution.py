@@ -6,6 +6,7 @@ What is there already is not done again.  A task of a large mesh comes back with
 processes may do; when all are there, the last task puts them together.
 """
 
+import csv
 import hashlib
 import io
 import os
@@ -157,6 +158,9 @@ def _written(task: Task, mesh: Mesh, work: str, distance: str, made: Made, begin
     facts = {**made.facts, **_facts_of_mesh(task, mesh, work)}
     if facts.get("accuracy_text") and work != "fps" and task.wanted.dtype == "float32":
         facts["accuracy_text"] += ", written in single precision: within 6e-8 of each value"
+    if "names" in made.facts:
+        facts["parcels"] = f"{which[1]}.parcels.csv"
+        which[0].write(facts["parcels"], _parcel_table(made.facts))
     layout = task.wanted.layout if work == "pairs" else ""
     if not layout:
         format = task.wanted.arrays if work != MAXIMA else "npy"
@@ -165,11 +169,23 @@ def _written(task: Task, mesh: Mesh, work: str, distance: str, made: Made, begin
         if format == "mat":
             arrays, of_ids = for_matlab(arrays, task.wanted.one_based)
             facts |= of_ids
+        if format in ("npz", "mat") and "names" in made.facts:
+            # Of objects MATLAB makes a cell array.
+            arrays["names"] = np.array(made.facts["names"], object if format == "mat" else str)
         return write_result(*which, arrays, facts, begin, format)
     if layout == "dist" and not task.wanted.normalise:
         facts["note"] = NORMALISED
     arrays = dict(laid_out(layout, made.arrays["dist"], made.facts["sqrt_area"]))
     return write_result(*which, arrays, facts, begin, "mat", f"{layout}/{task.name}.mat")
+
+
+def _parcel_table(facts: dict[str, Any]) -> bytes:
+    """What the rows of a matrix between parcels are: the label, its name, and of how many vertices."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(("label", "name", "vertices"))
+    writer.writerows(zip(facts["labels"], facts["names"], facts["counts"], strict=True))
+    return text.getvalue().encode()
 
 
 def _numbers(facts: dict[str, Any]) -> dict[str, FloatArray]:
@@ -271,7 +287,7 @@ def _join(task: Task, part: Part) -> Report:
         names, of_each = np.unique(mesh.labels[labelled(mesh.surface, mesh.labels, mesh.mask)], return_counts=True)
         sums = sum(_read_part(folder, task, each) for each in parts)
         found = ParcelSums(names, of_each, np.asarray(sums), of_each).parcels
-        made = parcels_made(mesh.distance(part.distance), found, task.wanted.dtype)
+        made = parcels_made(mesh, mesh.distance(part.distance), found)
     elif part.work == "nearest":
         indices, values = np.concatenate([_read_part(folder, task, each) for each in parts], axis=1)
         distance, sources = mesh.distance(part.distance), mesh.sources(part.distance)

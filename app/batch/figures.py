@@ -17,7 +17,7 @@ from ..document.page import Recipe
 from ..document.repairs import Repairs
 from ..figures.contact_sheet import as_jpeg, thumbnail
 from ..figures.draw import save_figure
-from ..figures.export import Surfaces, compute, figure_of, open_document
+from ..figures.export import Surfaces, check_drawable, compute, figure_of, open_document
 from ..scene.camera import Margins, aimed, frame
 from ..session.array_store import ArrayStore
 from .storage import Folder
@@ -37,6 +37,7 @@ def _computed(path: str, mesh: Mesh) -> tuple[Recipe, Document, Surfaces, list[A
     recipe = recipe_for(path, mesh)
     document, surfaces = open_document(recipe, ArrayStore())
     recipe = replace(recipe, document=document)
+    check_drawable(recipe, surfaces)
     return recipe, document, surfaces, compute(document, surfaces)
 
 

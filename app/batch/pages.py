@@ -2,8 +2,12 @@
 
 import html
 from collections.abc import Sequence
+from typing import Any
 from urllib.parse import quote
 
+from bihdist_core.errors import OutputError, ParameterError
+
+from ..document.json_values import Reader, listed, number, record, shown, text, whole
 from ..figures.contact_sheet import Cell, as_jpeg, as_png, contact_sheet, thumbnail
 from .storage import Folder
 from .task import Failure, Row
@@ -12,9 +16,22 @@ from .work_order import OWN, result_name, thumbnail_name
 SHEET, PAGE = "contact_sheet.png", "index.html"
 
 
+_PANEL: dict[str, Reader] = {"shows": text, "maximum": number, "unit": text, "of_set": text}
+_FIGURE: dict[str, Reader] = {
+    "file": text,
+    "range": text,
+    "n_vertices": whole,
+    "panels": listed(lambda panel, where: _known(panel, where, _PANEL)),
+}
+"""What is read of the JSON beside a figure."""
+
+
 def write_pages(folder: Folder, rows: Sequence[Row], failures: Sequence[Failure]) -> list[str]:
-    """All figures beside each other, those that are missing with the reason in their place; what was written."""
-    drawn = {row.name: row for row in rows if row.work == "figure"}
+    """All figures beside each other, those that are missing with the reason in their place; what was written.
+
+    ParameterError or OutputError where a figure, or what is said of it, is not as it was written.
+    """
+    drawn = {row.name: _facts(folder, row) for row in rows if row.work == "figure"}
     missing = {each.name: each.reason for each in failures if each.work == "figure"}
     if not drawn:
         return []
@@ -23,27 +40,59 @@ def write_pages(folder: Folder, rows: Sequence[Row], failures: Sequence[Failure]
         if name in missing:
             cells.append(Cell(name, failure=missing[name]))
             continue
-        content = folder.read(thumbnail_name(name)) or folder.read(drawn[name].facts["file"])
-        assert content is not None
-        picture = thumbnail(content)
-        cells.append(Cell(name, picture))
-        if folder.size(thumbnail_name(name)) is None:
-            folder.write(thumbnail_name(name), as_jpeg(picture))
+        cell = _cell(folder, name, thumbnail_name(name))
+        if cell is None:
+            cell = _cell(folder, name, drawn[name]["file"])
+            if cell is None or cell.picture is None:
+                place = f"{folder}/{drawn[name]['file']}"
+                raise OutputError(f"{place} is no picture; the same command with --verify draws it again.")
+            folder.write(thumbnail_name(name), as_jpeg(cell.picture))
+        cells.append(cell)
     words = ends_in_words(list(drawn.values()))
     folder.write(SHEET, as_png(contact_sheet(cells, words)))
     folder.write(PAGE, _page(cells, drawn, words).encode())
     return [SHEET, PAGE]
 
 
-def ends_in_words(drawn: Sequence[Row]) -> list[str]:
-    """Where the colours end, a line for each panel."""
-    facts = drawn[0].facts
+def _facts(folder: Folder, row: Row) -> dict[str, Any]:
+    """What is said of a figure; ParameterError, with the file and the place in it, if that is nothing of ours."""
+    name = result_name(row.name, "figure", "")
+    try:
+        facts = _known(row.facts, "figure", _FIGURE)
+        if facts["file"] != f"{name}.png":
+            raise ParameterError(f"figure.file must be {name}.png, not {shown(facts['file'])}.")
+        return facts
+    except ParameterError as error:
+        reason = str(error).rstrip(".")
+        raise ParameterError(
+            f"{folder}/{name}.json: {reason}; delete it, and the same command draws the figure again."
+        ) from None
+
+
+def _known(data: Any, where: str, readers: dict[str, Reader]) -> dict[str, Any]:
+    """The values of a record that has others, too."""
+    known = {name: data[name] for name in readers if name in data} if isinstance(data, dict) else data
+    return record(known, where, readers)
+
+
+def _cell(folder: Folder, name: str, file: str) -> Cell | None:
+    """A file as a thumbnail; None where it is not there, or no picture."""
+    content = folder.read(file)
+    try:
+        return None if content is None else Cell(name, thumbnail(content))
+    except Exception:  # of whatever reads what is damaged
+        return None
+
+
+def ends_in_words(drawn: Sequence[dict[str, Any]]) -> list[str]:
+    """Where the colours end, a line for each panel; drawn: what is said of each figure."""
+    facts = drawn[0]
     if facts["range"] == OWN:
         return ["Colours end at the maximum on each mesh."]
     return [f"{panel['shows']}: colours end at {panel['of_set']}" for panel in facts["panels"]]
 
 
-def _page(cells: Sequence[Cell], drawn: dict[str, Row], words: Sequence[str]) -> str:
+def _page(cells: Sequence[Cell], drawn: dict[str, dict[str, Any]], words: Sequence[str]) -> str:
     wide = max(cell.picture.width for cell in cells if cell.picture is not None)
     missing = sum(cell.picture is None for cell in cells)
     count = f"{len(cells):,} meshes" + (f", {missing} without a figure" if missing else "")
@@ -59,13 +108,13 @@ def _page(cells: Sequence[Cell], drawn: dict[str, Row], words: Sequence[str]) ->
     return text
 
 
-def _figure(cell: Cell, drawn: dict[str, Row]) -> str:
+def _figure(cell: Cell, drawn: dict[str, dict[str, Any]]) -> str:
     name = html.escape(cell.name)
     if cell.picture is None:
         return (
             f'<figure><p class="missing">{html.escape(cell.failure)}</p><figcaption><b>{name}</b></figcaption></figure>'
         )
-    facts = drawn[cell.name].facts
+    facts = drawn[cell.name]
     parts = [
         f"{panel['shows'] if len(facts['panels']) > 1 else ''} max {panel['maximum']:.4g} {panel['unit']}".strip()
         for panel in facts["panels"]

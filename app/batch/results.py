@@ -88,9 +88,11 @@ _NUMBERS = ("accuracy", "mean", "median", "area_under_curve", "seconds")
 _KINDS: dict[str, Reader] = {
     "shape": listed(whole),
     "repairs": listed(text),
+    "maxima": listed(number),
+    "scales": listed(number),
     **{name: or_none(number) for name in _NUMBERS},
 }
-"""Of facts that stand in tables."""
+"""Of facts that stand in tables, or that others are made of."""
 
 
 def _are_of_their_kinds(facts: Mapping[str, Any]) -> bool:

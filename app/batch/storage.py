@@ -1,14 +1,12 @@
 """Folders that results go to: on this computer, or wherever fsspec reaches (`s3://…`, `gs://…`, `memory://…`)."""
 
-import glob
 import hashlib
 import os
-import secrets
 import shutil
 import stat
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -16,7 +14,7 @@ from typing import Any, BinaryIO
 
 from bihdist_core.errors import OutputError, ParameterError
 from bihdist_core.sentences import shortened
-from bihdist_core.whole_file import HALF_WRITTEN, whole_file
+from bihdist_core.whole_file import HALF_WRITTEN, half_written, held, is_left, whole_file
 
 
 @dataclass(frozen=True)
@@ -130,7 +128,8 @@ class Folder:
         """A path on this computer that becomes the file when the block ends well.  OutputError if it cannot."""
         if self.local is not None:
             (self.local / name).parent.mkdir(parents=True, exist_ok=True)
-            with whole_file(self.local / name) as temporary:
+            # There may be many files; `sweep` looks through all of them once.
+            with whole_file(self.local / name, sweeps=False) as temporary:
                 yield temporary
             return
         system, root = self._elsewhere
@@ -151,25 +150,28 @@ class Folder:
             self.remove(name)
             yield name
             return
-        stem, ending = os.path.splitext(name)
-        begun = f"{os.path.dirname(stem)}/.{os.path.basename(stem)}-{secrets.token_hex(4)}{ending}".lstrip("/")
+        begun = half_written(self.local / name)
         try:
-            yield begun
-            self.remove(name)
-            os.replace(self.local / begun, self.local / name)
+            begun.mkdir(parents=True)
+            # Inside it, for whoever writes a folder may make it anew, and lose what holds it.
+            with held(begun):
+                inside = begun / "whole"
+                yield str(inside.relative_to(self.local))
+                self.remove(name)
+                os.replace(inside, self.local / name)
         except OSError as error:
             raise OutputError(f"{self.address}/{name} could not be written: {error.strerror or error}.") from error
         finally:
-            self.remove(begun)
+            shutil.rmtree(begun, ignore_errors=True)
 
     def sweep(self) -> None:
-        """Remove what killed processes have left half written; to be called when nothing writes here any more."""
+        """Remove what killed processes have left half written."""
         if self.local is None:
             return  # elsewhere a file is shown when all of it is there
-        for path in self.local.rglob(".*"):
-            half = HALF_WRITTEN.fullmatch(path.name)
-            if half and any(path.parent.glob(f"{glob.escape(half[1])}*{half[2]}")):
-                self.remove(str(path.relative_to(self.local)))
+        with suppress(FileNotFoundError):  # another run sweeps, too
+            for path in list(self.local.rglob(".*")):
+                if HALF_WRITTEN.fullmatch(path.name) and is_left(path):
+                    self.remove(str(path.relative_to(self.local)))
 
     def write(self, name: str, content: bytes) -> None:
         """Write a file, which is there as a whole or not at all."""

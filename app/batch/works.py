@@ -17,6 +17,7 @@ from bihdist_core.distances.distance import Distance
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 from bihdist_core.formats.mesh_names import mesh_format
+from bihdist_core.formats.parcel_labels import ParcelLabels, read_labels
 from bihdist_core.formats.whole_numbers import read_whole_numbers
 from bihdist_core.laplacian import eigenpairs
 from bihdist_core.sources.source import Source
@@ -93,7 +94,7 @@ class Mesh:
         if not self.wanted.mask:
             return None
         file = self.wanted.file_for(self.wanted.mask, self.name)
-        found = checked_mask(self.surface, self._of_vertices(read_whole_numbers(file, "mask")))
+        found = checked_mask(self.surface, self._of_vertices(read_whole_numbers(file, "mask", self._count)))
         if not found[self.surface.component_of_vertex >= 0].any():
             raise ParameterError(f"The mask in {file} leaves no vertex of {self.surface.name}.")
         return found
@@ -114,7 +115,16 @@ class Mesh:
     @cached_property
     def labels(self) -> IntArray:
         """(n,) the parcel of each vertex."""
-        return self._of_vertices(read_whole_numbers(self.wanted.file_for(self.wanted.labels, self.name), "labels"))
+        return self._of_vertices(self._labels.values)
+
+    @property
+    def label_names(self) -> Mapping[int, str]:
+        """The names that the file of labels has for them."""
+        return self._labels.names
+
+    @cached_property
+    def _labels(self) -> ParcelLabels:
+        return read_labels(self.wanted.file_for(self.wanted.labels, self.name), self._count)
 
     def _of_vertices(self, values: IntArray) -> IntArray:
         """Values of the vertices in the mesh's file, of those that are left; others as they are, to be refused."""
@@ -143,7 +153,7 @@ def pairs(mesh: Mesh, words: str) -> Made:
     """(k, k) the distances among the sources, or (p, p) their means between parcels."""
     distance = mesh.distance(words)
     if mesh.wanted.labels:
-        return parcels_made(distance, parcel_means(distance, mesh.labels, mesh.mask), mesh.wanted.dtype)
+        return parcels_made(mesh, distance, parcel_means(distance, mesh.labels, mesh.mask))
     sources = mesh.sources(words)
     among = distance.pairwise(sources)
     return Made(*pairs_made(mesh, distance, sources, _in(among, mesh.wanted.dtype)))
@@ -184,10 +194,13 @@ def neighbours_made(
     return Made(arrays, {**facts_of_fields(distance, sources, mesh.wanted.sources.rule), **facts})
 
 
-def parcels_made(distance: Distance, found: Parcels, dtype: str) -> Made:
-    """Mean distances between parcels (m, m), with their labels and sizes."""
-    facts = {**_facts_of_distance(distance), "labels": found.labels.tolist(), "counts": found.counts.tolist()}
-    return Made({"means": _in(found.distances, dtype)}, {**facts, "means": "of the distances of all pairs of vertices"})
+def parcels_made(mesh: Mesh, distance: Distance, found: Parcels) -> Made:
+    """Mean distances between parcels (m, m), with their labels, the names of these and their sizes."""
+    facts = {**_facts_of_distance(distance), "labels": found.labels.tolist()}
+    names = [mesh.label_names.get(label, "") for label in found.labels.tolist()]
+    facts |= {"names": names} if any(names) else {}
+    facts |= {"counts": found.counts.tolist(), "means": "of the distances of all pairs of vertices"}
+    return Made({"means": _in(found.distances, mesh.wanted.dtype)}, facts)
 
 
 def eigen(mesh: Mesh, words: str = "") -> Made:

@@ -74,7 +74,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     one_based = "with --format mat: vertex ids in files count from 1, as MATLAB's do, and files say so"
     parser.add_argument("--one-based", action="store_true", default=None, help=one_based)
     parser.add_argument("--normalise", choices=("area",), help="distances and eigenpairs of each mesh scaled to area 1")
-    kinds = ".npy, .txt, .gii, .annot or a file of FreeSurfer's; {name} is the mesh's name"
+    kinds = ".npy, .txt, .gii, .annot, .label or another file of FreeSurfer's; {name} is the mesh's name"
     parser.add_argument(
         "--mask",
         metavar="FILE",
@@ -356,6 +356,9 @@ def _engine(options: argparse.Namespace) -> "Engine":
 
     if options.dask:
         return Cluster(options.dask, tell)
+    from bihdist_core.kernel.library import library
+
+    library()  # where there is none, this process says why, and not each of those
     return Processes(options.workers or os.cpu_count() or 1)
 
 

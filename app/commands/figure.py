@@ -7,6 +7,7 @@ from bihdist_core.sources.words import short_words_of
 
 from ..version import version
 from .figure_options import add_figure_options, chosen_recipe
+from .mesh import write_ids_of
 from .result import Result, panel_facts
 from .terminal import judged, progress_line, tell, tell_repairs
 
@@ -44,10 +45,16 @@ def run(options: argparse.Namespace) -> Result:
     starts = list(dict.fromkeys(source_at(point.at, shown[point.surface]) for point in points))
     what = ", source vertex " if all(isinstance(each, int) for each in starts) else ", source "
     print(f"{options.output}: {described(figure)}{what if starts else ''}{', '.join(map(short_words_of, starts))}")
+    ids_files = write_ids_of(recipe.document, options.output)
     document, snippet = recipe.document, str(tex_path(Path(options.output)))
     facts = {
         "meshes": [{"mesh": mesh.path} for mesh in document.surfaces],
-        "outputs": [options.output, str(written_recipe(options.output)), *([snippet] if options.tex else [])],
+        "outputs": [
+            options.output,
+            str(written_recipe(options.output)),
+            *([snippet] if options.tex else []),
+            *ids_files,
+        ],
         "sources": [each if isinstance(each, int) else short_words_of(each) for each in starts],
         "panels": [panel_facts(p.shows, answer) for p, answer in zip(document.panels, answers, strict=True)],
     }

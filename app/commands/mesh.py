@@ -17,6 +17,9 @@ from .terminal import tell, tell_failure, tell_repairs
 
 if TYPE_CHECKING:
     from bihdist_core import Laplacian
+    from bihdist_core.arrays import IntArray
+
+    from ..document.document import Document
 
 LONGEST = 200
 """Letters of a name that are repeated."""
@@ -60,16 +63,13 @@ def laplacian_of(
 ) -> "Laplacian":
     """Read a mesh and say what was repaired.  ids_file: where new ids of vertices are written, if anywhere."""
     from bihdist_core import Laplacian, read_surface
-    from bihdist_core.whole_file import whole_file
 
-    from ..session.repaired_surface import ids_table, repaired
+    from ..session.repaired_surface import repaired
 
     surface, ids = repaired(read_surface(found_mesh(mesh)), repairs)
     tell_repairs(surface)
     if ids is not None and ids_file is not None:
-        with whole_file(ids_file) as temporary:
-            temporary.write_text(ids_table(ids), encoding="ascii")
-        tell(f"{ids_file}: the new id of each vertex of {surface.name}.")
+        _write_ids(ids_file, ids, surface.name)
     return Laplacian(surface, areas or AREAS[0])
 
 
@@ -79,11 +79,40 @@ def outputs_of(options: argparse.Namespace) -> list[str]:
     return [options.output, *([ids_file] if ids_file else [])]
 
 
-def ids_beside(options: argparse.Namespace) -> str | None:
-    """Where the new ids of merged vertices stand, beside the output; None without --merge, or an output's file."""
+def ids_beside(options: argparse.Namespace, letter: str = "") -> str | None:
+    """Where the new ids of merged vertices stand, beside the output; None without --merge, or an output's file.
+
+    letter: of one of two meshes.
+    """
     if options.merge is None or not getattr(options, "output", None) or hasattr(options, "is_standard_output"):
         return None
-    return f"{os.path.splitext(options.output)[0]}.ids.csv"
+    return _ids_file(options.output, letter)
+
+
+def _ids_file(output: str, letter: str = "") -> str:
+    return ".".join(filter(None, (os.path.splitext(output)[0], letter, "ids.csv")))
+
+
+def write_ids_of(document: "Document", output: str) -> list[str]:
+    """Write the new ids of merged vertices of a document's meshes beside an output; the files, one for each mesh."""
+    from ..session.loaded_mesh import open_mesh
+
+    meshes = [mesh for mesh in document.surfaces if mesh.change is None]
+    files = []
+    for letter, mesh in zip("ABCDEFGH", meshes, strict=False):
+        # Read again, as whoever has drawn it keeps no ids; of a mesh from Python there is no file.
+        loaded = open_mesh(mesh) if mesh.path and mesh.repairs.merge is not None else None
+        if loaded is not None and loaded.new_ids is not None:
+            files.append(_ids_file(output, letter if len(meshes) > 1 else ""))
+            _write_ids(files[-1], loaded.new_ids, loaded.surface.name)
+    return files
+
+
+def _write_ids(path: str, ids: "IntArray", name: str) -> None:
+    from ..session.repaired_surface import write_ids
+
+    write_ids(path, ids)
+    tell(f"{path}: the new id of each vertex of {name}.")
 
 
 def add_meshes(parser: argparse.ArgumentParser) -> None:

@@ -4,6 +4,7 @@ import argparse
 import os
 
 from .figure_options import add_figure_options, chosen_recipe
+from .mesh import write_ids_of
 from .options import add_workers
 from .result import Result, panel_facts
 from .terminal import judged, progress_line
@@ -52,9 +53,10 @@ def run(options: argparse.Namespace) -> Result:
         answers = write_movie(movie, options.output, progress, workers=options.workers)
     print(f"{options.output}: {movie.frames:,} frames, {movie.frames / movie.fps:.3g} s")
     document = movie.recipe.document
+    ids_files = write_ids_of(document, options.output)
     facts = {
         "meshes": [{"mesh": mesh.path} for mesh in document.surfaces],
-        "outputs": [options.output],
+        "outputs": [options.output, *ids_files],
         "frames": movie.frames,
         "seconds": movie.frames / movie.fps,
         "panels": [panel_facts(p.shows, answer) for p, answer in zip(document.panels, answers, strict=True)],

@@ -17,7 +17,7 @@ from ..document.quantities import Quantity, quantity
 from ..document.repairs import Repairs
 from ..document.sources import sources_from_words
 from ..figures.options import PAGE_ROWS, VERTEX_AREAS, with_rows
-from ..figures.repair_options import REPAIRS
+from ..figures.repair_options import CUT, REPAIRS
 
 PANELS = f"a panel each (default: {','.join(str(spec) for spec in COMPARISON)})"
 PLACES = (
@@ -210,9 +210,19 @@ def add_areas(parser: argparse.ArgumentParser) -> None:
     add_rows(parser, VERTEX_AREAS, REPAIRS)
 
 
+def add_repairs(parser: argparse.ArgumentParser) -> None:
+    """Add the options of what is cut out of a mesh and merged."""
+    add_rows(parser, REPAIRS)
+
+
+def add_cut(parser: argparse.ArgumentParser) -> None:
+    """Add the option of what is cut out of a mesh."""
+    add_rows(parser, CUT)
+
+
 def repairs_of(options: argparse.Namespace, mesh: str) -> Repairs:
     """What the options do to a mesh on reading."""
-    return Repairs(cut=options.cut or "", merge=options.merge).of(mesh)
+    return Repairs(cut=options.cut or "", merge=getattr(options, "merge", None)).of(mesh)
 
 
 def specs(options: argparse.Namespace, texts: Sequence[str]) -> list[Spec]:

@@ -175,12 +175,14 @@ def _write_nearest(options: argparse.Namespace, spec: "Spec", count: int) -> Fac
 
 def _write_all(options: argparse.Namespace, spec: "Spec") -> Facts:
     """The pairs of all vertices, and what is said of the part of them that is there already, or is left."""
-    from bihdist_core.analysis.all_pairs import begun, left_by_others, write_all_pairs
+    from bihdist_core.analysis.all_pairs import begun, check_block, left_by_others, write_all_pairs
     from bihdist_core.distances.answers import Distances
     from bihdist_core.errors import OutputError
 
+    memory = 1e6 * (options.memory or 500)
     with progress_line() as progress:
         laplacian = read_laplacian(options)
+        check_block(len(laplacian.surface.vertices), memory)
         distance = Distances(laplacian).get(spec, progress)
         estimate = accuracy(distance, everywhere=True)
     dtype = options.dtype or DTYPES[0]
@@ -193,7 +195,6 @@ def _write_all(options: argparse.Namespace, spec: "Spec") -> Facts:
         tell(f"{path} ({_size(path.stat().st_size)}) is left of a run with another mesh or other options; it may go.")
     try:
         with progress_line() as progress:
-            memory = 1e6 * (options.memory or 500)
             write_all_pairs(distance, options.output, dtype, memory, progress, options.fresh)
     except (KeyboardInterrupt, OutputError, MemoryError):
         if left := begun(distance, options.output, dtype):

@@ -6,12 +6,17 @@ import os
 import sys
 import threading
 import time
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext, redirect_stdout
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bihdist_core.counts import counted
+from bihdist_core.errors import PlainSolverWarning
+from bihdist_core.expected_time import duration_in
+
+from ..session.time_left import TimeLeft
 
 if TYPE_CHECKING:
     from bihdist_core import Distance, Surface
@@ -51,9 +56,18 @@ class _Telling:
         if self.clock() - self.last >= EVERY:
             self.line(words())
 
-    def report(self, fraction: float, text: str) -> None:
-        """Progress, as a line of its own now and then."""
-        self.line_if_due(lambda: f"{fraction:.0%} {text}")
+    def reporter(self) -> "Progress":
+        """Progress, as a line of its own now and then, and at once where work is expected to be long."""
+        left, announced = TimeLeft(), set[str]()
+
+        def report(fraction: float, text: str) -> None:
+            expected, words = duration_in(text), with_time_left(fraction, text, left, self.clock())
+            if expected and text not in announced:
+                announced.add(text)
+                self.line(words)
+            self.line_if_due(lambda: words)
+
+        return report
 
 
 _telling = _Telling()
@@ -70,10 +84,20 @@ def telling(quiet: bool = False, clock: Callable[[], float] = time.monotonic) ->
     """While a command runs: whether notes and progress are left out; all notes, said or not."""
     global _telling
     before, _telling = _telling, _Telling(quiet, clock)
+    shown = warnings.showwarning
+
+    def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+        if issubclass(category, PlainSolverWarning):
+            _telling.note(str(message))
+        else:
+            shown(message, category, *where, **more)
+
+    warnings.showwarning = show
     try:
         yield _telling.notes
     finally:
         _telling = before
+        warnings.showwarning = shown
 
 
 def is_quiet() -> bool:
@@ -88,21 +112,28 @@ def progress_line() -> "Iterator[Progress | None]":
         yield None
         return
     if not sys.stderr.isatty():
-        yield _telling.report
+        yield _telling.reporter()
         return
-    last = 0.0
+    last, left = 0.0, TimeLeft()
 
     def report(fraction: float, text: str) -> None:
         nonlocal last
         if time.monotonic() - last > 0.1:
             last = time.monotonic()
             width = os.get_terminal_size(sys.stderr.fileno()).columns
-            print(f"\r\x1b[K{fraction:4.0%} {text}"[: width + 3], end="", file=sys.stderr, flush=True)
+            words = with_time_left(fraction, text, left, last)
+            print(f"\r\x1b[K{words}"[: width + 3], end="", file=sys.stderr, flush=True)
 
     try:
         yield report
     finally:
         print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+
+def with_time_left(fraction: float, text: str, left: TimeLeft, now: float) -> str:
+    """Such as "12% Factoring the matrix, about 30 s left"."""
+    head = text.partition(":")[0] if duration_in(text) else text
+    return ", ".join(filter(None, (f"{fraction:.0%} {head}", left.words(fraction, text, now))))
 
 
 @contextmanager

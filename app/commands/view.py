@@ -2,12 +2,13 @@
 
 import argparse
 import signal
+import threading
 
 from ..document.option import Row
 from ..document.page import Recipe
 from ..figures.look_options import COLOURS
 from ..figures.options import VERTEX_AREAS, tool_rows, with_rows
-from ..figures.repair_options import REPAIRS
+from ..figures.repair_options import MERGE, REPAIRS
 from ..figures.view_options import UP, up_meaning
 from .mesh import found_mesh
 from .mesh_sources import one_source, sources_of_document
@@ -27,7 +28,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--save-session", metavar="OUT.json", help="save the session once the window is complete")
     add_distance(parser, PANELS, is_field=True)
     parser.add_argument("--theme", choices=("light", "dark", "desktop"), default="", help="of the window, this time")
-    add_rows(parser, *_rows(), up=up_meaning("as it was chosen for this mesh before, or guessed"))
+    up = up_meaning("as it was chosen for this mesh before, or guessed")
+    add_rows(parser, *_rows(), up=up, merge=f"{MERGE}; File > Save table of ids… writes their new ids")
 
 
 def _rows() -> list[Row]:
@@ -38,6 +40,10 @@ def _rows() -> list[Row]:
 
 def run(options: argparse.Namespace) -> Result:
     """Open the window, until it is closed."""
+    if threading.current_thread() is threading.main_thread():
+        # SIGTERM ends a window at once.  Qt's loop would not let Python see it, and what it raises while modules are
+        # loaded may be caught by any of them.
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
     from ..document.beside_edits import open_beside
     from ..document.document import COMPARISON, Document, MeshFile, comparison
 
@@ -69,8 +75,6 @@ def run(options: argparse.Namespace) -> Result:
     check_screen()
     from ..qt.start import run_viewer
 
-    # Qt's loop would not let Python see it: SIGTERM ends a window at once.
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     status = run_viewer(shown, is_choice, options.screenshot, options.save_session, options.theme)
     files = (options.screenshot, options.save_session)
     facts = {

@@ -6,8 +6,8 @@ from typing import Generic, TypeVar
 
 from .document import Document, Point, content, starting_points
 
-LONGEST = 10_000
-"""Steps that are kept; a document takes some kilobytes."""
+LONGEST = 1_000
+"""Steps that are kept; a document takes a kilobyte, and many where curves are drawn or vertices selected."""
 
 
 class History:

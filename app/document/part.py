@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 if TYPE_CHECKING:
+    from bihdist_core.arrays import IntArray
     from bihdist_core.surface import Surface
 
     from .document import Document
@@ -53,6 +54,10 @@ class Part:
     def without_surfaces(self, document: "Document", surfaces: Set[str]) -> "Document":
         """The document, which still has these surfaces, without what of this part needs them and is no point there."""
         return document
+
+    def with_vertices(self, surface: str, vertices: "IntArray") -> "Part":
+        """The part with other ids of a surface's vertices; vertices: (n,) the new id of each."""
+        return self
 
     def with_paths(self, named: Callable[[str], str]) -> "Part":
         """The part with other paths of the files that it names."""

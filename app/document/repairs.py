@@ -8,7 +8,7 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.formats.mesh_names import mesh_name
 
 if TYPE_CHECKING:
-    from .document import Document
+    from .document import Document, MeshFile
 
 NAME = "{name}"
 """In a path it stands for the name of each mesh."""
@@ -32,6 +32,11 @@ class Repairs:
         """These of the mesh at a path, whose name stands for {name}."""
         return replace(self, cut=self.cut.replace(NAME, mesh_name(mesh)))
 
+    @property
+    def is_any(self) -> bool:
+        """Whether anything is done."""
+        return bool(self.cut) or self.merge is not None
+
     def is_same(self, there: "Repairs") -> bool:
         """Whether what has been made by others will do."""
         return replace(self, cut_sha256=self.cut_sha256 or there.cut_sha256) == there
@@ -45,8 +50,7 @@ def with_repairs(document: "Document", cut: str | None, merge: float | None, sur
 
     None leaves them as they are, and "" takes the cut back.  ParameterError where one mask would be that of two meshes.
     """
-    path = document.mesh(surface).path if surface else ""
-    meant = [mesh for mesh in document.surfaces if not surface or mesh.path == path]
+    meant = _of_the_file(document, surface) if surface else document.surfaces
     if cut and NAME not in cut and len({mesh.path for mesh in meant}) > 1:
         raise ParameterError(f"{cut} would cut two meshes; write {NAME} in the path for the name of each.")
     meshes = []
@@ -57,3 +61,16 @@ def with_repairs(document: "Document", cut: str | None, merge: float | None, sur
         repairs = mesh.repairs if cut is None else replace(mesh.repairs, cut=cut, cut_sha256="").of(mesh.path)
         meshes.append(replace(mesh, repairs=repairs if merge is None else replace(repairs, merge=merge)))
     return replace(document, surfaces=tuple(meshes))
+
+
+def without_repairs(document: "Document", surface: str) -> "Document":
+    """The document with a mesh as it is in its file, and what is made from it made from that."""
+    meant = _of_the_file(document, surface)
+    meshes = (replace(mesh, repairs=NO_REPAIRS) if mesh in meant else mesh for mesh in document.surfaces)
+    return replace(document, surfaces=tuple(meshes))
+
+
+def _of_the_file(document: "Document", surface: str) -> "tuple[MeshFile, ...]":
+    """A mesh with what is made from it."""
+    shown = document.mesh(surface)
+    return tuple(m for m in document.surfaces if (m.path, m.sha256) == (shown.path, shown.sha256))

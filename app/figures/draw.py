@@ -16,7 +16,7 @@ from ..document.document import Zoom
 from .canvas import Composition
 from .composition import KeptWords, page_pixels, write_vector
 from .description import Figure, FigurePanel
-from .layout import lay_out
+from .layout import Layout, lay_out
 from .marks import hidden_words
 from .raster import check_offscreen
 from .shots import RenderCache, take_shots
@@ -87,12 +87,22 @@ def described(figure: Figure) -> str:
     return f"{count} {'panel' if count == 1 else 'panels'} on {width} x {height} pixels"
 
 
-def _page(
-    figure: Figure, vector: bool, progress: Progress | None, render_cache: RenderCache | None = None, share: float = 1.0
-) -> Composition:
+def check_room(figure: Figure, extension: str) -> None:
+    """Before long work: NotEnoughMemory where there is none for the picture in such a file."""
+    _layout(figure, extension != ".png")
+
+
+def _layout(figure: Figure, vector: bool, share: float = 1.0) -> Layout:
     layout = lay_out(figure, 0.0, share)
     if vector:
         layout = lay_out(figure, min(VECTOR_DPI / 96, MOST_PIXELS / max(layout.width, layout.height)), share)
     width, height = layout.page
     check_memory(BYTES_PER_PIXEL * width * height, f"A picture of {width:,} x {height:,} pixels", REMEDY)
+    return layout
+
+
+def _page(
+    figure: Figure, vector: bool, progress: Progress | None, render_cache: RenderCache | None = None, share: float = 1.0
+) -> Composition:
+    layout = _layout(figure, vector, share)
     return Composition(figure, layout, take_shots(figure, layout, part(progress, 0.0, 0.95), render_cache))

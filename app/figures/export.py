@@ -28,7 +28,7 @@ from ..session.loaded_mesh import LoadedMesh, open_mesh
 from ..session.questions import questions, source_at, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
 from .description import Figure, FigurePanel
-from .draw import FIGURE_FORMATS, check_offscreen, check_transparency, save_figure
+from .draw import FIGURE_FORMATS, check_offscreen, check_room, check_transparency, save_figure
 from .size import Size
 from .tex import tex_path, tex_snippet
 
@@ -125,6 +125,11 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
     )
 
 
+def check_drawable(recipe: Recipe, surfaces: Surfaces, extension: str = ".png") -> None:
+    """Before long work: that a figure can be drawn into such a file, and has room; BihdistError if not."""
+    check_room(figure_of(recipe, surfaces, [Answer(label="")] * len(recipe.document.panels)), extension)
+
+
 def _silent(_text: str) -> None:
     pass
 
@@ -177,8 +182,7 @@ def export(
     given = ArrayStore.read(recipe)
     document, surfaces = open_document(recipe, given)
     recipe = replace(recipe, document=document)
-    # What cannot be drawn is refused before the long work.
-    figure_of(recipe, surfaces, [Answer(label="")] * len(document.panels))
+    check_drawable(recipe, surfaces, Path(path).suffix.lower())
     answers = compute(document, surfaces, part(progress, 0.0, 0.6))
     figure = figure_of(recipe, surfaces, answers)
     write_figure(figure, recipe, given, path, version, part(progress, 0.6, 1.0), say, answers if tex else None)

@@ -28,7 +28,7 @@ from ..scene.camera import turned
 from ..session.array_store import ArrayStore
 from ..session.questions import Question, questions, vertex_at
 from .description import Figure
-from .export import Surfaces, figure_of, open_document, refuse_if_nothing
+from .export import Surfaces, check_drawable, figure_of, open_document, refuse_if_nothing
 from .frames import drawn_frames
 from .turning import fitted_size, start_and_axis
 
@@ -99,6 +99,7 @@ def write_movie(
         raise ParameterError("The recipe has no panels.")
     document, surfaces = open_document(movie.recipe, given or ArrayStore.read(movie.recipe))
     movie = replace(movie, recipe=replace(movie.recipe, document=document))
+    check_drawable(movie.recipe, surfaces)
     fields = _Fields(movie, surfaces, part(progress, 0.0, SETTING_UP))
     with whole_file(path) as temporary:
         is_mp4 = temporary.suffix.lower() == ".mp4"

@@ -29,7 +29,7 @@ from ..session.array_store import ArrayStore, Mesh, comparison_of_arrays, with_b
 from ..version import version
 from .description import Figure
 from .draw import draw_figure
-from .export import Surfaces, compute, figure_of, open_document, write_figure
+from .export import Surfaces, check_drawable, compute, figure_of, open_document, write_figure
 from .options import arguments, with_options
 
 
@@ -179,7 +179,7 @@ def figure(
     document, surfaces = open_document(recipe, store)
     recipe = replace(recipe, document=document)
     # What cannot be drawn is refused before the long work.
-    figure_of(recipe, surfaces, [Answer(label="")] * len(document.panels))
+    check_drawable(recipe, surfaces)
     return Picture(recipe, surfaces, store, compute(document, surfaces, progress))
 
 
@@ -189,5 +189,5 @@ def figure_again(recipe: str | os.PathLike[str], progress: Progress | None = Non
     given = ArrayStore.read(read)
     document, surfaces = open_document(read, given)
     read = replace(read, document=document)
-    figure_of(read, surfaces, [Answer(label="")] * len(document.panels))
+    check_drawable(read, surfaces)
     return Picture(read, surfaces, given, compute(document, surfaces, progress))

@@ -29,18 +29,23 @@ def _tolerance(text: str) -> float:
         raise ParameterError(f"{text!r} is not a length, a number from 0") from None
 
 
+MERGE = "make vertices one that are no farther apart, in mesh units, after --cut; they are then numbered anew"
+"""What merging does, in words."""
+
+CUT = Option(
+    "cut",
+    "cut vertices out with their faces, which nothing then crosses: a file of 1 for each that stays and 0 for "
+    "each that goes (.npy, .txt, .gii, .annot, .label or another of FreeSurfer's); {name} is the mesh's name",
+    "",
+    metavar="MASK",
+)
+
 REPAIRS = Row(
     (
-        Option(
-            "cut",
-            "cut vertices out with their faces, which nothing then crosses: a file of 1 for each that stays and 0 for "
-            "each that goes (.npy, .txt, .gii, .annot or FreeSurfer's); {name} is the mesh's name",
-            "",
-            metavar="MASK",
-        ),
+        CUT,
         Option(
             "merge",
-            "make vertices one that are no farther apart, in mesh units, after --cut; they are then numbered anew",
+            f"{MERGE}; OUT.ids.csv beside the output has their new ids",
             metavar="TOLERANCE",
             read=_tolerance,
             write=digits,

@@ -188,6 +188,7 @@ class MainWindow(QtWidgets.QMainWindow):
         context[SessionFile].forget()
         if context.remembers:
             choices.remember_place()
+        self.hide()  # what is still being computed may take a moment to end
         context[Exports].close()
         self.session.close()
         if context.is_built:

@@ -120,7 +120,7 @@ class ProgressDisplay(QtCore.QObject):
 
     def _words(self, id: int, fraction: float, text: str) -> str:
         """What is being done in a panel, and for how long, where that is known and long."""
-        left = self._left.setdefault(id, TimeLeft()).words(fraction, monotonic())
+        left = self._left.setdefault(id, TimeLeft()).words(fraction, text, monotonic())
         return f"{words_of(text)}, {left}" if left else words_of(text)
 
     def _is_other(self, id: int) -> bool:

@@ -19,6 +19,7 @@ from bihdist_core.file_content import file_json, file_text
 from bihdist_core.whole_file import sweep_half_written, whole_file
 
 from ..document.looks import UPS
+from ..session.recipe_file import sweep_arrays
 
 MOST_RECENT = 10
 MOST_UPS = 1000
@@ -133,9 +134,10 @@ def session_of(path: Path) -> str | None:
 
 def remove_state(path: Path) -> None:
     """What a window showed, with its arrays."""
-    for part in (path, path.with_suffix(".npz"), path.with_suffix(SESSION)):
+    for part in (path, path.with_suffix(SESSION)):
         with suppress(OSError):
             part.unlink()
+    sweep_arrays(path)
 
 
 def lost_states() -> list[Path]:

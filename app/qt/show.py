@@ -28,6 +28,7 @@ from ..document.beside_edits import MOST_SHOWN
 from ..document.document import Document, Point
 from ..document.edits import move_source
 from ..document.quantities import Quantity
+from ..document.repairs import with_repairs
 from ..scene.style import map_of
 from ..session.array_store import Mesh, comparison_of_arrays, with_beside
 from ..session.loaded_mesh import checked_path
@@ -283,6 +284,8 @@ def show(
     source: Source | str | None = None,
     *,
     areas: str = "voronoi",
+    cut: str | os.PathLike[str] = "",
+    merge: float | None = None,
     up: str = "auto",
     beside: Mesh | None = None,
     on_pick: Callable[[Pick], object] | None = None,
@@ -293,9 +296,11 @@ def show(
     mesh: a file, a sample, a Surface, or vertices (n, 3) and faces (m, 3).  distances: a panel each, in words:
     "diffusion(t=1/4)", "biharmonic - geodesic".  fields: your own by name, (n,) with NaN where undefined; each has a
     panel, coloured from 0 (from minus its largest absolute value, if it has negative values), or is named in
-    `distances` like one: "biharmonic - mine".  source: a vertex, the highest if None, or what else `figure` takes.  up:
-    which axis is, "z" or "-z"; "auto" for what was chosen for the mesh before, or a guess.  beside: a second mesh, with
-    panels of the same distances and a camera of its own.  on_pick: called with a `Pick` for each click on a surface,
+    `distances` like one: "biharmonic - mine".  source: a vertex, the highest if None, or what else `figure` takes.
+    cut: a file with 1 for each vertex that stays and 0 for each that goes with its faces ({name} is the mesh's name);
+    merge: make vertices one that are no farther apart, after that.  up: which axis is, "z" or "-z"; "auto" for what was
+    chosen for the mesh before, or a guess.  beside: a second mesh, with panels of the same distances and a camera of
+    its own.  on_pick: called with a `Pick` for each click on a surface,
     once the source is there.  block: wait until the window is closed; if None, in scripts, but not in IPython,
     notebooks and Python's own prompt, where the window lives while you go on.
 
@@ -317,6 +322,7 @@ def show(
     document = replace(document, up=up)
     if beside is not None:
         document = with_beside(document, given, beside)
+    document = with_repairs(document, os.fspath(cut) or None, merge)
     for each in document.surfaces:
         checked_path(each)
     check_screen()

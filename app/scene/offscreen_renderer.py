@@ -24,10 +24,14 @@ if TYPE_CHECKING:
 
 
 class OffscreenRenderer:
-    """Made and used on one thread; BihdistError where there is no OpenGL.  pictures: how many have been drawn."""
+    """Made and used on one thread; BihdistError where there is no OpenGL.
+
+    pictures: how many have been drawn; seconds: how long that has taken since `begin`.
+    """
 
     def __init__(self) -> None:
         self.pictures = 0
+        self.seconds = 0.0
         self._window = offscreen_window()
         # Multisampling costs three times on software rendering, which is what a screen without OpenGL gets; smoothing
         # the picture afterwards (FXAA) is nearly free.
@@ -57,6 +61,10 @@ class OffscreenRenderer:
         if tuple(self._window.GetSize()) != size:
             self._window.SetSize(*size)
 
+    def begin(self) -> None:
+        """Count the time that pictures take from here."""
+        self.seconds = 0.0
+
     def picture(self, scene: PanelScene, size: tuple[int, int]) -> ByteArray:
         """(height, width, 4) uint8, upright."""
         self.fit(size)
@@ -72,8 +80,10 @@ class OffscreenRenderer:
         self.pictures += 1
         width, height = size
         self._window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, self._read, 0)
+        took = perf_counter() - start
+        self.seconds += took
         if not scene.is_stand_in:
-            scene.seconds = perf_counter() - start
+            scene.seconds = took
         picture = np.ascontiguousarray(vtk_to_numpy(self._read).reshape(height, width, 4)[::-1])
         picture[..., 3] = 255  # what smoothing leaves there means nothing
         return picture

@@ -10,6 +10,9 @@ from .questions import Question
 MEMORY = 256_000_000
 """Bytes of fields that are kept: 320 of 100,000 vertices, 32 of a million."""
 
+MOST = 1_000
+"""Answers that are kept: of small meshes a memory would hold more than anybody comes back to."""
+
 
 class AnswerCache:
     """The final answers given last, for any thread: what comes back, by undo or in another panel, costs nothing."""
@@ -35,7 +38,7 @@ class AnswerCache:
             old = self._answers.pop(question, None)
             self._bytes += _size(answer) - (0 if old is None else _size(old))
             self._answers[question] = answer
-            while self._bytes > self._memory and len(self._answers) > 1:
+            while len(self._answers) > (MOST if self._bytes <= self._memory else 1):
                 _, gone = self._answers.popitem(last=False)
                 self._bytes -= _size(gone)
 

@@ -16,9 +16,10 @@ from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
 from bihdist_core.file_content import file_text
+from bihdist_core.formats.freesurfer_label import is_label
 from bihdist_core.formats.mesh_names import mesh_format, mesh_name
 from bihdist_core.formats.pins import Pins, picked_from, pins_format, placed
-from bihdist_core.formats.vertex_values import is_vertex_values
+from bihdist_core.formats.vertex_values import is_vertex_values, read_label_vertices
 from bihdist_core.formats.whole_numbers import numbered_lines, read_whole_numbers
 from bihdist_core.progress import Progress
 from bihdist_core.sources.pieces import pieces_of
@@ -134,11 +135,13 @@ def _source(word: str) -> Source:
 
 
 def _read(path: str, text: str, surface: Surface) -> Chosen:
-    """Those in a file: vertex ids in a .npy, pins, or lines of what a list has, with remarks after #."""
-    if is_vertex_values(path):
+    """Those in a file: vertex ids in a .npy or a label, pins, or lines of what a list has, with remarks after #."""
+    if is_label(path):
+        found: list[Any] = surface.check_vertices(read_label_vertices(path, surface.n_vertices)).tolist()
+    elif is_vertex_values(path):
         raise ParameterError(f"{path} has a value for each vertex; sources are the ids of some, as .npy or .txt.")
-    if Path(path).suffix.lower() == ".npy":
-        found: list[Any] = surface.check_vertices(read_whole_numbers(path, "list of sources")).tolist()
+    elif Path(path).suffix.lower() == ".npy":
+        found = surface.check_vertices(read_whole_numbers(path, "list of sources")).tolist()
     else:
         text = text or file_text(path, "sources in")
         if format := pins_format(text):

@@ -27,7 +27,6 @@ from ..document.camera import View
 from ..document.document import Document, FieldArray, MeshFile, starting_points
 from ..document.edits import put_point
 from ..document.file import checksum
-from ..document.repairs import Repairs
 from ..samples import mesh_path
 from .array_store import ArrayStore
 from .derived_surfaces import carried
@@ -52,6 +51,7 @@ class LoadedMesh:
     """A surface that is there.  given: fields of the user's own; prepared: what whoever shows it has made of it.
 
     origin: what it is made from, if from another; ids: (n,) the vertices of that which its own are, -1 for new ones.
+    new_ids: the id here of each vertex of the file, None where all keep theirs.
     """
 
     def __init__(
@@ -61,8 +61,10 @@ class LoadedMesh:
         given: ArrayStore | None = None,
         origin: "LoadedMesh | None" = None,
         ids: IntArray | None = None,
+        new_ids: IntArray | None = None,
     ) -> None:
         self.origin = origin
+        self.new_ids = new_ids
         self.ids = np.arange(len(surface.vertices)) if ids is None else ids
         self.mesh = mesh
         self.surface = surface
@@ -86,10 +88,14 @@ class LoadedMesh:
 
     @cached_property
     def up(self) -> str:
-        """The axis that points up: guessed, or that of what it is made from, unless whoever opened it put it here."""
+        """The axis that points up, unless whoever opened it put it here: `guessed_up`."""
+        return self.guessed_up()
+
+    def guessed_up(self, progress: Progress | None = None) -> str:
+        """The axis that points up: guessed, or that of what it is made from."""
         if self.origin is not None:
             return self.origin.up
-        return guess_up(self.surface, mesh_format(self.mesh.path and mesh_path(self.mesh.path)))
+        return guess_up(self.surface, mesh_format(self.mesh.path and mesh_path(self.mesh.path)), progress)
 
     def first_look(self, up: str) -> FirstLook:
         """From where it is seen first with an axis up, and where a field starts; what is made from it is seen alike."""
@@ -255,8 +261,16 @@ def open_mesh(
         made, ids = perturbed(origin.surface, change, progress, pose)
         return LoadedMesh(replace(origin.mesh, name=mesh.name, change=change), made, given, origin, ids)
     surface, found = _read(mesh, remedy) if mesh.path else ((given or ArrayStore()).surface(mesh), mesh.sha256)
-    surface, repairs = _repaired(surface, mesh, remedy)
-    return LoadedMesh(replace(mesh, sha256=found, repairs=repairs), surface, given)
+    repairs = mesh.repairs
+    if repairs.cut and not repairs.cut_sha256:
+        repairs = replace(repairs, cut_sha256=checksum(repairs.cut))
+    surface, new_ids = repaired(surface, repairs, remedy)
+    return LoadedMesh(replace(mesh, sha256=found, repairs=repairs), surface, given, new_ids=new_ids)
+
+
+def unmerged(mesh: MeshFile, given: ArrayStore) -> Surface:
+    """The surface of a mesh before vertices are merged; the errors of `open_mesh`."""
+    return open_mesh(replace(mesh, repairs=replace(mesh.repairs, merge=None)), given).surface
 
 
 def _read(mesh: MeshFile, remedy: str) -> tuple[Surface, str]:
@@ -268,14 +282,6 @@ def _read(mesh: MeshFile, remedy: str) -> tuple[Surface, str]:
         sentence = f"The mesh {mesh.path} is not what it was when it was written down (its checksum differs). {remedy}"
         raise ParameterError(sentence.strip())
     return surface, found
-
-
-def _repaired(surface: Surface, mesh: MeshFile, remedy: str) -> tuple[Surface, Repairs]:
-    """A surface after the repairs of a mesh, and these with the checksum of the mask."""
-    repairs = mesh.repairs
-    if repairs.cut and not repairs.cut_sha256:
-        repairs = replace(repairs, cut_sha256=checksum(repairs.cut))
-    return repaired(surface, repairs, remedy)[0], repairs
 
 
 def _with_pose(change: Perturbation, remedy: str) -> tuple[Perturbation, Surface | None]:

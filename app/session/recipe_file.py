@@ -1,20 +1,33 @@
-"""Recipes and sessions as files: JSON, and beside it an archive of the arrays that came from Python, if any."""
+"""Recipes and sessions as files: JSON, and beside it an archive of the arrays that came from Python, if any.
 
+`hand.json` names its archive, `hand.0123456789abcdef.npz`, whose name tells its content: a recipe that is written again
+leaves the archive alone that the old one names until it is replaced, and then the old one's goes.
+"""
+
+import hashlib
+import json
 import os
+import re
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from bihdist_core import OutputError, ParameterError
-from bihdist_core.whole_file import check_output, whole_file
+from bihdist_core.file_content import open_regular
+from bihdist_core.whole_file import FIRST, check_output, sweep_half_written, whole_file
 
 from ..document.document import Document
 from ..document.file import is_recipe, read_recipe, recipe_text, with_meshes_from
 from ..document.page import FORMATS, Recipe
 from .array_store import ArrayStore, holds_arrays, is_archive
+
+LONGEST = FIRST - 17
+"""Letters of a recipe's name that its archive's begins with."""
+HEAD = 4096
+"""Bytes of a recipe among which its archive is named: names of files have at most 255."""
 
 
 def recipe_paths(figure: str | os.PathLike[str]) -> tuple[Path, Path]:
@@ -86,7 +99,7 @@ def check_recipe_output(document: Document, path: str | os.PathLike[str]) -> Non
     """Before long work: that a recipe of the document can be written there; OutputError if not."""
     check_output(path, (".json",))
     if holds_arrays(document):
-        arrays = _archive_of(path)
+        arrays = _archive_of(document, path)
         check_output(arrays, (".npz",))
         if arrays.exists() and not is_archive(arrays):
             raise OutputError(f"{arrays}, where the arrays would go, is another file; choose another name.")
@@ -104,17 +117,51 @@ def recipe_written(
     check_recipe_output(recipe.document, path)
     page = replace(recipe.page, format=format)
     recipe = replace(recipe if stays else with_meshes_from(recipe, path), page=page, arrays="")
-    archive = _archive_of(path) if holds_arrays(recipe.document) else None
-    with ExitStack() as files:
-        # The last that is begun is the first that is in its place: the arrays, before anything names them.
-        text = files.enter_context(whole_file(path))
-        if archive is not None:
-            recipe = replace(recipe, arrays=archive.name)
-            with files.enter_context(whole_file(archive)).open("wb") as file:
-                np.savez(file, **given.arrays(recipe.document))  # type: ignore[arg-type]
-        text.write_text(recipe_text(recipe, version), encoding="utf-8")
-        yield
+    archive = _archive_of(recipe.document, path) if holds_arrays(recipe.document) else None
+    try:
+        with ExitStack() as files:
+            # The last that is begun is the first that is in its place: the arrays, before anything names them.
+            text = files.enter_context(whole_file(path))
+            if archive is not None:
+                recipe = replace(recipe, arrays=archive.name)
+                with files.enter_context(whole_file(archive)).open("wb") as file:
+                    np.savez(file, **given.arrays(recipe.document))  # type: ignore[arg-type]
+            text.write_text(recipe_text(recipe, version), encoding="utf-8")
+            yield
+    finally:
+        sweep_arrays(path)
 
 
-def _archive_of(path: str | os.PathLike[str]) -> Path:
-    return Path(path).with_suffix(".npz")
+def _archive_of(document: Document, path: str | os.PathLike[str]) -> Path:
+    """Where the arrays of a recipe stand: the name tells what they are, so that no others take their place."""
+    named = [(mesh.name, mesh.sha256) for mesh in document.surfaces if not mesh.path and mesh.change is None]
+    named += [(field.name, field.sha256) for field in document.fields]
+    content = hashlib.sha256(repr(named).encode()).hexdigest()[:16]
+    path = Path(path)
+    return path.with_name(f"{path.stem[:LONGEST]}.{content}.npz")
+
+
+def sweep_arrays(path: str | os.PathLike[str]) -> None:
+    """Remove the archives that recipes at a path have had and that no recipe in the folder names, whether it is
+    written already or still being written."""
+    path = Path(path)
+    name = rf"{re.escape(path.stem[:LONGEST])}\.[0-9a-f]{{16}}\.npz"
+    sweep_half_written(path.parent, name)
+    with suppress(OSError):
+        archives = [each for each in path.parent.iterdir() if re.fullmatch(name, each.name) and is_archive(each)]
+        if archives:
+            heads = [_head(each) for each in path.parent.glob("*.json")]
+            for each in archives:
+                if not any(
+                    json.dumps(each.name, ensure_ascii=False).encode(errors="replace") in head for head in heads
+                ):
+                    each.unlink()
+
+
+def _head(path: Path) -> bytes:
+    """The beginning of a file, where a recipe names its archive."""
+    try:
+        with open_regular(path, "recipe") as file:
+            return file.read(HEAD)
+    except (ParameterError, OSError):
+        return b""

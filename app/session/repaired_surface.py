@@ -1,11 +1,14 @@
 """A surface with what is cut out of it, and vertices merged, as a document or a command says."""
 
+import os
+
 import numpy as np
 
 from bihdist_core import MeshError, ParameterError, Surface, read_surface
 from bihdist_core.analysis.parcels import checked_mask
 from bihdist_core.arrays import IntArray
 from bihdist_core.formats.whole_numbers import read_whole_numbers
+from bihdist_core.whole_file import whole_file
 
 from ..document.file import checksum
 from ..document.repairs import Repairs
@@ -18,7 +21,7 @@ def repaired(surface: Surface, repairs: Repairs, remedy: str = "") -> tuple[Surf
     read, does not fit, or has changed since its checksum was taken; MeshError where no face is left.
     """
     if repairs.cut:
-        mask = read_whole_numbers(repairs.cut, "mask")
+        mask = read_whole_numbers(repairs.cut, "mask", surface.n_vertices)
         if repairs.cut_sha256 and checksum(repairs.cut) != repairs.cut_sha256:
             sentence = f"The mask {repairs.cut} is not what it was when it was written down (its checksum differs)."
             raise ParameterError(f"{sentence} {remedy}".strip())
@@ -32,6 +35,12 @@ def repaired(surface: Surface, repairs: Repairs, remedy: str = "") -> tuple[Surf
 def read_repaired(path: str, repairs: Repairs) -> Surface:
     """The surface in a file after the repairs; the errors of `read_surface` and of `repaired`."""
     return repaired(read_surface(path), repairs)[0]
+
+
+def write_ids(path: str | os.PathLike[str], ids: IntArray) -> None:
+    """Write the table of `ids_table`; OutputError where it cannot be."""
+    with whole_file(path) as temporary:
+        temporary.write_text(ids_table(ids), encoding="ascii")
 
 
 def ids_table(ids: IntArray) -> str:

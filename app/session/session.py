@@ -23,6 +23,7 @@ from ..document.history import History, Trail
 from .answering import Answering, AnswerView, Shown
 from .array_store import ArrayStore
 from .derived_surfaces import answers_ahead, led
+from .followed_vertices import followed
 from .loaded_mesh import LoadedMesh, started_alike
 from .questions import asks_of, questions
 from .surfaces import LoadingView, Opening, Surfaces
@@ -138,7 +139,7 @@ class Session:
         that is by then; a small one that takes the place of another comes with its fields.
         """
         try:
-            document = edit(self.document)
+            document = self._followed(edit(self.document))
         except BihdistError as error:
             self.view.failed(failure_in_words(error))
             return
@@ -150,14 +151,14 @@ class Session:
 
         def arrive() -> None:
             # Until now the user went on with what is shown.
-            self._change(edit(self.document), key)
+            self._change(self._followed(edit(self.document)), key)
 
         def ahead(found: Sequence[LoadedMesh], progress: Progress) -> None:
             for question, answer in answers_ahead(document, found, tuple(self._surfaces), progress):
                 self._answering.keep(question, answer)
 
         is_small = self.surface is not None and len(self.surface.vertices) <= AHEAD
-        is_next = changed_mesh(self.document) is not None
+        is_next = changed_mesh(self.document) is not None and all(mesh.change is not None for mesh in missing)
         self._surfaces.start(Opening(missing, arrive, ahead=ahead if is_small and is_next else None))
 
     def look(self, camera: CameraView, surface: str | None = None) -> None:
@@ -348,6 +349,10 @@ class Session:
             self._surfaces.start(wanted)
         else:
             self._present(step)
+
+    def _followed(self, document: Document) -> Document:
+        """With all that is at vertices where these are in it, as far as its surfaces are there."""
+        return followed(document, self.document, self._surfaces.found)
 
     def _settled(self, document: Document) -> Document:
         """With the checksums of the surfaces that are there, and points where there is a vertex."""

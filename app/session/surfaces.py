@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Protocol
 
 from bihdist_core import Surface
@@ -21,6 +22,9 @@ from .loaded_mesh import LoadedMesh, is_same, open_mesh
 
 SPARED = 120_000
 """Surfaces no longer shown are kept up to so many vertices in all, for undo; with their factors these take 0.4 GB."""
+
+LEAST = 10_000
+"""Vertices that each of them counts for at least: a small one takes half a megabyte for what is made once."""
 
 SPARED_MADE = 2
 """The same of surfaces made from others: made again they are soon there."""
@@ -75,6 +79,7 @@ class Surfaces:
         self._opened: list[LoadedMesh] = []  # those shown last come last
         self.on_their_way: Opening | None = None
         self.progress: tuple[float, str] | None = None
+        self._dropped = False  # whether surfaces have been forgotten whose memory may still be held
         self.tried = False  # whether surfaces have been asked for
         self._worker: LatestRequestWorker[Opening] = LatestRequestWorker(
             "load", self._load, self._report, self._failed, leaves=True
@@ -89,7 +94,11 @@ class Surfaces:
 
     def missing(self, document: Document) -> tuple[MeshFile, ...]:
         """Surfaces that have to be read; where any content will do, what the file holds now."""
-        return tuple(mesh for mesh in document.surfaces if not mesh.sha256 or self.found(mesh) is None)
+        return tuple(
+            mesh
+            for mesh in document.surfaces
+            if not mesh.sha256 or (mesh.repairs.cut and not mesh.repairs.cut_sha256) or self.found(mesh) is None
+        )
 
     def start(self, opening: Opening) -> None:
         """Read meshes, and nothing else that is on its way."""
@@ -116,8 +125,9 @@ class Surfaces:
         made = [loaded for loaded in others if loaded.origin is not None]
         # Of those that a slider has passed none is come back to.
         others = [loaded for loaded in others if loaded not in made[:-SPARED_MADE]]
-        while others and sum(len(loaded.surface.vertices) for loaded in others) > SPARED:
+        while others and sum(max(len(loaded.surface.vertices), LEAST) for loaded in others) > SPARED:
             others.pop(0)
+        self._dropped = self._dropped or len(others) + len(shown) < len(self._opened)
         self._opened = [*others, *shown]
         for loaded in self._opened:
             loaded.beside = tuple(shown) if loaded in shown else ()
@@ -139,21 +149,31 @@ class Surfaces:
             report(k / len(opening.meshes), f"{word} {os.path.basename(mesh.path) or mesh.name}")
             making = part(report, k / len(opening.meshes), (k + 0.5) / len(opening.meshes))
             loaded = open_mesh(mesh, self._given, there=[*self._opened, *found], progress=making)
-            report((k + 0.5) / len(opening.meshes), f"assembling {loaded.surface.name}")
-            loaded.prepared = self._prepare(loaded.surface)
-            loaded.up = self._known_up(loaded.mesh.sha256) or loaded.up
-            loaded.first_look(loaded.up)
-            # Told by the view and needed to pick, for whose thread going over all faces would take too long.
-            surface_notes(loaded.surface)
-            _ = loaded.surface.mean_edge_length
+            share, words = (k + 0.5) / len(opening.meshes), f"assembling {loaded.surface.name}"
+            self._assemble(loaded, partial(report, share, words))
             found.append(loaded)
         if opening.ahead is not None:
             opening.ahead(found, part(report, 0.5, 1))
         report(1, "")
         self._post(lambda: self._take(opening, found))
         self._loaded()
-        if any(mesh.change is not None for mesh in opening.meshes):
+        if self._dropped:
+            self._dropped = False
             _give_back()  # of one after another, as a slider moves, nobody else would
+
+    def _assemble(self, loaded: LoadedMesh, check_wanted: Callable[[], None]) -> None:
+        """What is known of a surface once it is shown.  check_wanted: raises Cancelled once nobody wants it."""
+        check_wanted()
+        loaded.prepared = self._prepare(loaded.surface)
+        check_wanted()
+        loaded.up = self._known_up(loaded.mesh.sha256) or loaded.guessed_up(lambda *_: check_wanted())
+        check_wanted()
+        loaded.first_look(loaded.up)
+        check_wanted()
+        # Told by the view and needed to pick, for whose thread going over all faces would take too long.
+        surface_notes(loaded.surface)
+        check_wanted()
+        _ = loaded.surface.mean_edge_length
 
     def _take(self, opening: Opening, found: list[LoadedMesh]) -> None:
         if opening is not self.on_their_way:

@@ -1,7 +1,9 @@
 """How long work will still take, by how far it has come since it began."""
 
-BEGUN_S, LONG_S = 3.0, 10.0
-"""Seconds after which something can be said, and from which on it is worth saying."""
+from bihdist_core.expected_time import LONG_S, duration_in, duration_words
+
+BEGUN_S = 3.0
+"""Seconds after which something can be said by what has been done."""
 
 
 class TimeLeft:
@@ -11,17 +13,17 @@ class TimeLeft:
         self._first: tuple[float, float] | None = None
         self._last = 0.0
 
-    def words(self, fraction: float, now: float) -> str:
-        """ "about 40 s left" of work of which this share is done at a time in seconds; "" while that is not known."""
+    def words(self, fraction: float, text: str, now: float) -> str:
+        """ "about 40 s left" of work of which this share is done at a time in seconds; "" where that is not known.
+
+        Before it is known, "about 40 s" where the text of the progress says what is expected.
+        """
         if self._first is None or fraction < self._last:
             self._first = (fraction, now)
         self._last = fraction
         first, begun = self._first
         passed, done = now - begun, fraction - first
         if passed < BEGUN_S or done <= 0:
-            return ""
+            return duration_in(text)
         left = passed * (1 - fraction) / done
-        if left < LONG_S:
-            return ""
-        # In steps that do not flicker.
-        return f"about {round(left, -1):.0f} s left" if left < 95 else f"about {left / 60:.0f} min left"
+        return f"{duration_words(left)} left" if left >= LONG_S else ""

@@ -12,8 +12,8 @@ from ..document.page import Recipe
 from ..document.quantities import Quantity
 from ..session.array_store import Mesh, comparison_of_arrays
 from .export import page_of
-from .modules import joined
 from .html_file import kernel, style, whole_scene
+from .modules import joined
 from .stored_mesh import deflated
 
 try:

@@ -25,6 +25,7 @@ import numpy.typing as npt
 from ..arrays import AnyArray, IntArray
 from ..distances.distance import Distance
 from ..errors import OutputError, ParameterError
+from ..machine_memory import check_memory
 from ..progress import Progress, silent
 from ..whole_file import check_output
 
@@ -32,6 +33,9 @@ MEMORY = 5e8
 """Bytes that the arrays of one block may take, unless another number is given."""
 BYTES_PER_VALUE = 40
 """In memory, at once, for each distance of a block: the fields, what they are made from, and their rounded copy."""
+
+
+REMEDY = "let blocks be smaller (--memory), or take a larger machine or a cluster."
 
 
 @dataclass(frozen=True)
@@ -74,7 +78,7 @@ def write_all_pairs(
     least one row is computed at a time.  After an interruption, `Cancelled` from the progress included, the same
     call goes on with the rows that are missing; `begun` tells which are there, and fresh computes all of them anew.
     Raises OutputError if the file cannot be written or the disk is too
-    small for it, which is looked up first.
+    small for it, and NotEnoughMemory where a block has no room, which are looked up first.
     """
     dtype = np.dtype(dtype)
     if dtype not in (np.float32, np.float64):
@@ -88,8 +92,9 @@ def write_all_pairs(
     partial = _partial_path(distance, target, dtype)
     header = _header(n, dtype)
     row_bytes = n * dtype.itemsize
-    rows = int(np.clip(memory / (n * BYTES_PER_VALUE), 1, n))
+    rows = _rows_of_block(n, memory)
     try:
+        check_block(n, memory)
         done = 0 if fresh else _rows_done(partial, header, row_bytes)
         _check_space(target, len(header) + n * row_bytes, partial.stat().st_size if partial.exists() else 0)
         with _alone(partial, target) as file:
@@ -111,6 +116,16 @@ def write_all_pairs(
     except OSError as error:
         raise OutputError(f"{path} could not be written: {error.strerror or error}.") from error
     report(1.0, f"all pairs: {n:,} vertices")
+
+
+def check_block(n: int, memory: float = MEMORY) -> None:
+    """Before long work: NotEnoughMemory where a block of the pairs of n vertices, of so many bytes, has no room."""
+    rows = _rows_of_block(n, memory)
+    check_memory(rows * n * BYTES_PER_VALUE, f"A block of {rows:,} x {n:,} distances", REMEDY)
+
+
+def _rows_of_block(n: int, memory: float) -> int:
+    return int(np.clip(memory / (n * BYTES_PER_VALUE), 1, n))
 
 
 def _fill(rows: AnyArray, distance: Distance, ids: IntArray) -> None:

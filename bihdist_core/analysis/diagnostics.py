@@ -126,6 +126,10 @@ def field_change(before: npt.ArrayLike, after: npt.ArrayLike) -> FieldChange:
     return FieldChange(*(float(v) for v in (raw.mean(), raw.max(), normalised.mean(), normalised.max())))
 
 
+TRIPLES = 1 << 20
+"""Triples that are looked at together, which bounds the memory."""
+
+
 @dataclass(frozen=True)
 class TriangleSample:
     """Random triples of points held against d(i, k) <= d(i, j) + d(j, k).
@@ -151,7 +155,19 @@ def triangle_violations(distances: npt.ArrayLike, count: int = 1_000_000, seed: 
         raise ParameterError(f"Distances among at least 3 points are a square array, not one of shape {d.shape}.")
     if whole_number(count, "count") < 1:
         raise ParameterError(f"count is {count}; at least one triple is needed.")
-    rng = np.random.default_rng(seed)
+    rng, largest = np.random.default_rng(seed), np.nanmax(d)
+    violations, least, tightest = 0, np.inf, np.inf
+    for start in range(0, count, TRIPLES):
+        around, slack = _detours(d, min(TRIPLES, count - start), rng)
+        violations += int((slack < -1e-9 * largest).sum())
+        least = np.minimum(least, slack.min())
+        ratio = np.divide(slack, around, out=np.full(len(slack), np.inf), where=around > 0)
+        tightest = np.minimum(tightest, ratio.min())
+    return TriangleSample(count, violations, float(max(0.0, -least) / largest), float(tightest))
+
+
+def _detours(d: FloatArray, count: int, rng: np.random.Generator) -> tuple[FloatArray, FloatArray]:
+    """(count,) d(i, j) + d(j, k), and by how much it is longer than d(i, k), of random triples."""
     k = len(d)
     i = rng.integers(k, size=count)
     # Offsets that are different and not 0 give three different points.
@@ -159,12 +175,7 @@ def triangle_violations(distances: npt.ArrayLike, count: int = 1_000_000, seed: 
     other = rng.integers(1, k - 1, size=count)
     j, m = (i + step) % k, (i + other + (other >= step)) % k
     around = d[i, j] + d[j, m]
-    slack = around - d[i, m]
-    largest = np.nanmax(d)
-    ratio = np.divide(slack, around, out=np.full(count, np.inf), where=around > 0)
-    return TriangleSample(
-        count, int((slack < -1e-9 * largest).sum()), float(max(0.0, -slack.min()) / largest), float(ratio.min())
-    )
+    return around, around - d[i, m]
 
 
 def smallest_distance(distance: Distance, progress: Progress | None = None, block: int = 256) -> tuple[float, int, int]:

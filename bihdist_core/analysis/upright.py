@@ -8,7 +8,11 @@ go by the first three).  Each of the six directions gets the sum of these, as sh
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
+from ..progress import Progress, part, silent
 from ..surface import Surface
+
+WORDS = "guessing which way is up"
+"""What is being done, for those who are told of progress."""
 
 DIRECTIONS = ("y", "z", "x", "-y", "-z", "-x")
 """The most frequent in files comes first, and wins ties."""
@@ -47,11 +51,14 @@ FRONTS = {"y": "z", "-y": "z", "x": "z", "-x": "z", "z": "-y", "-z": "y"}
 """Where the front is, by which way is up: what a quarter turn of the usual shape makes of its front."""
 
 
-def guess_up(surface: Surface, extension: str = "") -> str:
+def guess_up(surface: Surface, extension: str = "", progress: Progress | None = None) -> str:
     """One of "x", "-x", "y", "-y", "z", "-z".  extension: of the file it comes from, such as ".obj" (`mesh_format`).
 
-    A surface in a plane of constant z has y up.
+    A surface in a plane of constant z has y up.  progress: asked between the steps, the longest of which goes over all
+    faces.
     """
+    report = progress or silent
+    report(0.0, WORDS)
     points = surface.vertices[surface.component_of_vertex >= 0]
     # Of a large mesh some do as well.
     points = points[:: max(1, len(points) // 50_000)]
@@ -61,7 +68,7 @@ def guess_up(surface: Surface, extension: str = "") -> str:
         return landscape if landscape and landscape[-1] != "z" else "y"
     if landscape:
         return landscape
-    scores = _scores(surface, points, extents)
+    scores = _scores(surface, points, extents, part(report, 0.1, 1))
     after = AFTER_Y.get(extension.lower(), AFTER_Y_ELSEWHERE)
     usual = {"y": 0.0, "z": -after}
     return max(DIRECTIONS, key=lambda name: scores[name] + usual.get(name, -SELDOM))
@@ -98,17 +105,20 @@ def _landscape(surface: Surface, extents: FloatArray) -> str:
     return "-" * bool(facing[k] < 0) + "xyz"[k] if abs(facing[k]) >= FACING and is_thin else ""
 
 
-def _scores(surface: Surface, points: FloatArray, extents: FloatArray) -> dict[str, float]:
+def _scores(surface: Surface, points: FloatArray, extents: FloatArray, progress: Progress) -> dict[str, float]:
     """For each direction how much speaks for it."""
+    progress(0.0, WORDS)
     (samples, _), diagonal = scattered(surface, SAMPLES), float(np.linalg.norm(extents))
     centre, lowest = samples.mean(axis=0), points.min(axis=0)
-    misfits = _mirror_misfits(samples, centre) / diagonal
+    misfits = _mirror_misfits(samples, centre, part(progress, 0, 0.4)) / diagonal
     unlike = misfits / max(float(misfits.max()), SYMMETRIC)
     heights = (samples.mean(axis=0) - lowest) / extents
+    progress(0.4, WORDS)
     rims, rim_share = _rims(surface, diagonal)
     rim_heights = (rims - lowest) / extents
     scores = {}
-    for name in DIRECTIONS:
+    for number, name in enumerate(DIRECTIONS):
+        progress(0.5 + number / 12, WORDS)
         k, is_down = "xyz".index(name[-1]), name.startswith("-")
         across = [axis for axis in range(3) if axis != k]
 
@@ -130,13 +140,14 @@ def _scores(surface: Surface, points: FloatArray, extents: FloatArray) -> dict[s
     return scores
 
 
-def _mirror_misfits(samples: FloatArray, centre: FloatArray) -> FloatArray:
+def _mirror_misfits(samples: FloatArray, centre: FloatArray, progress: Progress) -> FloatArray:
     """(3,) the mean distance from places that are mirrored along each axis to the nearest other place."""
     from scipy.spatial import cKDTree
 
     tree, some = cKDTree(samples), samples[::8]
     found = []
     for k in range(3):
+        progress(k / 3, WORDS)
         mirrored = some.copy()
         mirrored[:, k] = 2 * centre[k] - mirrored[:, k]
         found.append(tree.query(mirrored)[0].mean())

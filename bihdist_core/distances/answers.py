@@ -14,6 +14,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..errors import BihdistError, Cancelled, ParameterError, VertexError
 from ..laplacian import Laplacian
+from ..machine_memory import REMEDY
 from ..progress import Progress, part, silent, turn
 from ..sources.pieces import Pieces, pieces_of
 from ..sources.source import Source
@@ -152,7 +153,7 @@ def failure_in_words(error: Exception) -> str:
     if isinstance(error, BihdistError):
         return str(error)
     if isinstance(error, MemoryError):
-        return "There is not enough memory for this mesh."
+        return f"There is not enough memory for this mesh; {REMEDY}"
     note_unexpected(error)
     return unexpected_words(error)
 
@@ -258,7 +259,7 @@ class Distances:
                     return answer
                 # Whoever has a newer question need not wait for the certificate of this one.
                 (progress or silent)(1.0, distance.label)
-            estimate = distance.error_estimate(components)
+            estimate = distance.error_estimate(components, part(progress, 1, 1))
             label = f"{answer.label}, {estimate.short}" if estimate.short else answer.label
             return replace(answer, label=label, error_estimate=estimate)
         except (Cancelled, VertexError):

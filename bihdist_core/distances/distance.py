@@ -68,7 +68,9 @@ class Distance(PairQuestions):
         """Whether a source takes more than some 5 s, so that something quicker is worth showing meanwhile."""
         return False
 
-    def error_estimate(self, components: Sequence[int] | None = None) -> ErrorEstimate:
+    def error_estimate(
+        self, components: Sequence[int] | None = None, progress: Progress | None = None
+    ) -> ErrorEstimate:
         """The accuracy in words, on components with these numbers, or on those that were asked about.
 
         SolverError if it is worse than a thousandth: then answers there should not be used.

@@ -14,10 +14,11 @@ import numpy.typing as npt
 
 from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
+from ..expected_time import Expected
 from ..kernel import library as kernel
 from ..progress import Progress
 from ..scalars import real_number
-from ..solver.worker_threads import Job
+from ..solver.worker_threads import WORKERS, Job
 from ..sources.pieces import Pieces
 from ..surface import Surface
 from .path_search import PathSearch
@@ -163,11 +164,14 @@ class ExactGeodesic:
 
     def __init__(self, surface: Surface) -> None:
         if kernel.library() is None:
-            raise SolverError("Exact geodesic distance needs the compiled kernel; use the heat method.")
+            why = kernel.why_plain()
+            words = f"needs the compiled kernel{f' ({why})' if why else ''}; use the heat method."
+            raise SolverError(f"Exact geodesic distance {words}")
         self.surface = surface
         self._mesh = UnfoldingMesh(surface)
         self._free: SimpleQueue[_Workspace] = SimpleQueue()
-        self._usual = float(USUAL_PER_VERTEX * len(surface.vertices))
+        self.expected: float | None = None
+        """Windows of a whole field: as many as the last one took, or as a trial has it."""
 
     def distances(
         self,
@@ -264,7 +268,7 @@ class ExactGeodesic:
             start = self._mesh.at_vertices(ids[column : column + 1])
             found[:, column] = self._field(start, None, watch, radius=radius).distances
 
-        self._in_workers(one, len(ids), progress)
+        self._in_workers(one, len(ids), progress, radius == np.inf)
         return found
 
     def field(
@@ -303,13 +307,19 @@ class ExactGeodesic:
         def one(_: int, watch: kernel.Watch) -> None:
             fields.append(self._field(starts, goals, watch, shifts, radius, everything))
 
-        self._in_workers(one, 1, progress)
+        self._in_workers(one, 1, progress, radius == np.inf and not everything)
         return fields[0]
 
-    def _in_workers(self, one: Callable[[int, kernel.Watch], None], count: int, progress: Progress | None) -> None:
-        job = Job(progress, "exact geodesic", self._usual * count)
-        job.run(lambda number: one(number, job.watch), range(count))
-        job.finish()
+    def _in_workers(
+        self, one: Callable[[int, kernel.Watch], None], count: int, progress: Progress | None, is_whole: bool = False
+    ) -> None:
+        """is_whole: each is a whole field, of which it is known how long it takes."""
+        windows = count * (self.expected or USUAL_PER_VERTEX * len(self.surface.vertices))
+        with Expected("windows", windows, min(count, WORKERS), progress) as it:
+            job = Job(it.progress if is_whole else progress, "exact geodesic", windows)
+            job.run(lambda number: one(number, job.watch), range(count))
+            job.finish()
+            it.done = job.watch.done if is_whole else 0  # of less, most is beginnings and ends
 
     def _field(
         self,
@@ -345,8 +355,8 @@ class ExactGeodesic:
             rest.append(work.complete(run, watch, self.surface.name))
         finally:
             self._free.put(work)
-        if not targets_only:
-            self._usual = max(float(run.taken), 1.0)
+        if radius == np.inf and not targets_only:
+            self.expected = max(float(run.taken), 1.0)
         lengths = reached["distance"]
         found = np.concatenate([lengths[mesh.number], lengths[mesh.vertices :]])
         found[found > run.radius] = np.inf

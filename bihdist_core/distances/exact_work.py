@@ -21,6 +21,12 @@ def expected_windows(exact: ExactGeodesic, progress: Progress | None = None) -> 
     Found by two fields that end at a radius, in less than half a second: a half to twice what it is, mostly.  For small
     surfaces n^1.5, which is more than it is but on long tubes.  Raises SolverError where there are too many windows.
     """
+    if exact.expected is None:
+        exact.expected = _tried(exact, progress)
+    return exact.expected
+
+
+def _tried(exact: ExactGeodesic, progress: Progress | None) -> float:
     surface = exact.surface
     count = len(surface.vertices)
     if count <= TRIED:

@@ -13,7 +13,7 @@ from ..kernel import library as kernel
 from ..laplacian import Component, Laplacian
 from ..memo import Memo
 from ..mesh_like import MeshLike
-from ..progress import Progress, part
+from ..progress import Progress, part, turn
 from ..sources.pieces import Pieces
 from ..surface import Surface
 from .accuracy import ErrorEstimate
@@ -121,32 +121,38 @@ class GeodesicDistance(Distance):
         """Make the solver of a component, if that is not done."""
         if component.index not in self._solvers:
             if self.method == "exact":
-                self._solvers[component.index] = ExactGeodesic(component.surface)
+                self._solvers[component.index] = exact = ExactGeodesic(component.surface)
+                if self.radius == np.inf:
+                    takes_long(exact, progress)  # whose trial tells how long a field will take
             elif self.method == "heat":
                 self._solvers[component.index] = HeatTimes(component, progress)
             else:
                 self._solvers[component.index] = EdgeGeodesic(component.surface)
 
-    def error_estimate(self, components: Sequence[int] | None = None) -> ErrorEstimate:
+    def error_estimate(
+        self, components: Sequence[int] | None = None, progress: Progress | None = None
+    ) -> ErrorEstimate:
         """How far the method is off, with a warning; nothing for the exact one.
 
         The heat method is compared with exact distances on each component once; by less than it is known to have fallen
         below a straight line it is not off.
         """
         if self.method == "heat":
-            with self._errors.lock:
-                found = [self._errors_on(self.laplacian.components[index]) for index in self._those(components)]
+            with turn(self._errors.lock, progress, "waiting for the accuracy"):
+                found = [
+                    self._errors_on(self.laplacian.components[index], progress) for index in self._those(components)
+                ]
             measured = [errors for errors in found if errors is not None]
             if len(measured) == len(found):
                 return max(measured, key=lambda errors: errors.largest).estimate(self._below)
         return TYPICALLY[self.method]
 
-    def _errors_on(self, component: Component) -> HeatErrors | None:
+    def _errors_on(self, component: Component, progress: Progress | None) -> HeatErrors | None:
         if component.index not in self._errors:
-            self.prepare(component)
+            self.prepare(component, progress)
             solver = self._solvers[component.index]
             assert isinstance(solver, HeatTimes)
-            self._errors[component.index] = heat_errors(component.surface, solver)
+            self._errors[component.index] = heat_errors(component.surface, solver, progress)
         return self._errors[component.index]
 
     def is_judged(self, component: int) -> bool:

@@ -7,6 +7,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..counts import counted
 from ..errors import SolverError
+from ..progress import Progress, part
 from ..surface import Surface
 from .accuracy import ErrorEstimate
 from .exact_geodesic import ExactGeodesic
@@ -43,17 +44,17 @@ class HeatErrors:
         return ErrorEstimate(text, True, max(self.largest, below), f"{mean} off in the mean")
 
 
-def heat_errors(surface: Surface, heat: HeatTimes) -> HeatErrors | None:
+def heat_errors(surface: Surface, heat: HeatTimes, progress: Progress | None = None) -> HeatErrors | None:
     """The errors on a connected surface; None where it is too large for that or exact distances cannot be had."""
     try:
         exact = ExactGeodesic(surface)
-        count = min(SOURCES, int(MOST_WINDOWS / expected_windows(exact)))
+        count = min(SOURCES, int(MOST_WINDOWS / expected_windows(exact, part(progress, 0, 0))))
         if not count:
             return None
         nearest = np.full(len(surface.vertices), np.inf)
         means, largest, source = [], 0.0, 0
-        for _ in range(count):
-            field = exact.distances(source)
+        for k in range(count):
+            field = exact.distances(source, part(progress, k / count, (k + 1) / count))
             off = np.abs(heat.distances(source) - field) / field.max()
             means.append(float(off.mean()))
             largest = max(largest, float(off.max()))

@@ -154,8 +154,10 @@ class PowerDistance(SpectralDistance):
 
     def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, FloatArray]:
         # With the diagonal of C, which tells what is left out; one more tells how clearly those used are set off.
-        component.factor(part(progress, 0, 0.1), diagonals=True)
-        spectrum = component.spectrum(self.k + 1, part(progress, 0.1, 1))
+        component.check_room_for(self.k + 1)
+        factored = component.share_of_factor(self.k + 1)
+        component.factor(part(progress, 0, factored), diagonals=True)
+        spectrum = component.spectrum(self.k + 1, part(progress, factored, 1))
         return spectrum, spectrum.eigenvalues[: self.k] ** -self.alpha
 
     def _slopes(self, eigenvalues: FloatArray) -> FloatArray:

@@ -56,6 +56,27 @@ def read_gifti(raw: bytes, name: str) -> Polygons:
 
 def gifti_arrays(raw: bytes, name: str) -> list[GiftiArray]:
     """All arrays of a GIFTI file; MeshError where it is none, or is cut off or damaged."""
+    root = _root(raw, name)
+    elements = root.findall("DataArray")
+    announced = root.get("NumberOfDataArrays", str(len(elements)))
+    if announced.strip() != str(len(elements)):
+        raise MeshError(f"{name} announces {announced[:20]} arrays and holds {len(elements)}.")
+    return [_array(element, f"{name}: array {k}") for k, element in enumerate(elements)]
+
+
+def label_table(raw: bytes, name: str) -> dict[int, str]:
+    """The names of labels in a GIFTI file by their keys; MeshError as of `gifti_arrays`, and for a key that is none."""
+    names = {}
+    for k, element in enumerate(_root(raw, name).iterfind("LabelTable/Label")):
+        # Version 1.0 of the format calls it Key, files of older programs Index.
+        key = element.get("Key", element.get("Index", ""))
+        if not re.fullmatch("-?[0-9]{1,10}", key):
+            raise MeshError(f"{name}: label {k} of its table has the key {key[:20]!r}, not a whole number.")
+        names[int(key)] = (element.text or "").strip()
+    return names
+
+
+def _root(raw: bytes, name: str) -> ElementTree.Element:
     if b"<!ENTITY" in raw:
         raise MeshError(f"{name} declares XML entities, which no GIFTI file needs; it is not read.")
     try:
@@ -64,11 +85,7 @@ def gifti_arrays(raw: bytes, name: str) -> list[GiftiArray]:
         raise MeshError(f"{name} is not a GIFTI file, or is cut off or damaged ({error}).") from None
     if root.tag != "GIFTI":
         raise MeshError(f"{name} is not a GIFTI file: its root element is {root.tag[:40]!r}, not 'GIFTI'.")
-    elements = root.findall("DataArray")
-    announced = root.get("NumberOfDataArrays", str(len(elements)))
-    if announced.strip() != str(len(elements)):
-        raise MeshError(f"{name} announces {announced[:20]} arrays and holds {len(elements)}.")
-    return [_array(element, f"{name}: array {k}") for k, element in enumerate(elements)]
+    return root
 
 
 def _array(element: ElementTree.Element, where: str) -> GiftiArray:

@@ -110,6 +110,10 @@ def mesh_content(path: str | os.PathLike[str]) -> bytes:
         kind = path.stat().st_mode
         if stat.S_ISDIR(kind):
             raise MeshError(f"{path} is a folder, not a mesh file.")
+        if path.suffix.lower() == ".3mf":
+            raise MeshError(
+                f"{path.name} is a 3MF file, which is not read; save it as PLY first, in MeshLab, Blender or another."
+            )
         if not mesh_format(path):
             formats = f"{', '.join(MESH_FORMATS)}, any of them with .gz, and FreeSurfer's such as lh.pial"
             ending = f"the extension {path.suffix!r}" if path.suffix else "no extension"

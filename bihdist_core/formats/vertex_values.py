@@ -1,51 +1,77 @@
-"""Values at vertices in files of brain imaging: GIFTI, and FreeSurfer's annotations and files such as lh.thickness."""
+"""Values at vertices in files of brain imaging: GIFTI, and FreeSurfer's .annot, .label and lh.thickness."""
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
-from ..arrays import AnyArray
+import numpy as np
+
+from ..arrays import AnyArray, IntArray
 from ..counts import counted
 from ..errors import MeshError, ParameterError
 from .freesurfer import read_annotation, read_values
+from .freesurfer_label import LABEL, is_label, read_label
 from .gifti import POINTS, TRIANGLES, gifti_arrays
 from .gzip_files import unpacked
 from .mesh_names import GZIP, has_hemisphere
 
-VALUE_FILES = ".gii, .annot, FreeSurfer's lh.thickness"
+VALUE_FILES = ".gii, .annot, .label, FreeSurfer's lh.thickness"
 """What is read, for a message."""
 
 
 def is_vertex_values(path: str | os.PathLike[str]) -> bool:
     """Whether a file is one of values at vertices by its name; a file with another known extension comes before."""
     name = os.path.basename(path).lower().removesuffix(GZIP)
-    return name.endswith((".gii", ".annot")) or (has_hemisphere(name) and not name.endswith((".npy", ".txt")))
+    return name.endswith((".gii", ".annot", LABEL)) or (has_hemisphere(name) and not name.endswith((".npy", ".txt")))
 
 
-def read_vertex_values(path: str | os.PathLike[str], what: str = "values") -> AnyArray:
+def read_vertex_values(path: str | os.PathLike[str], what: str = "values", n_vertices: int | None = None) -> AnyArray:
     """(n,) the values at the vertices in a GIFTI file (.func.gii, .shape.gii, .label.gii) or a FreeSurfer file.
 
     Labels of GIFTI files are their keys, those of an annotation (.annot) the places in its table, -1 for none; values
-    such as thickness are float32.  .gz may follow.  what: how a message speaks of them.
+    such as thickness are float32.  A label (.label) lists vertices, which have 1, and all others 0: n_vertices says how
+    many there are.  .gz may follow.  what: how a message speaks of them.
 
     Raises ParameterError, a sentence with the file and the place in it, for anything else.
     """
+    with value_file(path, what) as content:
+        found = _values_in(content, Path(path).name, what, n_vertices)
+        return found.astype(found.dtype.newbyteorder("="))
+
+
+def read_label_vertices(path: str | os.PathLike[str], n_vertices: int) -> IntArray:
+    """(k,) the vertices that a FreeSurfer label lists, of a surface with n_vertices.
+
+    ParameterError as of `read_vertex_values`.
+    """
+    with value_file(path, "label") as content:
+        return read_label(content, Path(path).name, n_vertices)
+
+
+@contextmanager
+def value_file(path: str | os.PathLike[str], what: str) -> Iterator[bytes]:
+    """What a file of values holds, unpacked; what is wrong with it, on reading and inside, is a ParameterError."""
     path = Path(path)
     try:
         content = path.read_bytes() if path.is_file() else None
         if content is None:
             raise ParameterError(f"The {what} in {path} cannot be read: there is no such file.")
-        if path.suffix.lower() == GZIP:
-            content = unpacked(content, path.name)
-        found = _values_in(content, path.name)
-        return found.astype(found.dtype.newbyteorder("="))
+        yield unpacked(content, path.name) if path.suffix.lower() == GZIP else content
     except OSError as error:
         raise ParameterError(f"The {what} in {path} cannot be read: {error.strerror or error}.") from None
     except MeshError as error:
         raise ParameterError(str(error)) from None
 
 
-def _values_in(content: bytes, name: str) -> AnyArray:
+def _values_in(content: bytes, name: str, what: str, n_vertices: int | None) -> AnyArray:
     lower = name.lower().removesuffix(GZIP)
+    if is_label(name):
+        if n_vertices is None:
+            raise MeshError(f"{name} lists the vertices of a label, and has no value for each: it is no {what}.")
+        mask = np.zeros(n_vertices, np.int64)
+        mask[read_label(content, name, n_vertices)] = 1
+        return mask
     if not lower.endswith(".gii"):
         return read_annotation(content, name).labels if lower.endswith(".annot") else read_values(content, name)
     arrays = [array for array in gifti_arrays(content, name) if array.intent not in (POINTS, TRIANGLES)]

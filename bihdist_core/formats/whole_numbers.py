@@ -19,16 +19,17 @@ MOST = 10**15
 """Larger ones are no numbers of vertices or labels, and floats do not hold all of them."""
 
 
-def read_whole_numbers(path: str | os.PathLike[str], what: str) -> IntArray:
+def read_whole_numbers(path: str | os.PathLike[str], what: str, n_vertices: int | None = None) -> IntArray:
     """(n,) the numbers in a file, of which a message speaks as `what`: "map", "mask".
 
-    .npy, .txt, and what `read_vertex_values` reads: .gii, .annot, values of FreeSurfer.
+    .npy, .txt, and what `read_vertex_values` reads: .gii, .annot, values of FreeSurfer, and labels
+    (.label), whose vertices have 1 among n_vertices.
 
     Raises ParameterError, a sentence with the file, the place in it and the value, for anything else.
     """
     path = Path(path)
     if is_vertex_values(path):
-        return _whole_values(read_vertex_values(path, what), path, what)
+        return _whole_values(read_vertex_values(path, what, n_vertices), path, what)
     if path.suffix.lower() not in NUMBER_FORMATS:
         raise ParameterError(f"{path} is no {what}; these are {', '.join(NUMBER_FORMATS)}, {VALUE_FILES} files.")
     return _array_in(path, what) if path.suffix.lower() == ".npy" else _numbers_in(path, what)

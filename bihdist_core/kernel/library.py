@@ -7,6 +7,8 @@ interpreter lock while a function runs.
 import ctypes
 import os
 import sys
+import warnings
+from contextlib import suppress
 from ctypes import POINTER, Structure, c_double, c_int32, c_int64, c_uint64, c_void_p
 from functools import cache
 from pathlib import Path
@@ -15,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import AnyArray
-from ..errors import Cancelled
+from ..errors import Cancelled, PlainSolverWarning
 
 DONE, STOPPED, NOT_POSITIVE, OUTSIDE, ASYMMETRIC, NO_ROOM, TOO_MUCH, LOST = 0, -1, -2, -3, -4, -5, -6, -7
 """What functions return; `kernel.h` and `geodesic.h` say it."""
@@ -228,34 +230,65 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
 }
 
 
+class _Unfit(Exception):
+    """Why a library is not used, as a sentence without its end."""
+
+
 @cache
 def library() -> Any:
-    """The best library for this processor, with its functions' signatures; None without one, or if PLAIN is set."""
+    """The best library for this processor, with its functions' signatures; None without one, or if PLAIN is set.
+
+    Without one a PlainSolverWarning says so, and why, once.
+    """
     if os.environ.get(PLAIN):
         return None
-    portable = _loaded("libbihdist")
-    if portable is not None and portable.bih_has_avx2():
-        return _loaded("libbihdist-avx2") or portable
+    try:
+        portable = _loaded("libbihdist")
+    except _Unfit:
+        words = f"The solver runs in NumPy, slower, and geodesics by the heat method: {why_plain()}."
+        warnings.warn(words, PlainSolverWarning, stacklevel=2)
+        return None
+    if portable.bih_has_avx2():
+        with suppress(_Unfit):
+            return _loaded("libbihdist-avx2")
     return portable
 
 
+def why_plain() -> str:
+    """Why the compiled kernel is not used, and what to do, as a sentence without its end; "" where it is used."""
+    if os.environ.get(PLAIN):
+        return f"the environment variable {PLAIN} is set"
+    try:
+        _loaded("libbihdist")
+    except _Unfit as reason:
+        has_sources = (FOLDER / "kernel.h").exists()
+        return f"{reason}; " + (f"run python {FOLDER / 'build.py'}" if has_sources else "install bihdist again")
+    return ""
+
+
 def description() -> str:
-    """Which kernel the solver runs on: "compiled, AVX2", "compiled" or "plain NumPy"."""
-    found = library()
-    if found is None:
-        return "plain NumPy"
-    return "compiled, AVX2" if "avx2" in Path(found._name).name else "compiled"
+    """Which kernel the solver runs on: "compiled, AVX2", "compiled", or "plain NumPy: " and why."""
+    if why := why_plain():
+        return f"plain NumPy: {why}"
+    return "compiled, AVX2" if "avx2" in Path(library()._name).name else "compiled"
 
 
 def _loaded(name: str) -> Any:
-    """The library of that name, or None where there is none that fits this machine and this code."""
+    """The library of that name; _Unfit where there is none that fits this machine and this code."""
+    path = FOLDER / (name + SUFFIX)
+    if not path.exists():
+        raise _Unfit(f"there is no compiled kernel {path}")
     try:
-        found = ctypes.CDLL(str(FOLDER / (name + SUFFIX)))
-        for function, (result, arguments) in _SIGNATURES.items():
+        found = ctypes.CDLL(str(path))
+    except OSError as error:
+        raise _Unfit(f"the compiled kernel cannot be loaded ({error})") from None
+    for function, (result, arguments) in _SIGNATURES.items():
+        try:
             bound = getattr(found, f"bih_{function}")
-            bound.restype, bound.argtypes = result, arguments
-    except (OSError, AttributeError):
-        return None
+        except AttributeError:
+            reason = f"the compiled kernel {path} is of other sources than this program: it has no bih_{function}"
+            raise _Unfit(reason) from None
+        bound.restype, bound.argtypes = result, arguments
     return found
 
 

@@ -12,14 +12,12 @@ from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..kernel.library import at, check_stopped, library, rows_of
-from ..machine_memory import check_memory
+from ..machine_memory import REMEDY, check_memory
 from .compiled_tree import PAD, CompiledTree, padded
 from .worker_threads import WORKERS, Arena, Job, Run, Workspaces
 
 PADDING = 8
 """Numbers after the end of an array that the kernel may read."""
-
-REMEDY = "show fewer panels, simplify the mesh (bihdist perturb --simplify N), or take a larger machine or a cluster."
 
 NEVER = ctypes.byref(kernel.Watch())
 """The watch of short work, which nobody stops."""
@@ -60,21 +58,22 @@ class CompiledFactor:
         self.tree = tree
         self._areas = None if areas is None else areas.take(tree.order)
         # Derivatives stand beside all blocks before those of leaves.
-        self._pivots, self._boundaries = (
-            np.empty(size + (0 if areas is None else int(block[-1])) + PADDING)
+        sizes = [
+            size + (0 if areas is None else int(block[-1])) + PADDING
             for size, block in zip(tree.factor_size, (tree.pivot_block, tree.row_block), strict=True)
-        )
+        ]
         self._diagonals: tuple[FloatArray, FloatArray] | None = None
         self._arena: Arena | None = None
         if len(tree.tasks) == 1 and job.is_silent:
             room = library().bih_factor_room(ctypes.byref(tree.struct), areas is not None)
-            self._check_memory(room)
+            self._take_memory(sizes, room)
             self._factor_alone(matrix, room)
             return
         self._rooms = {task: (self._elimination_room(task), self._inversion_room(task)) for task in tree.tasks}
         most = max(max(rooms) for rooms in self._rooms.values())
-        room = tree.blocks_room + min(WORKERS, len(self._rooms)) * most
-        self._check_memory(room)
+        handed = tree.blocks_room if areas is not None else tree.blocks_room // 2
+        room = handed + min(WORKERS, len(self._rooms)) * most
+        self._take_memory(sizes, room)
         self._arena = Arena(room)
         self._eliminate(matrix, job)
         if areas is None:
@@ -93,9 +92,10 @@ class CompiledFactor:
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in self.__dict__.items() if name != "_struct"}
 
-    def _check_memory(self, room: int) -> None:
-        """For the factor, and so many doubles to make it in, all of which are there on paper only."""
-        check_memory(self.nbytes + 8.0 * room, f"The factor for {self.tree.n:,} vertices", REMEDY)
+    def _take_memory(self, sizes: list[int], room: int) -> None:
+        """For the factor, whose arrays have these sizes, where there are so many doubles besides to make it in."""
+        check_memory(8.0 * (sum(sizes) + room), f"The factor for {self.tree.n:,} vertices", REMEDY)
+        self._pivots, self._boundaries = map(np.empty, sizes)
 
     def _factor_alone(self, matrix: sp.csr_matrix, room: int) -> None:
         """All of it, diagonals included, by one call."""

@@ -9,10 +9,12 @@ import scipy.sparse as sp
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
+from ..expected_time import Expected
 from ..kernel.library import library
 from ..progress import Progress
 from .compiled_tree import CompiledTree
 from .plain import PlainTree
+from .worker_threads import WORKERS
 
 
 class EliminationTree:
@@ -25,9 +27,11 @@ class EliminationTree:
 
     def __init__(self, pattern: sp.spmatrix, coordinates: FloatArray, progress: Progress | None = None) -> None:
         x, matrix = _checked_coordinates(pattern, coordinates), canonical(pattern)
-        self.layout: CompiledTree | PlainTree = (
-            CompiledTree(matrix, x, progress) if library() else PlainTree(matrix, _unit_box(x), progress)
-        )
+        kind, cores = ("ordering", WORKERS) if library() else ("plain ordering", 1)
+        with Expected(kind, len(x), cores, progress) as it:
+            self.layout: CompiledTree | PlainTree = (
+                CompiledTree(matrix, x, it.progress) if library() else PlainTree(matrix, _unit_box(x), it.progress)
+            )
         self.n = self.layout.n
 
     @property

@@ -15,12 +15,13 @@ import scipy.sparse as sp
 
 from ..arrays import AnyArray, FloatArray
 from ..errors import ParameterError, SolverError
+from ..expected_time import Expected, expected_seconds
 from ..progress import Progress, silent
 from .compiled_factor import CompiledFactor
 from .compiled_tree import CompiledTree
 from .elimination_tree import EliminationTree, canonical
 from .plain import PlainFactor
-from .worker_threads import Job, Run, Workspaces, in_turn, side_by_side
+from .worker_threads import WORKERS, Job, Run, Workspaces, in_turn, side_by_side
 
 ReceivePiece = Callable[[AnyArray, slice, FloatArray], None]
 """Takes some rows (r,), a slice of the columns asked for, and the values (r, k) there, which it may overwrite."""
@@ -30,6 +31,15 @@ WIDE = 32
 
 FEW = 1 << 16
 """Of fewer vertices as many columns stay in the cache where each has one of G beside it."""
+
+WITH_DIAGONALS = 6
+"""How many times as long it takes with derivatives and diagonals."""
+
+USUAL = 50
+"""Multiplications of a factor of n vertices, times n^1.5, on round shapes; on long ones a third of them."""
+
+USUAL_BYTES = 1_000
+"""Of a factor with its diagonals, for each vertex: 600 to 1,200."""
 
 SMALL = 1 << 23
 """A factor of fewer bytes is read by one thread faster than several begin."""
@@ -55,19 +65,22 @@ class Factor:
         matrix, weights = _checked_matrix(tree, matrix), _checked_areas(tree, areas)
         self.tree = tree
         layout = tree.layout
-        # The inversion takes about as long as the elimination.
-        job = Job(progress, "Factoring the matrix", layout.work * (1 + (weights is not None)))
-        if isinstance(layout, CompiledTree):
-            self._blocks: CompiledFactor | PlainFactor = CompiledFactor(layout, matrix, weights, job)
-        else:
-            self._blocks = PlainFactor(layout, matrix, weights, job)
         self._diagonals: tuple[FloatArray, FloatArray] | None = None
-        if weights is not None:
-            self._diagonals = self._blocks.diagonals(job)
-            for diagonal in self._diagonals:
-                _check_result(diagonal)
-                diagonal.flags.writeable = False
-        job.finish()
+        multiplications = layout.work * (1 if weights is None else WITH_DIAGONALS)
+        kind, cores = ("factor", WORKERS) if isinstance(layout, CompiledTree) else ("plain factor", 1)
+        with Expected(kind, multiplications, cores, progress) as it:
+            # The inversion takes about as long as the elimination.
+            job = Job(it.progress, "Factoring the matrix", layout.work * (1 + (weights is not None)))
+            if isinstance(layout, CompiledTree):
+                self._blocks: CompiledFactor | PlainFactor = CompiledFactor(layout, matrix, weights, job)
+            else:
+                self._blocks = PlainFactor(layout, matrix, weights, job)
+            if weights is not None:
+                self._diagonals = self._blocks.diagonals(job)
+                for diagonal in self._diagonals:
+                    _check_result(diagonal)
+                    diagonal.flags.writeable = False
+            job.finish()
 
     @property
     def has_diagonals(self) -> bool:
@@ -160,6 +173,22 @@ class Factor:
         if self._diagonals is None:
             raise SolverError("This factor was made without areas, which its diagonals and sandwich columns need.")
         return self._diagonals
+
+
+def share_of_ordering(n: int, diagonals: bool) -> float:
+    """Which share of the time that a tree and a factor of n vertices take is the tree's."""
+    return expected_seconds("ordering", n, WORKERS) / usual_seconds(n, diagonals)
+
+
+def usual_seconds(n: int, diagonals: bool) -> float:
+    """About how long a tree and a factor of n vertices take, before there is a tree."""
+    multiplications = USUAL * n**1.5 * (WITH_DIAGONALS if diagonals else 1)
+    return expected_seconds("ordering", n, WORKERS) + expected_seconds("factor", multiplications, WORKERS)
+
+
+def usual_bytes(n: int) -> int:
+    """About how many bytes a factor of n vertices with its diagonals holds, before there is a tree."""
+    return USUAL_BYTES * n
 
 
 def _checked_matrix(tree: EliminationTree, matrix: sp.spmatrix) -> sp.csr_matrix:

@@ -50,7 +50,7 @@ def largest_eigenpairs(
     """
     n = len(weights)
     width = _width(count)
-    space = _Space(weights, int(np.clip(MEMORY / (8 * n), count + 6 * width, 4 * count + 16 * width)), *known)
+    space = _Space(weights, _room(n, count), *known)
     random = np.random.default_rng(0)
     space.inject(random.standard_normal((n, width)))
     families, applied, check, expected = 1, 0, 1.5 * count + width, usual_columns(count)
@@ -89,6 +89,19 @@ def largest_eigenpairs(
 def usual_columns(count: int) -> float:
     """How many columns a basis usually has that holds `count` pairs."""
     return 3.5 * count + 8 * _width(count)
+
+
+def krylov_bytes(n: int, count: int) -> float:
+    """Memory for `count` pairs of n rows: the basis with some blocks beside it and, where it is small, the pairs; and
+    the dense eigenproblem in it."""
+    columns = min(usual_columns(count), _room(n, count) + count)
+    return 8.0 * n * (columns + 4 * _width(count)) + 24.0 * columns**2
+
+
+def _room(n: int, count: int) -> int:
+    """Columns of the basis at most."""
+    width = _width(count)
+    return int(np.clip(MEMORY / (8 * n), count + 6 * width, 4 * count + 16 * width))
 
 
 def _width(count: int) -> int:

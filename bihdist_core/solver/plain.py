@@ -23,6 +23,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 
 from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
+from ..machine_memory import REMEDY, check_memory
 from ..progress import Progress
 from .blas import one_blas_thread
 from .worker_threads import Job
@@ -34,6 +35,9 @@ SINGULAR = 1e-14
 STIFF = 3e-2
 """Below this fraction of its diagonal entry a pivot has lost digits that matter: beside a degenerate face, of height h,
 rows have entries of size 1 / h, and what K lacks comes back in S magnified by that."""
+
+FRONTS = 3
+"""How many blocks of a front's size there are at a time while it is eliminated."""
 
 SEPARATOR = 2
 """The side of vertices in neither half, 0 or 1, of a region."""
@@ -102,6 +106,19 @@ class PlainTree:
         """How many bytes its arrays take."""
         ups = (up for front in self.fronts for _, up in front.children)
         return sum(each.nbytes for each in (self.vertices, self.place, *ups, *(front.rows for front in self.fronts)))
+
+    def factor_bytes(self, is_dual: bool) -> float:
+        """Memory for a factor, and for the most that there is at a time to make it of."""
+        kept, handed, most = 0, dict[int, int](), 0
+        for q, front in enumerate(self.fronts):
+            s, c = len(front.rows), front.c
+            # The front, what is left of it, and the products between.
+            most = max(most, kept + sum(handed.values()) + FRONTS * s * s)
+            for child, _ in front.children:
+                del handed[child]
+            handed[q] = (s - c) ** 2
+            kept += c * s
+        return 8.0 * (1 + is_dual) * most
 
     def _lay_out(self, graph: sp.csr_matrix, regions: "list[Region]") -> None:
         """Bottom up: a front's boundary is what its pivots' edges and its children's boundaries reach above it."""
@@ -259,6 +276,7 @@ class PlainFactor:
     @one_blas_thread()
     def __init__(self, tree: PlainTree, matrix: sp.csr_matrix, areas: FloatArray | None, job: Job) -> None:
         self.tree = tree
+        check_memory(tree.factor_bytes(areas is not None), f"The factor for {tree.n:,} vertices", REMEDY)
         self._blocks: list[Blocks] = []
         job.run(lambda rows: self._eliminate(rows, areas, job), [matrix[tree.vertices][:, tree.vertices]])
 

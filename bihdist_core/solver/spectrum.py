@@ -17,8 +17,9 @@ from ..arrays import FloatArray
 from ..errors import ParameterError, SolverError
 from ..progress import Progress, part, silent
 from .blas import one_blas_thread
-from .krylov import largest_eigenpairs, usual_columns
+from .krylov import krylov_bytes, largest_eigenpairs, usual_columns
 from .tall import centre, over_rows, own_gram, recombine, sparse_rows
+from .worker_threads import WORKERS
 
 Solve = Callable[[FloatArray], FloatArray]
 
@@ -28,6 +29,15 @@ alike, and the solve leaves their sum in the pinned row."""
 
 LARGE, LARGE_PRODUCT = 800, 1.5e9
 """Rows of a dense matrix whose eigenpairs take some 0.2 s, and multiplications that take as long."""
+
+
+SOLVE_WORK, DENSE_WORK = 0.9, 6
+"""What solving for a column costs for each byte of the factor, and a dense eigenproblem over the cube of its rows, in
+multiplications of tall arrays; measured."""
+
+PROCESS = 9e7
+"""Bytes of a process that does long work aside; it has a copy of the factor, too, with its tree, COPY times as much."""
+COPY = 1.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,6 +134,20 @@ def is_long(n: int, count: int) -> bool:
         return n > LARGE
     columns = usual_columns(count)
     return columns > LARGE or n * columns * count > LARGE_PRODUCT
+
+
+def eigenpair_work(n: int, count: int, factor_bytes: int) -> float:
+    """Multiplications for `count` pairs of n rows, as one core does them; what only one core does counts for all."""
+    if dense_is_faster(n, count):
+        return DENSE_WORK * WORKERS * float(n) ** 3
+    columns = usual_columns(count)
+    return SOLVE_WORK * factor_bytes * columns + n * columns * count + DENSE_WORK * WORKERS * columns**3
+
+
+def eigenpair_bytes(n: int, count: int, factor_bytes: int) -> float:
+    """Memory for `count` pairs of n rows, the factor's own not counted: measured up to 500,000 rows and 1,000 pairs."""
+    aside = PROCESS + COPY * factor_bytes if is_long(n, count) else 0.0
+    return aside + (52.0 * n * n if dense_is_faster(n, count) else krylov_bytes(n, count))
 
 
 def _check(stiffness: sp.csr_matrix, areas: FloatArray, count: int, tolerance: float) -> None:

@@ -61,6 +61,12 @@ class Desk:
             except queue.Empty:
                 continue
 
+    def drain(self):
+        """Run what is posted by now, and forget what the view was told."""
+        while not self.posted.empty():
+            self.posted.get()()
+        self.view.told.clear()
+
     def complete(self):
         self.until(lambda: self.session.is_complete)
         return self.session

@@ -373,6 +373,15 @@ def test_drags_are_steps_of_their_own(desk, mesh_file):
     assert d.source == 0
 
 
+def test_answers_are_kept_up_to_a_number(monkeypatch):
+    monkeypatch.setattr("app.session.answer_cache.MOST", 3)
+    kept = AnswerCache()
+    asked = [DistanceQuestion(MeshFile("A", ""), "voronoi", BIHARMONIC, vertex) for vertex in range(5)]
+    for question in asked:
+        kept.put(question, Answer(label="", field=np.zeros(1)))
+    assert [kept.get(question) is not None for question in asked] == [False, False, True, True, True]
+
+
 def test_answers_are_kept_within_a_memory():
     kept = AnswerCache(memory=2500)
     asked = [DistanceQuestion(MeshFile("A", ""), "voronoi", BIHARMONIC, vertex) for vertex in range(4)]

@@ -1,6 +1,7 @@
 """`bihdist interpolate`, `correspond`, `evaluate` and `perturb`, as they are typed."""
 
 import csv
+import json
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from bihdist_core import (
     BiharmonicDistance,
     Correspondence,
     GeodesicDistance,
+    Laplacian,
     ShepardInterpolant,
     Surface,
     error_curve,
@@ -18,8 +20,10 @@ from bihdist_core import (
     map_errors,
     noisy,
     read_surface,
+    write_map,
     write_mesh,
 )
+from tests.core.test_merging import torn
 from tests.shapes import bumpy
 
 
@@ -89,6 +93,52 @@ def test_evaluate_counts_partners_and_draws_the_curve(meshes, tmp_path, capsys):
     assert counted.endswith("50 vertices, partners count")
     assert drawn.endswith("2 curves")
     assert (tmp_path / "curve.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_errors_are_those_of_what_is_left(meshes, tmp_path, capsys):
+    one, two = map(read_surface, meshes)
+    n = len(one.vertices)
+    keeps = one.vertices[:, 2] < 0.5
+    write_map(tmp_path / "map.npy", np.roll(np.arange(n), 1))
+    np.save(tmp_path / "keeps.npy", keeps)
+    words = ["--truth", "identity", "--method", "dijkstra", "--cut", str(tmp_path / "keeps.npy"), "--json"]
+    assert main(["evaluate", *meshes, str(tmp_path / "map.npy"), *words]) == 0
+    ((found),) = json.loads(capsys.readouterr().out)["maps"]
+    cut = two.without(~keeps)
+    left = np.flatnonzero(cut.component_of_vertex >= 0)
+    distance = GeodesicDistance(Laplacian(cut), "dijkstra")
+    curve = error_curve(map_errors(distance, np.roll(np.arange(n), 1)[left], left))
+    assert found["n_vertices"] == len(left) < n
+    assert found["median"] == pytest.approx(curve.median)
+    # So many samples are among them.
+    assert main(["evaluate", *meshes, str(tmp_path / "map.npy"), *words, "--samples", "20"]) == 0
+    assert json.loads(capsys.readouterr().out)["maps"][0]["n_vertices"] == 20
+
+
+def test_a_mesh_is_perturbed_once_it_is_cut_and_merged(meshes, tmp_path, capsys):
+    one, out = read_surface(meshes[0]), tmp_path / "noisy.ply"
+    keeps = one.vertices[:, 2] < 0.5
+    np.save(tmp_path / "keeps.npy", keeps)
+    cut, words = one.without(~keeps), ["--noise", "0.4", "--seed", "1", "--cut", str(tmp_path / "keeps.npy")]
+    assert main(["perturb", meshes[0], *words, "-o", str(out)]) == 0
+    np.testing.assert_array_equal(read_surface(out).faces, cut.faces)
+    np.testing.assert_allclose(read_surface(out).vertices, noisy(cut, 0.4, 1).vertices)
+    capsys.readouterr()
+    gone = int(np.flatnonzero(~keeps)[0])
+    words += ["--distance", "biharmonic", "--sources", str(gone)]
+    assert main(["perturb", meshes[0], *words, "-o", str(out)]) == 2
+    apart = np.linalg.norm(one.vertices - one.vertices[gone], axis=1)
+    apart[cut.component_of_vertex < 0] = np.inf
+    assert f"vertex {gone} belongs to no face, so no distance is defined from it; the nearest that does is " in (
+        said := capsys.readouterr().err
+    )
+    assert said.strip().endswith(f" {apart.argmin()}.")
+    write_mesh(tmp_path / "torn.ply", torn(one))
+    words = ["--noise", "0.4", "--merge", "0", "--json", "-o", str(out)]
+    assert main(["perturb", str(tmp_path / "torn.ply"), *words]) == 0
+    about = json.loads(capsys.readouterr().out)
+    assert about["n_vertices"] == len(one.vertices)
+    assert about["outputs"] == [str(out), str(tmp_path / "noisy.ids.csv")]
 
 
 def test_perturb_writes_the_mesh_and_says_the_change(meshes, tmp_path, capsys):

@@ -28,6 +28,10 @@ def written(path, document, given):
     return read_recipe(path)
 
 
+def archive_of(path):
+    return Path(read_recipe(path).arrays)
+
+
 # ---------------------------------------------------------------------- what is taken
 def test_a_mesh_in_memory_and_fields_become_a_document():
     document, given = comparison_of_arrays(
@@ -176,18 +180,19 @@ def test_arrays_are_saved_beside_and_read_again(tmp_path):
     document, given = comparison_of_arrays(SURFACE, ["biharmonic - mine"], {"mine": HEIGHT, "b/c.npy": HEIGHT**2}, (3,))
     recipe = written(tmp_path / "s.json", document, given)
     assert recipe.document == document
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["s.json", "s.npz"]
+    archive = archive_of(tmp_path / "s.json")
+    assert sorted(tmp_path.iterdir()) == [archive, tmp_path / "s.json"]
     read = ArrayStore.read(recipe)
     assert np.array_equal(read.surface(document.surfaces[0]).faces, SURFACE.faces)
     for field in document.fields:
         assert np.array_equal(read.field(field.sha256, field.name), given.field(field.sha256, field.name))
-    with np.load(tmp_path / "s.npz") as archive:
-        assert np.array_equal(archive["field/mine"], HEIGHT)
+    with np.load(archive) as arrays:
+        assert np.array_equal(arrays["field/mine"], HEIGHT)
     # Moved together they stay together; and the same again is the same bytes.
     (tmp_path / "t").mkdir()
     again = written(tmp_path / "t" / "s.json", document, given)
     assert ArrayStore.read(again)
-    for name in ("s.json", "s.npz"):
+    for name in ("s.json", archive.name):
         assert (tmp_path / name).read_bytes() == (tmp_path / "t" / name).read_bytes()
 
 
@@ -201,11 +206,14 @@ def test_a_recipe_of_files_alone_has_no_archive_and_says_nothing_of_fields(tmp_p
 
 def test_somebody_elses_archive_is_not_replaced(tmp_path):
     document, given = comparison_of_arrays(SURFACE, [], {"mine": HEIGHT}, (3,))
-    np.savez(tmp_path / "s.npz", results=np.ones(3))
+    written(tmp_path / "s.json", document, given)
+    archive = archive_of(tmp_path / "s.json")
+    (tmp_path / "s.json").unlink()
+    np.savez(archive, results=np.ones(3))
     with pytest.raises(OutputError, match="is another file"):
         written(tmp_path / "s.json", document, given)
-    assert [path.name for path in tmp_path.iterdir()] == ["s.npz"]
-    assert not is_archive(tmp_path / "s.npz")
+    assert list(tmp_path.iterdir()) == [archive]
+    assert not is_archive(archive)
     written(tmp_path / "t.json", document, given)
     written(tmp_path / "t.json", document, given)  # our own is
 
@@ -215,6 +223,46 @@ def test_a_failure_after_the_recipe_leaves_neither(tmp_path):
     with pytest.raises(ZeroDivisionError), recipe_written(Recipe(document), given, tmp_path / "s.json", "9"):
         raise ZeroDivisionError
     assert list(tmp_path.iterdir()) == []
+
+
+def test_archives_go_once_no_recipe_names_them(tmp_path):
+    documents = [comparison_of_arrays(SURFACE, [], {"mine": HEIGHT * k}, (3,)) for k in (1, 2)]
+    written(tmp_path / "s.json", *documents[0])
+    first = archive_of(tmp_path / "s.json")
+    (tmp_path / "s.json").rename(tmp_path / "renamed.json")
+    others = [
+        tmp_path / "s.npz",
+        tmp_path / "s.more.npz",
+        tmp_path / f"t.{'0' * 16}.npz",
+        tmp_path / f"s.{'0' * 16}.npz",
+    ]
+    for path in others[:3]:
+        path.write_bytes(first.read_bytes())
+    np.savez(others[3], results=np.ones(3))
+    written(tmp_path / "s.json", *documents[1])
+    second = archive_of(tmp_path / "s.json")
+    assert {first, second, *others} < {*tmp_path.iterdir()}
+    (tmp_path / "renamed.json").unlink()
+    (tmp_path / "pipe.json").mkdir()
+    written(tmp_path / "s.json", comparison("hand"), ArrayStore())
+    assert {*tmp_path.iterdir()} == {tmp_path / "s.json", tmp_path / "pipe.json", *others}
+
+
+def test_a_recipe_of_a_long_name_has_an_archive(tmp_path):
+    document, given = comparison_of_arrays(SURFACE, [], {"mine": HEIGHT}, (3,))
+    assert ArrayStore.read(written(tmp_path / f"{'é' * 100}.json", document, given))
+
+
+def test_an_archive_beside_that_an_older_program_wrote_is_read(tmp_path):
+    document, given = comparison_of_arrays(SURFACE, [], {"mine": HEIGHT}, (3,))
+    written(tmp_path / "s.json", document, given)
+    archive = archive_of(tmp_path / "s.json")
+    text = (tmp_path / "s.json").read_text()
+    (tmp_path / "s.json").write_text(text.replace(archive.name, "s.npz"))
+    archive.rename(tmp_path / "s.npz")
+    assert np.array_equal(
+        ArrayStore.read(read_recipe(tmp_path / "s.json")).surface(document.surfaces[0]).faces, SURFACE.faces
+    )
 
 
 def _without(name):
@@ -253,7 +301,7 @@ def test_a_damaged_archive_gets_a_sentence(tmp_path, damage, words):
     surface = Surface(grid(4, 4).vertices, grid(4, 4).faces)
     document, given = comparison_of_arrays(surface, [], {"mine": np.ones(25)}, (3,))
     recipe = written(tmp_path / "s.json", document, given)
-    damage(tmp_path / "s.npz")
+    damage(archive_of(tmp_path / "s.json"))
     with pytest.raises(ParameterError, match=words):
         ArrayStore.read(recipe)
 
@@ -261,7 +309,7 @@ def test_a_damaged_archive_gets_a_sentence(tmp_path, damage, words):
 def test_nothing_is_unpickled(tmp_path):
     document, given = comparison_of_arrays("hand", [], {"mine": HEIGHT}, (3,))
     recipe = written(tmp_path / "s.json", document, given)
-    _of_objects(tmp_path / "s.npz")
+    _of_objects(archive_of(tmp_path / "s.json"))
     with pytest.raises(ParameterError, match="something else than plain numbers"):
         ArrayStore.read(recipe)
 

@@ -1,6 +1,8 @@
 """Steps through documents whose meshes are still being read, or come too late, or never."""
 
+import gc
 import time
+import weakref
 from dataclasses import replace
 
 from app.document.document import comparison, content
@@ -18,6 +20,41 @@ def is_read(kept):
 
 
 # ---------------------------------------------------------------------- history
+def test_many_steps_are_kept_and_no_more(monkeypatch):
+    monkeypatch.setattr("app.document.history.LONGEST", 5)
+    document = comparison("mesh.off", [BIHARMONIC])
+    history = History(document)
+    for vertex in range(8):
+        history.change(move_source(document, 0, vertex))
+    back = [history.undo().point("source").at for _ in range(7)]
+    assert back == [6, 5, 4, 3, 2, 2, 2]
+
+
+def test_the_memory_of_a_mesh_that_is_forgotten_is_given_back(desk, mesh_file, monkeypatch):
+    monkeypatch.setattr("app.session.surfaces.SPARED", 0)
+    d = desk([BIHARMONIC])
+    session = d.loaded(mesh_file(bumpy(60), "first.off"))
+    laplacian = weakref.ref(session.mesh().distances("voronoi").laplacian)
+    gc.disable()
+    try:
+        for name in ("second.off", "third.off"):
+            d.show(mesh_file(grid(3, 3), name))
+            d.until(lambda name=name: session.is_complete and session.surface.name == name)
+        d.until(lambda: laplacian() is None, 60)
+    finally:
+        gc.enable()
+
+
+def test_small_meshes_that_are_no_longer_shown_are_kept_in_small_numbers(desk, mesh_file, monkeypatch):
+    monkeypatch.setattr("app.session.surfaces.SPARED", 35_000)
+    d = desk([BIHARMONIC])
+    for k in range(6):
+        path = mesh_file(grid(3, 3 + k), f"{k}.off")
+        d.show(path)
+        d.until(lambda path=path: d.session.is_complete and d.session.document.surfaces[0].path == path)
+    assert [loaded.surface.name for loaded in d.session._surfaces] == ["2.off", "3.off", "4.off", "5.off"]
+
+
 def test_what_comes_back_by_undo_is_there_at_once(desk, mesh_file):
     d = desk()
     session = d.loaded(mesh_file(bumpy(200)), source=1)

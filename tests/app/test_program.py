@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from app.program import run
 from tests.shapes import bumpy
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -44,6 +45,70 @@ def test_an_interruption_while_it_is_loaded_is_a_word():
         [sys.executable, "-c", WHILE_LOADED], capture_output=True, text=True, cwd=ROOT, timeout=60, check=False
     )
     assert (done.returncode, done.stderr, done.stdout) == (130, "bihdist: interrupted.\n", "")
+
+
+WHEN_IMPORTED = """
+import os, signal, sys
+class Sends:
+    def find_spec(self, name, *rest):
+        if name == {module!r}:
+            os.kill(os.getpid(), signal.{signal})
+sys.meta_path.insert(0, Sends())
+sys.argv = ["bihdist", *{words!r}]
+"""
+
+
+def when_imported(module, number, words, start):
+    """What becomes of the program that gets a signal when it begins to import a module."""
+    code = WHEN_IMPORTED.format(module=module, signal=number, words=words)
+    command = [sys.executable, "-c", f"{code}\n{start}"]
+    return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, timeout=60, check=False)
+
+
+@pytest.mark.parametrize("module", ["bihdist_core", "app.main"])
+@pytest.mark.parametrize("start", [
+    "import runpy; runpy.run_module('app', run_name='__main__', alter_sys=True)",
+    "from app.program import run; sys.exit(run())",
+])  # fmt: skip
+def test_an_interruption_at_the_first_import_is_a_word(module, start):
+    done = when_imported(module, "SIGINT", ["--version"], start)
+    assert (done.returncode, done.stderr) == (130, "bihdist: interrupted.\n")
+
+
+def test_before_the_program_listens_it_imports_nothing_else_of_ours():
+    code = "import sys; before = {*sys.modules}; import app.program; print(*sorted({*sys.modules} - before))"
+    done = subprocess.run([sys.executable, "-S", "-c", code], capture_output=True, text=True, cwd=ROOT, check=True)
+    there = {*done.stdout.split()}
+    assert {"app", "app.program"} <= there
+    assert not [
+        name for name in there - {"app", "app.program"} if name.partition(".")[0] not in sys.stdlib_module_names
+    ]
+    assert not there & {"typing", "argparse", "pathlib", "ast", "re", "subprocess"}
+
+
+def test_an_interruption_once_the_command_line_is_over_is_a_word(monkeypatch, capfd):
+    def interrupted():
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("app.main.main", interrupted)
+    assert run() == 130
+    assert capfd.readouterr().err == "bihdist: interrupted.\n"
+
+
+def test_sigterm_ends_a_window_while_it_is_loaded_though_somebody_catches_all():
+    caught = """
+class Catches(Sends):
+    def find_spec(self, *names):
+        try:
+            super().find_spec(*names)
+        except BaseException:
+            print("caught", flush=True)
+sys.meta_path[0] = Catches()
+from app.program import run
+sys.exit(run())
+"""
+    done = when_imported("app.qt.screen", "SIGTERM", ["view", "figure"], caught)
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGTERM, "", "")
 
 
 BEGUN = """

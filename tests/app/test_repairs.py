@@ -120,6 +120,44 @@ def test_merged_vertices_are_numbered_anew_by_a_table(tmp_path, capsys):
     assert len(np.load(tmp_path / "torn.f.npy")) == whole.n_vertices == 60
 
 
+def read_table(path):
+    return np.loadtxt(path, int, delimiter=",", skiprows=1)[:, 1]
+
+
+def test_every_command_with_an_output_writes_the_table(tmp_path, capsys):
+    surface, other = torn(bumpy(60)), torn(bumpy(40, seed=1))
+    ids, other_ids = surface.merged()[1], other.merged()[1]
+    for name, each in (("torn", surface), ("other", other)):
+        write_mesh(tmp_path / f"{name}.ply", each)
+    mesh, one = tmp_path / "torn.ply", ("--distance", "biharmonic")
+    small = ("--size", "200x200")
+    commands = (
+        ("figure", mesh, *one, *small, "-o", tmp_path / "f.png"),
+        ("movie", mesh, *one, *small, "--frames", "2", "--workers", "1", "-o", tmp_path / "f.gif"),
+        ("profile", mesh, *one, "--through", "0,9", "-o", tmp_path / "f.csv"),
+        ("profile", mesh, *one, "--through", "0,9", "--chart", tmp_path / "f.png"),
+        ("regions", mesh, "--sources", "0,9", "-o", tmp_path / "f.npy"),
+    )
+    table = tmp_path / "f.ids.csv"
+    for words in commands:
+        assert run(*words, "--merge", "0", "--json") == 0
+        assert str(table) in json.loads(capsys.readouterr().out)["outputs"], words[0]
+        np.testing.assert_array_equal(read_table(table), ids)
+        table.unlink()
+    assert run(*commands[0], "--json") == 0
+    assert str(table) not in json.loads(capsys.readouterr().out)["outputs"]
+    assert not table.exists()
+    # Of two meshes there are two.
+    beside = ("figure", mesh, tmp_path / "other.ply", *one, *small, "-o", tmp_path / "g.png")
+    mapped = ("correspond", mesh, tmp_path / "other.ply", "--pairs", "0:0,5:5", "-o", tmp_path / "g.npy")
+    for words in (beside, mapped):
+        assert run(*words, "--merge", "0", "--json") == 0
+        assert {str(tmp_path / f"g.{k}.ids.csv") for k in "AB"} <= {*json.loads(capsys.readouterr().out)["outputs"]}
+        for letter, expected in (("A", ids), ("B", other_ids)):
+            np.testing.assert_array_equal(read_table(tmp_path / f"g.{letter}.ids.csv"), expected)
+            (tmp_path / f"g.{letter}.ids.csv").unlink()
+
+
 def test_what_is_cut_is_cut_by_the_ids_of_the_file(tmp_path):
     surface = torn(bumpy(60))
     keeps = surface.vertices[:, 2] < 0.4

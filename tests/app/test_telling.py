@@ -30,6 +30,22 @@ def test_without_a_terminal_long_work_says_a_line_now_and_then(capsys):
     assert capsys.readouterr().err.splitlines() == [f"bihdist: {share}% solving" for share in (25, 50, 75)]
 
 
+def test_work_that_is_expected_to_be_long_is_announced_at_once(capsys):
+    clock = Clock()
+    with terminal.telling(clock=clock), terminal.progress_line() as progress:
+        for second in (0.1, 0.5, 4.0, 11.0):
+            clock.now = second
+            progress(second / 55, "Factoring the matrix: about 50 s")
+        progress(11 / 55, "all pairs: 7 of 9 vertices")
+        clock.now = 22.0
+        progress(22 / 55, "all pairs: 8 of 9 vertices")
+    assert capsys.readouterr().err.splitlines() == [
+        "bihdist: 0% Factoring the matrix, about 50 s",
+        "bihdist: 20% Factoring the matrix, about 40 s left",
+        "bihdist: 40% all pairs: 8 of 9 vertices, about 30 s left",
+    ]
+
+
 def test_short_work_says_nothing(capsys):
     with terminal.telling(), terminal.progress_line() as progress:
         progress(0.5, "solving")

@@ -5,6 +5,7 @@ import json
 
 import numpy as np
 import pytest
+from scipy.io import loadmat
 
 from app.document.document import comparison
 from app.document.file import checksum, recipe_text
@@ -15,7 +16,8 @@ from bihdist_core.formats.mesh_io import read_surface
 from tests.batch.runs import batch, rows
 from tests.core.mesh_samples import freesurfer, gifti, gifti_array, gifti_surface
 from tests.core.test_cutting import by_hand
-from tests.core.test_freesurfer import annotation, values
+from tests.core.test_freesurfer import NAMES, annotation, values
+from tests.core.test_freesurfer_label import label
 from tests.core.test_merging import torn
 from tests.shapes import bumpy
 
@@ -97,6 +99,52 @@ def test_parcels_of_both_hemispheres_without_what_is_cut_by_one_line(tmp_path):
     assert "distances still cross them" in json.loads((masked / "lh.pial.pairs.biharmonic.json").read_text())["mask"]
     there = np.load(masked / "lh.pial.pairs.biharmonic.npy")
     assert np.abs(there - np.load(out / "lh.pial.pairs.biharmonic.npy")).max() > 0.01
+
+
+def test_parcels_have_the_names_of_the_table(tmp_path):
+    (tmp_path / "lh.pial").write_bytes(freesurfer(SHAPE.vertices, SHAPE.faces))
+    (tmp_path / "lh.annot").write_bytes(annotation(LABELS.tolist(), ids=range(N)))
+    out, words = tmp_path / "out", (tmp_path / "lh.pial", tmp_path / "out", "--do", "pairs")
+    assert batch(*words, "--labels", tmp_path / "lh.annot", "--format", "npz") == 0
+    about = json.loads((out / "lh.pial.pairs.biharmonic.json").read_text())
+    assert (about["labels"], about["names"]) == ([0, 1, 2], list(NAMES))
+    table = rows(out, about["parcels"].removesuffix(".csv"))
+    assert [*table[1]] == ["label", "name", "vertices"]
+    assert [(int(row["label"]), row["name"], int(row["vertices"])) for row in table] == [
+        (k, name, int((k == LABELS).sum())) for k, name in enumerate(NAMES)
+    ]
+    with np.load(out / "lh.pial.pairs.biharmonic.npz") as file:
+        assert file["names"].tolist() == list(NAMES)
+        assert file["labels"].tolist() == [0, 1, 2]
+    # A parcel that a mask empties has no row, and no name.
+    (tmp_path / "rest.label").write_bytes(label(np.flatnonzero(LABELS != 1)))
+    mask = "--labels", tmp_path / "lh.annot", "--mask", tmp_path / "rest.label"
+    assert batch(*words, *mask, "--format", "mat") == 0
+    about = json.loads((out / "lh.pial.pairs.biharmonic.json").read_text())
+    assert about["names"] == [NAMES[0], NAMES[2]]
+    there = loadmat(out / "lh.pial.pairs.biharmonic.mat")
+    assert [str(each[0]) for each in there["names"].ravel()] == [NAMES[0], NAMES[2]]
+    # Bare numbers have none.
+    np.save(tmp_path / "labels.npy", LABELS)
+    assert batch(*words, "--labels", tmp_path / "labels.npy") == 0
+    assert not {"names", "parcels"} & json.loads((out / "lh.pial.pairs.biharmonic.json").read_text()).keys()
+
+
+def test_a_label_of_freesurfer_cuts_and_is_a_list_of_sources(tmp_path):
+    (tmp_path / "lh.pial").write_bytes(freesurfer(SHAPE.vertices, SHAPE.faces))
+    keeps = np.flatnonzero(SHAPE.vertices[:, 2] < 0.5)
+    (tmp_path / "lh.cortex.label").write_bytes(label(keeps))
+    surface = read_surface(tmp_path / "lh.pial")
+    cut = surface.without(np.setdiff1d(np.arange(N), keeps))
+    seeds = np.flatnonzero(cut.component_of_vertex == 0)[[7, 2]]
+    (tmp_path / "lh.seeds.label").write_bytes(label(seeds))
+    options = "--cut", tmp_path / "lh.cortex.label", "--sources", f"@{tmp_path / 'lh.seeds.label'}"
+    assert batch(tmp_path / "lh.pial", tmp_path / "out", "--do", "fields", *options) == 0
+    found = np.load(tmp_path / "out" / "lh.pial.fields.biharmonic.npy")
+    np.testing.assert_allclose(found, BiharmonicDistance(cut).from_sources(seeds.tolist()), rtol=1e-9, atol=1e-12)
+    (tmp_path / "lh.cortex.label").write_bytes(label([*keeps, N]))
+    assert batch(tmp_path / "lh.pial", tmp_path / "out", "--do", "fields", *options) == 1
+    assert f"vertex {N} is not one of the {N} of the surface" in rows(tmp_path / "out", "failures")[0]["reason"]
 
 
 def test_all_kinds_of_work_are_on_what_is_left(tmp_path):

@@ -22,6 +22,7 @@ from app.batch.work_order import WorkOrder
 from app.document.sources import Sources
 from app.main import main
 from bihdist_core import BiharmonicDistance, read_surface, write_mesh
+from bihdist_core.whole_file import held
 from tests.shapes import bumpy, torus
 
 ROOT = Path(__file__).parents[2]
@@ -341,10 +342,13 @@ class InTurn:
 
 
 def test_what_killed_processes_left_half_written_is_swept_away(tmp_path):
-    for name in ("cat.npy", "cat.json", ".cat-0123abcd.npy", ".cat-01234567.json", ".dog-0123abcd.npy", ".cat.npy"):
+    half = [".cat.half-0123abcd.npy", ".cat.half-01234567.json", ".dog.half-0123abcd.npy"]
+    for name in ("cat.npy", "cat.json", *half, ".cat.npy", ".cat-0123abcd.npy"):
         (tmp_path / name).write_text("x")
-    Folder(str(tmp_path)).sweep()
-    assert {path.name for path in tmp_path.iterdir()} == {"cat.npy", "cat.json", ".dog-0123abcd.npy", ".cat.npy"}
+    with held(tmp_path / half[2]):  # as another run does that writes there
+        Folder(str(tmp_path)).sweep()
+    left = {"cat.npy", "cat.json", half[2], ".cat.npy", ".cat-0123abcd.npy"}
+    assert {path.name for path in tmp_path.iterdir()} == left
 
 
 # ---------------------------------------------------------------------- elsewhere

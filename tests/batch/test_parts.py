@@ -172,10 +172,11 @@ def test_zarr_is_whole_or_absent(tmp_path):
         fail()
     assert not list(tmp_path.iterdir())
     # What a process has left that was killed.
+    (tmp_path / ".a.half-0123abcd.zarr" / "whole").mkdir(parents=True)
     with folder.writing_folder("a.zarr") as begun:
         (tmp_path / begun).mkdir()
-    (tmp_path / ".a-0123abcd.zarr").mkdir()
-    folder.sweep()
+        folder.sweep()  # as another run does that has ended
+        assert not (tmp_path / ".a.half-0123abcd.zarr").exists()
     assert [path.name for path in tmp_path.iterdir()] == ["a.zarr"]
 
 

@@ -1,5 +1,7 @@
 """Diagnostics on fields whose answers are known."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -15,6 +17,7 @@ from bihdist_core import (
     smallest_distance,
     triangle_violations,
 )
+from bihdist_core.analysis import diagnostics
 from tests.shapes import bumpy, components_apart, fin, grid, slivers, sphere, two_pieces
 
 
@@ -135,6 +138,18 @@ def test_triples_are_of_three_different_points():
     assert sample.worst == pytest.approx(0.6)
     # With two points named twice there would be slack 0.
     assert triangle_violations(1 - np.eye(4), 1000).tightest == 0.5
+
+
+def test_any_number_of_triples_takes_the_memory_of_a_block(monkeypatch):
+    monkeypatch.setattr(diagnostics, "TRIPLES", 1000)
+    d = np.array([[0.0, 1, 5], [1, 0, 1], [5, 1, 0]])
+    tracemalloc.start()
+    sample = triangle_violations(d, 100_500)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert most < 500_000
+    assert (sample.triples, sample.violations) == (100_500, pytest.approx(33_500, rel=0.02))
+    assert sample.worst == pytest.approx(0.6)
 
 
 def test_triples_refused():

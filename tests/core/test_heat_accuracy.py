@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bihdist_core import GeodesicDistance, Laplacian, Surface
+from bihdist_core import Cancelled, GeodesicDistance, Laplacian, Surface
 from bihdist_core.distances import heat_accuracy
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.heat_accuracy import below_straight_line
@@ -33,6 +33,37 @@ def test_errors_are_those_against_exact_fields(laplacian):
     assert f"{100 * estimate.share:.2g} % at the worst, as measured from 8 vertices" in estimate.text
     mean = float(estimate.short.partition(" %")[0]) / 100
     assert 0.5 * off.mean() < mean < 2 * off.mean()
+
+
+def test_its_measuring_can_be_cancelled_and_is_done_when_it_is_asked_for_again(laplacian):
+    heat, told = GeodesicDistance(laplacian, "heat"), []
+
+    def stop(share, text):
+        told.append(share)
+        if share > 0.3:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        heat.error_estimate(progress=stop)
+    assert len(told) > 2
+    assert not heat.is_judged(0)
+    assert heat.error_estimate().share > 0
+    assert heat.error_estimate(progress=stop).share > 0, "which is known"
+
+
+def test_an_answer_is_there_before_its_accuracy_whose_measuring_can_be_cancelled(laplacian):
+    told, there = [], []
+
+    def stop(share, text):
+        told.append(share)
+        if there and len(told) > there[0] + 3:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        Distances(laplacian).answer(
+            Spec.of("geodesic", method="heat"), 3, stop, at_once=lambda answer: there.append(len(told))
+        )
+    assert told == sorted(told), "it never goes back"
 
 
 def test_what_falls_below_the_straight_line_is_said(laplacian):

@@ -1,15 +1,23 @@
 """How much memory there is: of the machine, of control groups of both versions, of a limit."""
 
 import sys
+import tracemalloc
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
 
-from bihdist_core import Laplacian, NotEnoughMemory, machine_memory
+from bihdist_core import BiharmonicDistance, Laplacian, NotEnoughMemory, TruncatedBiharmonicDistance, machine_memory
+from bihdist_core.analysis.all_pairs import check_block, write_all_pairs
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.kernel.library import library
 from bihdist_core.machine_memory import available, check_memory
+from bihdist_core.solver import plain
+from bihdist_core.solver.elimination_tree import canonical
+from bihdist_core.solver.plain import PlainFactor, PlainTree
+from bihdist_core.solver.spectrum import is_long
+from bihdist_core.solver.worker_threads import Job
 from tests.shapes import bumpy
 
 GB = 10**9
@@ -99,3 +107,46 @@ def test_a_factor_asks_for_no_less_than_it_takes(monkeypatch):
     monkeypatch.setattr("bihdist_core.solver.compiled_factor.check_memory", lambda needed, *_: asked.append(needed))
     factor = Laplacian(bumpy(3000)).components[0].factor(diagonals=True)
     assert factor.nbytes <= asked[0] < 6 * factor.nbytes
+
+
+def test_the_plain_factor_asks_for_about_what_it_takes(monkeypatch):
+    surface, asked = bumpy(1500), []
+    component = Laplacian(surface).components[0]
+    tree = PlainTree(canonical(component.stiffness), surface.vertices)
+    matrix = canonical(component.stiffness + sp.identity(1500))
+    monkeypatch.setattr(plain, "check_memory", lambda needed, *_: asked.append(needed))
+    for areas in (None, component.areas):
+        tracemalloc.start()
+        PlainFactor(tree, matrix, areas, Job(None, "", 1))
+        _, most = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        assert 0.8 * most < asked.pop() < 1.5 * most
+
+
+def test_eigenpairs_ask_for_about_what_they_take(monkeypatch):
+    asked = []
+    monkeypatch.setattr("bihdist_core.laplacian.check_memory", lambda needed, *_: asked.append(needed))
+    component = Laplacian(bumpy(20_000)).components[0]
+    component.factor(diagonals=True)
+    assert not is_long(20_000, 60)
+    tracemalloc.start()
+    component.spectrum(60)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert 0.8 * most < asked[0] < 1.5 * most
+
+
+def test_what_has_no_room_for_eigenpairs_or_a_block_of_pairs_says_so(monkeypatch, tmp_path):
+    distance = BiharmonicDistance(bumpy(3000))
+    monkeypatch.setattr(machine_memory, "SMALL", 0)
+    monkeypatch.setattr(machine_memory, "available", lambda: 10**6)
+    with pytest.raises(
+        NotEnoughMemory, match=r"Finding 201 eigenpairs of 3,000 vertices needs about .*take fewer.*simplify.*cl"
+    ):
+        TruncatedBiharmonicDistance(distance.laplacian, 200)
+    with pytest.raises(NotEnoughMemory, match=r"A block of 3,000 x 3,000 distances needs about .*--memory.*cluster"):
+        write_all_pairs(distance, tmp_path / "all.npy")
+    assert not list(tmp_path.iterdir())
+    with pytest.raises(NotEnoughMemory, match=r"A block of 10 x 100,000 distances"):
+        check_block(100_000, 4e7)
+    write_all_pairs(distance, tmp_path / "all.npy", memory=9e5)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bihdist_core import BiharmonicDistance, MeshError, ParameterError, Surface
-from bihdist_core.coincident_points import merged_within
+from bihdist_core.coincident_points import least_apart, merged_within
 from tests.shapes import bumpy, grid
 
 
@@ -56,6 +56,13 @@ def test_found_as_by_looking_at_all_pairs():
         expected += [] if near else [point]
     np.testing.assert_array_equal(points[kept], expected)
     np.testing.assert_array_equal(place, standing)
+
+
+def test_how_far_the_nearest_two_are_apart():
+    points = np.random.default_rng(2).random((50, 3))
+    apart = np.linalg.norm(points[:, None] - points, axis=2) + 9 * np.eye(50)
+    assert least_apart(points) == pytest.approx(apart.min())
+    assert least_apart(points[:1]) == np.inf
 
 
 def test_faces_that_collapse_are_dropped_and_said():

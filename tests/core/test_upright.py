@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from app.samples import mesh_path
-from bihdist_core import Surface, read_surface
-from bihdist_core.analysis.upright import axis_of, guess_up
+from bihdist_core import Cancelled, Surface, read_surface
+from bihdist_core.analysis.upright import DIRECTIONS, axis_of, guess_up
 from tests.shapes import sphere
 
 SAMPLES = {
@@ -130,3 +130,19 @@ def test_degenerate_shapes_have_an_answer():
     tetrahedron = Surface(np.vstack([np.zeros(3), np.eye(3)]), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     for surface in (triangle, needle, point, tetrahedron):
         assert guess_up(surface) in ("y", "z", "x", "-y", "-z", "-x")
+
+
+def test_a_guess_can_be_stopped_between_any_two_steps():
+    surface, told = sphere(200), []
+    guess_up(surface, progress=lambda share, _: told.append(share))
+    assert told == sorted(told)
+    assert len(told) > len(DIRECTIONS)
+    for stop in range(len(told)):
+        left = iter(range(stop))
+
+        def count(share, text, left=left):
+            if next(left, None) is None:
+                raise Cancelled(text)
+
+        with pytest.raises(Cancelled, match="which way is up"):
+            guess_up(surface, progress=count)

@@ -7,10 +7,11 @@ import pytest
 
 from bihdist_core import read_vertex_values
 from bihdist_core.errors import ParameterError
-from bihdist_core.formats.vertex_values import is_vertex_values
+from bihdist_core.formats.vertex_values import is_vertex_values, read_label_vertices
 from bihdist_core.formats.whole_numbers import read_whole_numbers
 from tests.core.mesh_samples import gifti, gifti_array, gifti_surface
 from tests.core.test_freesurfer import VALUES, annotation, values
+from tests.core.test_freesurfer_label import label
 
 LABELS = np.array([3, 0, 3, 1, -1], "i4")
 FILES = {
@@ -54,7 +55,16 @@ def test_a_mask_of_floats(put):
 
 
 def test_names_say_whether_a_file_is_one_of_values():
-    named = ("lh.thickness", "a.GII", "a.label.gii.gz", "x.annot", "sub-01_rh.sulc", "dir/lh.curv")
+    named = (
+        "lh.thickness",
+        "a.GII",
+        "a.label.gii.gz",
+        "x.annot",
+        "V1.label",
+        "V1.label.gz",
+        "sub-01_rh.sulc",
+        "dir/lh.curv",
+    )
     others = ("lh.txt", "a.npy", "lh.labels.npy", "mesh.off", "shlh.x", "lh")
     assert [name for name in named if not is_vertex_values(name)] == []
     assert [name for name in others if is_vertex_values(name)] == []
@@ -80,6 +90,17 @@ def test_what_is_refused(put, name, content, expected):
     assert str(caught.value).endswith(".")
 
 
+def test_a_label_is_a_mask_of_its_vertices(put):
+    path = put("lh.cortex.label", label([4, 0, 2]))
+    assert read_vertex_values(path, n_vertices=6).tolist() == [1, 0, 1, 0, 1, 0]
+    assert read_whole_numbers(put("V1.label.gz", gzip.compress(label([1]))), "mask", 3).tolist() == [0, 1, 0]
+    assert read_label_vertices(path, 6).tolist() == [4, 0, 2]
+    with pytest.raises(ParameterError, match=r"^lh.cortex.label lists the vertices of a label.*it is no map\.$"):
+        read_whole_numbers(path, "map")
+    with pytest.raises(ParameterError, match="line 3: vertex 4 is not one of the 4 of the surface"):
+        read_vertex_values(path, n_vertices=4)
+
+
 def test_a_file_that_cannot_be_read(tmp_path, monkeypatch):
     with pytest.raises(ParameterError, match=r"The mask in .*lh.mask cannot be read: there is no such file"):
         read_whole_numbers(tmp_path / "lh.mask", "mask")
@@ -94,5 +115,7 @@ def test_a_file_that_cannot_be_read(tmp_path, monkeypatch):
 
 
 def test_other_files_are_refused_with_all_that_is_read(tmp_path):
-    with pytest.raises(ParameterError, match=r"is no mask; these are \.npy, \.txt, \.gii, \.annot, FreeSurfer's"):
+    with pytest.raises(
+        ParameterError, match=r"is no mask; these are \.npy, \.txt, \.gii, \.annot, \.label, FreeSurfer's"
+    ):
         read_whole_numbers(tmp_path / "a.csv", "mask")

@@ -5,9 +5,11 @@ import os
 import subprocess
 import sys
 import time
+from types import SimpleNamespace
 
 import pytest
 
+from bihdist_core import whole_file as module
 from bihdist_core.errors import OutputError
 from bihdist_core.whole_file import check_output, check_outputs, sweep_half_written, whole_file
 
@@ -128,14 +130,73 @@ def test_whoever_is_killed_leaves_a_whole_file(tmp_path):
         assert text == text[0] * 1_000_000
 
 
-def test_what_killed_processes_have_left_is_swept_once_it_is_old(tmp_path):
-    (tmp_path / ".hidden-file.txt").write_text("mine")
-    for name in (".a-01234567.json", ".b-89abcdef.json", "c-01234567.json"):
+HOLDS = """
+import sys
+from bihdist_core.whole_file import whole_file
+with whole_file(sys.argv[1]) as temporary:
+    temporary.write_text("half")
+    print(temporary.name, flush=True)
+    sys.stdin.read()
+"""
+
+
+def test_the_next_write_of_a_name_sweeps_what_dead_processes_have_left_and_nothing_of_live_ones(tmp_path):
+    path = tmp_path / "a.b.txt"
+    mine = [".a.b-01234567.txt", ".a.b.half-0123.txt", "a.b.half-01234567.txt", ".other.half-01234567.txt"]
+    for name in mine:
+        (tmp_path / name).write_text("mine")
+    (tmp_path / ".a.b.half-01234567.txt").mkdir()
+    os.symlink("/etc/hostname", tmp_path / ".a.b.half-12345678.txt")
+    mine += [".a.b.half-01234567.txt", ".a.b.half-12345678.txt"]
+    command = [sys.executable, "-c", HOLDS, str(path)]
+    live, dead = (subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) for _ in range(2))
+    names = [process.stdout.readline().strip() for process in (live, dead)]
+    dead.kill()
+    dead.communicate()
+    assert {*names} <= {*os.listdir(tmp_path)}
+    with whole_file(path) as temporary:
+        temporary.write_text("new")
+    assert sorted(os.listdir(tmp_path)) == sorted(["a.b.txt", names[0], *mine])
+    live.communicate("")
+    assert live.returncode == 0
+    assert path.read_text() == "half"
+    assert sorted(os.listdir(tmp_path)) == sorted(["a.b.txt", *mine])
+
+
+def test_what_is_swept_between_its_making_and_its_lock_is_made_anew(tmp_path, monkeypatch):
+    made, held = [], module.held
+
+    def swept_at_first(path):
+        made.append(path)
+        if len(made) == 1:
+            path.unlink()
+        return held(path)
+
+    monkeypatch.setattr(module, "held", swept_at_first)
+    with whole_file(tmp_path / "a.txt") as temporary:
+        temporary.write_text("x")
+    assert len(made) == 2
+    assert os.listdir(tmp_path) == ["a.txt"]
+
+
+def test_where_there_are_no_locks_age_tells(tmp_path, monkeypatch):
+    def refuse(*_):
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    old, young = tmp_path / ".a.half-01234567.txt", tmp_path / ".a.half-89abcdef.txt"
+    for locks in (None, SimpleNamespace(flock=refuse, LOCK_EX=2, LOCK_NB=4)):
+        monkeypatch.setattr(module, "fcntl", locks)
+        old.write_text("x")
+        young.write_text("x")
+        os.utime(old, (1, 1))
+        with whole_file(tmp_path / "a.txt") as temporary:
+            temporary.write_text("x")
+        assert sorted(os.listdir(tmp_path)) == [young.name, "a.txt"]
+
+
+def test_a_folder_of_the_programs_own_is_swept(tmp_path):
+    for name in (".a.half-01234567.json", ".b.half-89abcdef.json", "c.json"):
         (tmp_path / name).write_text("{")
-    (tmp_path / ".folder-01234567.zarr").mkdir()
-    for name in (".a-01234567.json", "c-01234567.json", ".hidden-file.txt", ".folder-01234567.zarr"):
-        os.utime(tmp_path / name, (1, 1))
     sweep_half_written(tmp_path)
-    left = [".b-89abcdef.json", ".folder-01234567.zarr", ".hidden-file.txt", "c-01234567.json"]
-    assert sorted(os.listdir(tmp_path)) == left
+    assert os.listdir(tmp_path) == ["c.json"]
     sweep_half_written(tmp_path / "none")

@@ -107,20 +107,6 @@ def test_missing_libraries_are_named(monkeypatch):
         check_offscreen()
 
 
-@pytest.mark.parametrize("name", ["a.png", "a.pdf"])
-def test_a_picture_without_room_in_memory_is_refused_before_it_is_drawn(name, mesh_file, tmp_path, monkeypatch, capsys):
-    from app.main import main
-    from bihdist_core import machine_memory
-
-    mesh, out = mesh_file(bumpy(100)), tmp_path / name
-    monkeypatch.setattr(machine_memory, "available", lambda: 10**8)
-    assert main(["figure", mesh, "--size", "20000x20000", "-o", str(out)]) == 2
-    said = capsys.readouterr().err
-    assert "GB of memory, and 0.1 GB are free here; choose a smaller --size." in said
-    assert "A picture of 20,000 x 20,000 pixels needs about 8 GB" in said or name == "a.pdf"
-    assert not out.exists()
-
-
 def test_the_command_draws_without_a_screen_and_without_qt(tmp_path):
     from PIL import Image
 

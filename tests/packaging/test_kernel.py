@@ -7,11 +7,16 @@ import re
 import shutil
 import subprocess
 import sys
+import warnings
 from importlib.metadata import version
 from pathlib import Path
 
 import pytest
 
+from app.main import main
+from bihdist_core import SolverError, write_mesh
+from bihdist_core.distances.exact_geodesic import ExactGeodesic
+from bihdist_core.errors import PlainSolverWarning
 from bihdist_core.kernel import build, library
 
 ROOT = Path(__file__).parents[2]
@@ -84,14 +89,59 @@ def kernels(tmp_path, monkeypatch):
     library.library.cache_clear()
 
 
-def test_without_a_library_there_is_plain_numpy(kernels):
-    assert library.library() is None
-    assert library.description() == "plain NumPy"
+def warned() -> str:
+    """What is said once where there is no library that can be used."""
+    with pytest.warns(PlainSolverWarning) as told:
+        assert [library.library() for _ in range(2)] == [None, None]
+    (warning,) = told
+    return str(warning.message)
 
 
-def test_what_cannot_be_loaded_is_left_alone(kernels):
+def test_without_a_library_there_is_plain_numpy_and_it_is_said_why(kernels):
+    why = f"there is no compiled kernel {kernels / 'libbihdist'}{library.SUFFIX}; install bihdist again"
+    assert library.description() == f"plain NumPy: {why}"
+    assert warned() == f"The solver runs in NumPy, slower, and geodesics by the heat method: {why}."
+    with pytest.raises(SolverError, match=re.escape(f"needs the compiled kernel ({why}); use the heat method.")):
+        ExactGeodesic(bumpy(60))
+
+
+def test_beside_the_sources_it_is_said_how_to_compile_them(kernels):
+    (kernels / "kernel.h").touch()
+    assert library.why_plain().endswith(f"; run python {kernels / 'build.py'}")
+
+
+def test_what_cannot_be_loaded_is_left_alone_and_the_loader_s_words_are_told(kernels):
     (kernels / f"libbihdist{library.SUFFIX}").write_bytes(b"not a library")
-    assert library.library() is None
+    assert re.search(r"the compiled kernel cannot be loaded \(.*libbihdist.*\w.*\); install", warned())
+
+
+def test_a_library_of_other_sources_is_left_alone_and_what_it_lacks_is_told(kernels, compiled, monkeypatch):
+    shutil.copytree(compiled, kernels, dirs_exist_ok=True)
+    monkeypatch.setitem(library._SIGNATURES, "of_tomorrow", (None, ()))
+    assert "is of other sources than this program: it has no bih_of_tomorrow; install bihdist again" in warned()
+
+
+def test_where_plain_numpy_is_asked_for_nothing_is_said(kernels, monkeypatch):
+    monkeypatch.setenv(library.PLAIN, "1")
+    assert library.library() is None  # with no warning, which would be an error here
+    assert library.description() == "plain NumPy: the environment variable BIHDIST_PLAIN is set"
+
+
+def test_a_command_says_once_why_the_solver_runs_in_numpy(kernels, tmp_path, capsys):
+    mesh, out = tmp_path / "mesh.off", tmp_path / "out"
+    words = ["field", str(mesh), "--sources", "3", "--distance", "geodesic", "-o", str(tmp_path / "field.npy")]
+    start = "bihdist: The solver runs in NumPy, slower, and geodesics by the heat method: there is no"
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", PlainSolverWarning)
+        write_mesh(mesh, bumpy(60))
+        warnings.simplefilter("default", PlainSolverWarning)
+        for command in (words, ["batch", str(mesh), "--do", "fields", "--workers", "1", "-o", str(out)]):
+            library.library.cache_clear()
+            capsys.readouterr()
+            assert main(command) == 0
+            said = capsys.readouterr().err
+            assert said.count(start) == 1
+            assert "PlainSolverWarning" not in said
 
 
 @pytest.fixture(scope="module")
@@ -114,6 +164,7 @@ def test_the_best_library_that_the_processor_runs_is_chosen(kernels, compiled):
 def test_a_library_for_avx2_that_cannot_be_loaded_is_passed_over(kernels, compiled):
     shutil.copy(compiled / f"libbihdist{library.SUFFIX}", kernels)
     (kernels / f"libbihdist-avx2{library.SUFFIX}").write_bytes(b"not a library")
+    assert library.library() is not None
     assert library.description() == "compiled"
 
 

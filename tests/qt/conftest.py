@@ -69,11 +69,15 @@ class Screen:
         self.application.setActiveWindow(self.window)
 
     def settle(self, seconds=0.2):
-        """Let queued repaints happen."""
+        """Let queued repaints happen, for which the views wait for each other."""
         end = time.monotonic() + seconds
-        while time.monotonic() < end:
+        while time.monotonic() < end or (self._is_unpainted and time.monotonic() < end + 10):
             self.application.processEvents()
             time.sleep(0.005)
+
+    @property
+    def _is_unpainted(self):
+        return self.window.context.is_built and any(panel.view.is_stale for panel in self.panels)
 
     def open(self, path, source=None):
         self.window.context.open(str(path), source)

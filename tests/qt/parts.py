@@ -16,6 +16,7 @@ WHERE = {
     "guide": "qt.guide:Guide",
     "held_keys": "qt.held_keys:HeldKeys",
     "pairs": "tools.correspondence.gestures:PairGestures",
+    "repairs": "qt.files.mesh_repairs:MeshRepairs",
     "quality": "tools.quality.findings:QualityFindings",
     "regions": "tools.regions.findings:RegionFindings",
     "picking": "tools.robustness.gestures:ChangeGestures",

@@ -274,19 +274,19 @@ def main() -> None:
     begin = time.monotonic()
     share_arenas()
     hands = RandomHands(seed, folder)
-    for path in (*hands.meshes[1:], hands.meshes[0]):  # what is kept of each is there from the beginning
-        hands.window.context.open(path)
-        hands.until(lambda: not hands.window.session.is_opening and hands.window.session.is_complete)
-    hands.warm_up()
-    for _ in range(count):
-        hands.act()
-        if len(hands.errors) > 5:
-            break
-    seconds = time.monotonic() - begin
+    found_there = []
     try:
+        for path in (*hands.meshes[1:], hands.meshes[0]):  # what is kept of each is there from the beginning
+            hands.window.context.open(path)
+            hands.until(lambda: not hands.window.session.is_opening and hands.window.session.is_complete)
+        hands.warm_up()
+        for _ in range(count):
+            hands.act()
+            if len(hands.errors) > 5:
+                break
         found_there = faults(hands)
     except Exception:
-        found_there = [traceback.format_exc()]
+        found_there.append(traceback.format_exc())
     found = {
         "errors": hands.errors,
         "freed": hands.freed,
@@ -295,7 +295,7 @@ def main() -> None:
         "widest": hands.widest,
         "screen": hands.screen.width(),
         "rss": hands.rss,
-        "seconds": seconds,
+        "seconds": time.monotonic() - begin,
         "last": hands.done[-15:],
         "done": hands.done,
         "document": repr(replace(hands.window.session.document)),

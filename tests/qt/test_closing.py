@@ -107,6 +107,17 @@ def test_what_is_found_once_the_window_is_closed_is_dropped(screen, mesh_file):
     assert ran == ["open"]
 
 
+def test_the_window_is_gone_before_its_threads_have_ended(screen, mesh_file, monkeypatch):
+    s, visible = screen(), []
+    s.open(mesh_file(bumpy(120)), 5)
+    s.window.actions_by_word["dock statistics"].trigger()
+    s.settle(0.1)
+    close = s.session.close
+    monkeypatch.setattr(s.session, "close", lambda: (visible.append(s.window.isVisible()), close()))
+    s.window.close()
+    assert visible == [False]
+
+
 def test_pairs_are_asked_about(screen, mesh_file):
     s, asked = screen(), Asked()
     s.open(mesh_file(bumpy(120)), 5)

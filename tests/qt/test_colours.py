@@ -72,6 +72,18 @@ def test_a_map_is_chosen_shown_and_undone(shown):
     assert not shown.window.menus.colours.bands.isChecked()
 
 
+def test_the_map_of_the_style_is_reversed_and_put_back(shown):
+    menu, before = shown.window.menus.colours, pixels(shown)
+    menu.show_choice("paper", Colours(reversed=True))  # what is raised in a slot no test would see
+    menu.show_choice("paper", Colours())
+    for colours in (Colours(reversed=True), Colours()):
+        menu.reversed.trigger()
+        shown.settle()
+        assert shown.document.colours == colours
+        assert menu.reversed.isChecked() == colours.reversed
+        assert are_equal(before, pixels(shown)) != colours.reversed
+
+
 def ticked(s):
     return [action.text() for action in s.window.menus.colours.actions() if action.isChecked()]
 

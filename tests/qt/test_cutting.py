@@ -6,10 +6,12 @@ from qtpy import QtWidgets
 
 from app.document.edits import move_source
 from app.document.file import read_recipe
+from app.document.shared_parts.pins import Pins, add_pins
 from app.qt.files.mesh_repairs import MeshRepairs
 from app.qt.files.session_actions import SessionFile
 from bihdist_core import BiharmonicDistance
 from bihdist_core.distances.kinds import Spec
+from bihdist_core.sources.source import Curve, SourceSet, SurfacePoint
 from tests.shapes import bumpy
 
 ONE = (Spec.of("biharmonic"),)
@@ -52,8 +54,7 @@ def test_a_mask_cuts_and_what_it_cuts_comes_back(s, tmp_path, monkeypatch):
     s.window.actions_by_word["put back"].trigger()
     s.until(lambda: not s.document.surfaces[0].repairs.cut and s.session.is_complete)
     assert s.session.surface.n_faces == BALL.n_faces
-    s.window.actions_by_word["put back"].trigger()
-    assert s.window.status.message.text == "Nothing has been cut out of this mesh."
+    assert not s.window.actions_by_word["put back"].isEnabled()
 
 
 def test_a_source_that_goes_starts_anew(s, tmp_path, monkeypatch):
@@ -82,6 +83,30 @@ def test_a_mask_that_does_not_fit_is_said(s, tmp_path, mask, said):
     s.until(lambda: s.refusals)
     assert said in s.refusals[-1]
     assert s.session.surface.n_faces == BALL.n_faces
+
+
+def test_another_mask_of_the_same_name_is_read(s, tmp_path, monkeypatch):
+    cut(s, tmp_path, monkeypatch)
+    np.save(tmp_path / "mask.npy", BALL.vertices[:, 2] < 0.2)
+    s.window.context[MeshRepairs].cut(str(tmp_path / "mask.npy"))
+    expected = BALL.without(BALL.vertices[:, 2] >= 0.2)
+    s.until(lambda: s.session.surface.n_faces == expected.n_faces and s.session.is_complete)
+
+
+def test_places_in_faces_and_pins_stay_or_go(s, tmp_path, monkeypatch):
+    left = int(np.flatnonzero(KEEPS[BALL.faces].all(axis=1))[-1])
+    gone = int(np.flatnonzero(~KEEPS[BALL.faces].all(axis=1))[0])
+    weights = (0.2, 0.3, 0.5)
+    curve = Curve((SurfacePoint(left, weights), SurfacePoint(left, (0.5, 0.25, 0.25))))
+    places = [SurfacePoint(face, weights) for face in (left, gone)]
+    document = add_pins(move_source(s.document, 0, SourceSet((LOW, HIGH, curve))), [*places, LOW, HIGH])
+    s.session.show(document)
+    s.until(lambda: s.session.is_complete)
+    cut(s, tmp_path, monkeypatch)
+    face = np.flatnonzero((s.session.surface.faces == BALL.faces[left]).all(axis=1))[0]
+    assert [s.document.point(name).at for name in s.document[Pins].points] == [SurfacePoint(face, weights), LOW]
+    low, drawn = s.source.members
+    assert (low, [place.face for place in drawn.places]) == (LOW, [face, face])
 
 
 def test_of_two_meshes_the_one_is_cut_that_is_active(s, tmp_path, mesh_file):

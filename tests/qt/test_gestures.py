@@ -65,6 +65,26 @@ def test_a_click_draws_each_panel_once_and_pointing_draws_nothing(loaded):
     assert drawn(s) == before
 
 
+def test_keys_come_before_the_pictures_of_the_other_views(loaded, monkeypatch):
+    """Where drawing takes long, as by software."""
+    from qtpy import QtCore
+
+    from app.qt.panels import view as view_module
+
+    s, order = loaded, []
+    monkeypatch.setattr(view_module, "AT_ONCE", 0.0)
+    for panel in s.panels:
+        panel.view.drawn.connect(partial(order.append, "view"))
+        # What comes while it is drawn.
+        panel.view.drawn.connect(lambda: QtCore.QTimer.singleShot(0, partial(order.append, "key")))
+    s.window.grid.redraw()
+    painted = []
+    s.window.grid.once_painted(lambda: painted.append(order.count("view")))
+    s.until(lambda: painted)
+    assert order[:5] == ["view", "key", "view", "key", "view"]
+    assert painted == [3]
+
+
 def test_nothing_is_drawn_before_there_is_a_mesh(screen):
     s = screen()
     s.settle(0.2)

@@ -22,6 +22,7 @@ from bihdist_core import (
     SurfacePoint,
     VertexError,
 )
+from tests.core.test_merging import torn
 from tests.shapes import bumpy, grid, torus, two_pieces
 
 pytest.importorskip("qtpy")
@@ -345,13 +346,28 @@ def test_what_cannot_be_shown_is_raised_and_no_window_stays(application, monkeyp
 
 
 # ---------------------------------------------------------------------- what is done with it
+def test_a_mesh_is_shown_cut_and_merged(shown, tmp_path):
+    soup = torn(SURFACE)
+    keeps = soup.vertices[:, 2] < 0.5
+    np.save(tmp_path / "keeps.npy", keeps)
+    start = int(np.flatnonzero(keeps[soup.faces].all(axis=1))[0]) * 3
+    expected, ids = soup.without(~keeps).merged(1e-9)
+    viewer = shown(soup, ["biharmonic"], source=int(ids[start]), cut=tmp_path / "keeps.npy", merge=1e-9)
+    field = BiharmonicDistance(expected).from_source(int(ids[start]))
+    np.testing.assert_allclose(viewer.panels[0].field, field, rtol=1e-9)
+    gone = int(np.flatnonzero(~keeps)[0])
+    with pytest.raises(BihdistError, match=f"vertex {gone} belongs to no face.*the nearest that does is"):
+        shown(SURFACE.without([gone]), ["biharmonic"], source=gone)
+
+
 def test_the_session_of_such_a_window_is_saved_opened_and_drawn(shown, screen, tmp_path):
     from app.main import main
 
     viewer = shown(SURFACE, ["biharmonic", "biharmonic - height"], {"height": HEIGHT - HEIGHT.min()}, 7)
     fields = [panel.field for panel in viewer.panels]
     parts(viewer._window).session_file.save(str(tmp_path / "s.json"))
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["s.json", "s.npz"]
+    archive = Path(read_recipe(tmp_path / "s.json").arrays)
+    assert sorted(tmp_path.iterdir()) == [archive, tmp_path / "s.json"]
     assert read_recipe(tmp_path / "s.json").document == viewer.document
     s = screen()
     parts(s.window).session_file.open(str(tmp_path / "s.json"))

@@ -175,12 +175,12 @@ def _session(folder: Path) -> tuple[Document, Document]:
     document, given = comparison_of_arrays(surface(), ["biharmonic", "mine"], {"mine": surface().vertices[:, 0]}, (5,))
     with recipe_written(Recipe(document), given, folder / "arrays.json", "0"):
         pass
-    archive = folder / "arrays.npz"
+    archive = Path(read_recipe(folder / "arrays.json").arrays)
     content, arrays = (folder / "arrays.json").read_bytes(), archive.read_bytes()
     # Each session is read with its own archive: the one that is tried is removed after its case.
     sound = folder / "sound.npz"
     sound.write_bytes(arrays)
-    content = content.replace(b"arrays.npz", b"sound.npz")
+    content = content.replace(archive.name.encode(), b"sound.npz")
     (folder / "of_archive.json").write_bytes(content.replace(b"sound.npz", b"arrays.npz"))
     return Document(content, _draw, False), Document(arrays, lambda _: _draw(folder / "of_archive.json"), False)
 

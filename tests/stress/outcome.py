@@ -11,11 +11,14 @@ MOST_FAULTS = 20
 
 @dataclass(frozen=True)
 class Outcome:
-    """kind: of KINDS.  text: what a fault is, in a line.  ratio: the worst error as a multiple of its estimate."""
+    """kind: of KINDS.  text: what a fault is, in a line.  ratio: the worst error as a multiple of its estimate.
+    seconds: the longest that a window let one wait.
+    """
 
     kind: str
     text: str = ""
     ratio: float = 0.0
+    seconds: float = 0.0
 
 
 @dataclass
@@ -29,6 +32,7 @@ class Tally:
     lost: int = 0
     wrong: int = 0
     ratio: float = 0.0
+    seconds: float = 0.0
     memory: int = 0
     faults: list[list[Any]] = field(default_factory=list)
 
@@ -44,6 +48,7 @@ class Tally:
         """Count an outcome, of the case with this number."""
         setattr(self, outcome.kind, getattr(self, outcome.kind) + 1)
         self.ratio = max(self.ratio, outcome.ratio)
+        self.seconds = max(self.seconds, outcome.seconds)
         if outcome.kind in FAULTS and len(self.faults) < MOST_FAULTS:
             self.faults.append([number, outcome.kind, outcome.text])
 
@@ -52,6 +57,7 @@ class Tally:
         for kind in KINDS:
             setattr(self, kind, getattr(self, kind) + getattr(other, kind))
         self.ratio, self.memory = max(self.ratio, other.ratio), max(self.memory, other.memory)
+        self.seconds = max(self.seconds, other.seconds)
         self.faults += other.faults
 
     def as_json(self) -> dict[str, Any]:
@@ -59,5 +65,5 @@ class Tally:
 
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> "Tally":
-        """What `as_json` wrote, with whatever else stands beside it left out."""
-        return cls(**{each.name: data[each.name] for each in fields(cls)})
+        """What `as_json` wrote, with whatever else stands beside it left out and 0 for what is not there."""
+        return cls(**{each.name: data[each.name] for each in fields(cls) if each.name in data})

@@ -3,7 +3,7 @@
 from .log import Log
 from .outcome import KINDS
 
-COLUMNS = ("attack", "tried", *KINDS, "worst error / its estimate", "peak memory")
+COLUMNS = ("attack", "tried", *KINDS, "worst error / its estimate", "longest wait", "peak memory")
 
 
 def render(log: Log, parts: dict[str, str]) -> str:
@@ -13,7 +13,8 @@ def render(log: Log, parts: dict[str, str]) -> str:
         tally = log.of(name)
         counts = [f"{getattr(tally, kind):,}" for kind in KINDS]
         ratio = f"{tally.ratio:.2g}" if tally.ratio else ""
-        rows.append((words, f"{tally.tried:,}", *counts, ratio, f"{tally.memory / 1e6:,.0f} MB"))
+        wait = f"{tally.seconds:.2f} s" if tally.seconds else ""
+        rows.append((words, f"{tally.tried:,}", *counts, ratio, wait, f"{tally.memory / 1e6:,.0f} MB"))
     widths = [max(len(row[k]) for row in rows) for k in range(len(COLUMNS))]
     # Words to the left, numbers to the right.
     lines = [

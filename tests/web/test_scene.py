@@ -15,12 +15,12 @@ from app.document.page import Page, Recipe
 from app.document.quantities import OwnField, quantity
 from app.document.shared_parts.pins import Pins, add_pins, change_pin
 from app.figures.export import compute, figure_of, open_document
-from app.web.contents import Contents
-from app.web.scene import _check_numbers, scene_of
 from app.scene.camera import standard_camera
 from app.scene.levels import levels
 from app.scene.style import DARK, PAPER, style_of
 from app.session.array_store import ArrayStore
+from app.web.contents import Contents
+from app.web.scene import _check_numbers, scene_of
 from bihdist_core import ParameterError, Surface
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import SourceSet, SurfacePoint

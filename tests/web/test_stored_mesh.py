@@ -8,8 +8,8 @@ from base64 import b64encode
 import numpy as np
 import pytest
 
-from app.web.modules import VIEWER
 from app.web.html_file import KERNEL
+from app.web.modules import VIEWER
 from app.web.points import StoredPoints
 from app.web.stored_mesh import StoredMesh, deflated, varints
 from bihdist_core import BiharmonicDistance, CommuteTimeDistance, DiffusionDistance, ParameterError, Surface

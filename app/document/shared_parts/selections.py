@@ -10,7 +10,7 @@ from bihdist_core.errors import ParameterError
 from ..document import Document, free_names, unlike
 from ..labels import MARK_COLOURS, check_colour, check_name, next_colour
 from ..part import Part
-from ..runs import runs_of
+from ..runs import ids_of, runs_of
 
 
 @dataclass(frozen=True)
@@ -46,6 +46,13 @@ class Selections(Part):
 
     def without_surfaces(self, document: Document, surfaces: Set[str]) -> Document:
         return document.with_part(Selections(tuple(each for each in self.selections if each.surface not in surfaces)))
+
+    def with_vertices(self, surface: str, vertices: IntArray) -> "Selections":
+        moved = (
+            replace(each, runs=runs_of(vertices[ids_of(each.runs)])) if each.surface == surface else each
+            for each in self.selections
+        )
+        return Selections(tuple(moved))
 
     def work(self, document: Document) -> Mapping[str, Iterable[object]]:
         return {"selections": self.selections}

@@ -68,7 +68,7 @@ class ColourMenu(QtWidgets.QMenu):
         for action in self._maps.actions():
             of = action.data()[1]
             stops = map_of(colours) if of is None else style_of(ground, Colours(of)).stops
-            self._strips[action] = backwards(stops) if colours.reversed else stops
+            self._strips[action] = backwards(stops) if colours.reversed and stops else stops
         for action in (*self._maps.actions(), self._file, self.reversed, self.bands):
             action.setEnabled(has_colours)
         self.reversed.setChecked(colours.reversed)

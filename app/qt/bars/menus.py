@@ -113,7 +113,7 @@ class Menus:
             bar.addMenu(name) for name in ("&File", "&Edit", "&View", "&Panels", "&Tools", "&Help")
         )
         self._fill(file, ["open", self.recent, self.samples, None, "open beside", "close beside", None])
-        self._fill(file, ["cut", "put back", None])
+        self._fill(file, ["cut", "merge", "save ids", "put back", None])
         self._fill(file, ["save", "save as", None])
         self._fill(file, ["save fields", "figure", "movie", "page", "screenshot", None, "quit"])
         self._fill(edit, ["undo", "redo", None, "copy picture", "copy command", "copy python", None])

@@ -55,6 +55,9 @@ class Ticks:
             context.actions[word].setChecked(is_on)
         for word in ("link", "close beside"):
             context.actions[word].setEnabled(len(document.surfaces) > 1)
+        meshes = [mesh.repairs for mesh in document.surfaces]
+        context.actions["put back"].setEnabled(any(each.is_any for each in meshes))
+        context.actions["save ids"].setEnabled(any(each.merge is not None for each in meshes))
 
     def _show_view(self) -> None:
         self._buttons["views"].show_value(self._context[Views].name)

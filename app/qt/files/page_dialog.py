@@ -11,10 +11,10 @@ from bihdist_core.whole_file import check_output
 from ...document.file_names import file_name
 from ...document.page import Recipe
 from ...figures.export import Surfaces
+from ...session.array_store import ArrayStore
 from ...web.contents import Contents
 from ...web.export import check_size, eigenpair_bytes, needed_eigenpairs, size_words, write_page
 from ...web.stored_mesh import PRECISIONS
-from ...session.array_store import ArrayStore
 from ..look.layouts import quiet_label
 from .exports import Exports
 from .job_dialog import Choice, FileKind, JobDialog

@@ -287,11 +287,13 @@ class PanelGrid(QtWidgets.QWidget):
             self._once.append(function)
 
     def _drawn(self) -> None:
-        """One of the views; the others follow before anything else is done, and then all come to the screen."""
+        """One of the views; the others follow, and then all come to the screen."""
         if self._once:
             QtCore.QTimer.singleShot(0, self._painted)
 
     def _painted(self) -> None:
+        if any(panel.view.is_stale for panel in self.panels):
+            return  # they wait until keys and clicks have been looked at
         once, self._once = self._once, []
         for function in once:
             function()

@@ -21,6 +21,9 @@ MARK_SLACK = 4.0
 MOST_HELD = 300
 """Marks up to which each can be taken hold of."""
 
+AT_ONCE = 0.15
+"""Seconds that views are drawn for one after the other before keys and clicks are looked at."""
+
 DIMMED = 0.28
 """How opaque a field is that is no longer the answer."""
 
@@ -130,11 +133,15 @@ class View(QtWidgets.QWidget):
         if self._is_empty:
             painter.fillRect(event.rect(), ground)
             return
-        picture = self._drawn()
-        if self._is_dimmed:
+        waits = self._waits()
+        picture = self._picture if waits else self._drawn()
+        if self._is_dimmed or picture is None:
             painter.fillRect(event.rect(), ground)
             painter.setOpacity(DIMMED)
-        painter.drawImage(QtCore.QPointF(0, 0), picture)
+        if waits and picture is not None:
+            painter.drawImage(self.rect(), picture)  # which may be of another size
+        elif picture is not None:
+            painter.drawImage(QtCore.QPointF(0, 0), picture)
         painter.setOpacity(1.0)
         self.paint_over(painter)
 
@@ -144,11 +151,21 @@ class View(QtWidgets.QWidget):
     def see_again(self) -> None:
         """Another picture has been drawn: other places may be hidden."""
 
+    def _waits(self) -> bool:
+        """Whether keys and clicks come first: other views have taken long, and what is painted is as it was."""
+        waits = self._is_old() and self.offscreen.seconds > AT_ONCE
+        if waits:
+            QtCore.QTimer.singleShot(0, self.update)
+        return waits
+
+    def _is_old(self) -> bool:
+        return self._is_stale or self._picture is None or self._picture.size() != QtCore.QSize(*self.pixels)
+
     def _drawn(self) -> QtGui.QImage:
         """The picture, drawn if something has changed since."""
         width, height = self.pixels
-        size = QtCore.QSize(width, height)
-        if self._is_stale or self._picture is None or self._picture.size() != size:
+        if self._is_old() or self._picture is None:
+            QtCore.QTimer.singleShot(0, self.offscreen.begin)
             self.scene.set_proportion(self.proportion)
             self._drawing, self._written = self.offscreen.picture(self.scene, (width, height)), None
             self._picture = self._image(self._drawing)

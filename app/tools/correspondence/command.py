@@ -4,7 +4,7 @@ import argparse
 
 from bihdist_core.counts import counted
 
-from ...commands.mesh import laplacian_of
+from ...commands.mesh import ids_beside, laplacian_of
 from ...commands.options import add_areas, add_distance, add_output, add_pairs, add_two_meshes, repairs_of, specs
 from ...commands.result import Facts, Result, distance_facts
 from ...commands.terminal import accuracy, progress_line
@@ -38,9 +38,11 @@ def run(options: argparse.Namespace) -> Result:
     check_output(options.output, MAP_FORMATS)
     (chosen,) = specs(options, [options.distance])
     pairs = read_pairs(options.pairs) if isinstance(options.pairs, str) else np.array(options.pairs)
+    ids_files = [ids_beside(options, letter) for letter in "AB"]
     with progress_line() as progress:
         one, two = (
-            laplacian_of(mesh, options.areas, repairs_of(options, mesh)) for mesh in (options.mesh, options.other)
+            laplacian_of(mesh, options.areas, repairs_of(options, mesh), ids_file)
+            for mesh, ids_file in zip((options.mesh, options.other), ids_files, strict=True)
         )
         truth = read_map(options.truth, one.surface, two.surface) if options.truth else None
         sides = Distances(one), Distances(two)
@@ -54,7 +56,8 @@ def run(options: argparse.Namespace) -> Result:
     size = f"{len(found):,} vertices to {len(two.surface.vertices):,}"
     print(f"{options.output}: {on_one.label}, {counted(len(pairs), 'pair')}, {size}{none}{estimate}")
     facts: Facts = {
-        "mesh": options.mesh, "other": options.other, **distance_facts(on_one, spec), "outputs": [options.output],
+        "mesh": options.mesh, "other": options.other, **distance_facts(on_one, spec),
+        "outputs": [options.output, *filter(None, ids_files)],
         "n_pairs": len(pairs), "n_vertices": len(found), "n_missing": missing,
     }  # fmt: skip
     if truth is not None:

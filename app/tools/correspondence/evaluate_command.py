@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from bihdist_core.counts import counted
 
 from ...commands.mesh import laplacian_of
-from ...commands.options import add_output, add_two_meshes, count
+from ...commands.options import add_cut, add_output, add_two_meshes, count, repairs_of
 from ...commands.result import Facts, Result
 from ...commands.terminal import progress_line
 
@@ -30,6 +30,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "maps", metavar="MAP", nargs="+", help="for each vertex of A one of B, from 0: a .npy or .txt file"
     )
     add_output(parser, "the curves: a .csv, .png, .pdf, .svg or .eps file", required=False)
+    add_cut(parser)
     parser.add_argument("--truth", metavar="MAP", required=True, help="what is right: `identity`, or such a file")
     parser.add_argument(
         "--symmetry",
@@ -58,11 +59,14 @@ def run(options: argparse.Namespace) -> Result:
     from ...figures.error_figure import ERROR_FORMATS, ErrorFigure, save_error_figure
 
     check_outputs((options.output, ERROR_FORMATS))
-    one, two = (laplacian_of(mesh) for mesh in (options.mesh, options.other))
+    both = options.mesh, options.other
+    one, two = (laplacian_of(mesh, repairs=repairs_of(options, mesh)) for mesh in both)
     truth = read_map(options.truth, one.surface, two.surface)
     maps = {path: read_map(path, one.surface, two.surface) for path in dict.fromkeys(options.maps)}
     partners = read_map(options.symmetry, two.surface, two.surface) if options.symmetry else None
-    ids = sampled_vertices(len(truth), options.samples)
+    # What is cut out of A has no right place; where B has none, no error is known.
+    left = np.flatnonzero(one.surface.component_of_vertex >= 0) if options.cut else np.arange(len(truth))
+    ids = left[sampled_vertices(len(left), options.samples)]
     curves, facts = {}, []
     columns = np.stack([found[ids] for found in maps.values()], axis=1)
     for words, also in (("", None), *([(", partners count", partners)] if partners is not None else [])):

@@ -2,7 +2,7 @@
 
 import argparse
 
-from ...commands.mesh import check_mesh
+from ...commands.mesh import check_mesh, write_ids_of
 from ...commands.mesh_sources import first_spec, one_source, sources_of_document, sources_of_mesh
 from ...commands.options import (
     add_areas,
@@ -96,6 +96,7 @@ def run(options: argparse.Namespace) -> Result:
     outputs = [file for file in (options.output, options.chart) if file]
     for output in outputs:
         print(f"{output}: {path.label}, {len(path.points):,} points, {path.length:.6g} long")
+    outputs += write_ids_of(document, outputs[0])
     facts = {
         "mesh": options.mesh,
         "outputs": outputs,

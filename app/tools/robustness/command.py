@@ -6,9 +6,20 @@ from typing import TYPE_CHECKING
 
 from bihdist_core.counts import counted
 
-from ...commands.mesh import laplacian_of
+from ...commands.mesh import ids_beside, laplacian_of, outputs_of
 from ...commands.mesh_sources import sources_on
-from ...commands.options import add_distance, add_mesh, add_output, add_sources, count, pair, positive, specs
+from ...commands.options import (
+    add_distance,
+    add_mesh,
+    add_output,
+    add_repairs,
+    add_sources,
+    count,
+    pair,
+    positive,
+    repairs_of,
+    specs,
+)
 from ...commands.result import Facts, Result, facts_of
 from ...commands.terminal import progress_line
 
@@ -28,6 +39,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_sources(parser, "with --distance: where its fields start, one after another")
     add_output(parser, "a .off, .obj, .ply or .vtp file")
     add_distance(parser, "say how much each changes (default: none)")
+    add_repairs(parser)
     parser.add_argument("--pose", default="", metavar="FILE", help="another pose, with the same vertices and faces")
     parser.add_argument("--faces", type=_faces, default=(), metavar="FACES", help="take these out, as in 3+10-20")
     parser.add_argument("--simplify", type=count, metavar="N", help="leave N vertices, at their places")
@@ -71,13 +83,14 @@ def run(options: argparse.Namespace) -> Result:
         raise ParameterError(f"Nothing would change; say {options_named}.")
     chosen = specs(options, list(dict.fromkeys(options.distance or [])))
     with progress_line() as progress:
-        before = laplacian_of(options.mesh)
+        repairs = repairs_of(options, options.mesh)
+        before = laplacian_of(options.mesh, repairs=repairs, ids_file=ids_beside(options))
         after, kept = perturbed(before.surface, change, progress)
     write_mesh(options.output, after)
     size = f"{counted(len(after.vertices), 'vertex', 'vertices')}, {counted(len(after.faces), 'face')}"
     print(f"{options.output}: {size}; {change}")
     facts: Facts = {
-        "mesh": options.mesh, "outputs": [options.output], "change": str(change), "n_vertices": after.n_vertices,
+        "mesh": options.mesh, "outputs": outputs_of(options), "change": str(change), "n_vertices": after.n_vertices,
         "n_faces": after.n_faces,
     }  # fmt: skip
     if chosen:

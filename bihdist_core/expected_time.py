@@ -1,0 +1,71 @@
+"""How long work is expected to take: from how much of it there is, and from how fast this process has been so far."""
+
+import time
+
+from .progress import Progress, part, silent
+
+SECONDS = {
+    "ordering": 2e-6,
+    "plain ordering": 8e-5,
+    "factor": 7e-11,
+    "plain factor": 6e-10,
+    "eigenpairs": 1e-10,
+    "windows": 1.6e-7,
+}
+"""Of an idle core for a unit of each kind of work: vertices to be ordered, multiplications of a factor and of
+eigenpairs, windows of exact geodesics.  A beginning: how fast this machine is and how busy is found out on the way."""
+
+LONG_S = 10.0
+"""Shorter work is not spoken of."""
+
+TELLING_S = 0.2
+"""Work that has taken so long tells how fast the machine is: what is shorter is mostly beginnings and ends."""
+
+_slowness = 1.0
+"""How many times as long as SECONDS says the last work took, of whatever kind: what keeps a machine busy slows all."""
+
+
+def expected_seconds(kind: str, work: float, cores: int = 1) -> float:
+    """For so many units of a kind of work, done by so many cores."""
+    return SECONDS[kind] * work / cores * _slowness
+
+
+class Expected:
+    """A piece of long work, while it is done; `done`, to be set where that is another amount, tells of the machine.
+
+    progress: whose texts say how long all of it is expected to take where that is long.
+    """
+
+    def __init__(self, kind: str, work: float, cores: int, progress: Progress | None) -> None:
+        self.done = work
+        self._seconds_each, self._begun = SECONDS[kind] / cores, time.monotonic()
+        self._duration = duration_words(expected_seconds(kind, work, cores))
+        self._report = part(progress, 0, 1)
+        self.progress = self._with_duration if self._duration and self._report is not silent else self._report
+
+    def _with_duration(self, fraction: float, text: str) -> None:
+        self._report(fraction, f"{text.partition(':')[0]}: {self._duration}")
+
+    def __enter__(self) -> "Expected":
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        global _slowness
+        took = time.monotonic() - self._begun
+        if kind is None and took >= TELLING_S and self.done > 0:
+            _slowness = took / (self._seconds_each * self.done)
+
+
+def duration_words(seconds: float) -> str:
+    """ "about 40 s", "about 3 min" or "about 2 h", as exactly as can be guessed; "" of what is short."""
+    if seconds < LONG_S:
+        return ""
+    if seconds < 95:
+        return f"about {round(seconds, -1):.0f} s"
+    return f"about {seconds / 60:.0f} min" if seconds < 95 * 60 else f"about {seconds / 3600:.0f} h"
+
+
+def duration_in(text: str) -> str:
+    """The duration in what the progress of `Expected` says, "" of what any other says."""
+    detail = text.partition(": ")[2]
+    return detail if detail.startswith("about ") else ""
