@@ -18,6 +18,7 @@ from bihdist_core import SolverError, write_mesh
 from bihdist_core.distances.exact_geodesic import ExactGeodesic
 from bihdist_core.errors import PlainSolverWarning
 from bihdist_core.kernel import build, library
+from tests.shapes import bumpy
 
 ROOT = Path(__file__).parents[2]
 ON_X86 = platform.machine().lower() in ("x86_64", "amd64")
