@@ -8,14 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bihdist.document.looks import Isolines
-from bihdist.scene.camera import Projection, standard_camera
-from bihdist.scene.levels import levels
 
+from app.document.looks import Isolines
+from app.scene.camera import Projection, standard_camera
+from app.scene.levels import levels
+from app.web.modules import VIEWER
 from bihdist_core.distances.difference import difference_in_unit
 from tests.shapes import bumpy, grid, sphere, torus
 
-VIEWER = Path(__file__).parents[2] / "app" / "page" / "viewer"
 NODE = shutil.which("node")
 pytestmark = pytest.mark.skipif(NODE is None, reason="there is no node")
 
