@@ -12,7 +12,7 @@ d(i, j)^2 by -2 y^T dL z, the commute-time distance's by -y^T dL y, an eigenvalu
 Roundings are as good as random, so their squares are added; the springs of degenerate faces have one sign and add up.
 A residual r of a solve counts as z^T r, and what else the solver makes of it is found by computing the same distances
 in another way.  All this is done for a few pairs of vertices where it is worst: at the flattest face, from there to
-where the distance is largest, and at the shortest edge.
+where the distance is largest, at the shortest edge, and where solutions are off the most (`solve_errors`).
 """
 
 import math
@@ -26,6 +26,7 @@ from ..laplacian import Component
 from ..operators import face_weights
 from ..solver.worker_threads import side_by_side
 from ..surface import FLAT, Surface, dots
+from .solve_errors import SolveErrors
 
 Columns = Callable[[IntArray], FloatArray]
 Adjoint = Callable[[FloatArray], FloatArray]
@@ -36,8 +37,8 @@ POOR = 1e-3
 """What may be further off than this, as a fraction of its maximum, is warned of; what need not be is not given."""
 
 EPS = float(np.finfo(float).eps)
-ROUNDINGS = 8
-"""How many roundings, of half an eps each, a number may have gone through; there is some to spare."""
+ROUNDED = 8 * EPS / 2
+"""By what share a number may be rounded that went through up to eight roundings; there is some to spare."""
 SPARE = 6
 """By how much an error found at the places that were tried may be exceeded elsewhere; what is added up, and not as good
 as random, by half as much."""
@@ -128,7 +129,7 @@ class Perturbation:
             # A link, whose strength is half a height.
             links = (y[a] - y[b]) * (z[a] - z[b]) / 2
             squares += (links[~flat.loose] ** 2).sum(axis=0)
-        return SPARE * ROUNDINGS / 2 * EPS * np.sqrt(squares), SPARE / 2 * spring
+        return SPARE * ROUNDED * np.sqrt(squares), SPARE / 2 * spring
 
     def effect_of_springs(self, adjoint: Adjoint) -> Effect | None:
         """By how much what springs lack changes squared distances from a vertex to all, from a few springs; None if
@@ -196,6 +197,8 @@ def accuracy_of_pairs(
     effect = perturbation.effect_of_springs(adjoint)
     if effect is not None:
         sources = np.append(sources, effect(int(effect(int(face[0])).argmax())).argmax())
+    known, (most_off, off) = len(sources), SolveErrors(component, ROUNDED).at_worst(adjoint)
+    sources = np.append(sources, most_off)
     fields = columns(sources)
     fields[sources, np.arange(len(sources))] = 0
     top = fields.max()
@@ -203,9 +206,11 @@ def accuracy_of_pairs(
     targets = [{beside, fields[:, 0].argmax()}, {edge.sum() - sources[1]}]
     if effect is not None:
         targets.append(set())
-        for source, field, some in zip(sources, fields.T, targets, strict=True):
+        for source, field, some in zip(sources[:known], fields.T, targets, strict=False):
             most = effect(int(source))
             some |= {most.argmax(), change_of_root(field**2, most).argmax()}
+    changes = change_of_root(fields[:, known:] ** 2, off)
+    targets += [{component.pin, int(change.argmax())} for change in changes.T]
     if corrected:
         for nearest, also in zip(
             np.where(fields > corrected * top, fields, np.inf).argmin(axis=0), targets, strict=True

@@ -157,8 +157,8 @@ def _cells(
     cell["face"][:m], cell["is_there"][:m] = np.arange(m), is_face
     sizes = {"first": n, "next": 3 * room, "vertex_for": n, "edge_for": edges, "divided": 2 * edges}
     kept = {name: np.empty(size, np.int32) for name, size in sizes.items()}
-    kept |= {"wait": np.empty(room + m, np.int32), "found": np.empty(room, np.int32)}
-    arrays = {"points": points, "cell": cell} | kept
+    kept |= {name: np.empty(room, np.int32) for name in ("wait", "found")}
+    arrays = {"points": points, "cell": cell} | kept | {"longest": np.empty((room, kernel.FLAT), np.uint8)}
     all_cells = kernel.Cells(
         cells=m, edges=3 * m, room=room, edge_room=edges, **{name: kernel.at(array) for name, array in arrays.items()}
     )

@@ -16,12 +16,15 @@ from ..progress import Progress, part
 from ..scalars import real_number
 from ..solver.spectrum import Spectrum
 from ..solver.tall import pair_distances, point_distances
-from .accuracy import SPARE, Perturbation, rounded_up
+from .accuracy import ROUNDED, SPARE, Perturbation, rounded_up
 from .distance import Distance
+from .solve_errors import SolveErrors
 from .tails import Cloud, biharmonic_squares, commute_time_squares, tail_lengths
 
 CLEAR = 1e-3
 """Eigenvalues this far apart, as a share of themselves, are clearly two."""
+LOWEST = 8
+"""So many eigenpairs from the first on, of which rounding changes the largest share, and among all, are looked at."""
 
 
 class SpectralDistance(Distance):
@@ -107,30 +110,42 @@ class SpectralDistance(Distance):
         - in the complement, sum_k phi_k(x) g[lambda_k, Delta] r_k, where the divided differences of g are at most
           g_k min(1 / gap, the steepness of g);
         - within Q, the values of g[lambda_k, Delta] r_k at x, each at most its Laplacian's norm times the tail at x.
+        What the factor's rounding does to single vertices is added.
         """
         spectrum, weights = self._weighted(component, None)
         count, root = len(weights), np.sqrt(weights)
         values, vectors = spectrum.eigenvalues[:count], spectrum.eigenvectors[:, :count]
-        change, missed = self._inaccuracies(component, spectrum, count)
+        change, missed, off = self._inaccuracies(component, spectrum, root)
         next_value, tails = self._next(component), self._tails(component)
         turned = missed * values / np.maximum(next_value - values, 1e-300)
         turned = np.minimum(turned, 1 if self._is_cut() else missed * self._slopes(values) / 2)
         errors = np.abs(vectors) @ (root * turned)
         errors += tails * np.linalg.norm(root * values * (missed + turned))
-        return errors + np.sqrt(vectors**2 @ (weights * (self._slopes(values) * change / 2) ** 2))
+        return off + errors + np.sqrt(vectors**2 @ (weights * (self._slopes(values) * change / 2) ** 2))
 
-    def _inaccuracies(self, component: Component, spectrum: Spectrum, count: int) -> tuple[float, FloatArray]:
-        """By what share rounding and degenerate faces change the eigenvalues, and the residuals (count,) with that."""
+    def _inaccuracies(
+        self, component: Component, spectrum: Spectrum, root: FloatArray
+    ) -> tuple[float, FloatArray, FloatArray]:
+        """By what share rounding and degenerate faces change the eigenvalues; the residuals (count,) with that; and
+        (m,) by how much they displace vertices, those without an area too, which no residual measures.
+
+        root: (count,) of the weights.
+        """
+        count = len(root)
         values, residuals = spectrum.eigenvalues[:count], spectrum.residuals[:count]
         perturbation = Perturbation(component)
-        few = np.unique([0, count // 2, count - 1])
+        few = np.unique([*range(min(LOWEST, count)), *np.linspace(0, count - 1, LOWEST, dtype=int)])
         some = spectrum.eigenvectors[:, few]
-        change = float((sum(perturbation.of(some, some)) / values[few]).max())
         # Beside degenerate faces residuals are large by rounding, and stiff: G makes little of them.
-        again = component.centred(component.solve(component.areas[:, None] * some)) * values[few]
+        loads = component.areas[:, None] * some * values[few]
+        again = component.centred(component.solve(loads))
         missed = np.sqrt(component.areas @ (again - some) ** 2)
+        # What rounding makes of the energy of eigenvectors, and the factor of their values, differs by this.
+        differ = np.abs(np.einsum("ij,i,ij->j", some, component.areas, again) - 1)
+        change = float((sum(perturbation.of(some, some)) / values[few] + SPARE * differ).max())
         seen = SPARE * float((missed / np.maximum(residuals[few], 1e-300)).max())
-        return change, residuals * min(1.0, seen) + change
+        off = component.centred(SolveErrors(component, ROUNDED).off(loads))
+        return change, residuals * min(1.0, seen) + change, SPARE * np.linalg.norm(root[few] * off, axis=1)
 
 
 class PowerDistance(SpectralDistance):

@@ -1,5 +1,8 @@
 /* Degenerate faces are taken out of a mesh: the ends of edges of no length become one vertex, and all faces at the
- * longest edge of a flat face are divided by its apex, which makes that face the edges that it is. */
+ * longest edge of a flat face are divided by its apex, which makes that face the edges that it is.
+ *
+ * Of flat faces the longest is first.  Then the flat ones that it divides have their own longest edge there, so that
+ * what becomes of them is shorter; in another order flat faces beside each other undo what one does to the other. */
 #include "geodesic.h"
 
 /* What a face, or a part of it, has become: a triangle, an edge or a point.  Those that stand for a cell come later. */
@@ -14,19 +17,43 @@ typedef struct {
 } Cell;
 
 typedef struct {
-  i64 cells, edges, waiting;    /* how many there are */
+  double length;
+  i32 cell;
+} Flat;
+
+typedef struct {
+  i64 cells, edges, waiting, flat; /* how many there are; of `longest` */
   i64 room, edge_room;
   const double *X;              /* (vertices, 3) */
   Cell *cell;                   /* (room,) */
   i32 *first, *next;            /* (vertices,), (3 room,): lists of 3 cell + corner at each vertex, with cells that are gone */
   i32 *vertex_for, *edge_for;   /* (vertices,), (edge_room,): what stands for each, perhaps itself */
   i32 *divided;                 /* (edge_room, 2) of edges within faces the ends of the edge that was divided, else NONE */
-  i32 *wait, *found;            /* (room + faces,), (room,) */
+  i32 *wait, *found;            /* (room,) each */
+  Flat *longest;                /* (room,) a heap of flat faces, the longest first */
 } Cells;
 
 static i32 root(i32 *stands, i32 i) {
   while (stands[i] != i) i = stands[i] = stands[stands[i]];
   return i;
+}
+
+static void put_aside(Cells *all, i32 cell, double length) {
+  i64 i = all->flat++, above;
+  for (; i > 0 && all->longest[above = (i - 1) / 2].length < length; i = above) all->longest[i] = all->longest[above];
+  all->longest[i] = (Flat){length, cell};
+}
+
+static i32 take_longest(Cells *all) {
+  Flat *heap = all->longest, top = heap[0], last = heap[--all->flat];
+  i64 i = 0, child;
+  for (; (child = 2 * i + 1) < all->flat; i = child) {
+    if (child + 1 < all->flat && heap[child + 1].length > heap[child].length) child++;
+    if (heap[child].length <= last.length) break;
+    heap[i] = heap[child];
+  }
+  heap[i] = last;
+  return top.cell;
 }
 
 /* Enter a cell, which waits to be looked at. */
@@ -111,8 +138,8 @@ static void halve(Cells *all, i32 number, int i, double share, i32 a, i32 c, con
   }
 }
 
-/* Join vertices or divide faces if a cell is a degenerate face, or an edge of no length. */
-static i32 mend(Cells *all, i32 number) {
+/* Join vertices if a cell is a needle or an edge of no length; put it aside, or divide faces, if it is flat. */
+static i32 mend(Cells *all, i32 number, int divides) {
   const Cell *cell = &all->cell[number];
   if (!cell->is_there || cell->corner[1] < 0) return DONE;
   if (cell->corner[2] < 0) {
@@ -134,6 +161,7 @@ static i32 mend(Cells *all, i32 number) {
   if (__builtin_sqrt(x * x + y * y + z * z) > NO_HEIGHT * square) return DONE;
   if (length[shortest] <= NO_HEIGHT * length[longest])
     return join(all, cell->corner[shortest], cell->corner[(shortest + 1) % 3]);
+  if (!divides) return put_aside(all, number, length[longest]), DONE;
   i32 divided = root(all->edge_for, cell->edge[longest]);
   if (all->divided[2 * divided] == c || all->divided[2 * divided + 1] == c) return DONE; /* that would undo it */
   i32 near[2] = {cell->edge[(longest + 2) % 3], cell->edge[(longest + 1) % 3]};
@@ -158,7 +186,9 @@ API i32 bih_geodesic_cells(Cells *all, i64 vertices, i64 faces, i64 most) {
   for (i64 e = 0; e < all->edges; e++) all->edge_for[e] = (i32)e, all->divided[2 * e] = all->divided[2 * e + 1] = NONE;
   for (i64 f = 0; f < faces; f++)
     if (all->cell[f].is_there) enter(all, (i32)f);
-  for (; most > 0 && all->waiting; most--)
-    if (mend(all, all->wait[--all->waiting]) != DONE) return NO_ROOM;
+  for (int divides; most > 0 && (all->waiting || all->flat); most--) {
+    divides = !all->waiting;
+    if (mend(all, divides ? take_longest(all) : all->wait[--all->waiting], divides) != DONE) return NO_ROOM;
+  }
   return DONE;
 }

@@ -104,7 +104,7 @@ class Places(Structure):
     _fields_ = (("count", c_int64), *((name, c_void_p) for name in ("face", "begin", "end")))
 
 
-CELL_ARRAYS = ("points", "cell", "first", "next", "vertex_for", "edge_for", "divided", "wait", "found")
+CELL_ARRAYS = ("points", "cell", "first", "next", "vertex_for", "edge_for", "divided", "wait", "found", "longest")
 """The arrays of `Cells`, in their order."""
 
 CELL = np.dtype([
@@ -113,12 +113,15 @@ CELL = np.dtype([
 ])  # fmt: skip
 """What a face, or a part of it, has become where degenerate faces are taken out."""
 
+FLAT = 16
+"""Bytes of a flat face that waits, in `Cells`."""
+
 
 class Cells(Structure):
     """All cells of a mesh."""
 
     _fields_ = (
-        *((name, c_int64) for name in ("cells", "edges", "waiting", "room", "edge_room")),
+        *((name, c_int64) for name in ("cells", "edges", "waiting", "flat", "room", "edge_room")),
         *((name, c_void_p) for name in CELL_ARRAYS),
     )
 

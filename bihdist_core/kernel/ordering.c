@@ -154,10 +154,11 @@ static void halve(Dissection *D, Region r) {
         for (int k = 0; k < d; k++) key += (float)axis[k] * chart[k * n + v];
         D->key[v] = key, low = key < low ? key : low, high = key > high ? key : high;
       }
-      float scale = high > low ? (float)(bins - 1) / (high - low) : 0;
+      /* in double precision: beside a vertex much farther away, others have keys that differ by next to nothing */
+      double scale = high > low ? (double)(bins - 1) / ((double)high - low) : 0;
       for (i64 t = 0; t < m; t++) {
         i32 v = vertices[t];
-        here[D->bin[v] = (i32)((D->key[v] - low) * scale)]++;
+        here[D->bin[v] = (i32)(((double)D->key[v] - low) * scale)]++;
       }
       for (i64 e = r.edge; e < r.edge_end; e++) {
         i32 p = D->bin[D->edges[2 * e]], q = D->bin[D->edges[2 * e + 1]];

@@ -246,6 +246,14 @@ def test_components_are_parted_by_nothing_even_in_one_place():
     assert halves(tree) == [600, 600]
 
 
+@pytest.mark.parametrize("far", [1e36, 1e40, 1e44, 1e300])
+def test_a_vertex_much_farther_away_than_others_are_from_each_other_is_no_matter(far):
+    graph, x = grid(9, 12)
+    x[50] = far
+    order = EliminationTree(graph, x).layout.vertices
+    assert sorted(order) == list(range(108))
+
+
 def test_a_hub_that_reaches_everything_is_cut_out():
     n = 1000
     matrix = laplacian(n, np.full(n - 1, 7), np.delete(np.arange(n), 7))

@@ -113,7 +113,7 @@ def test_the_command_draws_without_a_screen_and_without_qt(tmp_path):
     out = tmp_path / "figure.png"
     code = (
         "import sys; from app.main import main\n"
-        f"status = main(['figure', 'genus3', '-o', {str(out)!r}])\n"
+        f"status = main(['figure', 'genus3', '--quiet', '-o', {str(out)!r}])\n"
         "print(status, [m for m in sys.modules if m.split('.')[0] in ('PyQt5', 'PySide6', 'qtpy', 'pyvistaqt')])"
     )
     without = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}

@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from bihdist_core import BiharmonicDistance
+from bihdist_core import BiharmonicDistance, SolverError
 from bihdist_core.distances.exact_geodesic import ExactGeodesic
 from tests.shapes import bumpy, two_pieces
 from tests.stress import (
@@ -317,3 +317,17 @@ def test_esc_at_any_moment_leaves_a_window_that_does_what_it_is_told(tmp_path):
 
 def test_a_session_stays_as_it_is(tmp_path):
     assert soak.session(0, tmp_path, 200, 20) == Outcome(OPENED)
+
+
+def test_geodesics_that_are_given_up_in_a_sentence_are_no_fault(monkeypatch, tmp_path):
+    """A refusal, beside distances that open; what is no sentence is a fault."""
+    number = 0
+    while np.random.default_rng([0, number]).random() < accuracy.AGAINST_REFERENCE:
+        number += 1
+    for words, kind in (("Given up after 9 windows; use the heat method.", OPENED), ("given up", WRONG)):
+
+        def given_up(self, source, words=words):
+            raise SolverError(words)
+
+        monkeypatch.setattr(ExactGeodesic, "distances", given_up)
+        assert accuracy.case(0, number, tmp_path).kind == kind
