@@ -10,7 +10,7 @@ HOST = """<!doctype html><meta charset="utf-8"><div id="one"></div><div id="othe
 <script type="module">ESM
 const traits = TRAITS;
 const bytes = (text) => new DataView(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
-traits.contents.kernel = bytes(traits.contents.kernel), traits.contents.mesh = bytes(traits.contents.mesh);
+for (const name in traits.contents) traits.contents[name] = bytes(traits.contents[name]);
 class Model {
   constructor(values) { Object.assign(this, { values, heard: {}, sent: [], saved: 0 }); }
   get(name) { return this.values[name]; }
@@ -28,8 +28,8 @@ for (const id of ["one", "other"]) window.ends.push(await widget.render({ model,
 
 def test_source_and_pins_go_both_ways_between_places_and_model(browser, tmp_path):
     made = widget(bumpy(300), ["biharmonic"], source=12)
-    contents = {name: b64encode(made.contents[name]).decode() for name in ("kernel", "mesh")}
-    traits = {"contents": {**contents, "points": {}}, "scene": made.scene, "source": 12, "pins": []}
+    contents = {name: b64encode(content).decode() for name, content in made.contents.items()}
+    traits = {"contents": contents, "scene": made.scene, "source": 12, "pins": []}
     esm = made._esm.replace("export default { render };", "const widget = { render };")
     host = tmp_path / "host.html"
     host.write_text(HOST.replace("ESM", esm).replace("TRAITS", json.dumps(traits)), encoding="utf-8")

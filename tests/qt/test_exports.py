@@ -384,7 +384,6 @@ def test_every_box_has_a_name_and_a_tip(small):
 @pytest.fixture
 def page_dialog(small):
     """Opens the dialog of web pages."""
-    pytest.importorskip("app.web.page")
     from app.qt.files.figure_actions import export_page
 
     return lambda: export_page(small.context)

@@ -15,12 +15,10 @@ from app.document.file import recipe_text
 from app.document.page import Recipe
 from app.document.quantities import quantity
 from app.main import main
+from app.web import export
 from bihdist_core import BiharmonicDistance, OutputError, ParameterError, Surface
 
 from ..shapes import bumpy, two_pieces
-
-pytest.importorskip("app.web.page")
-export = pytest.importorskip("app.web.export")
 
 
 def scene_in(path):

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bihdist.document.looks import Isolines
-from bihdist.scene.camera import Projection, standard_camera
-from bihdist.scene.levels import levels
 
+from app.document.looks import Isolines
+from app.scene.camera import Projection, standard_camera
+from app.scene.levels import levels
 from bihdist_core.distances.difference import difference_in_unit
 from tests.shapes import bumpy, grid, sphere, torus
 
-VIEWER = Path(__file__).parents[2] / "app" / "page" / "viewer"
+VIEWER = Path(__file__).parents[2] / "app" / "web" / "viewer"
 NODE = shutil.which("node")
 pytestmark = pytest.mark.skipif(NODE is None, reason="there is no node")
 
@@ -79,7 +79,7 @@ def test_a_difference_is_the_librarys(unit, raw):
     a, b = np.random.default_rng(3).random((2, 50))
     a[:5] = b[:5] = np.nan
     fields = {name: [None if np.isnan(x) else x for x in field] for name, field in (("a", a), ("b", b))}
-    panel = {"distance": "difference", "of": ["a", "b"], "unit": unit, "range": None}
+    panel = {"distance": "difference", "of": ["a", "b"], "unit": unit, "range": None, "signed": True, "note": ""}
     said = ask("panel", panel=panel, fields=fields)
     expected = difference_in_unit(a, b, ("mesh units", "mesh units"), raw)[0]
     np.testing.assert_allclose(np.array(said["values"], float), expected, atol=1e-12)
@@ -89,7 +89,10 @@ def test_a_difference_is_the_librarys(unit, raw):
 
 
 def test_a_panels_range_is_its_own_maximum_or_what_it_is_given():
-    fields, panel = {"biharmonic": [0.0, 2.0, None]}, {"distance": "biharmonic", "unit": "", "range": None}
+    fields, panel = (
+        {"biharmonic": [0.0, 2.0, None]},
+        {"distance": "biharmonic", "unit": "", "range": None, "signed": False, "note": ""},
+    )
     said = ask("panel", panel=panel, fields=fields)
     assert (said["low"], said["high"], said["own"], said["signed"]) == (0, 2, 2, False)
     said = ask("panel", panel={**panel, "range": [0.5, 5]}, fields=fields)
