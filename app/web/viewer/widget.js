@@ -16,7 +16,7 @@ async function render({ model, el }) {
   const contents = await unpackedContents(Object.fromEntries(packed.map(([name, view]) => [name, bytesIn(view)])), scene);
   const solver = new Solver({ ...contents, scene, onprogress: (words) => viewer?.progress(words) });
   const changed = (name) => (value) => (model.set(name, value), model.save_changes());
-  const viewer = new Viewer(root, {
+  const viewer = root.viewer = new Viewer(root, {
     mesh: contents.mesh, scene: { ...scene, source: model.get("source"), pins: model.get("pins") }, solver,
     onsource: (id) => (changed("source")(id), model.send({ picked: id })), onpins: changed("pins"),
   });
