@@ -46,13 +46,10 @@ def check_display() -> None:
         return
     display = os.environ.get("DISPLAY", "")
     if not (display or os.environ.get("WAYLAND_DISPLAY")):
-        raise BihdistError(
-            f"The viewer needs a display and there is none (DISPLAY is not set); {WITHOUT_ONE}."
-        )
+        raise BihdistError(f"The viewer needs a display and there is none (DISPLAY is not set); {WITHOUT_ONE}.")
     if _uses_x() and not _answers(display):
         raise BihdistError(
-            f"The viewer needs a display, and the one that DISPLAY names ({display}) does not answer; "
-            f"{WITHOUT_ONE}."
+            f"The viewer needs a display, and the one that DISPLAY names ({display}) does not answer; {WITHOUT_ONE}."
         )
 
 

@@ -260,3 +260,10 @@ def test_maps_are_stretched_and_follow_the_theme():
     assert dark["undefined"] == [1, 2, 3]
     scene["colours"]["background"] = [9, 9, 9]
     assert ask("colours", scene=scene, isDark=False)["background"] == [9, 9, 9]
+
+
+# ---------------------------------------------------------------------- words
+def test_the_guide_lists_what_the_page_does():
+    guide = (VIEWER.parents[2] / "assets/guide/files.md").read_text(encoding="utf-8")
+    for keys, meaning in ask("help"):
+        assert f"\n| {keys} | {meaning} |" in guide
