@@ -13,8 +13,9 @@ from bihdist_core.sources.source import Source
 
 from ..document.quantities import Quantity
 from ..session.array_store import Mesh
+from .arguments import recipe_of
 from .export import Page, write_page
-from .options import USUAL, chosen
+from .options import USUAL
 
 
 def page(
@@ -48,6 +49,6 @@ def page(
     >>> max(page.differs.values()) < 1e-6
     True
     """
-    recipe, given = chosen("page", mesh, distances, source, fields, options, progress)
+    recipe, given = recipe_of("page", mesh, distances, source, fields, options, progress)
     page, _ = write_page(recipe, path, given, precision, eigenpairs, progress)
     return page

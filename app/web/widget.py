@@ -13,8 +13,9 @@ from bihdist_core.sources.source import Source
 
 from ..document.quantities import Quantity
 from ..session.array_store import Mesh
+from .arguments import recipe_of
 from .export import page_of
-from .options import USUAL, chosen
+from .options import USUAL
 
 if TYPE_CHECKING:
     from .distance_widget import DistanceWidget
@@ -54,7 +55,7 @@ def widget(
         from .distance_widget import DistanceWidget
     except ImportError:
         raise ParameterError("Widgets need the package anywidget: pip install 'bihdist[widget]'.") from None
-    recipe, given = chosen("widget", mesh, distances, source, fields, options, progress)
+    recipe, given = recipe_of("widget", mesh, distances, source, fields, options, progress)
     made = DistanceWidget.of(page_of(recipe, given, precision, eigenpairs, progress))
     if on_pick is not None:
         made.on_pick(on_pick)
