@@ -55,15 +55,17 @@ def run(options: argparse.Namespace) -> Result:
         page, size = write_page(recipe, path, precision=options.bits, eigenpairs=options.eigenpairs, progress=progress)
     for note in page.scene["notes"]:
         tell(note)
+    contents = Contents.of(recipe.document)
     mesh, source = page.scene["mesh"], page.scene["source"]
     kept = "single precision" if options.bits == "float32" else f"{options.bits} bits of each coordinate"
     print(f"{path}: {size_words(size)}, opened by any browser, without a network")
     print(f"{mesh['name']}: {mesh['vertices']:,} vertices with {kept}; {'; '.join(page.labels)}; from {source}")
     print(f"distances equal those on the original mesh within {_differences(page)}")
     distances = [
-        {"distance": str(spec), "difference": page.differs[name], "n_eigenpairs": page.eigenpairs.get(name, 0)}
-        for name, spec in Contents.of(recipe.document).fields.items()
+        {"distance": str(spec), "difference": page.differs[str(spec)], "n_eigenpairs": page.eigenpairs.get(name, 0)}
+        for name, spec in contents.fields.items()
     ]
+    fields = [{"field": own.name, "difference": page.differs[own.word]} for own in contents.own]
     facts: Facts = {
         "meshes": [{"mesh": each.path} for each in recipe.document.surfaces],
         "outputs": [path],
@@ -74,10 +76,11 @@ def run(options: argparse.Namespace) -> Result:
         "source": source,
         "panels": [{"label": label} for label in page.labels],
         "distances": distances,
+        **({"fields": fields} if fields else {}),
     }
     return Result(facts)
 
 
 def _differences(page: "Page") -> str:
-    each = [f"{name.replace('_', '-')} {share:.1e}" for name, share in page.differs.items()]
+    each = [f"{name} {share:.1e}" for name, share in page.differs.items()]
     return f"{max(page.differs.values()):.1e} of the maximum" + (f" ({', '.join(each)})" if len(each) > 1 else "")

@@ -22,6 +22,8 @@ PACKAGES = (
 )
 """Of Debian and Ubuntu: what the libraries in the wheels of VTK and Qt need."""
 
+WITHOUT_ONE = "`bihdist figure` draws without one, and in notebooks `bihdist.widget` shows it"
+
 ANSWER_S = 10.0
 """A display that has not answered by then is not there."""
 
@@ -44,13 +46,10 @@ def check_display() -> None:
         return
     display = os.environ.get("DISPLAY", "")
     if not (display or os.environ.get("WAYLAND_DISPLAY")):
-        raise BihdistError(
-            "The viewer needs a display and there is none (DISPLAY is not set); `bihdist figure` draws without one."
-        )
+        raise BihdistError(f"The viewer needs a display and there is none (DISPLAY is not set); {WITHOUT_ONE}.")
     if _uses_x() and not _answers(display):
         raise BihdistError(
-            f"The viewer needs a display, and the one that DISPLAY names ({display}) does not answer; "
-            "`bihdist figure` draws without one."
+            f"The viewer needs a display, and the one that DISPLAY names ({display}) does not answer; {WITHOUT_ONE}."
         )
 
 

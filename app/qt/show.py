@@ -304,7 +304,8 @@ def show(
     once the source is there.  block: wait until the window is closed; if None, in scripts, but not in IPython,
     notebooks and Python's own prompt, where the window lives while you go on.
 
-    Raises BihdistError: for input that cannot be shown, and where there is no display.
+    Raises BihdistError: for input that cannot be shown, and where there is no display; there `bihdist.widget` shows it
+    in a notebook, and `bihdist.figure` draws.
 
     >>> import bihdist
     >>> viewer = bihdist.show("hand", ["biharmonic", "geodesic"], source=12, block=False)

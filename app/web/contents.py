@@ -10,7 +10,7 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.sources.words import short_words_of
 
 from ..document.document import Document, Panel
-from ..document.quantities import DistanceFrom, OwnField, Quantity
+from ..document.quantities import DistanceFrom, OwnField, Quantity, own_fields
 from ..document.shared_parts.pins import Pins
 
 NAMES = {
@@ -33,7 +33,7 @@ class Contents:
     """What a page computes.
 
     document: with geodesic distances that are exact.  fields: the distances by the names that the solver has for them;
-    of two that differ in a parameter the second is "diffusion_2".
+    of two that differ in a parameter the second is "diffusion_2".  Fields of the user's own go along as they are.
     """
 
     document: Document
@@ -55,9 +55,16 @@ class Contents:
         specs = dict.fromkeys(spec for panel in panels for spec in panel.shows.specs)
         return cls(replace(document, panels=panels), _named(specs))
 
-    def name_of(self, spec: Spec) -> str:
-        """The name of one of the distances."""
-        return next(name for name, each in self.fields.items() if each == spec)
+    def name_of(self, shows: Quantity) -> str:
+        """The solver's name of a distance or of a field of the user's own."""
+        if isinstance(shows, OwnField):
+            return shows.word
+        return next(name for name, each in self.fields.items() if (each,) == shows.specs)
+
+    @property
+    def own(self) -> tuple[OwnField, ...]:
+        """The fields of the user's own that panels show or are made of."""
+        return tuple(dict.fromkeys(field for panel in self.document.panels for field in own_fields(panel.shows)))
 
     @property
     def by_eigenpairs(self) -> dict[str, Spec]:
@@ -65,20 +72,17 @@ class Contents:
         return {name: spec for name, spec in self.fields.items() if spec.word in BY_EIGENPAIRS}
 
     @property
-    def source(self) -> int:
-        """The vertex from which all panels' distances start, once the document is settled."""
-        at = self.document.point(self.document.panels[0].shows.points[0]).at
-        assert isinstance(at, int)  # the surface has put it somewhere
+    def source(self) -> int | None:
+        """The vertex from which all distances start, once the document is settled; None without a distance."""
+        at = next(iter(self.document.sources), None)
+        assert at is None or isinstance(at, int)  # the surface has put it somewhere
         return at
 
 
 def _check_panel(document: Document, panel: Panel, which: str) -> None:
     for part in panel.shows.parts:
         if isinstance(part, OwnField):
-            raise ParameterError(
-                f"{which} is a field of your own, which a page cannot compute from other sources; leave it out, or "
-                "draw it with bihdist figure."
-            )
+            continue
         if not isinstance(part, DistanceFrom) or part.spec.word not in NAMES:
             raise ParameterError(
                 f"{which} cannot be on a page that computes, which has {OFFERED}; leave it out, or draw it with "
@@ -96,7 +100,7 @@ def _check_source(document: Document) -> None:
             f"The panels start from {len(document.sources)} sources, and those of a page from one, which a click "
             "moves; choose one of them."
         )
-    (at,) = document.sources
+    at = next(iter(document.sources), None)
     if at is not None and not isinstance(at, int):
         raise ParameterError(
             f"The panels start from {short_words_of(at)}, and those of a page from one vertex; choose one with "
@@ -107,10 +111,11 @@ def _check_source(document: Document) -> None:
 def _exact(shows: Quantity) -> Quantity:
     """With "auto" made exact: a page knows no other geodesic distance."""
 
-    def made_exact(spec: Spec) -> Spec:
-        return spec.changed(method="exact") if spec.word == "geodesic" else spec
+    def made_exact(part: Quantity) -> Quantity:
+        is_geodesic = any(spec.word == "geodesic" for spec in part.specs)
+        return part.with_spec(part.specs[0].changed(method="exact")) if is_geodesic else part
 
-    return shows.with_parts(tuple(part.with_spec(made_exact(part.specs[0])) for part in shows.parts))
+    return shows.with_parts(tuple(map(made_exact, shows.parts)))
 
 
 def _named(specs: Iterable[Spec]) -> dict[str, Spec]:

@@ -23,6 +23,7 @@ from .contents import Contents
 from .html_file import page_text
 from .points import StoredPoints
 from .scene import Json, scene_of
+from .stored_field import StoredField
 from .stored_mesh import StoredMesh
 
 FORMATS = (".html",)
@@ -40,8 +41,9 @@ BYTES_EACH = 2.6
 class Page:
     """What a page holds.
 
-    differs: by the names of distances, by how much these differ on the page's mesh from those on the original, as
-    fractions of their maxima, from the source and three vertices far apart.
+    differs: by how much distances differ on the page's mesh from those on the original, as fractions of their maxima,
+    from the source and three vertices far apart; and by how much fields of the user's own do, "field mine", for being
+    kept in single precision.
     """
 
     scene: Json
@@ -49,6 +51,7 @@ class Page:
     points: Mapping[str, StoredPoints]
     labels: tuple[str, ...]
     differs: Mapping[str, float]
+    given: Mapping[str, StoredField]
 
     @property
     def eigenpairs(self) -> dict[str, int]:
@@ -58,7 +61,7 @@ class Page:
     def write(self, path: str | os.PathLike[str]) -> int:
         """Into a .html file, all or nothing; how many bytes these are.  OutputError."""
         check_output(path, FORMATS)
-        text = page_text(self.scene, self.mesh, self.points).encode()
+        text = page_text(self.scene, self.mesh, self.points, self.given).encode()
         with whole_file(path) as temporary:
             temporary.write_bytes(text)
         return len(text)
@@ -89,10 +92,14 @@ def page_of(
     differs = _differences(contents, loaded, mesh, distances, part(progress, 0.5, 1))
     points = {name: StoredPoints.of(_spectral(distances, spec)) for name, spec in contents.by_eigenpairs.items()}
     for name, each in points.items():
-        differs[name] += each.error / max(_maximum(loaded, document.areas, contents, name), 1e-300)
+        maximum = _maximum(loaded, document.areas, contents, name)
+        differs[str(contents.fields[name])] += each.error / max(maximum, 1e-300)
+    fields = {each.word: loaded.own_field(document.field(each.name)) for each in contents.own}
+    own = {word: StoredField.of(values, mesh.ids) for word, values in fields.items()}
+    differs |= {word: each.error for word, each in own.items()}
     stored = {"bits": 24 if precision == "24" else precision, "differs": differs}
     scene = scene_of(recipe, contents, surfaces, answers, stored)
-    return Page(scene, mesh, points, tuple(answer.label for answer in answers), differs)
+    return Page(scene, mesh, points, tuple(answer.label for answer in answers), differs, own)
 
 
 def check_size(surface: Surface, path: str = "") -> None:
@@ -133,13 +140,15 @@ def _check_eigenpairs(contents: Contents, loaded: LoadedMesh, allowed: int, prog
 def _differences(
     contents: Contents, loaded: LoadedMesh, mesh: StoredMesh, stored: Distances, progress: Progress | None
 ) -> dict[str, float]:
-    """By the names of distances, the largest difference between the stored and the original mesh's, as a fraction."""
+    """By the words of distances, the largest difference between the stored and the original mesh's, as a fraction."""
+    if not contents.fields:
+        return {}
     original, n = loaded.distances(contents.document.areas), len(mesh.ids)
     (at,) = np.flatnonzero(mesh.ids == contents.source)
     sources = list(dict.fromkeys([int(at), 0, n // 2, n - 1]))
-    steps = [(name, spec, source) for name, spec in contents.fields.items() for source in sources]
-    differs = dict.fromkeys(contents.fields, 0.0)
-    for k, (name, spec, source) in enumerate(steps):
+    steps = [(spec, source) for spec in contents.fields.values() for source in sources]
+    differs = {str(spec): 0.0 for spec in contents.fields.values()}
+    for k, (spec, source) in enumerate(steps):
         step = part(progress, k / len(steps), (k + 1) / len(steps))
         answers = original.answer(spec, int(mesh.ids[source]), step), stored.answer(spec, source, step)
         a, b = (answer.field for answer in answers)
@@ -147,12 +156,13 @@ def _differences(
             raise ParameterError(next(answer.failure for answer in answers if answer.field is None))
         top = float(np.nanmax(a, initial=0.0))
         if top > 0:
-            differs[name] = max(differs[name], float(np.nanmax(np.abs(a[mesh.ids] - b))) / top)
+            differs[str(spec)] = max(differs[str(spec)], float(np.nanmax(np.abs(a[mesh.ids] - b))) / top)
     return differs
 
 
 def _maximum(loaded: LoadedMesh, areas: str, contents: Contents, name: str) -> float:
     """The largest distance from the source by one of the distances."""
+    assert contents.source is not None
     return loaded.distances(areas).answer(contents.fields[name], contents.source).maximum
 
 

@@ -14,27 +14,29 @@ from bihdist_core.file_content import file_text
 
 from .modules import VIEWER, joined
 from .points import StoredPoints
+from .stored_field import StoredField
 from .stored_mesh import StoredMesh, deflated
 
 KERNEL = Path(__file__).with_name("kernel.wasm")
 MARK = re.compile(r"@([A-Z]+)@")
+NONE_GIVEN: Mapping[str, StoredField] = {}
 
 
-def page_text(scene: Mapping[str, object], mesh: StoredMesh, points: Mapping[str, StoredPoints]) -> str:
-    """The file.  scene: what is shown, with `title`; points: by the names that its panels have for them.
+def page_text(
+    scene: Mapping[str, object],
+    mesh: StoredMesh,
+    points: Mapping[str, StoredPoints],
+    given: Mapping[str, StoredField] = NONE_GIVEN,
+) -> str:
+    """The file.  scene: what is shown, with `title`; points, given: by the names that its panels have for them.
 
     The page may run its own script only, and fetch nothing (Content-Security-Policy).  ValueError where a number of the
     scene is not finite.
     """
-    whole = whole_scene(scene, mesh)
-    contents = {
-        "kernel": kernel(),
-        "mesh": deflated(mesh.packed),
-        **{f"points-{name}": deflated(each.packed) for name, each in points.items()},
-    }
+    whole = whole_scene(scene, mesh, given)
     elements = [
         f'<script type="text/plain" id="{name}">{b64encode(content).decode()}</script>'
-        for name, content in contents.items()
+        for name, content in packed_contents(mesh, points, given).items()
     ]
     elements.append(f'<script type="application/json" id="scene">{_as_json(whole)}</script>')
     script, its_style = joined("main.js"), style()
@@ -48,14 +50,24 @@ def page_text(scene: Mapping[str, object], mesh: StoredMesh, points: Mapping[str
     return MARK.sub(lambda mark: filled[mark[1]], file_text(VIEWER / "page.html", "the frame of pages"))
 
 
-def whole_scene(scene: Mapping[str, object], mesh: StoredMesh) -> dict[str, object]:
-    """With what the solver needs to know of the mesh."""
-    return {**scene, "near": mesh.near, "corrections": mesh.corrections(str(scene["areas"]))}
+def whole_scene(
+    scene: Mapping[str, object], mesh: StoredMesh, given: Mapping[str, StoredField] = NONE_GIVEN
+) -> dict[str, object]:
+    """With what the solver needs to know of the mesh, and the names of the fields that it is given."""
+    corrections = mesh.corrections(str(scene["areas"]))
+    return {**scene, "near": mesh.near, "corrections": corrections, "given": list(given)}
 
 
-def kernel() -> bytes:
-    """The compiled module, as the viewer inflates it."""
-    return deflated(KERNEL.read_bytes())
+def packed_contents(
+    mesh: StoredMesh, points: Mapping[str, StoredPoints], given: Mapping[str, StoredField] = NONE_GIVEN
+) -> dict[str, bytes]:
+    """What the viewer inflates: the kernel, the mesh, points that stand for vertices, and given fields in order."""
+    return {
+        "kernel": deflated(KERNEL.read_bytes()),
+        "mesh": deflated(mesh.packed),
+        "given": deflated(b"".join(each.packed for each in given.values())),
+        **{f"points-{name}": deflated(each.packed) for name, each in points.items()},
+    }
 
 
 def style() -> str:

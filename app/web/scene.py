@@ -17,12 +17,13 @@ from ..document.camera import Camera, View
 from ..document.document import Document, Panel
 from ..document.looks import MOST_ISOLINES, Colours, Isolines
 from ..document.page import Recipe
+from ..document.quantities import own_fields
 from ..document.shared_parts.pins import Pins
 from ..figures.description import Figure, FigurePanel
 from ..figures.export import Surfaces, figure_of
 from ..scene.camera import outwards_at, standard_camera
 from ..scene.style import style_of
-from ..session.questions import vertex_at
+from ..session.questions import first_source, vertex_at
 from .contents import Contents, notes_on
 
 Json = dict[str, Any]
@@ -56,9 +57,11 @@ def scene_of(
             raise ParameterError(f"The panel {panel.shows} has no field: {answer.failure}")
     figure = figure_of(recipe, surfaces, answers)
     surface = surfaces[document.surfaces[0].name].surface
+    source = contents.source if contents.source is not None else first_source(surface, document.up)
     pins, notes = _pins(document, surface)
+    notes += [f"{_text(own.name)} was given as it is: it stays the same from every source." for own in contents.own]
     if any(_ends_with_others(figure, k) for k in range(len(figure.panels))):
-        notes.append(f"Colour bars of one unit end where the largest does from vertex {contents.source}.")
+        notes.append(f"Colour bars of one unit end where the largest does from vertex {source}.")
     first = next((each for each in figure.panels if not each.signed), figure.panels[0])
     style = style_of(recipe.page.style, document.colours)
     scene = {
@@ -73,7 +76,7 @@ def scene_of(
         "panels": [
             _panel(contents, panel, figure, k, answers[k], first) for k, panel in enumerate(contents.document.panels)
         ],
-        "source": contents.source,
+        "source": source,
         "pins": pins,
         "camera": _camera(figure.panels[0], surface),
         "colours": _colours(recipe.page.style, document.colours),
@@ -94,7 +97,7 @@ def _of_surface(surface: Surface) -> list[str]:
 def _panel(contents: Contents, panel: Panel, figure: Figure, k: int, answer: Answer, usual: FigurePanel) -> Json:
     """usual: the panel whose isolines those of the scene are."""
     shown = figure.panels[k]
-    names = [contents.name_of(spec) for spec in panel.shows.specs]
+    names = list(map(contents.name_of, panel.shows.parts))
     is_difference = len(names) > 1
     end = _end(figure, k)
     lines = _isolines(shown)
@@ -102,13 +105,27 @@ def _panel(contents: Contents, panel: Panel, figure: Figure, k: int, answer: Ans
         "distance": "difference" if is_difference else names[0],
         **({"of": names} if is_difference else {}),
         "label": answer.label,
-        "parameters": {} if is_difference else {"time" if n == "t" else n: v for n, v in panel.shows.specs[0].values},
+        "parameters": {} if is_difference else _parameters(panel),
+        "signed": answer.is_signed,
+        "note": _note(panel),
         "range": None if end is None else [-end if answer.is_signed else 0.0, end],
         "unit": answer.unit,
         "shares": figure.is_in_shares(k),
         # Those of differences are in percentage points, where others are in mesh units.
         **({"isolines": lines} if lines != _isolines(usual) else {}),
     }
+
+
+def _parameters(panel: Panel) -> Json:
+    return {"time" if name == "t" else name: value for spec in panel.shows.specs for name, value in spec.values}
+
+
+def _note(panel: Panel) -> str:
+    """What of a panel does not move with the source."""
+    own = own_fields(panel.shows)
+    if not own:
+        return ""
+    return f"{_text(own[0].name)} is the same from every source" if panel.shows.points else "the same from every source"
 
 
 def _end(figure: Figure, k: int) -> float | None:

@@ -3,104 +3,60 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy.typing as npt
 
 from bihdist_core import ParameterError
 from bihdist_core.progress import Progress
+from bihdist_core.sources.source import Source
 
-from ..document.page import Recipe
 from ..document.quantities import Quantity
-from ..session.array_store import Mesh, comparison_of_arrays
+from ..session.array_store import Mesh
+from .arguments import recipe_of
 from .export import page_of
-from .html_file import kernel, style, whole_scene
-from .modules import joined
-from .stored_mesh import deflated
+from .options import USUAL
 
-try:
-    import anywidget
-    import traitlets
-except ImportError:
-    raise ParameterError("Widgets need the package anywidget: pip install 'bihdist[widget]'.") from None
-
-
-class DistanceWidget(anywidget.AnyWidget):
-    """Linked panels in which a click computes; nothing is asked of Python, nor of a network.
-
-    source: the vertex from which distances are shown.  pins: a dict with the `id` of a vertex and a `name` for each.
-    Both change with what is done in a panel, and the panels with them: `traitlets.link((a, "source"), (b, "source"))`
-    lets two widgets go together.
-    """
-
-    _esm = joined("widget.js") + "\nexport default { render };\n"
-    _css = style()
-
-    contents = traitlets.Dict().tag(sync=True)
-    scene = traitlets.Dict().tag(sync=True)
-    source = traitlets.Int().tag(sync=True)
-    pins: traitlets.List[Any] = traitlets.List().tag(sync=True)
-
-    def __init__(self, ids: frozenset[int], **traits: Any) -> None:
-        self._ids = ids
-        super().__init__(**traits)
-
-    @traitlets.validate("source")
-    def _check_source(self, proposal: Any) -> int:
-        return self._held(proposal["value"], "The source")
-
-    @traitlets.validate("pins")
-    def _check_pins(self, proposal: Any) -> list[dict[str, object]]:
-        return [self._pin(number, pin) for number, pin in enumerate(proposal["value"], 1)]
-
-    def _pin(self, number: int, pin: Any) -> dict[str, object]:
-        pin = pin if isinstance(pin, Mapping) else {"id": pin}
-        return {"id": self._held(pin.get("id"), f"Pin {number}"), "name": str(pin.get("name", ""))}
-
-    def _held(self, vertex: Any, what: str) -> int:
-        if isinstance(vertex, bool) or not hasattr(vertex, "__index__") or int(vertex) not in self._ids:
-            raise traitlets.TraitError(f"{what} is {vertex!r}, which is no vertex that a face has.")
-        return int(vertex)
-
-    def on_pick(self, act: Callable[[int], object]) -> None:
-        """Call with the vertex whenever one is clicked in a panel; not where Python sets the source."""
-
-        def told(_: object, content: Any, __: object) -> None:
-            act(self._held(content.get("picked"), "What was clicked"))
-
-        self.on_msg(told)
+if TYPE_CHECKING:
+    from .distance_widget import DistanceWidget
 
 
 def widget(
     mesh: Mesh,
-    distances: Sequence[str | Quantity] = ("biharmonic", "geodesic"),
-    source: int | None = None,
+    distances: Sequence[str | Quantity] = USUAL,
+    source: Source | str | None = None,
     *,
-    pins: Sequence[int | Mapping[str, object]] = (),
+    fields: Mapping[str, npt.ArrayLike] | None = None,
     on_pick: Callable[[int], object] | None = None,
-    areas: str = "voronoi",
     precision: str = "24",
     eigenpairs: int = 0,
     progress: Progress | None = None,
+    **options: Any,
 ) -> DistanceWidget:
-    """Linked panels of distances in a notebook: Jupyter, VS Code, marimo.
+    """Linked panels of distances in a notebook (Jupyter, VS Code, marimo), in which a click computes, in the browser.
 
-    mesh: a file, a sample, a Surface, or vertices (n, 3) and faces (m, 3).  distances: a panel each, in words; what a
-    page has (`bihdist.page`).  source: a vertex, the highest if None.  pins: vertices, or dicts of `id` and `name`.
-    on_pick: called with the vertex of each click.  precision: of coordinates, "24" bits or "float32".  eigenpairs: how
-    many may be sent for each distance that needs them.  Raises BihdistError, also where anywidget is not installed.
+    mesh: a file, a sample, a Surface, or vertices (n, 3) and faces (m, 3).  distances: a panel each, in words,
+    "geodesic" or "biharmonic - commute-time".  source: a vertex, the highest if None.  fields: your own by name, (n,)
+    with NaN where undefined, which stay as they are whatever the source; each has a panel, or is named in `distances`
+    like one: "biharmonic - mine".  on_pick: called with the vertex of each click.  precision: of coordinates, "24" bits
+    of the largest side or "float32".  eigenpairs: how many may be sent for each truncated or diffusion distance.
+    options: those of `figure` that mean something here: `areas`, `cut`, `merge`, `isolines` and what else is said of
+    these, `views`, `camera`, `up`, `projection`, `colours`, `reversed`, `range`, `style` and `pins`.  The traits
+    `source` and `pins` of what is returned go both ways.  Raises BihdistError, also where the package anywidget is not
+    installed.
+
+    >>> import bihdist
+    >>> shown = bihdist.widget("hand", ["biharmonic", "biharmonic - geodesic"], source=12, pins=[900])
+    >>> shown.source, shown.pins
+    (12, [{'id': 900, 'name': ''}])
+    >>> shown.source = 900
     """
-    document, given = comparison_of_arrays(mesh, distances, {}, (source,), areas)
-    page = page_of(Recipe(document), given, precision, eigenpairs, progress)
-    made = DistanceWidget(
-        frozenset(page.mesh.ids.tolist()),
-        contents={
-            "kernel": kernel(),
-            "mesh": deflated(page.mesh.packed),
-            "points": {name: deflated(each.packed) for name, each in page.points.items()},
-        },
-        scene=whole_scene(page.scene, page.mesh),
-        source=page.scene["source"],
-        pins=list(pins),
-    )
+    try:
+        from .distance_widget import DistanceWidget
+    except ImportError:
+        raise ParameterError("Widgets need the package anywidget: pip install 'bihdist[widget]'.") from None
+    recipe, given = recipe_of("widget", mesh, distances, source, fields, options, progress)
+    made = DistanceWidget.of(page_of(recipe, given, precision, eigenpairs, progress))
     if on_pick is not None:
         made.on_pick(on_pick)
     return made

@@ -411,6 +411,7 @@ def test_no_display_is_a_sentence():
     if sys.platform.startswith("linux"):
         assert done.returncode == 2
         assert "needs a display" in done.stderr
+        assert "`bihdist figure` draws without one, and in notebooks `bihdist.widget` shows it." in done.stderr
 
 
 def test_light_commands_import_nothing_heavy():

@@ -45,7 +45,7 @@ class ShownPage:
     def __init__(self, browser: Browser, page: Page, path: Path) -> None:
         self.browser, self.page = browser, page
         browser.open(path)
-        browser.until(f"{VIEW}?.answers.every(Boolean)", 100)
+        browser.until(f"{VIEW}?.answers.every(Boolean) && !{VIEW}.drawn", 100)
         self.distances = Distances(Laplacian(page.mesh.surface))
 
     def click(self, x: float, y: float) -> dict:

@@ -1,9 +1,12 @@
 """Pages that compute, in browsers with no network: what they show is what the library says of their mesh."""
 
+import numpy as np
 import pytest
 
+import app as bihdist
 from app.document.quantities import quantity
 
+from ..shapes import bumpy
 from .shown_page import VIEW, ShownPage, made
 
 DISTANCES = ("biharmonic", "commute-time", "geodesic(method=exact)")
@@ -39,6 +42,32 @@ def test_a_click_of_the_mouse_sets_the_source_and_a_drag_turns(browser, hand_or_
     browser.drag(at, (at[0] + 60, at[1] + 20))
     assert shown.shown[0] == after
     assert browser.evaluate(f"JSON.stringify({VIEW}.sight.camera)") != camera
+
+
+def test_a_field_of_ones_own_is_shown_and_stays(browser, tmp_path):
+    surface = bumpy(300)
+    values = np.where(np.arange(300) < 20, np.nan, surface.vertices[:, 0])
+    distances = ["biharmonic", "raw biharmonic - mine", "mine"]
+    page = bihdist.page(surface, tmp_path / "p.html", distances, 0, fields={"mine": values})
+    shown = ShownPage(browser, page, tmp_path / "p.html")
+    (x, y), *_ = shown.places(1)
+    shown.click(x, y)
+    source, (biharmonic, difference, mine) = shown.shown
+    assert source != 0
+    np.testing.assert_allclose(mine, values[page.mesh.ids], atol=page.differs["field mine"] * np.nanmax(np.abs(values)))
+    np.testing.assert_allclose(difference, biharmonic - mine, atol=1e-12)
+    maps = browser.evaluate(f"[0, 1, 2].map((k) => {VIEW}.stage.mapOf(k) === {VIEW}.stage.colours.diverging)")
+    assert maps == [False, True, True]
+    own = "document.querySelectorAll('.bihdist .panel')[2].querySelector"
+    assert browser.evaluate(f"{own}('h2').title") == "mine; the same from every source"
+    assert "the same from every source" in browser.evaluate(f"{own}('.scale').getAttribute('aria-label')")
+    # One that is undefined is not said to be apart from the source.
+    vertex = int(np.flatnonzero(page.mesh.ids == 3)[0])
+    browser.evaluate(f"{VIEW}.pin({vertex})")
+    browser.until("document.querySelectorAll('.bihdist .pins .value').length === 3")
+    words = browser.evaluate("[...document.querySelectorAll('.bihdist .pins .value')].map((each) => each.textContent)")
+    assert words[1:] == ["undefined", "undefined"]
+    assert browser.errors == []
 
 
 def test_a_page_in_the_scene_of_a_stranger_runs_nothing_of_it(browser, tmp_path):

@@ -6,11 +6,11 @@ from base64 import b64encode
 from app.web.widget import widget
 from tests.shapes import bumpy
 
-HOST = """<!doctype html><meta charset="utf-8"><div id="one"></div><div id="other"></div>
+HOST = """<!doctype html><meta charset="utf-8"><style>STYLE</style><div id="one"></div><div id="other"></div>
 <script type="module">ESM
 const traits = TRAITS;
 const bytes = (text) => new DataView(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
-traits.contents.kernel = bytes(traits.contents.kernel), traits.contents.mesh = bytes(traits.contents.mesh);
+for (const name in traits.contents) traits.contents[name] = bytes(traits.contents[name]);
 class Model {
   constructor(values) { Object.assign(this, { values, heard: {}, sent: [], saved: 0 }); }
   get(name) { return this.values[name]; }
@@ -25,14 +25,21 @@ window.ends = [];
 for (const id of ["one", "other"]) window.ends.push(await widget.render({ model, el: document.getElementById(id) }));
 </script>"""
 
+ON_SURFACE = """(() => {
+  const { sight, stage } = document.querySelector("#one .bihdist").viewer, box = stage.views[0].getBoundingClientRect();
+  for (const x of [0.5, 0.4, 0.6, 0.3, 0.7]) for (const y of [0.5, 0.4, 0.6, 0.3, 0.7])
+    if (sight.hit(0, x * box.width, y * box.height)) return [box.x + x * box.width, box.y + y * box.height];
+})()"""
+
 
 def test_source_and_pins_go_both_ways_between_places_and_model(browser, tmp_path):
     made = widget(bumpy(300), ["biharmonic"], source=12)
-    contents = {name: b64encode(made.contents[name]).decode() for name in ("kernel", "mesh")}
-    traits = {"contents": {**contents, "points": {}}, "scene": made.scene, "source": 12, "pins": []}
+    contents = {name: b64encode(content).decode() for name, content in made.contents.items()}
+    traits = {"contents": contents, "scene": made.scene, "source": 12, "pins": []}
     esm = made._esm.replace("export default { render };", "const widget = { render };")
     host = tmp_path / "host.html"
-    host.write_text(HOST.replace("ESM", esm).replace("TRAITS", json.dumps(traits)), encoding="utf-8")
+    filled = HOST.replace("STYLE", made._css).replace("ESM", esm).replace("TRAITS", json.dumps(traits))
+    host.write_text(filled, encoding="utf-8")
     browser.open(host)
     browser.until("window.ends.length === 2", 100)
     shown = "[...document.querySelectorAll('.bihdist input')].map(each => each.value)"
@@ -42,8 +49,8 @@ def test_source_and_pins_go_both_ways_between_places_and_model(browser, tmp_path
     browser.until(f"{shown}.filter(value => value === '99').length === 2")
     assert browser.evaluate("model.sent") == []
     # A click in one place goes to the model, and from there to the other.
-    box = browser.evaluate("document.querySelector('#one canvas').getBoundingClientRect().toJSON()")
-    browser.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    browser.until("document.querySelector('#one .bihdist').viewer.answers.every(Boolean)")
+    browser.click(*browser.evaluate(ON_SURFACE))
     browser.until("model.sent.length === 1")
     picked = browser.evaluate("model.sent[0].picked")
     assert picked not in (12, 99)

@@ -17,6 +17,7 @@ WITH_EXAMPLES = sorted(path for path in (ROOT / "bihdist_core").rglob("*.py") if
 
 def test_the_guide(tmp_path, monkeypatch):
     pytest.importorskip("joblib")
+    pytest.importorskip("anywidget")
     monkeypatch.chdir(tmp_path)
     write_mesh("mesh.off", bumpy(1000))
     write_mesh("other.off", spike(1000, 2))
@@ -26,7 +27,9 @@ def test_the_guide(tmp_path, monkeypatch):
     for block in run:
         exec(compile(block, PAGE.name, "exec"), names)
     assert len(run) == len(blocks) - 1 > 4
-    assert {"profile.csv", "fields.npy", "figure.pdf", "again.pdf"} <= {path.name for path in tmp_path.iterdir()}
+    assert {"profile.csv", "fields.npy", "figure.pdf", "again.pdf", "page.html", "mine.html"} <= {
+        path.name for path in tmp_path.iterdir()
+    }
 
 
 @pytest.mark.parametrize("path", WITH_EXAMPLES, ids=lambda path: path.stem)

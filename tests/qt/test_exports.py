@@ -384,7 +384,6 @@ def test_every_box_has_a_name_and_a_tip(small):
 @pytest.fixture
 def page_dialog(small):
     """Opens the dialog of web pages."""
-    pytest.importorskip("app.web.page")
     from app.qt.files.figure_actions import export_page
 
     return lambda: export_page(small.context)
@@ -450,6 +449,22 @@ def test_what_a_page_cannot_show_is_said_in_its_dialog(small, out, page_dialog):
     assert dialog.isVisible()
     assert not small.exports.running
     dialog.close()
+
+
+def test_a_field_of_ones_own_goes_into_the_page(small, out, page_dialog):
+    from tests.web.test_export import scene_in
+
+    values = small.session.surface.vertices[:, 0]
+    field = small.session.given.add_field("mine", values)
+    document = small.session.document
+    panels = (document.panels[0], Panel(1, quantity("biharmonic - mine", fields=["mine"])))
+    _show(small, replace(document, panels=panels, fields=(field,), next_id=2))
+    page_dialog().export(str(out / "p.html"))
+    small.until(lambda: small.said or small.refusals)
+    assert (small.said, small.refusals) == (["Saved p.html"], [])
+    scene = scene_in(out / "p.html")
+    assert scene["panels"][1]["of"] == ["biharmonic", "field mine"]
+    assert scene["given"] == ["field mine"]
 
 
 def test_a_page_that_is_cancelled_leaves_nothing(small, out, page_dialog):

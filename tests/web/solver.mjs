@@ -1,6 +1,6 @@
 // What the page's solver answers, in node: node solver.mjs VIEWER < question.json
 //
-// Of the contents of a page's elements (kernel, mesh, points), and what it knows of its scene: the unpacked mesh, and for
+// Of the contents of a page's elements (kernel, mesh, given, points), and what it knows of its scene: the unpacked mesh, and for
 // each source the distances by names, NaN as null.
 import { resolveObjectURL } from "node:buffer";
 import { readFileSync } from "node:fs";
@@ -19,15 +19,12 @@ globalThis.Worker = class {
   terminate() {}
 };
 
-const { inflated, unpackedMesh, unpackedPoints } = await import(`${process.argv[2]}/unpack.js`);
+const { unpackedContents } = await import(`${process.argv[2]}/unpack.js`);
 const { Solver } = await import(`${process.argv[2]}/solver.js`);
-const { kernel, mesh: packed, points: packedPoints, scene, sources, names } = JSON.parse(readFileSync(0, "utf8"));
+const { contents, scene, sources, names } = JSON.parse(readFileSync(0, "utf8"));
 
-const mesh = unpackedMesh(await inflated(packed));
-const points = {};
-for (const [name, content] of Object.entries(packedPoints)) points[name] = unpackedPoints(await inflated(content), mesh);
-const said = [];
-const solver = new Solver({ wasm: await inflated(kernel), mesh, points, scene, onprogress: (words) => said.push(words) });
+const unpacked = await unpackedContents(contents, scene), { mesh } = unpacked, said = [];
+const solver = new Solver({ ...unpacked, scene, onprogress: (words) => said.push(words) });
 const answers = [];
 for (const source of sources) {
   try {

@@ -1,8 +1,10 @@
 """Pages by the command and from Python: what the file holds, what is said of it, and what is refused."""
 
+import doctest
 import json
 import re
 import shutil
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,12 +17,10 @@ from app.document.file import recipe_text
 from app.document.page import Recipe
 from app.document.quantities import quantity
 from app.main import main
+from app.web import export, page as of_page
 from bihdist_core import BiharmonicDistance, OutputError, ParameterError, Surface
 
 from ..shapes import bumpy, two_pieces
-
-pytest.importorskip("app.web.page")
-export = pytest.importorskip("app.web.export")
 
 
 def scene_in(path):
@@ -151,6 +151,12 @@ def test_a_page_that_fails_leaves_what_was_there(mesh_file, in_folder, monkeypat
 
 
 # ---------------------------------------------------------------------- Python
+def test_the_example_in_the_docstring_runs(monkeypatch):
+    monkeypatch.setitem(sys.modules, "bihdist", bihdist)  # in a checkout the package has another name
+    (test,) = doctest.DocTestFinder(recurse=False).find(of_page.page, "page")
+    assert doctest.DocTestRunner().run(test) == (0, len(test.examples))
+
+
 def test_the_function_takes_arrays_and_says_what_the_page_holds(tmp_path):
     s = bumpy(300)
     page = bihdist.page((s.vertices, s.faces), tmp_path / "p.html", ["commute-time"], 5, pins=[2], isolines=0)

@@ -7,18 +7,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import app as bihdist
 from app.document.beside_edits import open_beside
 from app.document.camera import Camera
-from app.document.document import FieldArray, MeshFile, Zoom, comparison
+from app.document.document import MeshFile, Zoom, comparison
 from app.document.looks import Colours, Isolines, Shading
 from app.document.page import Page, Recipe
-from app.document.quantities import OwnField, quantity
+from app.document.quantities import quantity
 from app.document.shared_parts.pins import Pins, add_pins, change_pin
 from app.figures.export import compute, figure_of, open_document
+from app.main import main
 from app.scene.camera import standard_camera
 from app.scene.levels import levels
 from app.scene.style import DARK, PAPER, style_of
 from app.session.array_store import ArrayStore
+from app.session.questions import first_source
 from app.web.contents import Contents
 from app.web.scene import _check_numbers, scene_of
 from bihdist_core import ParameterError, Surface
@@ -67,10 +70,7 @@ def test_a_panel_that_a_page_cannot_compute_is_named_with_the_reason(shows, sent
         Contents.of(comparison("hand", (quantity("biharmonic"), quantity(shows))))
 
 
-def test_a_field_of_ones_own_several_sources_and_sets_are_refused():
-    own = comparison("hand", (OwnField("mine"),), (None,), fields=(FieldArray("mine", "0" * 64),))
-    with pytest.raises(ParameterError, match=r"Panel 1 \(mine\) is a field of your own"):
-        Contents.of(own)
+def test_several_sources_and_sets_are_refused():
     with pytest.raises(ParameterError, match=r"start from 2 sources, .*choose one of them"):
         Contents.of(comparison("hand", sources=(1, 2)))
     for source, words in ((SourceSet((1, 2)), r"1\+2"), (SurfacePoint(3, (0.2, 0.5, 0.3)), "f3:")):
@@ -272,3 +272,56 @@ def test_names_of_files_are_plain_text(scene):
 def test_a_panel_without_a_field_is_refused(scene, no_exact_geodesics):
     with pytest.raises(ParameterError, match=r"has no field: .*no room for windows"):
         scene(("biharmonic", "geodesic"))
+
+
+# ---------------------------------------------------------------------- fields of one's own
+def test_fields_of_ones_own_are_as_figures_show_them_and_said_to_stay(tmp_path):
+    s = bumpy(300)
+    values = np.linspace(-1, 3, 300)
+    values[3] = np.nan
+    fields = {"mine": values, "<b>": values**2}
+    made = bihdist.page(s, tmp_path / "p.html", ["biharmonic", "raw biharmonic - mine"], 5, fields=fields, range="own")
+    shown = bihdist.figure(s, ["biharmonic", "raw biharmonic - mine"], 5, fields=fields)._figure
+    panels = made.scene["panels"]
+    assert [panel["distance"] for panel in panels] == ["biharmonic", "difference", "field <b>"]
+    assert panels[1]["of"] == ["biharmonic", "field mine"]
+    for panel, figure in zip(panels, shown.panels, strict=True):
+        assert (panel["label"], panel["unit"], panel["signed"]) == (figure.heading, figure.unit, figure.signed)
+    assert [panel["note"] for panel in panels] == [
+        "", "mine is the same from every source", "the same from every source",
+    ]  # fmt: skip
+    assert made.scene["notes"] == [
+        "mine was given as it is: it stays the same from every source.",
+        "<b> was given as it is: it stays the same from every source.",
+    ]
+    assert {*made.differs} == {"biharmonic", "field mine", "field <b>"}
+    assert 0 < made.differs["field mine"] <= 2**-24
+    text = (tmp_path / "p.html").read_text(encoding="utf-8")
+    assert "field \\u003cb>" in text
+    assert "field <b>" not in text
+
+
+def test_a_field_of_ones_own_alone_has_its_sign_and_the_highest_vertex(tmp_path):
+    s = bumpy(200)
+    made = bihdist.page(s, tmp_path / "p.html", [], fields={"mine": s.vertices[:, 2]}, up="z", range=2.0)
+    (panel,) = made.scene["panels"]
+    assert (panel["signed"], panel["range"], panel["note"]) == (True, [-2.0, 2.0], "the same from every source")
+    assert made.scene["source"] == first_source(s, "z")
+    assert {*made.differs} == {"field mine"}
+
+
+def test_a_field_of_another_length_is_refused(tmp_path):
+    with pytest.raises(ParameterError, match="'mine' has 5 values"):
+        bihdist.page(bumpy(200), tmp_path / "p.html", fields={"mine": np.arange(5)})
+
+
+def test_a_recipe_with_fields_of_ones_own_becomes_a_page(mesh_file, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    s = bumpy(200)
+    bihdist.figure(s, ["biharmonic - mine"], 5, fields={"mine": s.vertices[:, 0]}, size="200x100").save("f.png")
+    assert main(["page", "--recipe", "f.json", "-o", "p.html", "--json"]) == 0
+    said = capsys.readouterr()
+    facts = json.loads(said.out)
+    assert [panel["label"] for panel in facts["panels"]] == ["biharmonic, exact − mine"]
+    assert facts["fields"] == [{"field": "mine", "difference": pytest.approx(3e-8, abs=3e-8)}]
+    assert "mine was given as it is" in said.err

@@ -8,10 +8,11 @@ from base64 import b64encode
 import numpy as np
 import pytest
 
-from app.web.html_file import KERNEL
+from app.web.html_file import packed_contents, whole_scene
 from app.web.modules import VIEWER
 from app.web.points import StoredPoints
-from app.web.stored_mesh import StoredMesh, deflated, varints
+from app.web.stored_field import StoredField
+from app.web.stored_mesh import StoredMesh, varints
 from bihdist_core import BiharmonicDistance, CommuteTimeDistance, DiffusionDistance, ParameterError, Surface
 from bihdist_core.distances.exact_geodesic import ExactGeodesic
 from bihdist_core.distances.spectral import TruncatedBiharmonicDistance
@@ -44,18 +45,14 @@ SURFACES = {
 }  # fmt: skip
 
 
-def text_of(content: bytes) -> str:
-    return b64encode(deflated(content)).decode()
-
-
-def said(mesh: StoredMesh, sources, names, points=None, areas="voronoi"):
+def said(mesh: StoredMesh, sources, names, points=None, areas="voronoi", given=None):
     """What the page's solver answers in node."""
     if not shutil.which("node"):
         pytest.skip("there is no node")
+    packed = packed_contents(mesh, points or {}, given or {})
     question = {
-        "kernel": text_of(KERNEL.read_bytes()), "mesh": text_of(mesh.packed),
-        "points": {name: text_of(each.packed) for name, each in (points or {}).items()},
-        "scene": {"near": mesh.near, "corrections": mesh.corrections(areas), "areas": areas},
+        "contents": {name: b64encode(content).decode() for name, content in packed.items()},
+        "scene": whole_scene({"areas": areas}, mesh, given or {}),
         "sources": [int(v) for v in sources], "names": names,
     }  # fmt: skip
     script = VIEWER.parents[2] / "tests/web/solver.mjs"
@@ -177,3 +174,34 @@ def test_points_have_the_distances_of_the_library_to_their_error(name):
             expected = distance.from_source(source)
             off = worst(field(fields[each]), expected) * np.nanmax(expected)
             assert off < 1.01 * points[each].error < 1e-3 * np.nanmax(expected)
+
+
+# ---------------------------------------------------------------------- fields of one's own
+def values_with(largest: float) -> np.ndarray:
+    values = np.sin(np.arange(60.0)) * largest
+    values[7], values[9] = np.nan, largest
+    return values
+
+
+@pytest.mark.parametrize("largest", [1.0, 1e-300, 5e-324, 1.7e308, 1e12, 0.0])
+def test_a_given_field_comes_out_of_the_solver_as_it_went_in_to_single_precision(largest):
+    mesh, values = StoredMesh.of(two_pieces()), values_with(largest)
+    values = np.concatenate([values, np.full(len(two_pieces().vertices) - 60, 0.75 * largest)])
+    stored = StoredField.of(values, mesh.ids)
+    for answer in said(mesh, [0, 5], ["field mine", "biharmonic"], given={"field mine": stored})["answers"]:
+        found = field(answer["field mine"])
+        np.testing.assert_array_equal(np.isnan(found), np.isnan(values[mesh.ids]))
+        assert np.nanmax(np.abs(found - values[mesh.ids])) <= stored.error * largest * (1 + 1e-6)
+        assert np.nanmin(field(answer["biharmonic"])) == 0
+    assert stored.error <= 2.0**-24
+
+
+def test_whole_numbers_of_a_given_field_stay_what_they_are():
+    mesh = StoredMesh.of(bumpy(200))
+    stored = StoredField.of(np.arange(200.0) * 1001, mesh.ids)
+    assert stored.error == 0
+    (answer,) = said(mesh, [0], ["b", "a"], given={"a": StoredField.of(np.full(200, np.nan), mesh.ids), "b": stored})[
+        "answers"
+    ]
+    np.testing.assert_array_equal(field(answer["b"]), mesh.ids * 1001.0)
+    assert np.isnan(field(answer["a"])).all()

@@ -12,10 +12,10 @@ import pytest
 from app.document.looks import Isolines
 from app.scene.camera import Projection, standard_camera
 from app.scene.levels import levels
-from app.web.modules import VIEWER
 from bihdist_core.distances.difference import difference_in_unit
 from tests.shapes import bumpy, grid, sphere, torus
 
+VIEWER = Path(__file__).parents[2] / "app" / "web" / "viewer"
 NODE = shutil.which("node")
 pytestmark = pytest.mark.skipif(NODE is None, reason="there is no node")
 
@@ -79,7 +79,7 @@ def test_a_difference_is_the_librarys(unit, raw):
     a, b = np.random.default_rng(3).random((2, 50))
     a[:5] = b[:5] = np.nan
     fields = {name: [None if np.isnan(x) else x for x in field] for name, field in (("a", a), ("b", b))}
-    panel = {"distance": "difference", "of": ["a", "b"], "unit": unit, "range": None}
+    panel = {"distance": "difference", "of": ["a", "b"], "unit": unit, "range": None, "signed": True, "note": ""}
     said = ask("panel", panel=panel, fields=fields)
     expected = difference_in_unit(a, b, ("mesh units", "mesh units"), raw)[0]
     np.testing.assert_allclose(np.array(said["values"], float), expected, atol=1e-12)
@@ -89,7 +89,10 @@ def test_a_difference_is_the_librarys(unit, raw):
 
 
 def test_a_panels_range_is_its_own_maximum_or_what_it_is_given():
-    fields, panel = {"biharmonic": [0.0, 2.0, None]}, {"distance": "biharmonic", "unit": "", "range": None}
+    fields, panel = (
+        {"biharmonic": [0.0, 2.0, None]},
+        {"distance": "biharmonic", "unit": "", "range": None, "signed": False, "note": ""},
+    )
     said = ask("panel", panel=panel, fields=fields)
     assert (said["low"], said["high"], said["own"], said["signed"]) == (0, 2, 2, False)
     said = ask("panel", panel={**panel, "range": [0.5, 5]}, fields=fields)
@@ -257,3 +260,10 @@ def test_maps_are_stretched_and_follow_the_theme():
     assert dark["undefined"] == [1, 2, 3]
     scene["colours"]["background"] = [9, 9, 9]
     assert ask("colours", scene=scene, isDark=False)["background"] == [9, 9, 9]
+
+
+# ---------------------------------------------------------------------- words
+def test_the_guide_lists_what_the_page_does():
+    guide = (VIEWER.parents[2] / "assets/guide/files.md").read_text(encoding="utf-8")
+    for keys, meaning in ask("help"):
+        assert f"\n| {keys} | {meaning} |" in guide

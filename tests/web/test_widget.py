@@ -1,27 +1,33 @@
 """The widget's side in Python."""
 
-import builtins
+import doctest
 import sys
 
 import numpy as np
 import pytest
-import traitlets
 
-from app.web.widget import DistanceWidget, widget
-from bihdist_core import ParameterError
+import app
+from app.web import widget as of_widget
+from app.web.widget import widget
+from bihdist_core import BihdistError, ParameterError
 from tests.shapes import bumpy, two_pieces
+
+pytest.importorskip("anywidget")
+traitlets = pytest.importorskip("traitlets")
 
 
 @pytest.fixture(scope="module")
 def made():
-    return widget(bumpy(200), ["biharmonic", "geodesic"], source=12, pins=[5, {"id": 7, "name": "tip"}])
+    return widget(bumpy(200), ["biharmonic", "geodesic"], source=12, pins=[5, 7], isolines=0, range="shares")
 
 
 def test_a_widget_holds_what_a_page_does(made):
     assert [panel["distance"] for panel in made.scene["panels"]] == ["biharmonic", "geodesic"]
     assert made.source == 12
-    assert made.pins == [{"id": 5, "name": ""}, {"id": 7, "name": "tip"}]
-    assert {*made.contents} == {"kernel", "mesh", "points"}
+    assert made.pins == [{"id": 5, "name": ""}, {"id": 7, "name": ""}]
+    assert made.scene["isolines"]["count"] == 0
+    assert made.scene["panels"][0]["shares"]
+    assert {*made.contents} == {"kernel", "mesh", "given"}
     assert made._esm.endswith("export default { render };\n")
 
 
@@ -38,7 +44,9 @@ def test_pins_are_vertices_of_faces(made):
         with pytest.raises(traitlets.TraitError, match=r"Pin 1 is .* no vertex that a face has"):
             made.pins = pins
     assert made.pins == before
-    with pytest.raises(traitlets.TraitError, match="60"):
+    made.pins = [5, {"id": 7, "name": "tip"}]
+    assert made.pins == [{"id": 5, "name": ""}, {"id": 7, "name": "tip"}]
+    with pytest.raises(BihdistError, match="60"):
         widget(two_pieces(), ["biharmonic"], source=0, pins=[60])
 
 
@@ -61,18 +69,29 @@ def test_eigenpairs_go_along_where_they_are_allowed():
     with pytest.raises(ParameterError, match="eigenpairs=5"):
         widget(bumpy(200), ["truncated(k=5)"], source=0)
     made = widget(bumpy(200), ["truncated(k=5)"], source=0, eigenpairs=5)
-    assert {*made.contents["points"]} == {"truncated"}
+    assert "points-truncated" in made.contents
+
+
+def test_fields_of_ones_own_go_along():
+    values = np.linspace(-1, 1, 200)
+    made = widget(bumpy(200), ["biharmonic - mine"], 0, fields={"mine": values, "other": values**2})
+    assert made.scene["given"] == ["field mine", "field other"]
+    assert [panel["label"] for panel in made.scene["panels"]] == ["biharmonic, exact − mine", "other"]
+
+
+def test_an_option_that_means_nothing_here_is_refused():
+    with pytest.raises(TypeError, match=r"widget\(\) got an unexpected keyword argument 'size'"):
+        widget(bumpy(200), size="85mm")
+
+
+def test_the_example_in_the_docstring_runs(monkeypatch):
+    monkeypatch.setitem(sys.modules, "bihdist", app)  # in a checkout the package has another name
+    (test,) = doctest.DocTestFinder(recurse=False).find(of_widget.widget, "widget")
+    assert doctest.DocTestRunner().run(test) == (0, len(test.examples))
 
 
 def test_without_anywidget_there_is_a_sentence(monkeypatch):
-    real = builtins.__import__
-
-    def missing(name, *arguments):
-        if name == "anywidget":
-            raise ImportError(name)
-        return real(name, *arguments)
-
-    monkeypatch.setattr(builtins, "__import__", missing)
-    monkeypatch.delitem(sys.modules, DistanceWidget.__module__)
+    monkeypatch.setitem(sys.modules, "anywidget", None)
+    monkeypatch.delitem(sys.modules, "app.web.distance_widget", raising=False)
     with pytest.raises(ParameterError, match=r"pip install 'bihdist\[widget\]'"):
-        import app.web.widget  # noqa: F401
+        app.widget("hand")

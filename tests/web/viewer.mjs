@@ -68,6 +68,9 @@ const answers = {
     const { outside } = await use("shape.js");
     return outside(await shapeOf(mesh));
   },
+  async help() {
+    return (await use("keys.js")).HELP;
+  },
   async colours({ scene, isDark }) {
     const { coloursOf } = await use("theme.js");
     return coloursOf(scene, { isDark, canvas: "#16181b" });

@@ -8,7 +8,7 @@ const facts = (rows) =>
 
 export function aboutBox({ mesh, panels, areas, notes }) {
   const kept = mesh.bits === "float32" ? "single precision" : `${mesh.bits} bits of each coordinate`;
-  const differs = Object.entries(mesh.differs ?? {}).map(([name, x]) => `${name.replace(/_/g, "-")} ${written(x)}`);
+  const differs = Object.entries(mesh.differs ?? {}).map(([name, x]) => `${name} ${written(x)}`);
   return dialog(
     "What this page is",
     element("p", {
@@ -19,7 +19,7 @@ export function aboutBox({ mesh, panels, areas, notes }) {
       ["Vertices", counted(mesh.vertices)],
       ["Faces", counted(mesh.faces)],
       ["Stored with", kept],
-      ...(differs.length ? [["Differs from the original’s distances, of the maximum", differs.join(", ")]] : []),
+      ...(differs.length ? [["Differs from the original, of the maximum", differs.join(", ")]] : []),
       ["Areas", areas === "voronoi" ? "Voronoi" : "barycentric"],
       ["Units", [...new Set(panels.map((panel) => `${panel.label}: ${panel.unit || "none"}`))].join("; ")],
     ]),

@@ -4,11 +4,11 @@ import { written, percentage, shortest, roundTicks } from "./numbers.js";
 const WIDEST = 440, MARGIN = 16, TICK_ROOM = 72, LINE_ROOM = 5, NARROW = 200;
 
 /** The words above a bar: left, bold and quiet, and right. */
-export function barWords({ unit }, answer, value) {
+export function barWords({ unit, note }, answer, value) {
   if (!answer) return { bold: "", left: "", right: "" };
   const most = `max ${answer.signed ? "±" : ""}${written(answer.own)}`;
-  if (value === null) return { bold: "", left: unit, right: most };
-  if (Number.isNaN(value)) return { bold: "", left: "not connected to the source", right: "" };
+  if (value === null) return { bold: "", left: unit || note, right: most };
+  if (Number.isNaN(value)) return { bold: "", left: answer.gap, right: "" };
   const share =
     answer.signed || !(answer.own > 0) ? most : `${percentage(value / answer.own)} of ${written(answer.own)}`;
   return { bold: written(value, answer.signed), left: unit, right: share };

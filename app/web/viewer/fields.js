@@ -8,14 +8,14 @@ export const fieldNames = (panel) => (panel.distance === "difference" ? panel.of
 
 /**
  * A panel's values and range.
- * @returns {{values: Float64Array, own: number, low: number, high: number, signed: boolean}} own: the largest value,
- *   of a difference in size
+ * @returns {{values: Float64Array, own: number, low: number, high: number, signed: boolean, gap: string}} own: the
+ *   largest value, of a signed field in size; gap: what a vertex without a value is
  */
 export function panelAnswer(panel, fields) {
-  const signed = panel.distance === "difference";
-  const values = signed ? difference(panel, fields) : fields[panel.distance];
+  const { signed, note } = panel;
+  const values = panel.distance === "difference" ? difference(panel, fields) : fields[panel.distance];
   const own = largest(values), [low, high] = panel.range ?? [signed ? -own : 0, own];
-  return { values, own, low, high, signed };
+  return { values, own, low, high, signed, gap: note ? "undefined" : "not connected" };
 }
 
 function difference({ of, unit }, fields) {

@@ -1,23 +1,19 @@
 /** The page: what it holds is read from its elements and handed to the viewer. */
-import { inflated, unpackedMesh, unpackedPoints } from "./unpack.js";
+import { unpackedContents } from "./unpack.js";
 import { Solver } from "./solver.js";
 import { Viewer } from "./viewer.js";
 import { lacking } from "./support.js";
-
-const held = (id) => document.getElementById(id)?.textContent ?? "";
 
 async function main() {
   const root = document.querySelector(".bihdist");
   const lack = lacking();
   if (lack) throw new Error(lack);
-  const scene = JSON.parse(held("scene"));
+  const scene = JSON.parse(document.getElementById("scene").textContent);
   document.title = scene.title;
-  const [wasm, mesh] = [await inflated(held("kernel")), unpackedMesh(await inflated(held("mesh")))];
-  const points = {};
-  for (const { id, textContent } of document.querySelectorAll("[id^=points-]"))
-    points[id.slice("points-".length)] = unpackedPoints(await inflated(textContent), mesh);
-  const solver = new Solver({ wasm, mesh, scene, points, onprogress: (words) => root.viewer.progress(words) });
-  root.viewer = new Viewer(root, { mesh, scene, solver, hasAddress: true });
+  const packed = [...document.querySelectorAll("script[type='text/plain']")].map((each) => [each.id, each.textContent]);
+  const contents = await unpackedContents(Object.fromEntries(packed), scene);
+  const solver = new Solver({ ...contents, scene, onprogress: (words) => root.viewer.progress(words) });
+  root.viewer = new Viewer(root, { mesh: contents.mesh, scene, solver, hasAddress: true });
 }
 
 main().catch((error) => {

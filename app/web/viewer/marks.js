@@ -83,8 +83,8 @@ export function paintCursor(brush, x, y) {
 }
 
 /** Value and fraction of the maximum beside the pointer, inside the view's box. */
-export function paintLabel(brush, x, y, box, { value, fraction }, signed, theme) {
-  const bold = Number.isNaN(value) ? "not connected" : written(value, signed);
+export function paintLabel(brush, x, y, box, { value, fraction }, { gap, signed }, theme) {
+  const bold = Number.isNaN(value) ? gap : written(value, signed);
   const light = Number.isNaN(fraction) ? "" : percentage(fraction);
   brush.font = `600 13px ${theme.font}`;
   const boldWidth = brush.measureText(bold).width;

@@ -101,6 +101,6 @@ export class PinTable {
 export function valueWords(answer, vertex) {
   if (!answer) return "…";
   const { value, fraction } = reading(answer, vertex);
-  if (Number.isNaN(value)) return "not connected";
+  if (Number.isNaN(value)) return answer.gap;
   return written(value, answer.signed) + (Number.isNaN(fraction) ? "" : ` (${percentage(fraction)})`);
 }

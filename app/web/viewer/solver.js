@@ -116,10 +116,11 @@ function work() {
  */
 
 export class Solver {
-  /** points: by the names that questions have for them.
+  /** points: by the names that questions have for them; given: fields that are the same from every vertex.
    * @param {{wasm: Uint8Array, mesh: import("./unpack.js").Mesh, points: object, scene: object,
-   *   onprogress?: (words: string) => void}} given */
-  constructor({ wasm, mesh, points, scene, onprogress = () => {} }) {
+   *   given?: Object<string, Float64Array>, onprogress?: (words: string) => void}} given */
+  constructor({ wasm, mesh, points, scene, given = {}, onprogress = () => {} }) {
+    this.given = given;
     const url = URL.createObjectURL(new Blob([`(${work})()`], { type: "text/javascript" }));
     this.worker = new Worker(url);
     this.running = this.waiting = null;
@@ -131,7 +132,7 @@ export class Solver {
     URL.revokeObjectURL(url);
   }
 
-  /** Distances by name from a stored vertex; null if a later question has taken its place.
+  /** Distances by name from a stored vertex, and given fields; null if a later question has taken its place.
    * @param {number} vertex @param {string[]} names @returns {Promise<Answer | null>} */
   field(vertex, names) {
     this.waiting?.resolve(null);
@@ -146,7 +147,8 @@ export class Solver {
     this.waiting = null;
     if (!this.running) return;
     const { vertex, names } = this.running;
-    this.worker.postMessage({ number: ++this.count, vertex, names });
+    const computed = names.filter((name) => !(name in this.given));
+    this.worker.postMessage({ number: ++this.count, vertex, names: computed });
   }
 
   receive({ number, error, ...answer }) {
@@ -154,7 +156,7 @@ export class Solver {
     const { resolve, reject } = this.running;
     this.send();
     if (error) reject(new Error(error));
-    else resolve(answer);
+    else resolve({ ...answer, fields: { ...this.given, ...answer.fields } });
   }
 
   close() {

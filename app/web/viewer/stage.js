@@ -20,8 +20,8 @@ export class Stage {
     this.views = scene.panels.map(({ label }) =>
       element("div", { ...role, "aria-label": `${label}: a surface; press ? for the keys` }),
     );
-    const panels = scene.panels.map(({ label }, k) => {
-      const head = element("h2", { text: label, title: label });
+    const panels = scene.panels.map(({ label, note }, k) => {
+      const head = element("h2", { text: label, title: note ? `${label}; ${note}` : label });
       return element("section", { class: "panel", "aria-label": label }, head, this.views[k], this.bars[k]);
     });
     this.grid = element("div", { class: "grid" }, ...panels);
@@ -43,7 +43,7 @@ export class Stage {
   }
 
   mapOf(k) {
-    return this.scene.panels[k].distance === "difference" ? this.colours.diverging : this.colours.map;
+    return this.scene.panels[k].signed ? this.colours.diverging : this.colours.map;
   }
 
   /** Rows and columns for the room there is. */
@@ -119,7 +119,7 @@ export class Stage {
     paintRing(brush, ...at, k === panel);
     if (k !== panel) return;
     if (isCursor) paintCursor(brush, box.x + x, box.y + y);
-    if (answer) paintLabel(brush, ...at, box, reading(answer, vertex), answer.signed, this.theme);
+    if (answer) paintLabel(brush, ...at, box, reading(answer, vertex), answer, this.theme);
   }
 
   /** All panels with heads and bars, without the pointer. @returns {HTMLCanvasElement} */

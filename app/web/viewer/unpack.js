@@ -1,4 +1,17 @@
-// What a page holds, from base64 of raw deflate to arrays; app/web/stored_mesh.py and points.py pack it.
+// What a page holds, from base64 of raw deflate to arrays; app/web/stored_mesh.py, points.py and stored_field.py pack it.
+
+/**
+ * What the solver takes of a page or of a widget.
+ * @param {Object<string, Uint8Array | string>} packed the kernel, the mesh, given fields, and points
+ * @param {{given: string[]}} scene
+ */
+export async function unpackedContents(packed, scene) {
+  const [wasm, mesh] = [await inflated(packed.kernel), unpackedMesh(await inflated(packed.mesh))];
+  const given = unpackedFields(await inflated(packed.given), mesh, scene.given), points = {};
+  for (const [name, content] of Object.entries(packed))
+    if (name.startsWith("points-")) points[name.slice("points-".length)] = unpackedPoints(await inflated(content), mesh);
+  return { wasm, mesh, given, points };
+}
 
 /** Bytes of raw deflate, or base64 of them. @param {Uint8Array | string} packed @returns {Promise<Uint8Array>} */
 export async function inflated(packed) {
@@ -78,6 +91,17 @@ function predicted(differences, faces) {
       at[3 * v + axis] = mean + ((word >>> 1) ^ -(word & 1));
     }
   return at;
+}
+
+/** Fields by name, each a scale and multiples of it. @param {Uint8Array} bytes @param {Mesh} mesh
+ * @param {string[]} names @returns {Object<string, Float64Array>} NaN where undefined */
+export function unpackedFields(bytes, { n }, names) {
+  const each = (k) => bytes.slice(k * (8 + 4 * n), (k + 1) * (8 + 4 * n));
+  const fields = names.map((_, k) => {
+    const [scale] = new Float64Array(each(k).buffer, 0, 1);
+    return Float64Array.from(new Float32Array(fromPlanes(each(k).subarray(8), n).buffer), (value) => value * scale);
+  });
+  return Object.fromEntries(names.map((name, k) => [name, fields[k]]));
 }
 
 /**

@@ -1,5 +1,5 @@
 /** The viewer in a notebook: what a page holds comes from a model, with which source and pins go both ways. */
-import { inflated, unpackedMesh, unpackedPoints } from "./unpack.js";
+import { unpackedContents } from "./unpack.js";
 import { Solver } from "./solver.js";
 import { Viewer } from "./viewer.js";
 import { lacking } from "./support.js";
@@ -12,15 +12,12 @@ async function render({ model, el }) {
   root.className = "bihdist";
   el.append(root);
   if (lack) return void (root.textContent = lack);
-  const contents = model.get("contents"), scene = model.get("scene");
-  const [wasm, mesh] = [await inflated(bytesIn(contents.kernel)), unpackedMesh(await inflated(bytesIn(contents.mesh)))];
-  const points = {};
-  for (const [name, view] of Object.entries(contents.points))
-    points[name] = unpackedPoints(await inflated(bytesIn(view)), mesh);
-  const solver = new Solver({ wasm, mesh, scene, points, onprogress: (words) => viewer?.progress(words) });
+  const scene = model.get("scene"), packed = Object.entries(model.get("contents"));
+  const contents = await unpackedContents(Object.fromEntries(packed.map(([name, view]) => [name, bytesIn(view)])), scene);
+  const solver = new Solver({ ...contents, scene, onprogress: (words) => viewer?.progress(words) });
   const changed = (name) => (value) => (model.set(name, value), model.save_changes());
-  const viewer = new Viewer(root, {
-    mesh, scene: { ...scene, source: model.get("source"), pins: model.get("pins") }, solver,
+  const viewer = root.viewer = new Viewer(root, {
+    mesh: contents.mesh, scene: { ...scene, source: model.get("source"), pins: model.get("pins") }, solver,
     onsource: (id) => (changed("source")(id), model.send({ picked: id })), onpins: changed("pins"),
   });
   const followed = {

@@ -1,0 +1,70 @@
+"""A page that computes as a widget of notebooks; imports anywidget, which may be missing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import anywidget
+import traitlets
+
+from .export import Page
+from .html_file import packed_contents, style, whole_scene
+from .modules import joined
+
+
+class DistanceWidget(anywidget.AnyWidget):
+    """Linked panels in which a click computes; nothing is asked of Python, nor of a network.
+
+    source: the vertex from which distances are shown.  pins: a dict with the `id` of a vertex and a `name` for each.
+    Both change with what is done in a panel, and the panels with them: `traitlets.link((a, "source"), (b, "source"))`
+    lets two widgets go together.
+    """
+
+    _esm = joined("widget.js") + "\nexport default { render };\n"
+    _css = style()
+
+    contents = traitlets.Dict().tag(sync=True)
+    scene = traitlets.Dict().tag(sync=True)
+    source = traitlets.Int().tag(sync=True)
+    pins: traitlets.List[Any] = traitlets.List().tag(sync=True)
+
+    @classmethod
+    def of(cls, page: Page) -> DistanceWidget:
+        """One that shows what a page does."""
+        return cls(
+            frozenset(page.mesh.ids.tolist()),
+            contents=packed_contents(page.mesh, page.points, page.given),
+            scene=whole_scene(page.scene, page.mesh, page.given),
+            source=page.scene["source"],
+            pins=page.scene["pins"],
+        )
+
+    def __init__(self, ids: frozenset[int], **traits: Any) -> None:
+        self._ids = ids
+        super().__init__(**traits)
+
+    @traitlets.validate("source")
+    def _check_source(self, proposal: Any) -> int:
+        return self._held(proposal["value"], "The source")
+
+    @traitlets.validate("pins")
+    def _check_pins(self, proposal: Any) -> list[dict[str, object]]:
+        return [self._pin(number, pin) for number, pin in enumerate(proposal["value"], 1)]
+
+    def _pin(self, number: int, pin: Any) -> dict[str, object]:
+        pin = pin if isinstance(pin, Mapping) else {"id": pin}
+        return {"id": self._held(pin.get("id"), f"Pin {number}"), "name": str(pin.get("name", ""))}
+
+    def _held(self, vertex: Any, what: str) -> int:
+        if isinstance(vertex, bool) or not hasattr(vertex, "__index__") or int(vertex) not in self._ids:
+            raise traitlets.TraitError(f"{what} is {vertex!r}, which is no vertex that a face has.")
+        return int(vertex)
+
+    def on_pick(self, act: Callable[[int], object]) -> None:
+        """Call with the vertex whenever one is clicked in a panel; not where Python sets the source."""
+
+        def told(_: object, content: Any, __: object) -> None:
+            act(self._held(content.get("picked"), "What was clicked"))
+
+        self.on_msg(told)
