@@ -38,14 +38,14 @@ def made(mesh: str, distances: tuple[str, ...], folder: Path, precision: str = "
 
 
 class ShownPage:
-    """The page in the browser, once it shows its first picture."""
+    """The page in the browser, once it shows its first picture.  distances: the library's on the stored mesh."""
 
-    def __init__(self, browser: Browser, page: Page, path: Path) -> None:
+    def __init__(self, browser: Browser, page: Page, path: Path, distances: Distances | None = None) -> None:
         self.browser, self.page = browser, page
         browser.open(path)
         browser.until(f"{VIEW}?.answers.every(Boolean)", 100)
         self.box = browser.evaluate(f"{VIEW}.stage.views[0].getBoundingClientRect().toJSON()")
-        self.distances = Distances(Laplacian(page.mesh.surface))
+        self.distances = distances or Distances(Laplacian(page.mesh.surface))
 
     def at(self, x: float, y: float) -> tuple[int, int]:
         """The pixel of the page at shares of the first panel's sides."""
