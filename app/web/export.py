@@ -90,7 +90,7 @@ def page_of(
     points = {name: StoredPoints.of(_spectral(distances, spec)) for name, spec in contents.by_eigenpairs.items()}
     for name, each in points.items():
         differs[name] += each.error / max(_maximum(loaded, document.areas, contents, name), 1e-300)
-    stored = {"bits": 24 if precision == "24" else precision, "differs": differs}
+    stored = {"bits": 24 if precision == "24" else precision, "backs": mesh.has_backs, "differs": differs}
     scene = scene_of(recipe, contents, surfaces, answers, stored)
     return Page(scene, mesh, points, tuple(answer.label for answer in answers), differs)
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from bihdist_core.file_content import file_text
 
-from .modules import VIEWER, joined
+from .modules import VIEWER, joined, unpadded
 from .points import StoredPoints
 from .stored_mesh import StoredMesh, deflated
 
@@ -60,7 +60,7 @@ def kernel() -> bytes:
 
 def style() -> str:
     """The viewer's."""
-    return file_text(VIEWER / "page.css", "the style of pages")
+    return unpadded(file_text(VIEWER / "page.css", "the style of pages"))
 
 
 def _policy(script: str, style: str) -> str:

@@ -105,6 +105,7 @@ def growth(browser: Browser, page: tuple[Page, Path], library: Distances, clicks
     for k in range(1, clicks + 101):
         shown.click(*places[k % len(places)])
         if k % 100 == 0:
+            browser.collect_garbage()
             sizes.append(browser.memory())
     return sizes
 
