@@ -15,10 +15,16 @@ from pathlib import Path
 from bihdist_core import Surface
 from tests import shapes
 from tests.bench import machine
+from tests.bench.guide_page import put
 
 from .chromium import Chromium
 from .firefox import Firefox
 from .measured import Measured, grown, growth
+
+BROWSERS = (Chromium, Firefox)
+
+BEGIN, END = "<!-- pages: from the run -->", "<!-- end of pages -->"
+"""Between them, in a page of the guide, is the table."""
 
 SAMPLES = ("hand", "hare", "scan", "part", "domain", "genus3", "octopus", "elephant")
 SHARED = (".obj", ".off")
@@ -32,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     results = Path(options.results)
     known = json.loads(results.read_text()) if results.exists() else {}
-    browsers = {kind.NAME: kind for kind in (Chromium, Firefox) if kind.program()}
+    browsers = {kind.NAME: kind for kind in BROWSERS if kind.program()}
     try:
         for name in options.meshes or _usual():
             label = Path(name).name
@@ -47,7 +53,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print(f"interrupted; what is done is in {results}, and a run goes on from there", file=sys.stderr)
     text = f"{date.today()}; {machine.describe()}; {', '.join(browsers)}\n\n{table(known.get('meshes', {}))}"
-    print("\n\n".join([text, *_growth_words(known.get("growth", {}))]))
+    text = "\n\n".join([text, *_growth_words(known.get("growth", {}))])
+    print(text)
+    if options.table:
+        put(Path(options.table), text, BEGIN, END)
     return 0
 
 
@@ -135,6 +144,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--clicks", type=int, default=20, help="on each page (default: %(default)s)")
     parser.add_argument("--growth", type=int, default=1000, help="so many on one page, for its memory; 0 for none")
     parser.add_argument("--results", default="browser-results.json", help="where they are kept (default: %(default)s)")
+    parser.add_argument("--table", metavar="PAGE", help="put the table into this page of the guide, too")
     return parser
 
 
