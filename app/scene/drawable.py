@@ -49,6 +49,23 @@ def drawable(surface: Surface, shading: Shading = AS_IT_IS) -> vtkPolyData:
     return mesh
 
 
+def crease_of(surface: Surface, shading: Shading) -> float | None:
+    """The degrees from which on faces that meet are drawn with an edge: 0 for all of them, None for none."""
+    if shading.normals == "smooth":
+        return None
+    if shading.normals == "flat":
+        return 0.0
+    normals = face_normals(surface.vertices, surface.faces)
+    wound = winding(surface, normals)
+    to_length_one(normals)
+    for x in normals:
+        np.negative(x, out=x, where=wound.turn)
+    is_creased = shading.normals == "creased" or has_creases(
+        surface, wound.edges, bends(normals, wound), shading.crease
+    )
+    return shading.crease if is_creased else None
+
+
 def normals_shading(shading: Shading) -> Shading:
     """The same for all kinds of shading that `drawable` makes the same mesh for."""
     if shading.normals in ("smooth", "flat"):

@@ -139,7 +139,6 @@ def notes_on(document: Document, page_views: int) -> list[str]:
         "the triangles at extrema": document.extrema,
         "the height of a height field": bool(document.height),
         "the wireframe": shading.wireframe,
-        "flat and creased shading": shading.normals in ("flat", "creased"),
         "directions of axes": document.axes,
         "views but the first": page_views > 1,
         "what tools mark, but for pins": any(not isinstance(part, Pins) for part in document.parts),

@@ -97,7 +97,7 @@ def page_of(
     fields = {each.word: loaded.own_field(document.field(each.name)) for each in contents.own}
     own = {word: StoredField.of(values, mesh.ids) for word, values in fields.items()}
     differs |= {word: each.error for word, each in own.items()}
-    stored = {"bits": 24 if precision == "24" else precision, "differs": differs}
+    stored = {"bits": 24 if precision == "24" else precision, "backs": mesh.has_backs, "differs": differs}
     scene = scene_of(recipe, contents, surfaces, answers, stored)
     return Page(scene, mesh, points, tuple(answer.label for answer in answers), differs, own)
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from bihdist_core.file_content import file_text
 
-from .modules import VIEWER, joined
+from .modules import VIEWER, joined, unpadded
 from .points import StoredPoints
 from .stored_field import StoredField
 from .stored_mesh import StoredMesh, deflated
@@ -72,7 +72,7 @@ def packed_contents(
 
 def style() -> str:
     """The viewer's."""
-    return file_text(VIEWER / "page.css", "the style of pages")
+    return unpadded(file_text(VIEWER / "page.css", "the style of pages"))
 
 
 def _policy(script: str, style: str) -> str:

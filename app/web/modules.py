@@ -25,7 +25,12 @@ def joined(entry: str, folder: Path = VIEWER) -> str:
         for name in top_names(text):
             if owner.setdefault(name, module) != module:
                 raise ValueError(f"{module} and {owner[name]} both have {name} at their top.")
-    return PADDING.sub("", "\n".join(texts.values()))
+    return unpadded("\n".join(texts.values()))
+
+
+def unpadded(text: str) -> str:
+    """A text of scripts or styles without indents, and without comments that have lines of their own."""
+    return PADDING.sub("", text)
 
 
 def top_names(text: str) -> list[str]:

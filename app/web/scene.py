@@ -22,6 +22,7 @@ from ..document.shared_parts.pins import Pins
 from ..figures.description import Figure, FigurePanel
 from ..figures.export import Surfaces, figure_of
 from ..scene.camera import outwards_at, standard_camera
+from ..scene.drawable import crease_of
 from ..scene.style import style_of
 from ..session.questions import first_source, vertex_at
 from .contents import Contents, notes_on
@@ -47,9 +48,9 @@ def scene_of(
 ) -> Json:
     """The scene of a recipe whose document is that of the contents, with the answers of its panels.
 
-    stored: what is said of the mesh beside its name and size: `bits`, and `differs`, by how much each distance differs
-    from that on the original, as a fraction of its maximum.  ParameterError for a panel without a field, and for a
-    number that is not finite.
+    stored: what is said of the mesh beside its name and size: `bits`; `backs`, whether an inside can be seen; and
+    `differs`, by how much each distance differs from that on the original, as a fraction of its maximum.
+    ParameterError for a panel without a field, and for a number that is not finite.
     """
     document = recipe.document
     for panel, answer in zip(document.panels, answers, strict=True):
@@ -81,6 +82,7 @@ def scene_of(
         "camera": _camera(figure.panels[0], surface),
         "colours": _colours(recipe.page.style, document.colours),
         "isolines": {**_isolines(first), "colour": _bytes(style.isoline), "width": style.isoline_width},
+        "crease": crease_of(surface, document.shading),
         "areas": document.areas,
         "notes": [*_of_surface(surface), *notes_on(document, len(figure.panels[0].views)), *notes],
     }
@@ -187,13 +189,16 @@ def _camera(panel: FigurePanel, surface: Surface) -> Json:
 
 
 def _colours(word: str, colours: Colours) -> Json:
-    """Of the page by day and, where it has others, by night; the ground is that of the reader's system."""
+    """Of the page by day and, where these are others, by night; the ground is that of the reader's system."""
     light, dark = (style_of(twins.get(word, word), colours) for twins in (BY_DAY, BY_NIGHT))
+    by_day, by_night = (_map(style.colours(COLOURS)) for style in (light, dark))
     return {
-        "map": _map(light.colours(COLOURS)),
-        "dark_map": _map(dark.colours(COLOURS)),
+        "map": by_day,
+        "dark_map": None if by_night == by_day else by_night,
         "diverging": _map(light.colours(COLOURS, signed=True)),
         "undefined": _bytes(light.undefined),
+        "back": _bytes(light.back),
+        "dark_back": _bytes(dark.back),
         "background": None,
         "dark_background": None,
     }

@@ -17,6 +17,9 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.operators import vertex_areas
 from bihdist_core.surface import FLAT, Surface
 
+from ..scene.creases import face_normals
+from ..scene.winding import winding
+
 FLOAT32 = "float32"
 PRECISIONS = ("24", FLOAT32)
 """How many bits of a coordinate are kept: 24, as shares of the largest side of the box, or a float's."""
@@ -24,10 +27,11 @@ PRECISIONS = ("24", FLOAT32)
 
 @dataclass(frozen=True, eq=False)
 class StoredMesh:
-    """What a page knows of a surface: its vertices with faces, near in number what is near in space.
+    """What a page knows of a surface: its vertices with faces, near in number what is near in space, and its faces,
+    turned over where the window turns them: counterclockwise outside, where there is an outside.
 
     surface: with vertices (n, 3) as rounded and faces (m, 3), both by components; ids (n,): the surface's own numbers.
-    first_vertices, first_faces (c + 1,): where each component begins, and n or m.
+    first_vertices, first_faces (c + 1,): where each component begins, and n or m.  has_backs: an inside can be seen.
     """
 
     surface: Surface
@@ -37,6 +41,7 @@ class StoredMesh:
     step: float
     first_vertices: IntArray
     first_faces: IntArray
+    has_backs: bool
 
     @classmethod
     def of(cls, surface: Surface, precision: str = "24") -> StoredMesh:
@@ -49,14 +54,16 @@ class StoredMesh:
         order = order[np.argsort(component[order], kind="stable")]
         place = np.empty(n, np.int64)
         place[order] = np.arange(len(order))
-        faces = _sorted(place[surface.faces])
+        wound = winding(surface, face_normals(surface.vertices, surface.faces))
+        faces = _sorted(place[wound.faces(surface.faces)])
         low, x = surface.vertices[order].min(axis=0), surface.vertices[order]
         step = float((x - low).max() / (2**24 - 1)) if precision == "24" else 0.0
         stored = x.astype(np.float32).astype(np.float64) if precision == FLOAT32 else low + _steps(x, low, step) * step
         counts = np.bincount(component[order])
         face_counts = np.bincount(component[order][faces[:, 0]])
         first_vertices, first_faces = (np.concatenate([[0], np.cumsum(c)]) for c in (counts, face_counts))
-        return cls(Surface(stored, faces, name=surface.name), order, precision, low, step, first_vertices, first_faces)
+        kept = Surface(stored, faces, name=surface.name)
+        return cls(kept, order, precision, low, step, first_vertices, first_faces, wound.has_backs)
 
     @cached_property
     def packed(self) -> bytes:

@@ -168,6 +168,10 @@ class Browser(ABC):
     def _take(self, method: str, told: dict) -> None:
         """Keep what an event says of errors and requests."""
 
+    @abstractmethod
+    def collect_garbage(self) -> None:
+        """Have the page's scripts give back the memory that they no longer use."""
+
     def memory(self) -> int:
         """The bytes in memory that the page's processes have for themselves."""
         return sum(private_bytes(each) for each, line in self._process.commands().items() if self._is_of_page(line))

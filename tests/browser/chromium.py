@@ -82,6 +82,9 @@ class Chromium(Browser):
     def screenshot(self) -> bytes:
         return base64.b64decode(self._call("Page.captureScreenshot", format="png")["data"])
 
+    def collect_garbage(self) -> None:
+        self._call("HeapProfiler.collectGarbage")
+
     def _mouse(self, kind: str, held: tuple[str, ...] = (), **more: object) -> None:
         x, y = self._at
         bits = sum(HELD_BITS[each] for each in held)

@@ -92,12 +92,20 @@ class Firefox(Browser):
         self._call("browsingContext.setViewport", context=self._context, viewport=size, devicePixelRatio=ratio)
 
     def dark(self, is_dark: bool) -> None:
-        chrome = self._call("browsingContext.getTree", **{"moz:scope": "chrome"})["contexts"][0]["context"]
         number = 0 if is_dark else 1
-        set_it = f"Services.prefs.setIntPref('layout.css.prefers-color-scheme.content-override', {number})"
-        self._call("script.evaluate", expression=set_it, target={"context": chrome}, awaitPromise=False)
+        self._in_chrome(f"Services.prefs.setIntPref('layout.css.prefers-color-scheme.content-override', {number})")
         # The page's process hears of it a little later.
         self.until(f"matchMedia('(prefers-color-scheme: dark)').matches == {str(is_dark).lower()}")
+
+    def _in_chrome(self, expression: str) -> None:
+        """Evaluate an expression where the browser's own scripts are."""
+        chrome = self._call("browsingContext.getTree", **{"moz:scope": "chrome"})["contexts"][0]["context"]
+        self._call("script.evaluate", expression=expression, target={"context": chrome}, awaitPromise=False)
+
+    def collect_garbage(self) -> None:
+        # All processes hear of it, and are not asked whether they are done.
+        self._in_chrome("Services.obs.notifyObservers(null, 'memory-pressure', 'heap-minimize')")
+        self.evaluate("new Promise((done) => setTimeout(done, 1000))")
 
     def screenshot(self) -> bytes:
         return base64.b64decode(self._call("browsingContext.captureScreenshot", context=self._context)["data"])

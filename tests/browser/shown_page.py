@@ -16,19 +16,17 @@ from .browser import Browser
 
 VIEW = "document.querySelector('.bihdist').viewer"
 READ = """(() => {
-    const { answers, mesh, source } = VIEW, bytes = (a) => new Uint8Array(a.values.buffer).reduce(
-        (text, byte) => text + String.fromCharCode(byte), "");
-    return { source: mesh.ids[source], fields: answers.map((a) => btoa(bytes(a))) };
+    const { answers, mesh, source } = VIEW, bytes = new Uint8Array(8 * mesh.n * answers.length), parts = [];
+    answers.forEach(({ values }, k) => bytes.set(new Uint8Array(values.buffer), 8 * mesh.n * k));
+    for (let k = 0; k < bytes.length; k += 32768) parts.push(String.fromCharCode(...bytes.subarray(k, k + 32768)));
+    return { source: mesh.ids[source], fields: btoa(parts.join("")) };
 })()""".replace("VIEW", VIEW)
-CLICK = """(async ([x, y]) => {
-    const drawn = new Promise((done) => VIEW.root.addEventListener("picture", (e) => done(e.detail), { once: true }));
-    const view = VIEW.stage.views[0], box = view.getBoundingClientRect();
-    const at = { clientX: box.x + x * box.width, clientY: box.y + y * box.height, pointerId: 1, isPrimary: true,
-        button: 0, pointerType: "mouse", bubbles: true };
-    view.dispatchEvent(new PointerEvent("pointerdown", { ...at, buttons: 1 }));
-    view.dispatchEvent(new PointerEvent("pointerup", at));
-    return await drawn;
-})""".replace("VIEW", VIEW)
+AWAIT = """void (window.picture = new Promise((done) => VIEW.root.addEventListener("picture", ({ detail }) => {
+    const { gl } = VIEW.stage.drawing, asked = performance.now();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    done({ ...detail, since: detail.since + performance.now() - asked });
+}, { once: true })))""".replace("VIEW", VIEW)
+"""Waits for the next picture until its pixels are there, which graphics do on their own time."""
 
 
 def made(mesh: str, distances: tuple[str, ...], folder: Path, precision: str = "24") -> tuple[Page, Path]:
@@ -40,23 +38,29 @@ def made(mesh: str, distances: tuple[str, ...], folder: Path, precision: str = "
 
 
 class ShownPage:
-    """The page in the browser, once it shows its first picture."""
+    """The page in the browser, once it shows its first picture.  distances: the library's on the stored mesh."""
 
-    def __init__(self, browser: Browser, page: Page, path: Path) -> None:
+    def __init__(self, browser: Browser, page: Page, path: Path, distances: Distances | None = None) -> None:
         self.browser, self.page = browser, page
         browser.open(path)
         browser.until(f"{VIEW}?.answers.every(Boolean) && !{VIEW}.drawn", 100)
-        self.distances = Distances(Laplacian(page.mesh.surface))
+        self.box = browser.evaluate(f"{VIEW}.stage.views[0].getBoundingClientRect().toJSON()")
+        self.distances = distances or Distances(Laplacian(page.mesh.surface))
+
+    def at(self, x: float, y: float) -> tuple[int, int]:
+        """The pixel of the page at shares of the first panel's sides."""
+        return round(self.box["x"] + x * self.box["width"]), round(self.box["y"] + y * self.box["height"])
 
     def click(self, x: float, y: float) -> dict:
-        """Click at shares of the first panel's sides; what the page says of the picture then, which is waited for."""
-        return self.browser.evaluate(f"{CLICK}([{x}, {y}])", 100)
+        """Click there with the mouse; what the page says of the picture then, which is waited for."""
+        self.browser.evaluate(AWAIT)
+        self.browser.click(*self.at(x, y))
+        return self.browser.evaluate("window.picture", 100)
 
     def is_hit(self, x: float, y: float) -> bool:
         """Whether the surface is there."""
-        ask = f"(() => {{ const v = {VIEW}; return !!v.sight.tree.hit(v.sight.camera.ray(2 * {x} - 1, 1 - 2 * {y}, "
-        box = "v.stage.boxes[0].width / v.stage.boxes[0].height)); })()"
-        return self.browser.evaluate(ask + box)
+        across, down = self.at(x, y)
+        return self.browser.evaluate(f"!!{VIEW}.sight.hit(0, {across - self.box['x']}, {down - self.box['y']})")
 
     def places(self, count: int, seed: int = 0) -> list[tuple[float, float]]:
         """So many on the surface, at random."""
@@ -71,7 +75,8 @@ class ShownPage:
     def shown(self) -> tuple[int, list[np.ndarray]]:
         """The source, and what panels show at the stored vertices."""
         read = self.browser.evaluate(READ)
-        return read["source"], [np.frombuffer(base64.b64decode(field), "<f8") for field in read["fields"]]
+        values = np.frombuffer(base64.b64decode(read["fields"]), "<f8")
+        return read["source"], list(values.reshape(-1, len(self.page.mesh.ids)))
 
     def worst(self, specs) -> list[float]:
         """By how much each panel differs from the library on the stored mesh, as a fraction of its maximum."""

@@ -166,3 +166,6 @@ def test_memory_is_that_of_the_page(page):
     before = page.memory()
     page.evaluate("void (window.held = new Uint8Array(2e8).fill(1))")
     assert page.memory() - before == pytest.approx(2e8, rel=0.3)
+    page.evaluate("void (window.held = null)")
+    page.collect_garbage()
+    assert page.memory() - before < 1e8

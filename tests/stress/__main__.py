@@ -14,6 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from tests.bench import machine
+from tests.bench.guide_page import put
 
 from .blocks import block, stop
 from .child import attempt
@@ -59,7 +60,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     found = faults(log, words)
     print("\n".join([table, *(["", *found] if found else [])]))
     if options.table:
-        _put(Path(options.table), table)
+        put(Path(options.table), table, BEGIN, END)
     return 1 if any(log.of(name).faulty for name in options.parts) else 0
 
 
@@ -67,16 +68,6 @@ def _again(name: str, seed: str, number: str) -> int:
     with tempfile.TemporaryDirectory(prefix="stress-") as folder:
         print(attempt(PARTS[name], int(seed), int(number), Path(folder)))
     return 0
-
-
-def _put(page: Path, table: str) -> None:
-    """Put the table into a page, in the place of the one that is there."""
-    text = page.read_text(encoding="utf-8")
-    before, _, rest = text.partition(BEGIN)
-    _, marker, after = rest.partition(END)
-    if not marker:
-        raise SystemExit(f"{page} has no place for the table, between {BEGIN} and {END}.")
-    page.write_text(f"{before}{BEGIN}\n{table}\n{END}{after}", encoding="utf-8")
 
 
 def _parts(text: str) -> list[str]:

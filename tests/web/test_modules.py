@@ -6,7 +6,7 @@ import subprocess
 
 import pytest
 
-from app.web.modules import VIEWER, joined, top_names
+from app.web.modules import VIEWER, joined, top_names, unpadded
 
 
 def written(folder, **modules):
@@ -50,6 +50,10 @@ def test_top_names_are_what_lines_begin_with():
     text = "export const a = 1;\nconst { b, c } = a;\nfunction* d() {\n  const inner = 1;\n}\n"
     text += "export async function e() {}\nclass F {}\n"
     assert top_names(text) == ["a", "b", "c", "d", "e", "F"]
+
+
+def test_what_only_people_read_is_left_out():
+    assert unpadded("a {\n  /* of a\n   b */\n  // c\n  d: /* e */ f;\n}\n") == "a {\nd: /* e */ f;\n}\n"
 
 
 @pytest.mark.parametrize("entry", ["main.js", "widget.js"])

@@ -225,6 +225,18 @@ def test_colours_by_day_and_night_are_those_of_the_styles(scene, word):
         np.testing.assert_array_equal(colours[name], np.rint(255 * style.colours(256)))
     np.testing.assert_array_equal(colours["diverging"], np.rint(255 * PAPER.colours(256, signed=True)))
     assert colours["background"] is None
+    assert colours["back"] == [round(255 * x) for x in PAPER.back]
+    assert colours["dark_back"] == [round(255 * x) for x in DARK.back]
+
+
+def test_a_map_that_stays_at_night_is_there_once(scene):
+    colours = scene(page=Page(style="uniform"))["colours"]
+    assert colours["dark_map"] is None
+
+
+@pytest.mark.parametrize(("shading", "crease"), [("auto", None), ("smooth", None), ("creased", 30.0), ("flat", 0.0)])
+def test_creases_are_the_documents(scene, shading, crease):
+    assert scene(edit=lambda document: replace(document, shading=Shading(shading, 30.0)))["crease"] == crease
 
 
 def test_a_chosen_map_is_that_of_the_page(scene):
@@ -251,8 +263,7 @@ def test_what_the_page_leaves_out_is_said(scene):
     (note,) = scene(edit=adorned, page=Page(views=("front", "back")))["notes"]
     assert note == (
         "The page leaves out isolines through points, bold isolines, the values of isolines, bands of one colour, "
-        "insets, the triangles at extrema, the wireframe, flat and creased shading, directions of axes and views but "
-        "the first."
+        "insets, the triangles at extrema, the wireframe, directions of axes and views but the first."
     )
     assert scene()["notes"] == []
 

@@ -100,13 +100,26 @@ def test_the_stored_surface_is_the_surface_but_for_rounding(name, precision, sha
     size = np.abs(surface.vertices).max() if precision == "float32" else np.ptp(surface.vertices, axis=0).max()
     assert moved <= 1.001 * share * size
 
-    def turned(faces):
-        return sorted(tuple(np.roll(f, -int(np.argmin(f)))) for f in faces)
+    def of_any_side(faces):
+        return sorted(map(tuple, np.sort(faces, axis=1).tolist()))
 
-    assert turned(mesh.ids[mesh.surface.faces]) == turned(surface.faces)
+    assert of_any_side(mesh.ids[mesh.surface.faces]) == of_any_side(surface.faces)
     label = surface.component_of_vertex[mesh.ids]
     assert (np.diff(label) >= 0).all()
     assert label.min() == 0
+
+
+def test_faces_turn_counterclockwise_outside_and_insides_are_known():
+    ball = sphere(200)
+    for faces in (ball.faces, ball.faces[:, ::-1]):
+        whole = StoredMesh.of(Surface(ball.vertices, faces))
+        assert not whole.has_backs
+        open_one = StoredMesh.of(Surface(ball.vertices, faces[5:]))
+        assert open_one.has_backs
+        for mesh in (whole, open_one):
+            a, b, c = (mesh.surface.vertices[mesh.surface.faces[:, k]] for k in range(3))
+            assert (np.einsum("ij,ij->i", np.cross(b - a, c - a), a) > 0).all()
+    assert not StoredMesh.of(grid(5, 5)).has_backs
 
 
 def test_vertices_without_faces_are_left_out():

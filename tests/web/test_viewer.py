@@ -8,10 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import pyvista as pv
 
-from app.document.looks import Isolines
+from app.document.looks import Isolines, Shading
+from app.samples import mesh_path
 from app.scene.camera import Projection, standard_camera
+from app.scene.drawable import copies_of, crease_of, drawable
 from app.scene.levels import levels
+from bihdist_core import read_surface
 from bihdist_core.distances.difference import difference_in_unit
 from tests.shapes import bumpy, grid, sphere, torus
 
@@ -218,6 +222,32 @@ def test_a_camera_far_from_the_shape_is_not_taken():
     assert first == same != other
 
 
+# ---------------------------------------------------------------------- creases
+def test_creases_part_the_faces_that_they_part_in_the_window():
+    s = read_surface(mesh_path("part"))
+    window = drawable(s, Shading())
+    crease = crease_of(s, Shading())
+    said = ask("drawn", mesh={**as_mesh(s), "crease": crease})
+    corners, copies = np.array(said["corners"]), np.array(said["copies"])
+    assert len(copies)
+    assert (np.sort(copies) == np.sort(copies_of(window))).all()
+    theirs = pv.wrap(window).regular_faces.ravel()
+    pairs = np.unique(np.stack([corners, theirs]), axis=1)
+    assert pairs.shape[1] == len(np.unique(corners)) == len(np.unique(theirs))
+    # Copies are in the place of their vertices, and on flat sides have the normals of these.
+    places, normals = (np.reshape(said[name], (-1, 3)) for name in ("places", "normals"))
+    assert (places[len(s.vertices) :] == places[copies]).all()
+    theirs = pv.wrap(window).point_data.active_normals[pairs[1]]
+    cosine = (normals[pairs[0]] / np.linalg.norm(normals[pairs[0]], axis=1)[:, None] * theirs).sum(axis=1)
+    assert np.quantile(np.abs(cosine), 0.01) > 0.95
+
+
+def test_each_face_of_a_flat_surface_has_corners_of_its_own_and_of_a_smooth_one_none():
+    s = bumpy(200)
+    assert len(ask("drawn", mesh={**as_mesh(s), "crease": 0.0})["copies"]) == 3 * len(s.faces) - 200
+    assert ask("drawn", mesh={**as_mesh(s), "crease": None})["copies"] == []
+
+
 # ---------------------------------------------------------------------- links and colours
 def test_a_link_holds_source_pins_and_camera():
     state = {
@@ -250,7 +280,7 @@ def test_what_is_wrong_in_a_link_is_named_and_left_out(hash, ignored):
 def test_maps_are_stretched_and_follow_the_theme():
     scene = {"colours": {
         "map": [[0, 0, 0], [255, 0, 0]], "dark_map": [[0, 0, 255], [255, 255, 255]], "diverging": None,
-        "undefined": [1, 2, 3], "background": None, "dark_background": None,
+        "undefined": [1, 2, 3], "background": None, "dark_background": None, "back": [4, 4, 4], "dark_back": [5, 5, 5],
     }}  # fmt: skip
     light, dark = (ask("colours", scene=scene, isDark=is_dark) for is_dark in (False, True))
     assert light["map"] == [[k, 0, 0] for k in range(256)] == light["diverging"]
@@ -258,6 +288,7 @@ def test_maps_are_stretched_and_follow_the_theme():
     assert dark["map"][-1] == [255, 255, 255]
     assert dark["background"] == [22, 24, 27]
     assert dark["undefined"] == [1, 2, 3]
+    assert (light["back"], dark["back"]) == ([4, 4, 4], [5, 5, 5])
     scene["colours"]["background"] = [9, 9, 9]
     assert ask("colours", scene=scene, isDark=False)["background"] == [9, 9, 9]
 

@@ -10,12 +10,12 @@ for (const name of readdirSync(process.argv[2]).filter((name) => name.endsWith("
   writeFileSync(join(folder, name), readFileSync(join(process.argv[2], name)));
 const use = (name) => import(join(folder, name));
 
-const shapeOf = async ({ vertices, faces, components }) => {
+const shapeOf = async ({ vertices, faces, components, crease = null }) => {
   const { Shape } = await use("shape.js"), [positions, corners] = [vertices.flat(), faces.flat()];
   return new Shape({
     n: vertices.length, m: faces.length, positions: Float64Array.from(positions), faces: Int32Array.from(corners),
     faceComponents: Int32Array.from(components ?? [0, faces.length]),
-  });
+  }, { crease, backs: false });
 };
 
 const answers = {
@@ -63,6 +63,10 @@ const answers = {
       const drawn = clip.slice(0, 3).map((c) => c / clip[3]);
       return { drawn, placed: [x, y], hit: hit?.vertex ?? null, seen: sight.isSeen(v) };
     });
+  },
+  async drawn({ mesh }) {
+    const { corners, copies, places, normals } = (await shapeOf(mesh)).drawn;
+    return { corners: [...corners], copies, places: [...places], normals: [...normals] };
   },
   async outside({ mesh }) {
     const { outside } = await use("shape.js");

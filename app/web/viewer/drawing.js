@@ -31,11 +31,12 @@ export class Drawing {
     const side = this.isSoftware ? outside(shape) : 0;
     gl.cullFace(side < 0 ? gl.FRONT : gl.BACK);
     if (side) gl.enable(gl.CULL_FACE);
-    const shared = [buffered(gl, gl.ARRAY_BUFFER, shape.places), buffered(gl, gl.ARRAY_BUFFER, shape.normals)];
-    const corners = buffered(gl, gl.ELEMENT_ARRAY_BUFFER, shape.faces);
+    const { places, normals, corners: drawn } = shape.drawn;
+    const shared = [buffered(gl, gl.ARRAY_BUFFER, places), buffered(gl, gl.ARRAY_BUFFER, normals)];
+    const corners = buffered(gl, gl.ELEMENT_ARRAY_BUFFER, drawn);
     this.panels = Array.from({ length: panels }, () => {
       const held = gl.createVertexArray(),
-        values = buffered(gl, gl.ARRAY_BUFFER, new Float32Array(shape.n).fill(UNDEFINED));
+        values = buffered(gl, gl.ARRAY_BUFFER, new Float32Array(places.length / 3).fill(UNDEFINED));
       gl.bindVertexArray(held);
       for (const [k, [buffer, size]] of [
         [shared[0], 3],
@@ -75,7 +76,10 @@ export class Drawing {
   /** Values of a panel, see `panelAnswer`, and its isolines, see `isolineLevels`. */
   setAnswer(panel, { values, low, high, signed }, { values: levels, step }) {
     const { gl } = this, held = this.panels[panel], scale = high > low ? 1 / (high - low) : 0;
-    const shares = Float32Array.from(values, (value) => (value === value ? (value - low) * scale : UNDEFINED));
+    const { copies } = this.shape.drawn, shares = new Float32Array(values.length + copies.length);
+    const share = (value) => (value === value ? (value - low) * scale : UNDEFINED);
+    for (let k = 0; k < values.length; k++) shares[k] = share(values[k]);
+    for (let k = 0; k < copies.length; k++) shares[values.length + k] = shares[copies[k]];
     gl.bindBuffer(gl.ARRAY_BUFFER, held.values);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, shares);
     const at = Float32Array.from(levels, (value) => (value - low) * scale);
@@ -109,7 +113,8 @@ export class Drawing {
   /**
    * Draw all panels.
    * @param {{x, y, width, height}[]} boxes of the views, in CSS pixels from the upper left
-   * @param {{background: number[], undefined: number[], line: number[], width: number}} look colours from 0 to 1
+   * @param {{background: number[], undefined: number[], back: number[], line: number[], width: number}} look colours
+   *   from 0 to 1
    */
   draw(camera, boxes, scale, look) {
     const { gl, at, canvas } = this;
@@ -117,6 +122,8 @@ export class Drawing {
     gl.clearColor(...look.background, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.uniform3fv(at.undefinedColour, look.undefined);
+    gl.uniform3fv(at.backColour, look.back);
+    gl.uniform1f(at.hasBacks, Number(this.shape.hasBacks));
     gl.uniform3fv(at.lineColour, look.line);
     gl.uniform1f(at.halfWidth, Math.max(look.width * scale, 1) / 2);
     gl.uniform1f(at.parallel, Number(camera.parallel));

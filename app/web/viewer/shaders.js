@@ -27,8 +27,8 @@ export const FRAGMENT_SHADER = `#version 300 es
 precision highp float;
 in float valueAt, lightAt, shineAt;
 uniform sampler2D colours, levels;
-uniform vec3 undefinedColour, lineColour;
-uniform float lineFirst, lineStep, halfWidth, zeroAt;
+uniform vec3 undefinedColour, backColour, lineColour;
+uniform float hasBacks, lineFirst, lineStep, halfWidth, zeroAt;
 uniform int lineCount;
 out vec4 colour;
 const vec3 INK = vec3(0.08, 0.085, 0.1);
@@ -50,11 +50,12 @@ float painted(float fromLine, float reach) { return 1.0 - smoothstep(reach - 0.6
 
 void main() {
   float perPixel = length(vec2(dFdx(valueAt), dFdy(valueAt)));
-  bool isUndefined = valueAt < -900.0;
+  bool isUndefined = valueAt < -900.0, isBack = hasBacks > 0.5 && !gl_FrontFacing;
   int along = int(0.5 + 255.0 * clamp(valueAt, 0.0, 1.0));
   vec3 shown = (isUndefined ? undefinedColour : texelFetch(colours, ivec2(along, 0), 0).rgb) * lightAt + shineAt;
+  if (isBack) shown = (0.4 + 0.56 * lightAt) * backColour;
   // None where all is of one value but for rounding, nor where the range passes in a few pixels.
-  if (lineCount > 0 && !isUndefined && perPixel > 5e-7) {
+  if (lineCount > 0 && !isUndefined && !isBack && perPixel > 5e-7) {
     int k = nearestLine();
     float at = level(k), room = lineStep, fromLine = abs(valueAt - at) / perPixel;
     if (fromLine < halfWidth + 2.0) {

@@ -1,8 +1,14 @@
 /** A mesh as it is drawn: moved to the origin and of radius about 1, so that single precision is enough. */
+import { split } from "./creases.js";
 
 export class Shape {
-  /** @param {{n: number, m: number, positions: Float64Array, faces: Int32Array}} mesh */
-  constructor({ n, m, positions, faces, faceComponents }) {
+  /**
+   * drawn: `places` and `normals` of the vertices and, from n on, of their `copies` at creases, and the `corners` of faces
+   * among these.  hasBacks: the faces turn counterclockwise outside, and their other side can be seen.
+   * @param {{n: number, m: number, positions: Float64Array, faces: Int32Array}} mesh
+   * @param {{crease: number | null, backs: boolean}} shading
+   */
+  constructor({ n, m, positions, faces, faceComponents }, { crease, backs } = { crease: null, backs: false }) {
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
     for (let k = 0; k < 3 * n; k++) {
       low[k % 3] = Math.min(low[k % 3], positions[k]);
@@ -16,7 +22,11 @@ export class Shape {
     this.radius = Math.hypot(...low.map((x, axis) => high[axis] - x)) / 2 || 1;
     this.places = new Float32Array(3 * n);
     for (let k = 0; k < 3 * n; k++) this.places[k] = (positions[k] - this.centre[k % 3]) / this.radius;
-    this.normals = vertexNormals(this.places, faces);
+    const { corners, copies } = split(this, crease), places = new Float32Array(3 * (n + copies.length));
+    places.set(this.places);
+    for (const [k, vertex] of copies.entries()) places.set(this.place(vertex), 3 * (n + k));
+    this.drawn = { places, normals: vertexNormals(places, corners), corners, copies };
+    this.hasBacks = backs;
   }
 
   place(vertex) {

@@ -69,9 +69,10 @@ export class Stage {
   }
 
   draw(camera) {
-    const fraction = (colour) => colour.map((x) => x / 255), { background, undefined: none } = this.colours;
+    const fraction = (colour) => colour.map((x) => x / 255), { background, undefined: none, back } = this.colours;
     const { colour, width } = this.scene.isolines;
-    const look = { background: fraction(background), undefined: fraction(none), line: fraction(colour), width };
+    const [ground, nothing, inside, line] = [background, none, back, colour].map(fraction);
+    const look = { background: ground, undefined: nothing, back: inside, line, width };
     this.drawing.draw(camera, this.boxes, this.scale, look);
   }
 

@@ -15,11 +15,12 @@ export function themeOf(root) {
 const bytesOf = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16));
 
 /**
- * The scene's colours under a theme: maps of distances and of differences, and those of the surface.
- * @returns {{map: number[][], diverging: number[][], background: number[], undefined: number[]}} from 0 to 255
+ * The scene's colours under a theme: maps of distances and of differences, and those of the surface, of its inside, too.
+ * @returns {{map: number[][], diverging: number[][], background: number[], undefined: number[],
+ *   back: number[]}} from 0 to 255
  */
 export function coloursOf({ colours }, theme) {
-  const { map, dark_map, diverging, background, dark_background } = colours;
+  const { map, dark_map, diverging, background, dark_background, back, dark_back } = colours;
   const chosen = theme.isDark ? (dark_map ?? map) : map;
   const behind = (theme.isDark ? dark_background : background) ?? bytesOf(theme.canvas);
   return {
@@ -27,6 +28,7 @@ export function coloursOf({ colours }, theme) {
     diverging: stretched(diverging ?? chosen),
     background: behind,
     undefined: colours.undefined,
+    back: theme.isDark ? (dark_back ?? back) : back,
   };
 }
 

@@ -36,7 +36,7 @@ export class Viewer {
     this.timers = {};
     this.ended = new AbortController();
     root.dataset.lmSuppressShortcuts = ""; // JupyterLab's, of the keys that views take
-    const shape = new Shape(mesh);
+    const shape = new Shape(mesh, { crease: scene.crease, backs: scene.mesh.backs });
     this.#build();
     try {
       this.stage.start(shape);
