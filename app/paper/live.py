@@ -18,7 +18,8 @@ from .pictures import is_seen, name_of, plain_name
 MOST_EIGENPAIRS = 200
 """In a page for each diffusion distance: those of the figures take up to 54 on the bundled meshes."""
 
-OTHER_MARKS = "marks of minima and maxima"
+MARKED = {"minimum": "local minima", "maximum": "local maxima"}
+"""What pages have no marks of."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +41,7 @@ class LivePage:
     @property
     def notes(self) -> list[str]:
         """What it leaves out, as a sentence; none if nothing."""
-        return [f"Not on this page, but in the figure: {', '.join(self.left_out)}."] if self.left_out else []
+        return [f"In the figure only: {', '.join(self.left_out)}."] if self.left_out else []
 
 
 def live_pages(result: Result, row: str, panels: Sequence[Panel], up: str = "y") -> list[LivePage]:
@@ -52,7 +53,7 @@ def live_pages(result: Result, row: str, panels: Sequence[Panel], up: str = "y")
         shown = [panel for panel in of_mesh if _is_computed(panel)]
         if shown:
             name = "-".join([name_of(result, row), *([plain_name(mesh)] if len(meshes) > 1 else [])])
-            title = f"{result.id}, {mesh}: {result.title}"
+            title = f"{result.id}: {mesh}"
             document, given = _contents(result, shown, up)
             pages.append(LivePage(row, mesh, f"{name}.html", title, _left_out(of_mesh), document, given))
     return pages
@@ -75,11 +76,13 @@ def _is_computed(panel: Panel) -> bool:
 
 
 def _left_out(panels: Sequence[Panel]) -> tuple[str, ...]:
-    words = [panel.heading for panel in panels if not _is_computed(panel)]
+    bare = [panel for panel in panels if panel.field is None and not panel.failure]
+    words = ["the bare surface"] if bare else []
+    words += [panel.heading for panel in panels if panel not in bare and not _is_computed(panel)]
     if any(panel.style == "height" for panel in panels):
         words.append("fields as heights")
-    if any(mark.kind in ("minimum", "maximum") for panel in panels for mark in panel.marks):
-        words.append(OTHER_MARKS)
+    kinds = {mark.kind for panel in panels for mark in panel.marks}
+    words += [f"marks of {name}" for kind, name in MARKED.items() if kind in kinds]
     return tuple(words)
 
 

@@ -125,8 +125,8 @@ def _links(pages: Sequence[tuple[LivePage, int]]) -> str:
         for page, size in pages
     )
     left_out = list(dict.fromkeys(words for page, _ in pages for words in page.left_out))
-    html = f" <span class=quiet>Not there: {escape(', '.join(left_out))}.</span>" if left_out else ""
-    return f"<p class=live>Live, computed wherever you click: {links}.{html}</p>"
+    html = f" <span class=quiet>In the figure only: {escape(', '.join(left_out))}.</span>" if left_out else ""
+    return f"<p class=live>Live, to be computed from wherever you click: {links}.{html}</p>"
 
 
 def _width(picture: bytes) -> int:
