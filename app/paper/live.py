@@ -18,7 +18,7 @@ from .pictures import is_seen, name_of, plain_name
 MOST_EIGENPAIRS = 200
 """In a page for each diffusion distance: those of the figures take up to 54 on the bundled meshes."""
 
-MARKED = {"minimum": "local minima", "maximum": "local maxima"}
+MARKED = {"minimum": "minima", "maximum": "maxima"}
 """What pages have no marks of."""
 
 
@@ -82,7 +82,8 @@ def _left_out(panels: Sequence[Panel]) -> tuple[str, ...]:
     if any(panel.style == "height" for panel in panels):
         words.append("fields as heights")
     kinds = {mark.kind for panel in panels for mark in panel.marks}
-    words += [f"marks of {name}" for kind, name in MARKED.items() if kind in kinds]
+    if marked := [name for kind, name in MARKED.items() if kind in kinds]:
+        words.append(f"marks of local {' and '.join(marked)}")
     return tuple(words)
 
 

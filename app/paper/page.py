@@ -116,7 +116,7 @@ def _section(section: Section) -> str:
 def _links(pages: Sequence[tuple[LivePage, int]]) -> str:
     """To pages that compute.
 
-    Not frames: each panel of a page takes one of the sixteen drawings that a browser has at most, and its memory.
+    Not frames: all of them in one index take five times its memory, and browsers draw in sixteen at most.
     """
     if not pages:
         return ""
@@ -126,7 +126,7 @@ def _links(pages: Sequence[tuple[LivePage, int]]) -> str:
     )
     left_out = list(dict.fromkeys(words for page, _ in pages for words in page.left_out))
     html = f" <span class=quiet>In the figure only: {escape(', '.join(left_out))}.</span>" if left_out else ""
-    return f"<p class=live>Live, to be computed from wherever you click: {links}.{html}</p>"
+    return f"<p class=live>Live, from any source that you click: {links}.{html}</p>"
 
 
 def _width(picture: bytes) -> int:

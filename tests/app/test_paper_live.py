@@ -67,7 +67,7 @@ def test_what_the_figure_has_and_the_page_has_not_is_said():
     (page,) = pages(bare, failed, heat, panel(marks=extrema))
     assert page.left_out == (
         *("the bare surface", "diffusion", "geodesic, heat method", "fields as heights"),
-        *("marks of local minima", "marks of local maxima"),
+        "marks of local minima and maxima",
     )
     assert [str(each.shows.specs[0]) for each in page.document.panels] == ["biharmonic"]
     assert page.notes[0].startswith("In the figure only: the bare surface, ")
