@@ -1,10 +1,11 @@
-"""The pictures of the page, drawn by a process of its own while the next experiment is computed."""
+"""The pictures of the page, and the pages that compute, made by a process while the next experiment is computed."""
 
 import io
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 from bihdist_core import BihdistError
 from bihdist_core.whole_file import whole_file
@@ -12,13 +13,17 @@ from bihdist_core.whole_file import whole_file
 from ..figures.draw import Figure, draw_figure
 from ..figures.shots import RenderCache
 from ..figures.worker import GONE, Worker
+from .live import LivePage, write_live
 
 Picture = Callable[[], bytes]
 """Waits for a picture, and gives its PNG; raises BihdistError if it could not be drawn, OutputError if not written."""
 
+Written = Callable[[], int]
+"""Waits for a page that computes, and gives its size in bytes; raises as `Picture` does."""
+
 
 class Pictures:
-    """A context: within it pictures are drawn one after another."""
+    """A context: within it pictures are drawn, and pages written, one after another."""
 
     def __enter__(self) -> "Pictures":
         self._worker: Worker | None = None
@@ -34,25 +39,28 @@ class Pictures:
         """Have a figure drawn, and kept as NAME.png."""
 
         def drawn() -> bytes:
-            content = self._drawn(figure)
+            content: bytes = self._ask(png, figure)
             with whole_file(folder / f"{name}.png") as temporary:
                 temporary.write_bytes(content)
             return content
 
         return self._turn.submit(drawn).result
 
-    def _drawn(self, figure: Figure) -> bytes:
-        """By a process that begins with the first picture, and anew after one that has ended it."""
+    def write(self, folder: Path, page: LivePage) -> Written:
+        """Have a page that computes written into a folder."""
+        return self._turn.submit(self._ask, write_live, page, folder / page.file).result
+
+    def _ask(self, function: Callable[..., Any], *arguments: object) -> Any:
+        """What a process makes of it, that begins with the first picture, and anew after one that has ended it."""
         if self._worker is None:
             self._worker = Worker(threads=1)
         try:
-            content: bytes = self._worker.ask(png, figure)
+            return self._worker.ask(function, *arguments)
         except BihdistError as error:
             if str(error) == GONE:
                 self._worker.close()
                 self._worker = None
             raise
-        return content
 
 
 def png(figure: Figure) -> bytes:

@@ -5,10 +5,13 @@ import base64
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
+from urllib.parse import quote
 
 from bihdist_core.experiments import Experiment, NotDone, Result, Table
 
+from ..web.export import size_words
 from . import verdicts
+from .live import LivePage
 from .pictures import FINER
 
 LONGEST_TABLE = 24
@@ -28,7 +31,7 @@ class Named:
 class Section:
     """One experiment on the page: its result, pictures (caption, PNG) and charts (SVG), or why there are none.
 
-    missing: what could not be done of a section without result.
+    missing: what could not be done of a section without result.  live: pages that compute, each with its bytes.
     """
 
     experiment: "Experiment | Named"
@@ -37,6 +40,7 @@ class Section:
     charts: tuple[str, ...] = ()
     failure: str = ""
     missing: tuple[NotDone, ...] = ()
+    live: tuple[tuple[LivePage, int], ...] = ()
 
     @property
     def not_done(self) -> tuple[NotDone, ...]:
@@ -94,7 +98,10 @@ def _section(section: Section) -> str:
         html = f"<figcaption>{escape(caption)}</figcaption>" if len(section.pictures) > 1 else ""
         # Drawn with more pixels than the page has: shown as wide as it is meant to be.
         wide = f'alt="{escape(caption)}" width="{_width(picture) // FINER}"'
-        parts.append(f'<figure>{html}<img {wide} src="data:image/png;base64,{code}"></figure>')
+        links = _links([each for each in section.live if each[0].row == caption])
+        parts.append(f'<figure>{html}<img {wide} src="data:image/png;base64,{code}">{links}</figure>')
+    drawn = [caption for caption, _ in section.pictures]
+    parts.append(_links([each for each in section.live if each[0].row not in drawn]))
     if section.charts:
         kind = "charts several" if len(section.charts) > 1 else "charts"
         parts.append(f'<div class="{kind}">' + "".join(section.charts) + "</div>")
@@ -104,6 +111,22 @@ def _section(section: Section) -> str:
     parts += [_table(table) for table in result.tables]
     parts.append(f"<p class=quiet>{escape(result.protocol)} {result.seconds:.1f} seconds.</p></section>")
     return "\n".join(parts)
+
+
+def _links(pages: Sequence[tuple[LivePage, int]]) -> str:
+    """To pages that compute.
+
+    Not frames: all of them in one index take five times its memory, and browsers draw in sixteen at most.
+    """
+    if not pages:
+        return ""
+    links = " · ".join(
+        f'<a href="{quote(page.file)}">{escape(page.mesh)}</a> <span class=quiet>{size_words(size)}</span>'
+        for page, size in pages
+    )
+    left_out = list(dict.fromkeys(words for page, _ in pages for words in page.left_out))
+    html = f" <span class=quiet>In the figure only: {escape(', '.join(left_out))}.</span>" if left_out else ""
+    return f"<p class=live>Live, from any source that you click: {links}.{html}</p>"
 
 
 def _width(picture: bytes) -> int:
@@ -139,6 +162,7 @@ figcaption { text-align: center; color: #55606e; }
 table { border-collapse: collapse; margin: .8em 0; } th { text-align: left; font-weight: 600; }
 td, th { padding: .25em .7em; border-bottom: 1px solid #e8eaed; vertical-align: top; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; }
+p.live { text-align: center; } p.live a { color: #1f4fbf; }
 p.no { color: #b3261e; font-weight: 600; }
 .quiet { color: #737880; font-size: .9em; } details { margin: .4em 0; } summary { cursor: pointer; color: #55606e; }
 nav { margin-top: .3em; } nav a { color: #1f4fbf; text-decoration: none; }

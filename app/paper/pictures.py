@@ -74,7 +74,7 @@ def rows_of(result: Result) -> dict[str, list[Panel]]:
 
 def name_of(result: Result, row: str) -> str:
     """The name of the file of a row's picture, without extension."""
-    return "-".join(word for word in (result.id, _plain(row)) if word)
+    return "-".join(word for word in (result.id, plain_name(row)) if word)
 
 
 def figure_of(result: Result, panels: Sequence[Panel], up: str = "y") -> Figure:
@@ -151,7 +151,7 @@ def _side(result: Result, panels: Sequence[Panel], up: str) -> str:
 
     def score(view: str) -> tuple[int, bool, float]:
         towards = directions(view, up)[0]
-        seen_in = sum(_is_seen(*place, towards) for place in places)
+        seen_in = sum(is_seen(*place, towards) for place in places)
         return seen_in, across[view] >= BROAD * max(across.values()), float(outwards @ towards)
 
     return max(SIDES, key=score)
@@ -162,7 +162,7 @@ def _across(vertices: FloatArray, towards: FloatArray, upright: FloatArray) -> f
     return float(np.ptp(vertices @ np.cross(upright, towards)) * np.ptp(vertices @ upright))
 
 
-def _is_seen(surface: Surface, vertex: int, towards: FloatArray) -> bool:
+def is_seen(surface: Surface, vertex: int, towards: FloatArray) -> bool:
     """Whether nothing but the faces at a vertex is in the way from it in a direction (3,)."""
     faces = surface.faces[(surface.faces != vertex).all(axis=1)]
     a, b, c = (surface.vertices[faces[:, k]] - surface.vertices[vertex] for k in range(3))
@@ -230,5 +230,6 @@ def _legend(panels: Sequence[Panel]) -> tuple[Entry, ...]:
     return tuple(entries)
 
 
-def _plain(text: str) -> str:
+def plain_name(text: str) -> str:
+    """What of a name can stand in that of a file."""
     return "".join(c if c.isalnum() else "-" for c in text.lower()).strip("-")

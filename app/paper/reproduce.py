@@ -2,8 +2,8 @@
 
 import textwrap
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from bihdist_core import (
@@ -28,7 +28,8 @@ from ..marks.primitives import PointMark
 from ..samples import SAMPLES
 from ..session.questions import first_source
 from .charts import chart_svg
-from .drawing import Picture, Pictures
+from .drawing import Picture, Pictures, Written
+from .live import LivePage, live_pages
 from .page import Named, Section, page
 from .pictures import FINER, figure_of, name_of, rows_of
 
@@ -42,6 +43,14 @@ SHORT = 100
 
 SHEET, SHEET_COLUMNS = 40, 5
 """Meshes on a contact sheet, and side by side on it."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What is being made for a section: pictures by their captions, and pages that compute."""
+
+    pictures: dict[str, Picture] = field(default_factory=dict)
+    pages: list[tuple[LivePage, Written]] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -130,7 +139,7 @@ def _sections(
     pictures: Pictures,
 ) -> list[Section]:
     """In the order chosen; read_more: where the page has what is said of an experiment, to be followed by its id."""
-    done: dict[str, tuple[Section, dict[str, Picture]]] = {}
+    done: dict[str, tuple[Section, Asked]] = {}
     # What is timed comes first: no pictures are being drawn then.
     for k, experiment in enumerate(sorted(chosen, key=lambda each: not each.is_timed)):
         mine = part(progress, k / len(chosen), (k + 1) / len(chosen))
@@ -149,14 +158,17 @@ def _sections(
     return [_with_pictures(*done[experiment.id], say) for experiment in chosen]
 
 
-def _with_pictures(section: Section, asked: Mapping[str, Picture], say: Callable[[str], None]) -> Section:
-    """A section when its pictures are drawn; asked: by their captions."""
+def _with_pictures(section: Section, asked: Asked, say: Callable[[str], None]) -> Section:
+    """A section when its pictures are drawn, and its pages that compute are written."""
     parts = Parts()
-    found = [(row, parts.do(f"the picture {row}".strip(), picture)) for row, picture in asked.items()]
+    found = [(row, parts.do(f"the picture {row}".strip(), picture)) for row, picture in asked.pictures.items()]
+    written = [(page, parts.do(f"the live page {page.file}", size)) for page, size in asked.pages]
     for missing in parts.not_done:
         say(f"{section.experiment.id}: not done: {missing}")
     result = section.result and replace(section.result, not_done=(*section.result.not_done, *parts.not_done))
-    return replace(section, result=result, pictures=tuple((row, each) for row, each in found if each))
+    pictures = tuple((row, each) for row, each in found if each)
+    live = tuple((page, size) for page, size in written if size)
+    return replace(section, result=result, pictures=pictures, live=live)
 
 
 def _judged(result: Result) -> str:
@@ -188,18 +200,20 @@ def _section(
     progress: Progress,
     up: str,
     pictures: Pictures,
-) -> tuple[Section, dict[str, Picture]]:
-    """An experiment's section, and its pictures by their captions, which are being drawn."""
+) -> tuple[Section, Asked]:
+    """An experiment's section, and its pictures and pages, which are being made."""
     parts = Parts()
     result = parts.do(experiment.title, experiment.compute, shapes, quick, part(progress, 0, 0.9))
     if result is None:
-        return Section(experiment, None, failure=parts.not_done[0].reason), {}
+        return Section(experiment, None, failure=parts.not_done[0].reason), Asked()
     result.save(folder)
-    asked, charts = {}, []
+    asked, charts = Asked(), []
     for row, panels in rows_of(result).items():
         figure = parts.do(f"the picture {row}".strip(), figure_of, result, panels, up)
         if figure is not None:
-            asked[row] = pictures.draw(folder, name_of(result, row), figure)
+            asked.pictures[row] = pictures.draw(folder, name_of(result, row), figure)
+        live = parts.do(f"live pages {row}".strip(), live_pages, result, row, panels, up)
+        asked.pages.extend((each, pictures.write(folder, each)) for each in live or ())
     for chart in result.charts:
         svg = parts.do(f"the chart {chart.heading}", chart_svg, chart)
         charts += [] if svg is None else [svg]
@@ -243,8 +257,8 @@ def _each_mesh(
         _make(place)
         here = f"{folder / PAGE}#{name}-"
         for section in _sections(place, chosen, shapes, quick, mine, say, here, its_up, pictures):
-            named = _named(section.experiment, name, path)
-            sections.append(Section(named, section.result, section.pictures, section.charts, section.failure))
+            live = tuple((replace(each, file=f"{name}/{each.file}"), size) for each, size in section.live)
+            sections.append(replace(section, experiment=_named(section.experiment, name, path), live=live))
         surfaces.append((surface, its_up))
     if surfaces:
         sections.insert(0, _contact_sheets(folder, surfaces, missing, pictures))

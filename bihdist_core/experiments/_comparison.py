@@ -5,6 +5,7 @@ import numpy as np
 from ..applications.perturbation import vertex_normals
 from ..arrays import BoolArray, FloatArray
 from ..distances.distance import Distance
+from ..distances.kinds import Spec
 from ..errors import SolverError
 from ..progress import Progress, part
 from ..surface import Surface
@@ -14,7 +15,7 @@ from .gathered import Gathered
 from .measures import FIELD_COLUMNS, deepest_minimum, field_row, kinked_edges, marks, over
 from .parts import Parts
 from .result import Cell, Chart, Claim, Mark, Panel, Result, Table
-from .shapes import DISTANCES, Shapes, distances_there, random_sources
+from .shapes import DISTANCES, Shapes, distances_there, random_sources, spec_of
 from .statements import STATEMENTS
 
 NEEDS = {1: ("biharmonic",), 2: ("diffusion t = 1",), 3: ("circles",), 4: ("biharmonic", "geodesic")}
@@ -46,7 +47,8 @@ def compared(
         for kind in DISTANCES:
             heading = distances[kind].label if kind in distances else kind
             reason = parts.why(f"{kind} on {name}")
-            panels.append(_panel(surface, name, heading, pictured, fields.get(kind), reason))
+            spec = spec_of(kind, distances[kind]) if kind in fields else None
+            panels.append(_panel(surface, name, heading, pictured, fields.get(kind), reason, spec))
         distances = {kind: distances[kind] for kind in fields}
         if "biharmonic" not in fields and "diffusion t = 1" not in fields:
             continue
@@ -160,7 +162,13 @@ def _note(k: int, charts: list[Chart]) -> str:
 
 
 def _panel(
-    surface: Surface, name: str, heading: str, source: int, field: FloatArray | None, failure: str = ""
+    surface: Surface,
+    name: str,
+    heading: str,
+    source: int,
+    field: FloatArray | None,
+    failure: str,
+    spec: Spec | None,
 ) -> Panel:
     shown = (Mark(source, "source"),) if field is None else marks(surface, field, source)
-    return Panel(heading, name, field, name, shown, ("front", "back"), failure=failure)
+    return Panel(heading, name, field, name, shown, ("front", "back"), failure=failure, distance=spec)

@@ -12,7 +12,7 @@ from .gathered import Gathered
 from .measures import FIELD_COLUMNS, deepest_minimum, field_row, marks
 from .parts import Parts
 from .result import Cell, Panel, Result, Table
-from .shapes import Shapes, distance, random_sources
+from .shapes import Shapes, distance, random_sources, spec_of
 
 TITLE = "Biharmonic distance from a source"
 RANDOM = {"figure": 24}
@@ -36,7 +36,8 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         rows += [row] if row is not None else []
         # The picture has marks where the statement fails, and nowhere else.
         shown = tuple(mark for mark in marks(surface, field, source) if mark.kind != "maximum")
-        panels.append(Panel(name, name, field, "biharmonic", shown, ("front", "back")))
+        spec = spec_of("biharmonic", biharmonic)
+        panels.append(Panel(name, name, field, "biharmonic", shown, ("front", "back"), distance=spec))
         count = QUICK if quick else RANDOM.get(name, 24 if shapes.own is not None else FEW)
         found.add(MINIMA.name, deepest_minimum(surface, field, source), is_pictured=True)
         for vertex in random_sources(surface, count):

@@ -19,7 +19,7 @@ from .circles import PROTOCOL, circles, gather_circles
 from .gathered import Gathered
 from .measures import FIELD_COLUMNS, deepest_minimum, field_row, largest_jump, marks
 from .result import Cell, Mark, Panel, Result, Table
-from .shapes import Shapes, distance, random_sources
+from .shapes import Shapes, distance, random_sources, spec_of
 from .statements import STATEMENTS
 
 TITLE = "Distances over a flat domain"
@@ -69,8 +69,16 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         (
             Panel("the domain", name, None, "fields", (Mark(source, "source"),)),
             *(
-                Panel(kind, name, fields[kind], "fields", marks(surface, fields[kind], source), style=style)
-                for kind in KINDS
+                Panel(
+                    kind,
+                    name,
+                    fields[kind],
+                    "fields",
+                    marks(surface, fields[kind], source),
+                    style=style,
+                    distance=spec_of(kind, made),
+                )
+                for kind, made in distances.items()
             ),
         ),
         charts=(circled.chart("isotropy"),) if np.isfinite(circled.ratios[LONG][0]).all() else (),

@@ -21,7 +21,7 @@ from ..surface import Surface
 from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, percent
 from .parts import Parts
 from .result import Cell, Claim, Mark, Panel, Result, Table
-from .shapes import DISTANCES, UPPER_BACK, Shapes, distances_there, random_sources, spread_points
+from .shapes import DISTANCES, UPPER_BACK, Shapes, distances_there, random_sources, spec_of, spread_points
 
 TITLE = "A raw surface with holes"
 HOLES, HOLE_RADIUS = 24, 0.045
@@ -117,8 +117,14 @@ def _measured(
             marks = (Mark(int(there[source]), "source"),), (Mark(source, "source"),)
             views = ("front", "back")
             if with_intact:
-                found.panels += [Panel(k, name, field, "intact", marks[0], views) for k, field in whole.items()]
-            found.panels += [Panel(k, damage, field, damage, marks[1], views) for k, field in after.items()]
+                found.panels += [
+                    Panel(k, name, field, "intact", marks[0], views, distance=spec_of(k, on[k][0]))
+                    for k, field in whole.items()
+                ]
+            found.panels += [
+                Panel(k, damage, field, damage, marks[1], views, distance=spec_of(k, on[k][1]))
+                for k, field in after.items()
+            ]
     return found
 
 

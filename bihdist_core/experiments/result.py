@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ..arrays import AnyArray, FloatArray
+from ..distances.kinds import Spec
 from ..errors import OutputError, ParameterError
 from ..surface import Surface
 from ..whole_file import whole_file
@@ -108,7 +109,8 @@ class Panel:
     as a height.  views: names of directions, "front", "back", "source" (the side that sees the row's
     first mark best), or "zoom" (around `zoom_vertex`, showing `zoom_radius`, in the surface's unit).  Isolines:
     `isoline_count` equally spaced ones.  exaggerate: colours show the field to this power; below 1 small values are
-    spread out.  failure: why a field is missing.
+    spread out.  failure: why a field is missing.  distance: what computes the field anew, from the mark of a source,
+    None where that is more than one distance.
     """
 
     heading: str
@@ -123,6 +125,7 @@ class Panel:
     isoline_count: int = 20
     exaggerate: float = 1.0
     failure: str = ""
+    distance: Spec | None = None
 
 
 @dataclass(frozen=True, eq=False)

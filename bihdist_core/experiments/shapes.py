@@ -12,6 +12,7 @@ from ..arrays import BoolArray, IntArray
 from ..distances.answers import Distances
 from ..distances.distance import Distance
 from ..distances.edge_geodesic import EdgeGeodesic
+from ..distances.geodesic import GeodesicDistance
 from ..distances.kinds import Spec
 from ..errors import ParameterError
 from ..formats.mesh_io import read_surface
@@ -156,10 +157,20 @@ def distance(laplacian: Laplacian, kind: str, progress: Progress | None = None) 
     Geodesic is exact where a field takes 5 s at most, else by the heat method; the label says which.
     SolverError if it cannot be had, or not accurately.
     """
-    word, _, parameters = kind.partition(" ")
-    made = Distances(laplacian).get(Spec.parse(f"{word}({parameters})"), progress)
+    made = Distances(laplacian).get(_spec(kind), progress)
     made.error_estimate()
     return made
+
+
+def spec_of(kind: str, made: Distance) -> Spec:
+    """The spec of a distance by the words of the experiments, with the method by which it was made."""
+    spec = _spec(kind)
+    return spec.changed(method=made.method) if isinstance(made, GeodesicDistance) else spec
+
+
+def _spec(kind: str) -> Spec:
+    word, _, parameters = kind.partition(" ")
+    return Spec.parse(f"{word}({parameters})")
 
 
 def distances_there(laplacian: Laplacian, parts: Parts, where: str) -> dict[str, Distance]:
