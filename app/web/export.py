@@ -12,6 +12,7 @@ from bihdist_core import Laplacian, ParameterError, Surface
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.distances.spectral import SpectralDistance
+from bihdist_core.distances.unfolding_mesh import UnfoldingMesh
 from bihdist_core.progress import Progress, part
 from bihdist_core.whole_file import check_output, whole_file
 
@@ -53,6 +54,9 @@ class Page:
     differs: Mapping[str, float]
     given: Mapping[str, StoredField]
 
+    def __repr__(self) -> str:
+        return f"Page({', '.join(self.labels)}, of {self.mesh.surface.name})"
+
     @property
     def eigenpairs(self) -> dict[str, int]:
         """How many of them distances took along, by the names of these."""
@@ -88,6 +92,7 @@ def page_of(
     recipe = replace(recipe, document=contents.document)
     answers = compute(contents.document, surfaces, part(progress, 0.3, 0.5))
     mesh = StoredMesh.of(loaded.surface, precision)
+    _check_geodesic(contents, mesh)
     distances = Distances(Laplacian(mesh.surface, document.areas))
     differs = _differences(contents, loaded, mesh, distances, part(progress, 0.5, 1))
     points = {name: StoredPoints.of(_spectral(distances, spec)) for name, spec in contents.by_eigenpairs.items()}
@@ -135,6 +140,16 @@ def _check_eigenpairs(contents: Contents, loaded: LoadedMesh, allowed: int, prog
                 f"{size_words(eigenpair_bytes(needed, count))}; allow them with --eigenpairs {needed} (in Python "
                 f"eigenpairs={needed}), or leave it out."
             )
+
+
+def _check_geodesic(contents: Contents, mesh: StoredMesh) -> None:
+    """ParameterError where a page would have to unfold faces that have no height."""
+    is_geodesic = any(spec.word == "geodesic" for spec in contents.fields.values())
+    if is_geodesic and UnfoldingMesh(mesh.surface).has_degenerate_faces:
+        raise ParameterError(
+            f"{mesh.surface.name} has faces without height, over which a page cannot measure geodesic distance; leave "
+            "that out, remesh, or draw it with bihdist figure."
+        )
 
 
 def _differences(

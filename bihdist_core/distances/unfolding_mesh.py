@@ -59,6 +59,11 @@ class UnfoldingMesh:
             self.number = proper.same[number]
             self._build(proper.points, proper.faces, proper.labels)
 
+    @property
+    def has_degenerate_faces(self) -> bool:
+        """Whether the surface has faces that others stand for."""
+        return self._proper is not None
+
     def _build(self, points: FloatArray, corners: AnyArray, labels: AnyArray | None = None) -> int:
         """Returns how many faces are degenerate."""
         n, m = len(points), len(corners)

@@ -20,7 +20,7 @@ from app.main import main
 from app.web import export, page as of_page
 from bihdist_core import BiharmonicDistance, OutputError, ParameterError, Surface
 
-from ..shapes import bumpy, two_pieces
+from ..shapes import bumpy, slivers, two_pieces
 
 
 def scene_in(path):
@@ -204,3 +204,11 @@ def test_names_cannot_end_the_element_that_has_them(mesh_file, in_folder):
     assert main(["page", name, "-o", "p.html"]) == 0
     assert scene_in("p.html")["mesh"]["name"] == name
     assert "<!--<script>&" not in Path("p.html").read_text()
+
+
+def test_geodesic_distance_over_faces_without_height_is_refused_and_the_others_are_not(tmp_path):
+    with pytest.raises(ParameterError, match=r"slivers has faces without height, .* leave that out, remesh"):
+        bihdist.page(slivers(), tmp_path / "p.html", ["biharmonic", "geodesic"])
+    assert not (tmp_path / "p.html").exists()
+    page = bihdist.page(slivers(), tmp_path / "p.html", ["biharmonic", "commute-time"])
+    assert repr(page) == "Page(biharmonic, exact, commute-time, exact, of slivers)"
