@@ -65,7 +65,9 @@ def run(options: argparse.Namespace) -> Result:
         {"distance": str(spec), "difference": page.differs[str(spec)], "n_eigenpairs": page.eigenpairs.get(name, 0)}
         for name, spec in contents.fields.items()
     ]
-    fields = [{"field": own.name, "difference": page.differs[own.word]} for own in contents.own]
+    distances += [
+        {"distance": own.word, "difference": page.differs[own.word], "n_eigenpairs": 0} for own in contents.own
+    ]
     facts: Facts = {
         "meshes": [{"mesh": each.path} for each in recipe.document.surfaces],
         "outputs": [path],
@@ -76,7 +78,6 @@ def run(options: argparse.Namespace) -> Result:
         "source": source,
         "panels": [{"label": label} for label in page.labels],
         "distances": distances,
-        **({"fields": fields} if fields else {}),
     }
     return Result(facts)
 

@@ -62,6 +62,7 @@ def _moving(size: Size) -> tuple[float, float, float, float, int, int]:
             moves.turn(view.camera, 3, 1, (view.width(), view.height()))
             view.moved.emit()
             for panel in panels:
+                panel.view.offscreen.begin()  # or it would wait for what else there is to do
                 panel.view.repaint()
 
         def quick() -> None:

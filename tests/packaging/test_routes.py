@@ -21,8 +21,8 @@ def routes() -> list[list[tuple[str, list[str]]]]:
     return found
 
 
-def test_there_is_a_way_down_a_way_up_a_figure_a_data_set_and_an_export():
-    assert [len(route) for route in routes()] == [15, 8, 12, 7, 8]
+def test_there_is_a_way_down_a_way_up_a_figure_a_page_a_data_set_and_an_export():
+    assert [len(route) for route in routes()] == [15, 8, 12, 6, 7, 8]
 
 
 @pytest.mark.parametrize("route", routes())

@@ -334,5 +334,9 @@ def test_a_recipe_with_fields_of_ones_own_becomes_a_page(mesh_file, tmp_path, mo
     said = capsys.readouterr()
     facts = json.loads(said.out)
     assert [panel["label"] for panel in facts["panels"]] == ["biharmonic, exact − mine"]
-    assert facts["fields"] == [{"field": "mine", "difference": pytest.approx(3e-8, abs=3e-8)}]
+    assert facts["distances"][-1] == {
+        "distance": "field mine",
+        "difference": pytest.approx(3e-8, abs=3e-8),
+        "n_eigenpairs": 0,
+    }
     assert "mine was given as it is" in said.err
