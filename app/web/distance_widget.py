@@ -65,6 +65,7 @@ class DistanceWidget(anywidget.AnyWidget):
         """Call with the vertex whenever one is clicked in a panel; not where Python sets the source."""
 
         def told(_: object, content: Any, __: object) -> None:
-            act(self._held(content.get("picked"), "What was clicked"))
+            if "picked" in content:
+                act(self._held(content["picked"], "What was clicked"))
 
         self.on_msg(told)
