@@ -120,15 +120,18 @@ class MergeDialog(QtWidgets.QDialog):
             self.chosen.emit(tolerance)
 
     def _footer(self) -> QtWidgets.QWidget:
-        footer = QtWidgets.QFrame(objectName="footer")
-        self.merge = QtWidgets.QPushButton("&Merge", objectName="fill", default=True, enabled=False)
+        footer, role = QtWidgets.QFrame(objectName="footer"), QtWidgets.QDialogButtonBox.ButtonRole
+        buttons = QtWidgets.QDialogButtonBox(self)  # which a default button must know of
+        self.merge = buttons.addButton("&Merge", role.AcceptRole)
+        self.merge.setDefault(True)
+        self.merge.setEnabled(False)
         self.merge.setToolTip("Merge them; Undo takes it back")
-        self.merge.clicked.connect(self.accept)
-        cancel = QtWidgets.QPushButton("Cancel", autoDefault=False, toolTip="All stays as it is (Esc)")
-        cancel.clicked.connect(self.reject)
-        for button in (self.merge, cancel):
-            button.setMinimumWidth(76)
-        in_row(None, cancel, self.merge, of=footer, spacing=8, margins=(22, 12, 24, 12))
+        cancel = buttons.addButton("Cancel", role.RejectRole)
+        cancel.setAutoDefault(False)
+        cancel.setToolTip("All stays as it is (Esc)")
+        buttons.accepted.connect(self.accept)
+        buttons.rejected.connect(self.reject)
+        in_row((buttons, 1), of=footer, spacing=8, margins=(22, 12, 24, 12))
         return footer
 
     def _edited(self) -> None:
