@@ -34,6 +34,11 @@ def is_a_count(line):
     return line["row"] == 15 or line["work"].startswith("pictures drawn")
 
 
+def is_a_rate(line):
+    """An exponent, which two short times on a busy machine may turn over."""
+    return "n^p" in line["work"]
+
+
 def test_every_row_is_there_with_its_bound(quick):
     printed, written = quick
     lines = written["lines"]
@@ -41,7 +46,11 @@ def test_every_row_is_there_with_its_bound(quick):
     assert all(
         line["bound"] is not None for line in lines if "folded" not in line["work"] and "needle" not in line["work"]
     )
-    assert all(line["value"] > 0 for line in lines if "skipped" not in line["note"] and not is_a_count(line))
+    assert not [
+        (line["work"], line["value"])
+        for line in lines
+        if "skipped" not in line["note"] and not is_a_count(line) and not is_a_rate(line) and not line["value"] > 0
+    ]
     table = [row for row in printed.splitlines() if row.startswith("|")]
     assert len(table) == len(lines) + 2
     assert {row.count("|") for row in table} == {len(COLUMNS) - len(BEFORE) + 1}

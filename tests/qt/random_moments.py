@@ -1,8 +1,8 @@
 """`python -m tests.qt.random_moments SEED COUNT SIZE FOLDER`: work begun in the real window, Esc in the midst of it.
 
 Then the window is clicked, changed, undone, given another mesh or closed at once, and has to show what is asked then.
-SIZE: about how many vertices the
-meshes have that take a while.  Prints JSON: what is wrong, how long the window let one wait, and what went on at Esc.
+SIZE: about how many vertices the meshes have that take a while.  Prints JSON: what is wrong, how long the window let one
+wait, and what went on at Esc.
 """
 
 import faulthandler
@@ -126,7 +126,7 @@ class MomentHands(Hands):
             at = QtCore.QPoint(round(x * panel.view.width()), round(y * panel.view.height()))
             hit = panel.view.pick(at)
             over = panel.view.over.points.standing_at(QtCore.QPointF(at))
-            if hit is not None and over is None:
+            if hit is not None and over is None and panel.view.mark_at(at) < 0:  # a mark is taken hold of, and stays
                 break
         else:
             return
@@ -136,7 +136,8 @@ class MomentHands(Hands):
         known = vertex_at(document.point(names[0]).at, session.surface_in(panel.id)) if names else hit.vertex
         corners = session.surface_in(panel.id).faces
         if known != hit.vertex and not (np.isin(corners, [known, hit.vertex]).sum(axis=1) == 2).any():
-            self.faults.append(f"a click at vertex {hit.vertex} puts the source at {known}")
+            shown = session.document.panel(panel.id)
+            self.faults.append(f"a click at vertex {hit.vertex}, {at} puts the source of {shown} at {known}: {hit}")
 
     def change(self) -> None:
         parts(self.window).choices.choose(self.panel(), quantity(self.chance.choice(SHORT)))
