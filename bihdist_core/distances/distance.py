@@ -15,6 +15,9 @@ from ..progress import Progress
 from .accuracy import POOR, ErrorEstimate, accurate_to, rounded_up
 from .pair_questions import PairQuestions
 
+FINEST = 1e-12
+"""The least an accuracy is said to be: estimates look at some pairs, and others may be rounded worse."""
+
 
 class Distance(PairQuestions):
     """A distance between the vertices of a surface.
@@ -110,7 +113,9 @@ class Distance(PairQuestions):
             # Where numbers end, the estimate is infinite.
             with np.errstate(all="ignore"):
                 accuracy = self._estimated_accuracy(component)
-            self._accuracies[component.index] = np.inf if accuracy is not None and np.isnan(accuracy) else accuracy
+            if accuracy is not None:
+                accuracy = np.inf if np.isnan(accuracy) else max(accuracy, FINEST)
+            self._accuracies[component.index] = accuracy
         return self._accuracies[component.index]
 
     def _estimated_accuracy(self, component: Component) -> float | None:
