@@ -6,6 +6,8 @@ import time
 import pytest
 
 from app.document.document import COMPARISON, comparison
+from bihdist_core.distances.kinds import Spec
+from tests.shapes import bumpy
 
 
 @pytest.fixture(scope="session")
@@ -175,3 +177,58 @@ def head(application):
     yield make
     for window in windows:
         window.close()
+
+
+@pytest.fixture
+def small(application, mesh_file):
+    """A window with a mesh in it, that only exports."""
+    from qtpy import QtTest, QtWidgets
+
+    from app.qt.context import Context
+    from app.qt.files.exports import ExportChip, Exports
+    from app.qt.preferences import Preferences
+    from app.qt.status_bar import StatusBar
+    from app.session.session import Session
+
+    class Small(QtWidgets.QMainWindow):
+        def __init__(self):
+            super().__init__()
+            self.context = Context(self, Preferences(), StatusBar(self))
+            self.said, self.refusals = [], []
+            self.failed, self.context.tell = self.refusals.append, self.said.append
+            self.context.failed.connect(self.refusals.append)
+            document = comparison("", (Spec.of("biharmonic"),))
+            self.session = self.context.session = Session(self, self.context.post, document=document)
+            self.exports = self.context[Exports]
+            self.chip = ExportChip(self.exports)
+            self.statusBar().addPermanentWidget(self.chip)
+
+        def until(self, condition, seconds=180):
+            end = time.monotonic() + seconds
+            while not condition():
+                assert time.monotonic() < end, f"waited in vain; refused: {self.refusals}"
+                application.processEvents()
+                time.sleep(0.005)
+
+        def nothing(self, *_):
+            """The session tells; this window shows nothing of it."""
+
+        document_changed = answer_changed = error_estimate_changed = progress_changed = nothing
+
+    window = Small()
+    window.show()
+    window.session.open(mesh_file(bumpy(200)), 5)
+    window.until(lambda: window.session.is_complete)
+    yield window
+    window.exports.close()
+    window.session.close()
+    window.close()
+    window.deleteLater()
+    QtTest.QTest.qWait(1)
+
+
+@pytest.fixture
+def out(tmp_path):
+    folder = tmp_path / "out"
+    folder.mkdir()
+    return folder

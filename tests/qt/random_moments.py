@@ -1,8 +1,8 @@
 """`python -m tests.qt.random_moments SEED COUNT SIZE FOLDER`: work begun in the real window, Esc in the midst of it.
 
 Then the window is clicked, changed, undone, given another mesh or closed at once, and has to show what is asked then.
-SIZE: about how many vertices the meshes have that take a while.  Prints JSON: what is wrong, how long the window let one
-wait, and what went on at Esc.
+SIZE: about how many vertices the meshes have that take a while.  Prints JSON: what is wrong, how long the window let
+one wait, and what went on at Esc.
 """
 
 import faulthandler

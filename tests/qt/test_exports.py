@@ -1,81 +1,19 @@
 """Files drawn in the background: the window answers meanwhile, what is cancelled leaves nothing, mistakes are said."""
 
 import os
-import time
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 
 import pytest
 
-from app.document.camera import Camera
-from app.document.document import Panel, comparison
-from app.document.looks import Colours, Isolines
+from app.document.document import comparison
 from app.document.page import Recipe
-from app.document.quantities import quantity
-from app.document.shared_parts.pins import add_pins
-from app.scene.colour_maps import MAPS
 from bihdist_core import OutputError
 from bihdist_core.distances.kinds import Spec
-from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
 pytestmark = pytest.mark.usefixtures("application")
-
-
-@pytest.fixture
-def small(application, mesh_file):
-    """A window with a mesh in it, that only exports."""
-    from qtpy import QtTest, QtWidgets
-
-    from app.qt.context import Context
-    from app.qt.files.exports import ExportChip, Exports
-    from app.qt.preferences import Preferences
-    from app.qt.status_bar import StatusBar
-    from app.session.session import Session
-
-    class Small(QtWidgets.QMainWindow):
-        def __init__(self):
-            super().__init__()
-            self.context = Context(self, Preferences(), StatusBar(self))
-            self.said, self.refusals = [], []
-            self.failed, self.context.tell = self.refusals.append, self.said.append
-            self.context.failed.connect(self.refusals.append)
-            document = comparison("", (Spec.of("biharmonic"),))
-            self.session = self.context.session = Session(self, self.context.post, document=document)
-            self.exports = self.context[Exports]
-            self.chip = ExportChip(self.exports)
-            self.statusBar().addPermanentWidget(self.chip)
-
-        def until(self, condition, seconds=180):
-            end = time.monotonic() + seconds
-            while not condition():
-                assert time.monotonic() < end, f"waited in vain; refused: {self.refusals}"
-                application.processEvents()
-                time.sleep(0.005)
-
-        def nothing(self, *_):
-            """The session tells; this window shows nothing of it."""
-
-        document_changed = answer_changed = error_estimate_changed = progress_changed = nothing
-
-    window = Small()
-    window.show()
-    window.session.open(mesh_file(bumpy(200)), 5)
-    window.until(lambda: window.session.is_complete)
-    yield window
-    window.exports.close()
-    window.session.close()
-    window.close()
-    window.deleteLater()
-    QtTest.QTest.qWait(1)
-
-
-@pytest.fixture
-def out(tmp_path):
-    folder = tmp_path / "out"
-    folder.mkdir()
-    return folder
 
 
 def movie_dialog(small, frames, size="300x120"):
@@ -378,98 +316,3 @@ def test_every_box_has_a_name_and_a_tip(small):
         named = [box for box in boxes if box.accessibleName() or getattr(box, "text", str)()]
         assert len(named) == len(boxes)
         dialog.close()
-
-
-# ---------------------------------------------------------------------- web pages
-@pytest.fixture
-def page_dialog(small):
-    """Opens the dialog of web pages."""
-    from app.qt.files.figure_actions import export_page
-
-    return lambda: export_page(small.context)
-
-
-def _show(small, document):
-    small.session.show(document)
-    small.until(lambda: small.session.is_complete)
-
-
-def test_a_page_is_written_in_the_background_of_what_is_shown(small, out, page_dialog):
-    from tests.web.test_export import scene_in
-
-    document = small.session.document
-    shown = replace(
-        add_pins(document, [3, 12]),
-        camera=Camera((0.0, 0, 9), (0, 0, 0), (0, 1, 0), (0.3, 0.3)),
-        colours=Colours(map="ember"),
-        isolines=Isolines(7),
-        panels=(replace(document.panels[0], maximum=0.5), Panel(1, quantity("biharmonic - geodesic"))),
-        next_id=2,
-    )
-    _show(small, shown)
-    dialog = page_dialog()
-    assert dialog.windowTitle() == "Export web page"
-    assert not dialog.carried.isVisibleTo(dialog)
-    dialog.precision.setCurrentIndex(dialog.precision.findData("float32"))
-    dialog.export(str(out / "p.html"))
-    assert not dialog.isVisible()
-    assert small.chip.share.text().startswith("Web page ")
-    small.until(lambda: small.said or small.refusals)
-    assert (small.said, small.refusals) == (["Saved p.html"], [])
-    assert os.listdir(out) == ["p.html"]
-    scene = scene_in(out / "p.html")
-    assert scene["source"] == 5
-    assert [pin["id"] for pin in scene["pins"]] == [3, 12]
-    assert scene["camera"]["position"] == [0, 0, 9]
-    assert scene["isolines"]["count"] == 7
-    assert scene["panels"][0]["range"] == [0, 0.5]
-    assert scene["panels"][1]["of"] == ["biharmonic", "geodesic"]
-    assert scene["mesh"]["bits"] == "float32"
-    assert scene["colours"]["map"][0] == [round(255 * x) for x in MAPS["ember"].stops[0][1]]
-
-
-def test_the_size_of_eigenpairs_is_said_before_a_page_is_written(small, out, page_dialog):
-    document = small.session.document
-    _show(small, replace(document, panels=(replace(document.panels[0], shows=quantity("truncated(k=20)")),)))
-    dialog = page_dialog()
-    assert dialog.carried.isVisibleTo(dialog)
-    assert dialog.carried.text() == "20 eigenpairs in the file, some 10 kB"
-    dialog.export(str(out / "p.html"))
-    small.until(lambda: small.said or small.refusals)
-    assert (small.said, small.refusals) == (["Saved p.html"], [])
-    assert 'id="points-truncated"' in (out / "p.html").read_text(encoding="utf-8")
-
-
-def test_what_a_page_cannot_show_is_said_in_its_dialog(small, out, page_dialog):
-    document = small.session.document
-    _show(small, replace(document, panels=(replace(document.panels[0], shows=quantity("power(k=20)")),)))
-    dialog = page_dialog()
-    assert "Panel 1 (power(k=20)) cannot be on a page" in dialog.refusal.text()
-    dialog.export(str(out / "p.html"))
-    assert dialog.isVisible()
-    assert not small.exports.running
-    dialog.close()
-
-
-def test_a_field_of_ones_own_goes_into_the_page(small, out, page_dialog):
-    from tests.web.test_export import scene_in
-
-    values = small.session.surface.vertices[:, 0]
-    field = small.session.given.add_field("mine", values)
-    document = small.session.document
-    panels = (document.panels[0], Panel(1, quantity("biharmonic - mine", fields=["mine"])))
-    _show(small, replace(document, panels=panels, fields=(field,), next_id=2))
-    page_dialog().export(str(out / "p.html"))
-    small.until(lambda: small.said or small.refusals)
-    assert (small.said, small.refusals) == (["Saved p.html"], [])
-    scene = scene_in(out / "p.html")
-    assert scene["panels"][1]["of"] == ["biharmonic", "field mine"]
-    assert scene["given"] == ["field mine"]
-
-
-def test_a_page_that_is_cancelled_leaves_nothing(small, out, page_dialog):
-    page_dialog().export(str(out / "p.html"))
-    small.chip.stop.click()
-    small.until(lambda: not small.exports.running)
-    assert os.listdir(out) == []
-    assert (small.said, small.refusals) == ([], [])

@@ -5,7 +5,9 @@ from pathlib import Path
 from .outcome import OPENED, Outcome
 from .screens import found_by, there_is_a_screen
 
-WORDS = "500 moments in a window: Esc in the midst of work, then a click, a change, undo, another mesh or its end"
+WORDS = (
+    "runs of 25 moments in a window: Esc in the midst of work, then a click, a change, undo, another mesh or its end"
+)
 SEEDS, BLOCK, SECONDS = 20, 1, 3600.0
 MOMENTS = 25
 LARGE = 40_000
