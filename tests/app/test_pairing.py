@@ -164,6 +164,14 @@ def test_pairs_go_with_either_surface():
     assert remove_pins(document, [pin.point for pin in document[Pins].pins])[Pairs].pairs == document[Pairs].pairs
 
 
+@pytest.mark.parametrize("surface", "AB")
+def test_a_point_that_waits_goes_with_the_surface_of_its_partner(surface):
+    waiting = place_point(add_pairs(both(), PAIRS), surface, 44)
+    for gone in (close_beside(waiting), *(open_mesh(waiting, MeshFile(name, "third.off")) for name in "AB")):
+        assert gone[Pairs].pairs == ()
+        assert not any(point.name.startswith("pair") for point in gone.points)
+
+
 def answered(document):
     return compute(*open_document(Recipe(document, Page()), ArrayStore()))
 

@@ -68,6 +68,10 @@ class Pairs(Part):
     def without_points(self, points: Set[str]) -> "Pairs":
         return Pairs(tuple(pair for pair in self.pairs if not points & set(pair.points)))
 
+    def without_surfaces(self, document: Document, surfaces: Set[str]) -> Document:
+        """Without the point that waits for a partner, too: it may be on the surface that stays."""
+        return drop_half(document) if surfaces & {mesh.name for mesh in document.surfaces[:2]} else document
+
     def work(self, document: Document) -> Mapping[str, Iterable[object]]:
         at = {point.name: point for point in document.points}
         return {"pairs": [(pair, at.get(pair.first), at.get(pair.second)) for pair in self.pairs]}
