@@ -13,7 +13,7 @@ from app.version import version
 from bihdist_core import BiharmonicDistance, farthest_points, field_statistics, read_surface, write_mesh
 from tests.shapes import bumpy, two_pieces
 
-GUIDE = Path(__file__).parents[2] / "assets/guide/command-line.md"
+GUIDE = Path(__file__).parents[2] / "assets/guide/reference/command-line.md"
 
 COMMON = {"command", "version", "exit_status", "notes"}
 DISTANCE = {"distance", "label", "unit", "accuracy", "accuracy_text"}

@@ -1,0 +1,43 @@
+"""The pages of the library's public names, one for each topic."""
+
+import inspect
+
+import bihdist
+
+from .topics import TOPICS
+
+
+def library_pages() -> dict[str, str]:
+    """The text of each page, by its path in the guide; ValueError for names that have no topic, or two."""
+    named = sorted(name for *_, names in TOPICS.values() for name in names)
+    wrong = {name for name in {*named, *bihdist.__all__} if named.count(name) != 1 or name not in bihdist.__all__}
+    if wrong:
+        raise ValueError(f"topics.py has each public name once; mend {', '.join(sorted(wrong))}")
+    pages = {f"reference/api/{word}.md": _page(*topic) for word, topic in TOPICS.items()}
+    rows = [f"| [{title}]({word}.md) | {about} |" for word, (title, about, _) in TOPICS.items()]
+    tree = "\n".join(TOPICS)
+    pages["reference/api/index.md"] = (
+        "# Names of the library\n\n`import bihdist`: every public name, by topic. [The Python library](../library.md) "
+        f"tells how they are used together.\n\n| Topic | |\n| --- | --- |\n{chr(10).join(rows)}\n\n"
+        f"```{{toctree}}\n:hidden:\n\n{tree}\n```\n"
+    )
+    return pages
+
+
+def _page(title: str, about: str, names: list[str]) -> str:
+    summary = "\n".join(f"   {name}" for name in names)
+    parts = [
+        f"# {title}\n\n{about}\n\n```{{eval-rst}}\n.. currentmodule:: bihdist\n\n.. autosummary::\n\n{summary}\n```\n"
+    ]
+    for name in names:
+        parts.append(f"```{{eval-rst}}\n.. currentmodule:: bihdist\n\n{_directive(name)}\n```\n")
+    return "\n".join(parts)
+
+
+def _directive(name: str) -> str:
+    found = getattr(bihdist, name)
+    if inspect.isclass(found):
+        kind = "autoexception" if issubclass(found, BaseException) else "autoclass"
+        members = "" if kind == "autoexception" else "\n   :members:"
+        return f".. {kind}:: {name}\n   :show-inheritance:{members}"
+    return f".. {'autofunction' if callable(found) and hasattr(found, '__code__') else 'autodata'}:: {name}"
