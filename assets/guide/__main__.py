@@ -1,4 +1,4 @@
-"""`python -m assets.guide`, which is `make guide`: the guide as pages in app/guide, for `bihdist guide` and the wheel."""
+"""`python -m assets.guide`, which is `make guide`: pages in app/guide, for `bihdist guide` and the wheel."""
 
 from .building.build import main
 

@@ -47,6 +47,7 @@ autodoc_class_signature = "mixed"
 autodoc_preserve_defaults = True
 autosummary_generate = False
 add_module_names = False
+toc_object_entries_show_parents = "hide"
 python_maximum_signature_line_length = 88
 python_use_unqualified_type_names = True
 
@@ -70,7 +71,10 @@ sphinx_gallery_conf = {
     "log_level": {"backreference_missing": "debug"},
     "plot_gallery": True,
     "copyfile_regex": "",
+    "notebook_extensions": set(),
 }
+
+templates_path = ["templates"]
 
 html_theme = "pydata_sphinx_theme"
 html_title = "bihdist guide"
@@ -84,6 +88,7 @@ html_show_search_summary = False  # pages cannot be fetched by scripts from file
 html_use_index = True
 html_theme_options = {
     "logo": {"text": "bihdist", "alt_text": "bihdist"},
+    "search_bar_text": "Ask in your own words",
     "navbar_align": "left",
     "navbar_end": ["theme-switcher"],
     "navbar_persistent": ["search-button"],
@@ -99,7 +104,7 @@ html_theme_options = {
     "pygments_dark_style": "github-dark",
     "back_to_top_button": False,
 }
-html_sidebars = {"index": [], "search": [], "genindex": []}
+html_sidebars = {"**": ["sidebar-nav-bs"], "index": [], "search": [], "genindex": []}
 copybutton_prompt_text = r">>> |\.\.\. |\$ "
 copybutton_prompt_is_regexp = True
 copybutton_exclude = ".linenos, .gp, .go"

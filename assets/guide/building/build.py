@@ -1,4 +1,4 @@
-"""The build: the sources with what is written of the program, their blocks run, Sphinx, and the copy to be installed."""
+"""The build: sources and what is written of the program, their blocks run, Sphinx, and the copy to be installed."""
 
 import shutil
 import sys
@@ -18,6 +18,7 @@ def main() -> int:
 
     from .installed_copy import install
     from .page_runs import run_pages
+    from .search_index import write_search_index
 
     write_sources(SOURCE)
     failures = run_pages(SOURCE)
@@ -30,6 +31,7 @@ def main() -> int:
     )
     if status:
         return 1
+    write_search_index(PAGES)
     print(install(PAGES, ROOT / "app/guide"))
     return 0
 

@@ -1,18 +1,32 @@
 """The built guide as it is installed: without what only the build needs, and small."""
 
+import re
 import shutil
 from pathlib import Path
 
-LEFT_OUT = ("*.map", ".buildinfo*", "objects.inv", "*.LICENSE.txt.map", "_sources", "_downloads/*.zip", "fa-brands*")
+from .links import wrong_links
+
+LEFT_OUT = (
+    "*.map", ".buildinfo*", "objects.inv", "_sources", "fa-brands*", "webpack-macros.html", "searchindex.js",
+    "searchtools.js", "language_data.js",
+)  # fmt: skip
+SCRIPTS_LEFT_OUT = re.compile(r'<script src="[^"]*(?:searchindex|searchtools|language_data)\.js[^"]*"></script>\s*')
 MOST = 6_000_000
 """Bytes of all files."""
 
 
 def install(pages: Path, target: Path) -> str:
-    """Copy the pages to where the program looks for them; how many and how large, in words.  ValueError if too large."""
+    """Copy the pages to where the program looks for them; how many and how large, in words.
+
+    ValueError where they are too large or a link leads nowhere; what was there before then stays.
+    """
     fresh = target.with_name(f"{target.name}.new")
     shutil.rmtree(fresh, ignore_errors=True)
     shutil.copytree(pages, fresh, ignore=shutil.ignore_patterns(*LEFT_OUT))
+    for path in fresh.rglob("*.html"):  # the guide has a search of its own
+        path.write_text(SCRIPTS_LEFT_OUT.sub("", path.read_text(encoding="utf-8")), encoding="utf-8")
+    if wrong := wrong_links(fresh):
+        raise ValueError("links of the guide are wrong:\n" + "\n".join(wrong))
     sizes = {path: path.stat().st_size for path in fresh.rglob("*") if path.is_file()}
     if sum(sizes.values()) > MOST:
         largest = sorted(sizes, key=sizes.__getitem__, reverse=True)[:10]

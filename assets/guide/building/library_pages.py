@@ -27,7 +27,7 @@ def library_pages() -> dict[str, str]:
 def _page(title: str, about: str, names: list[str]) -> str:
     summary = "\n".join(f"   {name}" for name in names)
     parts = [
-        f"# {title}\n\n{about}\n\n```{{eval-rst}}\n.. currentmodule:: bihdist\n\n.. autosummary::\n\n{summary}\n```\n"
+        f"# {title}\n\n{about}\n\n```{{eval-rst}}\n.. currentmodule:: bihdist\n\n.. autosummary::\n   :nosignatures:\n\n{summary}\n```\n"
     ]
     for name in names:
         parts.append(f"```{{eval-rst}}\n.. currentmodule:: bihdist\n\n{_directive(name)}\n```\n")
@@ -37,7 +37,11 @@ def _page(title: str, about: str, names: list[str]) -> str:
 def _directive(name: str) -> str:
     found = getattr(bihdist, name)
     if inspect.isclass(found):
-        kind = "autoexception" if issubclass(found, BaseException) else "autoclass"
-        members = "" if kind == "autoexception" else "\n   :members:"
-        return f".. {kind}:: {name}\n   :show-inheritance:{members}"
+        if issubclass(found, BaseException):
+            return f".. autoexception:: {name}\n   :show-inheritance:"
+        # What comes from bases that have no name here is shown as its own.
+        public = [base.__name__ for base in found.__mro__[1:] if getattr(bihdist, base.__name__, None) is base]
+        shown = "\n   :show-inheritance:" if public and found.__bases__[0].__name__ in public else ""
+        strangers = [base.__name__ for base in found.__mro__ if not base.__module__.startswith(("app", "bihdist"))]
+        return f".. autoclass:: {name}{shown}\n   :members:\n   :inherited-members: {', '.join([*public, *strangers])}"
     return f".. {'autofunction' if callable(found) and hasattr(found, '__code__') else 'autodata'}:: {name}"
