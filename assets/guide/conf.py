@@ -48,7 +48,6 @@ autodoc_preserve_defaults = True
 autosummary_generate = False
 add_module_names = False
 toc_object_entries_show_parents = "hide"
-python_maximum_signature_line_length = 88
 python_use_unqualified_type_names = True
 
 sphinx_gallery_conf = {

@@ -8,6 +8,8 @@ ROOT = Path(__file__).parents[3]
 GUIDE = ROOT / "assets/guide"
 SOURCE = ROOT / "build/guide/source"
 PAGES = ROOT / "build/guide/pages"
+PLUGIN = ROOT / "tests/plugin/geodesic_circle"
+"""The tool that the reference shows."""
 KEPT = ("_blocks", "gallery/auto")
 """Made in the copy of the sources, and kept from one build to the next."""
 
@@ -41,12 +43,15 @@ def write_sources(source: Path) -> None:
     from .key_page import key_page
     from .library_pages import library_pages
     from .option_pages import option_pages
+    from .record_page import record_page
 
-    wanted = {path: text.encode() for path, text in {**library_pages(), **option_pages(), **key_page()}.items()}
+    made = {**library_pages(), **option_pages(), **key_page(), **record_page()}
+    wanted = {path: text.encode() for path, text in made.items()}
     for path in GUIDE.rglob("*"):
         name = path.relative_to(GUIDE).as_posix()
         if path.is_file() and not name.startswith("building/") and "__pycache__" not in name:
             wanted[name] = path.read_bytes()
+    wanted |= {f"reference/plugin/{path.name}": path.read_bytes() for path in PLUGIN.glob("*.py")}
     for name, content in wanted.items():
         path = source / name
         if not path.exists() or path.read_bytes() != content:

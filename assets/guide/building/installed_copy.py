@@ -8,7 +8,7 @@ from .links import wrong_links
 
 LEFT_OUT = (
     "*.map", ".buildinfo*", "objects.inv", "_sources", "fa-brands*", "webpack-macros.html", "searchindex.js",
-    "searchtools.js", "language_data.js",
+    "searchtools.js", "language_data.js", "*-stemmer.js", "*_badge_logo.svg", "broken_example.png", "no_image.png",
 )  # fmt: skip
 SCRIPTS_LEFT_OUT = re.compile(r'<script src="[^"]*(?:searchindex|searchtools|language_data)\.js[^"]*"></script>\s*')
 MOST = 6_000_000

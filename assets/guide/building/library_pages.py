@@ -26,12 +26,9 @@ def library_pages() -> dict[str, str]:
 
 def _page(title: str, about: str, names: list[str]) -> str:
     summary = "\n".join(f"   {name}" for name in names)
-    parts = [
-        f"# {title}\n\n{about}\n\n```{{eval-rst}}\n.. currentmodule:: bihdist\n\n.. autosummary::\n   :nosignatures:\n\n{summary}\n```\n"
-    ]
-    for name in names:
-        parts.append(f"```{{eval-rst}}\n.. currentmodule:: bihdist\n\n{_directive(name)}\n```\n")
-    return "\n".join(parts)
+    directives = [f".. autosummary::\n   :nosignatures:\n\n{summary}", *map(_directive, names)]
+    blocks = [f"```{{eval-rst}}\n.. currentmodule:: bihdist\n\n{each}\n```\n" for each in directives]
+    return "\n".join([f"# {title}\n\n{about}\n", *blocks])
 
 
 def _directive(name: str) -> str:
@@ -43,5 +40,8 @@ def _directive(name: str) -> str:
         public = [base.__name__ for base in found.__mro__[1:] if getattr(bihdist, base.__name__, None) is base]
         shown = "\n   :show-inheritance:" if public and found.__bases__[0].__name__ in public else ""
         strangers = [base.__name__ for base in found.__mro__ if not base.__module__.startswith(("app", "bihdist"))]
-        return f".. autoclass:: {name}{shown}\n   :members:\n   :inherited-members: {', '.join([*public, *strangers])}"
+        above = {member for base in public for member in dir(getattr(bihdist, base))} - set(vars(found))
+        left_out = f"\n   :exclude-members: {', '.join(sorted(each for each in above if each[0] != '_'))}" if above else ""
+        bases = ", ".join([*public, *strangers])
+        return f".. autoclass:: {name}{shown}\n   :members:\n   :inherited-members: {bases}{left_out}"
     return f".. {'autofunction' if callable(found) and hasattr(found, '__code__') else 'autodata'}:: {name}"

@@ -20,7 +20,8 @@ def option_pages() -> dict[str, str]:
 
 def _command(word: str, parser: argparse.ArgumentParser) -> str:
     usage = " ".join(name for action in parser._actions if (name := _positional(action)))
-    text = f"## {word}\n\n{parser.description}\n\n```text\n{' '.join(f'bihdist {word} {usage} [OPTION …]'.split())}\n```\n\n"
+    line = " ".join(f"bihdist {word} {usage} [OPTION …]".split())
+    text = f"## {word}\n\n{parser.description}\n\n```text\n{line}\n```\n\n"
     rows = [_row(parser, action) for action in parser._actions if action.dest != "help"]
     return text + "\n".join(rows)
 
@@ -40,7 +41,7 @@ def _row(parser: argparse.ArgumentParser, action: argparse.Action) -> str:
     ]
     formatter = parser._get_formatter()
     words = formatter._expand_help(action) if action.help else ""
-    return f"{', '.join(names)}\n: {_markdown(words)}\n"
+    return f"{', '.join(names)}\n: {markdown(words)}\n"
 
 
 def _value(action: argparse.Action) -> str:
@@ -49,7 +50,7 @@ def _value(action: argparse.Action) -> str:
     return "{" + ",".join(map(str, action.choices)) + "}" if action.choices else action.dest.upper()
 
 
-def _markdown(words: str) -> str:
+def markdown(words: str) -> str:
     """Help is plain text: what Markdown would read otherwise is escaped."""
     for character in "\\*_$<|[]{}":
         words = words.replace(character, f"\\{character}")
