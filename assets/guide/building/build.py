@@ -34,7 +34,11 @@ def main() -> int:
     if status:
         return 1
     write_search_index(PAGES)
-    print(install(PAGES, ROOT / "app/guide"))
+    try:
+        print(install(PAGES, ROOT / "app/guide"))
+    except ValueError as error:
+        print(error, file=sys.stderr)
+        return 1
     return 0
 
 

@@ -41,7 +41,9 @@ def _directive(name: str) -> str:
         shown = "\n   :show-inheritance:" if public and found.__bases__[0].__name__ in public else ""
         strangers = [base.__name__ for base in found.__mro__ if not base.__module__.startswith(("app", "bihdist"))]
         above = {member for base in public for member in dir(getattr(bihdist, base))} - set(vars(found))
-        left_out = f"\n   :exclude-members: {', '.join(sorted(each for each in above if each[0] != '_'))}" if above else ""
+        left_out = (
+            f"\n   :exclude-members: {', '.join(sorted(each for each in above if each[0] != '_'))}" if above else ""
+        )
         bases = ", ".join([*public, *strangers])
         return f".. autoclass:: {name}{shown}\n   :members:\n   :inherited-members: {bases}{left_out}"
     return f".. {'autofunction' if callable(found) and hasattr(found, '__code__') else 'autodata'}:: {name}"

@@ -5,7 +5,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 LEFT_OUT = {"genindex.html", "search.html"}
-BLOCKS = {"p", "li", "td", "th", "dt", "dd", "pre", "h1", "h2", "h3", "h4", "div", "section", "tr"}
+BLOCKS = {"br", "p", "li", "td", "th", "dt", "dd", "pre", "h1", "h2", "h3", "h4", "div", "section", "tr"}
 
 
 def write_search_index(pages: Path) -> None:
@@ -41,6 +41,8 @@ class _Article(HTMLParser):
         """Begin a section at each heading."""
         named = dict(attributes)
         self._is_inside |= tag == "article"
+        if tag in BLOCKS:
+            self.handle_data(" ")
         if tag in ("img", "br", "input", "hr", "meta", "link", "path", "wbr"):
             return
         classes = (named.get("class") or "").split()
@@ -49,8 +51,6 @@ class _Article(HTMLParser):
             self._anchors.append(named.get("id") or "")
         if self._is_inside and tag in ("h1", "h2", "h3"):
             self.sections.append([self._anchors[-1] if tag != "h1" and self._anchors else "", "", ""])
-        if tag in BLOCKS:
-            self.handle_data(" ")
 
     def handle_endtag(self, tag: str) -> None:
         """Forget the tag, and the section that ends with it."""
