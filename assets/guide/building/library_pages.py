@@ -40,10 +40,10 @@ def _directive(name: str) -> str:
         public = [base.__name__ for base in found.__mro__[1:] if getattr(bihdist, base.__name__, None) is base]
         shown = "\n   :show-inheritance:" if public and found.__bases__[0].__name__ in public else ""
         strangers = [base.__name__ for base in found.__mro__ if not base.__module__.startswith(("app", "bihdist"))]
-        above = {member for base in public for member in dir(getattr(bihdist, base))} - set(vars(found))
-        left_out = (
-            f"\n   :exclude-members: {', '.join(sorted(each for each in above if each[0] != '_'))}" if above else ""
-        )
+        above = {member for base in public for member in dir(getattr(bihdist, base)) if member[0] != "_"} - {
+            *vars(found)
+        }
+        left_out = f"\n   :exclude-members: {', '.join(sorted(above))}" if above else ""
         bases = ", ".join([*public, *strangers])
         return f".. autoclass:: {name}{shown}\n   :members:\n   :inherited-members: {bases}{left_out}"
     return f".. {'autofunction' if callable(found) and hasattr(found, '__code__') else 'autodata'}:: {name}"

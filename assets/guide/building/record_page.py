@@ -7,8 +7,8 @@ from typing import Any, get_args, get_origin, get_type_hints
 
 from app.document.beside import Beside
 from app.document.camera import Camera
-from app.document.form import ALWAYS, BEFORE
 from app.document.document import Document, FieldArray, MeshFile, Panel, Point, Zoom
+from app.document.form import ALWAYS, BEFORE
 from app.document.looks import Colours, Isolines, Shading
 from app.document.page import Page
 from app.document.repairs import Repairs
