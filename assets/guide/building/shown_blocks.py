@@ -23,6 +23,7 @@ class ShownBlock(SphinxDirective):
     final_argument_whitespace = True
     option_spec: ClassVar[dict[str, Any]] = {
         "hide-output": directives.flag,
+        "hide-text": directives.flag,  # what is printed, not the pictures
         "hide-code": directives.flag,
         "alt": directives.unchanged,
         "status": directives.nonnegative_int,
@@ -35,7 +36,7 @@ class ShownBlock(SphinxDirective):
         outcome = self._outcome()
         if "hide-output" in self.options:
             return shown
-        if outcome.printed.strip():
+        if outcome.printed.strip() and "hide-text" not in self.options:
             printed = outcome.printed.strip("\n").expandtabs()
             shown.append(nodes.literal_block(printed, printed, language="text", classes=["printed"]))
         source = Path(self.env.srcdir)
