@@ -5,7 +5,7 @@ ARGS ?=
 PICTURE = bihdist-comparison.png
 PYTHON_HERE = $(if $(filter Windows_NT,$(OS)),.venv/Scripts/python,.venv/bin/python)
 
-.PHONY: help run test check quick bench stress
+.PHONY: help run test check quick bench stress guide
 .NOTPARALLEL:
 
 help:
@@ -14,11 +14,12 @@ help:
 	@echo 'make check   ruff, mypy, codespell, the import rules, and the kernel by each C compiler'
 	@echo 'make quick   the checks, and the tests that say most in the least time'
 	@echo 'make bench   the speed of the solver beside potpourri3d'
+	@echo 'make guide   the guide as pages, with its examples run: app/guide/index.html'
 	@echo 'make stress  attacks on the program, for hours; goes on where it was interrupted'
 
 NO_DISPLAY = $(if $(filter Linux,$(shell uname -s)),$(if $(DISPLAY)$(WAYLAND_DISPLAY),,yes))
 NO_WINDOW = $(filter field pairs profile isolines statistics samples regions interpolate correspond evaluate perturb \
-    figure movie page info paper batch,$(firstword $(ARGS)))
+    figure movie page info paper batch guide,$(firstword $(ARGS)))
 run:
 	@.ci/set-up
 ifeq ($(if $(NO_WINDOW),,$(NO_DISPLAY)),yes)
@@ -67,6 +68,10 @@ test:
 bench:
 	@.ci/set-up bench
 	$(PYTHON_HERE) -m tests.bench $(if $(BEFORE),--before $(BEFORE)) $(ARGS)
+
+guide:
+	@.ci/set-up guide
+	$(PYTHON_HERE) -m assets.guide
 
 stress:
 	@.ci/set-up dev

@@ -210,6 +210,8 @@ TOOLS = (
 HELP = (
     Act("keys", "All &commands and gestures", lambda c: c[Guide].show_commands(), ("F1",), icon="info",
         needs_mesh=False),
+    Act("guide", "&Guide", lambda c: c[Guide].open_guide(), tip="How-to pages, examples and reference, in the browser",
+        needs_mesh=False),
     Act("tour", "A &tour in five steps", lambda c: c[Guide].start_tour(), needs_mesh=False),
     Act("about", "&About", lambda c: c[Guide].show_about(), needs_mesh=False),
 )

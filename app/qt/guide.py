@@ -1,9 +1,13 @@
-"""The menu Help: the palette of commands, the tour, about."""
+"""The menu Help: the palette of commands, the guide, the tour, about."""
 
 from typing import TYPE_CHECKING, Any
 
+from qtpy import QtCore, QtGui
+
+from bihdist_core.errors import MissingInputError
 from bihdist_core.kernel.library import description
 
+from ..guide_pages import guide_page
 from ..samples import mesh_path
 from ..version import version
 from .context import Context
@@ -43,6 +47,18 @@ class Guide:
         from .pages.palette import Palette
 
         Palette([*self.commands(), *GESTURES], self._recent, self._context.widget).open()
+
+    def open_guide(self) -> None:
+        """Open the guide in the browser; say how to build it where it is not built, and where it is if none opens."""
+        try:
+            page = guide_page()
+        except MissingInputError as error:
+            self._context.fail(error)
+            return
+        if QtGui.QDesktopServices.openUrl(QtCore.QUrl.fromLocalFile(str(page))):
+            self._context.tell("The guide is open in the browser")
+        else:
+            self._context.fail(f"No browser could be started; open {page} in one.")
 
     def start_tour(self) -> None:
         """Of what is shown, of a sample if nothing is open."""

@@ -72,6 +72,7 @@ SYNONYMS = {
     "stop": "cancel abort interrupt halt",
     # Help
     "keys": "help shortcuts palette gestures",
+    "guide": "help manual documentation docs handbook how-to tutorial examples gallery reference",
     "tour": "help tutorial introduction",
     "about": "version licence citation",
     **{f"panel {text}": edit.synonyms for text, edit in panel_edits().items() if edit.synonyms},

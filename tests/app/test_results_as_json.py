@@ -13,7 +13,7 @@ from app.version import version
 from bihdist_core import BiharmonicDistance, farthest_points, field_statistics, read_surface, write_mesh
 from tests.shapes import bumpy, two_pieces
 
-GUIDE = Path(__file__).parents[2] / "assets/guide/command-line.md"
+GUIDE = Path(__file__).parents[2] / "assets/guide/reference/command-line.md"
 
 COMMON = {"command", "version", "exit_status", "notes"}
 DISTANCE = {"distance", "label", "unit", "accuracy", "accuracy_text"}
@@ -36,6 +36,7 @@ LINES = {
     "movie": "movie a.off --sources 3 --distance biharmonic --size 200px --frames 2 --workers 1 -o movie.gif",
     "page": "page a.off --sources 3 --distance biharmonic -o page.html",
     "batch": "batch meshes -o results --do fields --workers 1",
+    "guide": "guide --where",
     "paper": "paper -o paper --only fig3 --quick --mesh a.off",
 }
 """A command line of each command but `view`, which opens a window (`tests/qt/test_mouse.py`)."""
@@ -48,6 +49,8 @@ def folder(tmp_path, monkeypatch):
     write_mesh("a.off", bumpy(120))
     write_mesh("b.off", bumpy(120, 1))
     Path("meshes").mkdir()
+    Path("index.html").write_text("the guide")
+    monkeypatch.setattr("app.guide_pages.GUIDE", Path("index.html").resolve())
     write_mesh("meshes/a.off", bumpy(120))
     Path("anchors.csv").write_text("vertex,value\n3,0\n40,1\n")
     Path("pairs.csv").write_text("3,3\n40,40\n90,90\n")
@@ -90,7 +93,7 @@ def test_the_result_is_one_object_with_the_keys_of_the_guide(folder, capsys, com
     assert all(re.fullmatch(r"[a-z][a-z0-9_]*", key) for key in keys_in(said))
     outputs = said.get("outputs", [path for each in said.get("meshes", []) for path in each.get("outputs", [])])
     assert all(Path(path).exists() for path in outputs)
-    assert bool(outputs) is (command not in ("info", "evaluate"))
+    assert bool(outputs) is (command not in ("info", "evaluate", "guide"))
 
 
 def test_values_are_those_of_the_library(folder, capsys):

@@ -29,7 +29,7 @@ def test_every_kind_is_in_the_guide_with_its_parameters(kind):
     names = ", ".join(p.name for p in kind.parameters)
     word = f"`{kind.word}({names})`" if names else f"`{kind.word}`"
     row = f"| {word} | {kind.name} | {kind.squares} | {kind.scaling} | {kind.cost} |"
-    assert row in (ROOT / "assets/guide/distances.md").read_text(encoding="utf-8")
+    assert row in (ROOT / "assets/guide/reference/distances.md").read_text(encoding="utf-8")
 
 
 def test_a_spec_is_canonical_and_can_be_written_and_read():

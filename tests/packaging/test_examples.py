@@ -11,7 +11,7 @@ from bihdist_core import write_mesh
 from tests.shapes import bumpy, spike
 
 ROOT = Path(__file__).parents[2]
-PAGE = ROOT / "assets/guide/library.md"
+PAGE = ROOT / "assets/guide/reference/library.md"
 WITH_EXAMPLES = sorted(path for path in (ROOT / "bihdist_core").rglob("*.py") if ">>> " in path.read_text("utf-8"))
 
 

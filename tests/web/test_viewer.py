@@ -295,6 +295,6 @@ def test_maps_are_stretched_and_follow_the_theme():
 
 # ---------------------------------------------------------------------- words
 def test_the_guide_lists_what_the_page_does():
-    guide = (VIEWER.parents[2] / "assets/guide/files.md").read_text(encoding="utf-8")
+    guide = (VIEWER.parents[2] / "assets/guide/reference/files.md").read_text(encoding="utf-8")
     for keys, meaning in ask("help"):
         assert f"\n| {keys} | {meaning} |" in guide

@@ -125,7 +125,7 @@ class Menus:
         self._fill(panels, ["add panel", None, *edits, None, "save field", None])
         self._fill(panels, ["next panel", "previous panel", "panels and bars"])
         self._fill(tools, [*(f"dock {word}" for word in docked_tools()), None, *self.tools.actions()])
-        self._fill(about, ["keys", "tour", None, "about"])
+        self._fill(about, ["keys", "guide", "tour", None, "about"])
 
     def allow(self, has_mesh: bool) -> None:
         """How fields are shown can be chosen while there are some."""

@@ -1,0 +1,26 @@
+"""`bihdist guide`: the guide in a browser."""
+
+import argparse
+
+from ..guide_pages import guide_page
+from .result import Result
+
+WORDS = "open the guide in a browser"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command `guide` to its parser."""
+    parser.add_argument("--where", action="store_true", help="print where its first page is, and open nothing")
+
+
+def run(options: argparse.Namespace) -> Result:
+    """Open the guide, or print where it is; OutputError where no browser can be started."""
+    import webbrowser
+
+    from bihdist_core.errors import OutputError
+
+    page = guide_page()
+    if not options.where and not webbrowser.open(page.as_uri()):
+        raise OutputError(f"No browser could be started; open {page} in one.")
+    print(page)
+    return Result({"page": str(page)})

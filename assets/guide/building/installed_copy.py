@@ -1,0 +1,51 @@
+"""The built guide as it is installed: without what only the build needs, and small."""
+
+import re
+import shutil
+from pathlib import Path
+
+from .links import wrong_links
+
+LEFT_OUT = (
+    "*.map", ".buildinfo*", "objects.inv", "_sources", "fa-brands*", "webpack-macros.html", "searchindex.js",
+    "__pycache__", "*.ipynb", "*.zip", "searchtools.js", "language_data.js", "*-stemmer.js", "*_badge_logo.svg",
+    "broken_example.png", "no_image.png",
+)  # fmt: skip
+CHANGES = [
+    # The guide has a search of its own.
+    (r'<script src="[^"]*(?:searchindex|searchtools|language_data)\.js[^"]*"></script>\s*', ""),
+    # Of an example, its one file; as text, since what ends in .py in the program's folder would be taken for its own.
+    (r'<div class="sphx-glr-download sphx-glr-download-(?:jupyter|zip)[^"]*">.*?</div>\s*', ""),
+    (r'download="" href="([^"]*/)([^"/]+\.py)"', r'download="\2" href="\1\2.txt"'),
+]
+"""Patterns in pages, and what stands there instead."""
+MOST = 6_000_000
+"""Bytes of all files."""
+
+
+def install(pages: Path, target: Path) -> str:
+    """Copy the pages to where the program looks for them; how many and how large, in words.
+
+    ValueError where they are too large or a link leads nowhere; what was there before then stays.
+    """
+    fresh = pages.with_name("installed")
+    shutil.rmtree(fresh, ignore_errors=True)
+    shutil.copytree(pages, fresh, ignore=shutil.ignore_patterns(*LEFT_OUT))
+    for path in list(fresh.rglob("*.py")):
+        path.rename(path.with_name(f"{path.name}.txt"))
+    for path in fresh.rglob("*.html"):
+        text = path.read_text(encoding="utf-8")
+        for pattern, instead in CHANGES:
+            text = re.sub(pattern, instead, text, flags=re.DOTALL)
+        path.write_text(text, encoding="utf-8")
+    if wrong := wrong_links(fresh):
+        raise ValueError("links of the guide are wrong:\n" + "\n".join(wrong))
+    sizes = {path: path.stat().st_size for path in fresh.rglob("*") if path.is_file()}
+    if sum(sizes.values()) > MOST:
+        largest = sorted(sizes, key=sizes.__getitem__, reverse=True)[:10]
+        named = ", ".join(f"{path.relative_to(fresh)} {sizes[path] // 1000} kB" for path in largest)
+        raise ValueError(f"the guide has {sum(sizes.values()):,} bytes, more than {MOST:,}; the largest: {named}")
+    shutil.rmtree(target, ignore_errors=True)
+    shutil.move(fresh, target)
+    count = sum(path.suffix == ".html" for path in sizes)
+    return f"{target / 'index.html'}: {count} pages, {sum(sizes.values()) / 1e6:.1f} MB"

@@ -1,0 +1,71 @@
+"""The directives {shell}, {python} and {file}: the code, and what running it has printed and drawn."""
+
+from pathlib import Path
+from typing import Any, ClassVar
+
+from docutils import nodes
+from docutils.parsers.rst import directives
+from sphinx.application import Sphinx
+from sphinx.directives.code import container_wrapper
+from sphinx.util.docutils import SphinxDirective
+
+from .blocks import Outcome
+from .page_runs import folder_of, outcomes_of
+
+LANGUAGES = {"shell": "sh", "python": "python", "file": "text"}
+
+
+class ShownBlock(SphinxDirective):
+    """A block of its page, with its outcome under it."""
+
+    has_content = True
+    optional_arguments = 1
+    final_argument_whitespace = True
+    option_spec: ClassVar[dict[str, Any]] = {
+        "hide-output": directives.flag,
+        "hide-text": directives.flag,  # what is printed, not the pictures
+        "hide-code": directives.flag,
+        "alt": directives.unchanged,
+        "status": directives.nonnegative_int,
+    }
+
+    def run(self) -> list[nodes.Node]:
+        """The code, unless it is hidden, then what it printed, then its pictures."""
+        code = "\n".join(self.content).strip("\n")
+        shown: list[nodes.Node] = [] if "hide-code" in self.options else [self._code(code)]
+        outcome = self._outcome()
+        if "hide-output" in self.options:
+            return shown
+        if outcome.printed.strip() and "hide-text" not in self.options:
+            printed = outcome.printed.strip("\n").expandtabs()
+            shown.append(nodes.literal_block(printed, printed, language="text", classes=["printed"]))
+        source = Path(self.env.srcdir)
+        folder = folder_of(Path(self.env.doc2path(self.env.docname)), source).relative_to(source)
+        alt = self.options.get("alt", " ".join(code.replace("\\\n", " ").split()))
+        shown += [nodes.image(uri=f"/{(folder / name).as_posix()}", alt=alt) for name in outcome.pictures]
+        return self._placed(shown)
+
+    def _code(self, code: str) -> nodes.Node:
+        literal = nodes.literal_block(code, code, language=LANGUAGES[self.name])
+        self.set_source_info(literal)
+        return container_wrapper(self, literal, self.arguments[0]) if self.name == "file" else literal
+
+    def _outcome(self) -> Outcome:
+        """That of the next block of the page."""
+        data = self.env.current_document if hasattr(self.env, "current_document") else self.env.temp_data
+        number = data["guide_block"] = data.get("guide_block", -1) + 1
+        return outcomes_of(Path(self.env.doc2path(self.env.docname)), Path(self.env.srcdir))[number]
+
+    def _placed(self, shown: list[nodes.Node]) -> list[nodes.Node]:
+        """Images are read as any others: Sphinx copies their files."""
+        for node in shown:
+            if isinstance(node, nodes.image):
+                self.set_source_info(node)
+        return shown
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Add the directives to Sphinx."""
+    for name in LANGUAGES:
+        app.add_directive(name, ShownBlock)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,66 @@
+"""The public names of the library by topic, each of which is a page of the reference."""
+
+TOPICS: dict[str, tuple[str, str, list[str]]] = {
+    "meshes": (
+        "Meshes and files",
+        "Surfaces, and what is read from and written to files.",
+        ["Surface", "MeshLike", "read_surface", "write_mesh", "read_vertex_values", "Pins", "read_pins", "write_pins",
+         "read_map", "write_map"],
+    ),
+    "distances": (
+        "Distances",
+        "What all distances answer, and each of them.",
+        ["Distance", "BiharmonicDistance", "CommuteTimeDistance", "DiffusionDistance", "GeodesicDistance",
+         "TruncatedBiharmonicDistance", "PowerDistance", "difference", "Embedding"],
+    ),
+    "sources": (
+        "Sources",
+        "What a distance may start from besides a vertex.",
+        ["SurfacePoint", "BoundaryLoop", "Curve", "SourceSet", "source_from_words"],
+    ),
+    "operators": ("Operators and eigenpairs", "What distances are made of.", ["Laplacian", "Spectrum", "eigenpairs"]),
+    "fields": (
+        "Isolines, statistics and extrema",
+        "What one field, or two beside each other, have in them.",
+        ["isolines", "Isoline", "write_isolines", "band", "Band", "field_statistics", "FieldStatistics",
+         "field_agreement", "Agreement", "rank_correlation", "field_scatter", "FieldScatter", "field_change",
+         "FieldChange", "extrema", "Extrema", "gradient_jumps", "GradientJumps"],
+    ),
+    "quality": (
+        "Quality of a distance",
+        "Triangle inequality, isotropy, extrema and kinks, and what truncation loses.",
+        ["field_quality", "FieldQuality", "difference_quality", "geodesic_circles", "Circle", "isotropy_ratio",
+         "other_extrema", "OtherExtrema", "apparent_source", "triangle_sample", "triangle_samples", "TriangleSample",
+         "triangle_violations", "smallest_distance", "truncation_loss", "TruncationLoss"],
+    ),
+    "paths": (
+        "Paths and profiles",
+        "Curves on a surface, and fields along them.",
+        ["GeodesicPaths", "plane_section", "SurfacePath", "Places", "write_profile"],
+    ),
+    "samples": (
+        "Samples, neighbours, regions and parcels",
+        "Vertices chosen by a distance, and surfaces divided by it.",
+        ["farthest_points", "write_samples", "nearest", "tips", "at_tips", "voronoi_regions", "Regions",
+         "region_boundaries", "Boundary", "region_mesh", "RegionMesh", "write_boundaries", "write_labels",
+         "write_region_mesh", "parcel_means", "Parcels", "Brush", "cut_out", "write_selection"],
+    ),
+    "applications": (
+        "Interpolation, correspondence, robustness",
+        "What is done with distances, and how they stand changes of the mesh.",
+        ["ShepardInterpolant", "correspondence_prediction", "Correspondence", "map_errors", "error_curve", "ErrorCurve",
+         "noisy", "with_holes", "with_handle", "welded", "simplified"],
+    ),
+    "pictures": (
+        "Figures, web pages and the window",
+        "What draws, and what opens the window.",
+        ["figure", "figure_again", "page", "widget", "show"],
+    ),
+    "errors": (
+        "Errors",
+        "All that the library raises on purpose.",
+        ["BihdistError", "MeshError", "MissingFileError", "MissingInputError", "VertexError", "ParameterError",
+         "SolverError", "OutputError", "NotEnoughMemory", "Cancelled"],
+    ),
+}  # fmt: skip
+"""By word: title, what the page is about, and its names in order."""

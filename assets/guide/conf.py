@@ -1,0 +1,110 @@
+"""The guide's build by Sphinx; `make guide` runs it on a copy of these pages (see building/build.py)."""
+
+import os
+import warnings
+
+os.environ["MPLBACKEND"] = "Agg"
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+from app.version import version as _version
+
+warnings.filterwarnings("ignore", category=DeprecationWarning)  # of what builds the pages
+
+project = "bihdist"
+author = "the authors of bihdist"
+copyright = "the authors of bihdist"
+version = release = _version()
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx_copybutton",
+    "sphinx_design",
+    "sphinx_gallery.gen_gallery",
+    "assets.guide.building.docstrings",
+    "assets.guide.building.mathml",
+    "assets.guide.building.shown_blocks",
+]
+exclude_patterns = ["_blocks", "building", "**/GALLERY_HEADER.rst"]
+needs_sphinx = "8.1"
+language = "en"
+smartquotes = False  # `--option` outside of code, too
+nitpicky = False
+keep_warnings = False
+html_math_renderer = "mathml"
+suppress_warnings = ["misc.highlighting_failure", "config.cache"]
+
+myst_enable_extensions = ["attrs_block", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 4
+myst_links_external_new_tab = False
+
+default_role = "py:obj"
+autodoc_member_order = "bysource"
+autodoc_typehints = "description"
+autodoc_typehints_description_target = "documented"
+autodoc_class_signature = "mixed"
+autodoc_preserve_defaults = True
+autosummary_generate = False
+add_module_names = False
+toc_object_entries_show_parents = "hide"
+python_use_unqualified_type_names = True
+
+sphinx_gallery_conf = {
+    "examples_dirs": "gallery",
+    "gallery_dirs": "gallery/auto",
+    "filename_pattern": r"\.py$",
+    "image_scrapers": ("assets.guide.building.saved_pictures.saved_pictures",),
+    "reset_modules": ("matplotlib",),
+    "capture_repr": (),
+    "download_all_examples": False,
+    "show_signature": False,
+    "show_memory": False,
+    "min_reported_time": 1e9,
+    "write_computation_times": False,
+    "remove_config_comments": True,
+    "within_subsection_order": "ExampleTitleSortKey",
+    "thumbnail_size": (400, 280),
+    "abort_on_example_error": False,
+    "only_warn_on_example_error": False,
+    "log_level": {"backreference_missing": "debug"},
+    "plot_gallery": True,
+    "copyfile_regex": "",
+    "notebook_extensions": set(),
+}
+
+templates_path = ["templates"]
+
+html_theme = "pydata_sphinx_theme"
+html_title = "bihdist guide"
+html_logo = "look/logo.svg"
+html_favicon = "look/logo.svg"
+html_static_path = ["look"]
+html_css_files = ["guide.css"]
+html_copy_source = False
+html_show_sourcelink = False
+html_show_search_summary = False  # pages cannot be fetched by scripts from file://
+html_use_index = True
+html_theme_options = {
+    "logo": {"text": "bihdist", "alt_text": "bihdist"},
+    "search_bar_text": "Ask in your own words",
+    "navbar_align": "left",
+    "navbar_end": ["theme-switcher"],
+    "navbar_persistent": ["search-button"],
+    "secondary_sidebar_items": ["page-toc"],
+    "show_nav_level": 1,
+    "navigation_depth": 3,
+    "collapse_navigation": True,
+    "show_toc_level": 2,
+    "footer_start": ["copyright"],
+    "footer_end": [],
+    "article_header_start": ["breadcrumbs"],
+    "pygments_light_style": "tango",
+    "pygments_dark_style": "github-dark",
+    "back_to_top_button": False,
+}
+html_sidebars = {"**": ["sidebar-nav-bs"], "index": [], "search": [], "genindex": []}
+copybutton_prompt_text = r">>> |\.\.\. |\$ "
+copybutton_prompt_is_regexp = True
+copybutton_exclude = ".linenos, .gp, .go"
+copybutton_selector = "div:not(.printed) > div.highlight > pre"
