@@ -1,8 +1,14 @@
 """The meshes that come with the program, by name."""
 
+from __future__ import annotations
+
 import os
 import re
 from pathlib import Path
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from bihdist_core import Surface
 
 _ROOT = Path(__file__).resolve().parent.parent
 # Installed, the folder is the package bihdist_assets beside this one; in a checkout it is assets.
@@ -31,3 +37,19 @@ def mesh_path(mesh: str) -> str:
     if not os.path.exists(mesh) and os.path.basename(mesh) == mesh and os.path.isfile(sample):
         return str(sample)
     return mesh
+
+
+def sample(name: str) -> Surface:
+    """One of the meshes that come with the program, by the name that commands and `figure` take: "hand", "beast".
+
+    Raises MissingFileError, with all names, for another.
+
+    >>> import bihdist
+    >>> bihdist.sample("hand")
+    Surface(hand.ply: 7,569 vertices, 15,082 faces)
+    """
+    from bihdist_core import MissingFileError, read_surface
+
+    if name not in sample_names():
+        raise MissingFileError(f"There is no sample {name!r}; there are {', '.join(sample_names())}.")
+    return read_surface(SAMPLES / f"{name}.ply")

@@ -120,7 +120,7 @@ def run(options: argparse.Namespace) -> Result:
     found = _meshes(options)
     meshes = found.paths
     address = options.output if "://" in options.output else os.path.abspath(options.output)
-    folder = Folder(address)
+    folder, place = Folder(address), options.output.rstrip("/") or "/"
     folder.make()
     maps, failures = _maps(options, meshes)
     unnamed = [*failures]
@@ -132,7 +132,7 @@ def run(options: argparse.Namespace) -> Result:
         do_all(meshes, maps, wanted, address, version(), engine, _progress, outcome)
     except KeyboardInterrupt as error:
         done = counted(len(outcome.rows), "result")
-        tell_failure(f"{words_of(error)}; {done} in {folder}. The same command goes on from there.")
+        tell_failure(f"{words_of(error)}; {done} in {place}. The same command goes on from there.")
         return Result(_facts(folder, outcome, len(names)), status_of(error))
     finally:
         # Whatever happened, and before the pages, which may fail: the tables say what is there.
@@ -143,7 +143,7 @@ def run(options: argparse.Namespace) -> Result:
     folder.sweep()
     left = folder.size(PARTS)
     if left:
-        where = f"{folder}/{PARTS}"
+        where = f"{place}/{PARTS}"
         tell(f"{where} has {left / 1e6:.1f} MB of unfinished work; the same command goes on from there, or delete it.")
     else:
         folder.remove(PARTS)
@@ -153,13 +153,13 @@ def run(options: argparse.Namespace) -> Result:
     new = sum(row.is_new for row in outcome.rows)
     kept = len(outcome.rows) - new
     there = f", {kept} of them there before" if kept else ""
-    print(f"{folder}: {counted(len(outcome.rows), 'result')} of {counted(len(names), 'mesh', 'meshes')}{there}")
+    print(f"{place}: {counted(len(outcome.rows), 'result')} of {counted(len(names), 'mesh', 'meshes')}{there}")
     for page in pages:
-        print(f"{folder}/{page}")
+        print(f"{place}/{page}")
     if outcome.failures:
         for line in _reasons(outcome)[:5]:
             tell_failure(line)
-        tell_failure(f"{counted(len(outcome.failures), 'result')} missing; {folder}/failures.csv says why.")
+        tell_failure(f"{counted(len(outcome.failures), 'result')} missing; {place}/failures.csv says why.")
     return Result(_facts(folder, outcome, len(names), pages), 1 if outcome.failures else 0)
 
 

@@ -355,6 +355,17 @@ def test_no_mesh_at_all_is_refused():
         found_meshes(["gone.off"])
 
 
+def test_what_it_says_has_the_folder_as_it_was_typed(folder, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for typed in ("out", "out/", str(tmp_path / "out")):
+        words = [str(folder / "ring.off"), "gone.off", "--do", "fields", "--workers", "1"]
+        assert main(["batch", *words, "-o", typed]) == 1
+        told, place = capsys.readouterr(), typed.rstrip("/")
+        assert f"{place}: 1 result of 2 meshes" in told.out.splitlines()[0]
+        assert f"1 result missing; {place}/failures.csv says why." in told.err
+        assert told.out.startswith(place)
+
+
 def test_a_mesh_that_is_missing_costs_only_itself(folder, tmp_path, capsys):
     words = [str(folder / "ring.off"), "gone.off", "--do", "fields,eigen", "--k", "5", "--workers", "1"]
     assert main(["batch", *words, "-o", str(tmp_path)]) == 1
