@@ -18,6 +18,7 @@ from scipy.spatial import cKDTree
 from .driver import ROOT, Driver, Look, drive_elsewhere
 from .guide_scenes import SCENES, Scene
 
+MOVING = ROOT / "assets"
 PICTURES = ROOT / "assets/guide/pictures"
 SCALE = 1.2
 """Device pixels of a logical one: letters stay readable where a page shows a picture smaller than it is."""
@@ -29,6 +30,12 @@ MARGIN = 40
 EDGE = {"light": (200, 205, 211), "dark": (70, 76, 84)}
 """Colours of the line around a picture, which a window has from its desktop."""
 
+BADGE = "#b4235a"
+"""Colour of the numbers that name parts of the window; it is none of the window's own."""
+
+MOVING_WIDTH, FRAME_MS = 800, 50
+"""Pixels across a moving picture, and how long each of its frames is seen."""
+
 FLAT = 20
 """How many colours of a picture's palette are those of flat parts, such as the ground and the bars."""
 
@@ -37,17 +44,24 @@ ARROW = ((0, 0), (0, 16.5), (3.9, 12.9), (6.5, 18.9), (9.2, 17.7), (6.7, 11.9), 
 
 
 def picture_names() -> set[str]:
-    """The names of all pictures that the command makes, without `.png`."""
-    return {name for scene in SCENES for name in scene.names}
+    """The names of the pictures that the command makes for pages, without `.png`."""
+    return {name for scene in SCENES for name in scene.names if not scene.is_moving}
 
 
 class Photographer(Driver):
-    """A driver whose pictures are those of the guide: with the pointer, cut to what they are of, in few colours."""
+    """A driver whose pictures are those of the guide: with the pointer, cut to what they are of, in few colours.
+
+    badges: places of the screen (QPoint) that get numbers, from 1 on.  is_pressed: whether a ring is drawn around the
+    pointer.
+    """
 
     def __init__(self, look: Look, out: Path) -> None:
         super().__init__(look, out)
         self.window.context.quiet, self.window.context.remembers = True, False
         self.made: set[str] = set()
+        self.badges: list[Any] = []
+        self.is_pressed = False
+        self._frames: list[Image.Image] = []
         self.rest()
 
     def rest(self) -> None:
@@ -58,6 +72,29 @@ class Photographer(Driver):
         """A picture of the screen now, of a widget or a rectangle of the screen (QRect) if one is given."""
         self.spin(0.3)
         in_few_colours(self.frame(of)).save(self._out / f"{name}.png", optimize=True)
+        self.made.add(name)
+
+    def film(self, count: int = 1) -> None:
+        """Some frames of a moving picture."""
+        from qtpy import QtCore
+
+        # Without the status bar: it has the rate, and here that is of what takes the frames.
+        frame = self.frame(QtCore.QRect(0, 0, self.look.width, self.look.height - self.window.status.height()))
+        height = round(frame.height * MOVING_WIDTH / frame.width)
+        self._frames += [frame.resize((MOVING_WIDTH, height), Image.Resampling.LANCZOS)] * count
+
+    def moving(self, name: str) -> None:
+        """What has been filmed, as a moving picture that begins again and again."""
+        first, *others = self._frames
+        first.save(
+            self._out / f"{name}.webp",
+            save_all=True,
+            append_images=others,
+            duration=FRAME_MS,
+            loop=0,
+            quality=60,
+            method=6,
+        )
         self.made.add(name)
 
     def frame(self, of: Any = None) -> Image.Image:
@@ -84,8 +121,15 @@ class Photographer(Driver):
         painter = QtGui.QPainter(screen)
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
         at = self.on_screen(QtGui.QCursor.pos())
+        for number, place in enumerate(self.badges, 1):
+            self._paint_badge(painter, self.on_screen(place), str(number))
         painter.translate(*at)
         painter.scale(self.look.scale * 1.15, self.look.scale * 1.15)
+        if self.is_pressed:
+            painter.setPen(QtGui.QPen(QtGui.QColor("white"), 4))
+            painter.drawEllipse(QtCore.QPointF(0, 0), 15, 15)
+            painter.setPen(QtGui.QPen(QtGui.QColor("black"), 2))
+            painter.drawEllipse(QtCore.QPointF(0, 0), 15, 15)
         painter.setPen(QtGui.QPen(QtGui.QColor("white"), 1.4, join=QtCore.Qt.PenJoinStyle.RoundJoin))
         painter.setBrush(QtGui.QColor("black"))
         painter.drawPolygon(QtGui.QPolygonF([QtCore.QPointF(*corner) for corner in ARROW]))
@@ -94,6 +138,20 @@ class Photographer(Driver):
         buffer.open(QtCore.QIODevice.OpenModeFlag.WriteOnly)
         screen.save(buffer, "PNG")
         return Image.open(io.BytesIO(bytes(buffer.data()))).convert("RGB")
+
+    def _paint_badge(self, painter: Any, at: tuple[int, int], text: str) -> None:
+        from qtpy import QtCore, QtGui
+
+        size = 20 * self.look.scale
+        box = QtCore.QRectF(at[0] - size / 2, at[1] - size / 2, size, size)
+        painter.setPen(QtGui.QPen(QtGui.QColor("white"), 2))
+        painter.setBrush(QtGui.QColor(BADGE))
+        painter.drawEllipse(box)
+        font = QtGui.QFont(self.application.font())
+        font.setPixelSize(round(12 * self.look.scale))
+        font.setBold(True)
+        painter.setFont(font)
+        painter.drawText(box, QtCore.Qt.AlignmentFlag.AlignCenter, text)
 
 
 def in_few_colours(picture: Image.Image) -> Image.Image:
@@ -125,7 +183,9 @@ def play(scene: Scene, out: Path) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m tests.qt.guide_pictures")
-    parser.add_argument("names", nargs="*", choices=[*sorted(picture_names()), []], metavar="NAME")
+    parser.add_argument(
+        "names", nargs="*", choices=[*(name for scene in SCENES for name in scene.names), []], metavar="NAME"
+    )
     parser.add_argument("--out", type=Path, default=PICTURES)
     parser.add_argument("--here", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args()
@@ -134,7 +194,7 @@ def main() -> None:
         return
     for scene in SCENES:
         if not options.names or set(options.names) & set(scene.names):
-            play(scene, options.out.resolve())
+            play(scene, MOVING if scene.is_moving and options.out == PICTURES else options.out.resolve())
     sys.stdout.flush()
     os._exit(0)
 

@@ -20,28 +20,44 @@ from .guide_tool_scenes import (
     two_meshes,
 )  # fmt: skip
 from .parts import parts
-from .pointer import choose_entry, click_near, drag_along, open_sample, place_on, point_near, source_mark, to_panels
+from .pointer import (
+    choose_entry,
+    click_near,
+    click_vertex,
+    drag_along,
+    open_sample,
+    place_on,
+    point_at_vertex,
+    source_mark,
+    to_panels,
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Scene:
-    """act: takes the pictures of these names.  width, height: of the window in logical pixels."""
+    """act: takes the pictures of these names.  width, height: of the window in logical pixels.  is_moving: whether they
+    are moving pictures, which are WebP beside the sample meshes.
+    """
 
     act: Callable[[Any], None]
     names: tuple[str, ...]
     theme: str = "light"
     width: int = 1000
     height: int = 620
+    is_moving: bool = False
+
+
+SOURCE, PLACE = 2969, 4182
+"""Vertices of the beast at its waist and in its hand: pages name them, and say the values there."""
 
 
 def first_steps(d: Any) -> None:
     d.shot("start-page")
     open_sample(d, "beast")
     d.shot("opened")
-    click_near(d, 0, 0.42, 0.55)
-    d.complete()
+    click_vertex(d, 0, SOURCE)
     d.shot("clicked")
-    point_near(d, 1, 0.85, 0.55)
+    point_at_vertex(d, 1, PLACE)
     d.shot("values")
     x, y = source_mark(d, 0)
     drag_along(d, [(x + 5 * step, y - step) for step in range(16)], then=lambda: d.shot("dragged"))
@@ -49,8 +65,7 @@ def first_steps(d: Any) -> None:
 
 def comparing(d: Any) -> None:
     open_sample(d, "beast", "biharmonic|geodesic")
-    click_near(d, 0, 0.42, 0.55)
-    d.complete()
+    click_vertex(d, 0, SOURCE)
     name = d.window.grid.panels[1].head.name
     choose_entry(d, name.menu(), name, "Diffusion", lambda: d.shot("quantity-menu"))
     d.rest()
@@ -152,8 +167,7 @@ def export_figure(d: Any) -> None:
     from app.qt.files.export_dialog import ExportDialog
 
     open_sample(d, "beast")
-    click_near(d, 0, 0.42, 0.55)
-    d.complete()
+    click_vertex(d, 0, SOURCE)
     d.rest()
     parts(d.window).files.export_figure()
     (dialog,) = (each for each in d.application.topLevelWidgets() if isinstance(each, ExportDialog))
@@ -181,7 +195,82 @@ def file_menu(d: Any) -> None:
             choose_entry(d, action.menu(), bar, "Export web page…", lambda: d.shot("file-menu"))
 
 
+def parts_of_the_window(d: Any) -> None:
+    from qtpy import QtCore
+
+    open_sample(d, "beast")
+    click_vertex(d, 0, SOURCE)
+    point_at_vertex(d, 1, PLACE)
+    window = d.window
+    buttons, panels, status = window.tool_bar.buttons, window.grid.panels, window.status
+
+    def at(widget: Any, x: float, y: float) -> Any:
+        return widget.mapToGlobal(QtCore.QPoint(round(x * widget.width()), round(y * widget.height())))
+
+    mark = panels[0].view.place_of(panels[0].view.handles[0]).toPoint()
+    d.badges = [
+        at(window.menuBar(), 0.4, 0.5),
+        at(buttons["open"], 0.5, -0.1),
+        at(buttons["dock pins"], 3.3, -0.1),
+        at(window.tool_bar.source_box, 0.5, 0.0),
+        at(buttons["isolines"], 2.0, -0.1),
+        at(buttons["add panel"], 0.5, -0.1),
+        at(buttons["export"], 0.5, -0.1),
+        at(panels[1].head, 0.12, 0.5) + QtCore.QPoint(0, 22),
+        at(panels[2].head, 0.9, 0.5) + QtCore.QPoint(0, 22),
+        panels[0].view.mapToGlobal(mark) + QtCore.QPoint(-20, 0),
+        at(panels[1].view, 0.61, 0.437),
+        at(panels[2].view, 0.5, 0.99),
+        at(status, 0.3, 0.5),
+        at(status, 0.68, 0.5),
+    ]
+    d.shot("window-at-a-glance")
+
+
+PATH = ((0.42, 0.56), (0.5, 0.46), (0.6, 0.36), (0.68, 0.34), (0.75, 0.42), (0.82, 0.55))
+"""Over chest, shoulder and arm to the claws, as shares of a view's width and height."""
+
+
+def click_and_drag(d: Any) -> None:
+    """A click on the chest, and the source's mark dragged into a hand and back."""
+    import numpy as np
+
+    open_sample(d, "beast", "biharmonic|geodesic")
+    view = d.window.grid.panels[0].view
+
+    def along(places: Any, steps: int) -> None:
+        """The pointer, slowly at first and at last."""
+        far = np.linspace(0, len(places) - 1, len(places))
+        for share in (1 - np.cos(np.linspace(0, np.pi, steps))) / 2:
+            at = [float(np.interp(share * (len(places) - 1), far, [place[k] for place in places])) for k in range(2)]
+            d.tool("mousemove", *place_on(d, view, *at))
+            d.until(lambda: d.window.session.is_complete)
+            d.spin(0.12)
+            d.film()
+
+    def press(is_down: bool) -> None:
+        d.tool("mousedown" if is_down else "mouseup", 1)
+        d.is_pressed = is_down
+        d.spin(0.1)
+        d.film(3)
+
+    along([(0.9, 0.9), PATH[0]], 18)
+    press(True)
+    press(False)
+    d.complete()
+    d.film(12)
+    press(True)
+    along(PATH, 44)
+    d.film(6)
+    along(PATH[::-1], 30)
+    press(False)
+    d.film(12)
+    d.moving("click")
+
+
 SCENES = (
+    Scene(parts_of_the_window, ("window-at-a-glance",)),
+    Scene(click_and_drag, ("click",), is_moving=True),
     Scene(first_steps, ("start-page", "opened", "clicked", "values", "dragged")),
     Scene(comparing, ("quantity-menu", "difference")),
     Scene(looks, ("isolines", "ranges", "colours")),

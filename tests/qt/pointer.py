@@ -26,6 +26,23 @@ def click_near(d: Driver, panel: int, x: float, y: float, key: str = "") -> None
     d.pointer(*(("keydown", key) if key else ()), "click", 1, *(("keyup", key) if key else ()))
 
 
+def point_at_vertex(d: Driver, panel: int, vertex: int) -> None:
+    """The pointer to a vertex that is seen in a panel."""
+    shown = d.window.grid.panels[panel]
+    place = shown.view.place_of(shown.positions[vertex]).toPoint()
+    d.pointer("mousemove", *d.on_screen(shown.view.mapToGlobal(place)))
+
+
+def click_vertex(d: Driver, panel: int, vertex: int) -> None:
+    """Make a vertex the source, by a click there; RuntimeError if the click meets another."""
+    point_at_vertex(d, panel, vertex)
+    d.pointer("click", 1)
+    d.complete()
+    at = d.window.session.document.point("source").at
+    if at != vertex:
+        raise RuntimeError(f"The click at vertex {vertex} met {at}.")
+
+
 def drag_along(
     d: Driver, places: list[tuple[int, int]], *, key: str = "", then: Callable[[], None] | None = None
 ) -> None:
