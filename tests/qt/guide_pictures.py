@@ -76,12 +76,16 @@ class Photographer(Driver):
 
     def film(self, count: int = 1) -> None:
         """Some frames of a moving picture."""
-        from qtpy import QtCore
-
-        # Without the status bar: it has the rate, and here that is of what takes the frames.
-        frame = self.frame(QtCore.QRect(0, 0, self.look.width, self.look.height - self.window.status.height()))
+        frame = self.frame(self.without_status)
         height = round(frame.height * MOVING_WIDTH / frame.width)
         self._frames += [frame.resize((MOVING_WIDTH, height), Image.Resampling.LANCZOS)] * count
+
+    @property
+    def without_status(self) -> Any:
+        """The window but its status bar (QRect), which says while one drags how quickly this machine follows."""
+        from qtpy import QtCore
+
+        return QtCore.QRect(0, 0, self.look.width, self.look.height - self.window.status.height())
 
     def moving(self, name: str) -> None:
         """What has been filmed, as a moving picture that begins again and again."""

@@ -63,7 +63,11 @@ def first_steps(d: Any) -> None:
     point_at_vertex(d, 1, PLACE)
     d.shot("values")
     x, y = source_mark(d, 0)
-    drag_along(d, [(x + 5 * step, y - step) for step in range(16)], then=lambda: d.shot("dragged"))
+    drag_along(
+        d,
+        [(x + 5 * step, y - step) for step in range(16)],
+        then=lambda: (d.complete(), d.shot("dragged", d.without_status)),
+    )
 
 
 def comparing(d: Any) -> None:
@@ -215,7 +219,7 @@ def parts_of_the_window(d: Any) -> None:
         at(window.menuBar(), 0.4, 0.5),
         at(buttons["open"], 0.5, -0.1),
         at(buttons["dock pins"], 3.3, -0.1),
-        at(window.tool_bar.source_box, 0.5, 0.0),
+        at(window.tool_bar.source_box, 0.5, -0.15),
         at(buttons["isolines"], 2.0, -0.1),
         at(buttons["add panel"], 0.5, -0.1),
         at(buttons["export"], 0.5, -0.1),
@@ -247,8 +251,9 @@ def click_and_drag(d: Any) -> None:
         for share in (1 - np.cos(np.linspace(0, np.pi, steps))) / 2:
             at = [float(np.interp(share * (len(places) - 1), far, [place[k] for place in places])) for k in range(2)]
             d.tool("mousemove", *place_on(d, view, *at))
+            d.spin(0.08)
             d.until(lambda: d.window.session.is_complete)
-            d.spin(0.12)
+            d.spin(0.08)
             d.film()
 
     def press(is_down: bool) -> None:
