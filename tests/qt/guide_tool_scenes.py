@@ -91,6 +91,7 @@ def regions(d: Any) -> None:
     for panel in d.window.grid.panels:
         d.pointer("mousemove", *place_on(d, dock.ticks[panel.id], 0.03, 0.5), "click", 1)
     d.complete()
+    d.until(lambda: parts(d.window).regions.is_complete)
     d.spin(1.0)
     d.rest()
     d.shot("regions")
@@ -124,6 +125,8 @@ def robustness(d: Any) -> None:
     d.complete()
     scroll_of(dock).ensureWidgetVisible(dock.noise)
     d.rest()
+    d.complete()
+    d.spin(2.0)
     d.shot("robustness")
 
 
