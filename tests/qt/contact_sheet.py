@@ -10,20 +10,16 @@ import argparse
 import html
 import os
 import shutil
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 from tests.qt.parts import parts
 
-from .driver import Driver, Look
+from .driver import ROOT, Driver, Look, drive_elsewhere
 from .instrument_scenes import instruments
 from .map_scenes import full_maps
 from .pair_scenes import correspondence
-
-ROOT = Path(__file__).resolve().parents[2]
-
 
 LOOKS = [Look(theme, *size) for theme in ("light", "dark") for size in ((1600, 1000), (900, 600), (900, 600, 2))]
 
@@ -53,14 +49,10 @@ def main() -> None:
 
 
 def _on_a_screen_of_its_own(look: Look, options: argparse.Namespace) -> None:
-    screen = f"-screen 0 {look.width * look.scale}x{look.height * look.scale}x24 -dpi 96"
-    command = ["xvfb-run", "-a", "-s", screen, sys.executable, "-m", "tests.qt.contact_sheet", str(options.out)]
-    command += ["--drive", look.word, "--scenes", options.scenes]
-    command += ["--closed", options.closed, "--bounded", options.bounded]
-    command += ["--meshes", str(options.meshes)] if options.meshes else []
-    with tempfile.TemporaryDirectory() as home:
-        scale = {"QT_SCALE_FACTOR": str(look.scale)} if look.scale > 1 else {}
-        subprocess.run(command, cwd=ROOT, check=True, env={**os.environ, **scale, "XDG_DATA_HOME": home})
+    words = [options.out, "--drive", look.word, "--scenes", options.scenes]
+    words += ["--closed", options.closed, "--bounded", options.bounded]
+    words += ["--meshes", options.meshes] if options.meshes else []
+    drive_elsewhere(look, "tests.qt.contact_sheet", words)
 
 
 def _write_page(out: Path, beside: Path | None) -> None:
@@ -86,7 +78,7 @@ def _write_page(out: Path, beside: Path | None) -> None:
 # ---------------------------------------------------------------------- one look
 def drive(look: Look, options: argparse.Namespace) -> None:
     """Through all there is to see."""
-    driver, meshes = Driver(look, options.out, options.closed, options.bounded), options.meshes
+    driver, meshes = Driver(look, options.out / look.word, options.closed, options.bounded), options.meshes
     for scene in (
         _beginning, _pointing, _heads, _bars_and_menus, _looks, _panels, _waiting, _dialogs, _help, _talk, instruments,
         correspondence, full_maps,

@@ -1,11 +1,19 @@
 """The real window in the hands of a script, with a pointer (xdotool); it makes pictures of the screen."""
 
+import os
 import subprocess
+import sys
+import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+if TYPE_CHECKING:
+    from qtpy import QtCore, QtGui
+
+ROOT = Path(__file__).resolve().parents[2]
 PATIENCE = 300.0
 STILL = 0.3
 
@@ -17,17 +25,28 @@ class Look:
     theme: str
     width: int
     height: int
-    scale: int = 1
+    scale: float = 1
 
     @property
     def word(self) -> str:
-        return f"{self.theme}-{self.width}x{self.height}" + (f"@{self.scale}" if self.scale > 1 else "")
+        return f"{self.theme}-{self.width}x{self.height}" + (f"@{self.scale:g}" if self.scale > 1 else "")
+
+
+def drive_elsewhere(look: Look, module: str, words: Sequence[object], margin: int = 0) -> None:
+    """Run `python -m module words` on a screen of its own (Xvfb), which the look fills but for a margin in pixels."""
+    width, height = (round(side * look.scale) + margin for side in (look.width, look.height))
+    command = ["xvfb-run", "-a", "-s", f"-screen 0 {width}x{height}x24 -dpi 96", sys.executable, "-m", module]
+    with tempfile.TemporaryDirectory() as home:
+        scale = {"QT_SCALE_FACTOR": str(look.scale)} if look.scale > 1 else {}
+        env = {**os.environ, **scale, "XDG_DATA_HOME": home}
+        subprocess.run([*command, *map(str, words)], cwd=ROOT, check=True, env=env)
 
 
 class Driver:
     """A window in the hands of a script, with a pointer.
 
-    closed, bounded: meshes for scenes that need a boundary or none, as paths or names of samples.
+    out: a folder for its pictures, made if it is not there.  closed, bounded: meshes for scenes that need a boundary or
+    none, as paths or names of samples.
     """
 
     def __init__(self, look: Look, out: Path, closed: str = "beast", bounded: str = "scan") -> None:
@@ -36,9 +55,9 @@ class Driver:
         from app.qt.look.look import LOOK
         from app.qt.main_window import MainWindow
 
-        self.look, self._out, self._count = look, out / look.word, 0
+        self.look, self._out, self._count = look, out, 0
         self.closed, self.bounded = closed, bounded
-        self._out.mkdir(exist_ok=True)
+        self._out.mkdir(parents=True, exist_ok=True)
         self.application = application()
         LOOK.choose(look.theme)
         self.window = MainWindow(comparison("", COMPARISON))
@@ -75,8 +94,15 @@ class Driver:
         """What is on the screen now."""
         self.spin()
         self._count += 1
-        screen = self.application.primaryScreen()
-        screen.grabWindow(0).save(str(self._out / f"{self._count:02}_{name.replace(' ', '_')}.png"))
+        self.screen_picture().save(str(self._out / f"{self._count:02}_{name.replace(' ', '_')}.png"))
+
+    def screen_picture(self) -> "QtGui.QPixmap":
+        """What is on the screen, without the pointer."""
+        return self.application.primaryScreen().grabWindow(0)
+
+    def on_screen(self, at: "QtCore.QPoint") -> tuple[int, int]:
+        """A place of the screen as the pointer counts, in device pixels."""
+        return round(at.x() * self.look.scale), round(at.y() * self.look.scale)
 
     @staticmethod
     def tool(*words: object) -> None:
@@ -90,9 +116,9 @@ class Driver:
         """To a place of a view, as shares of its width and height."""
         from qtpy import QtCore
 
-        view, scale = self.window.grid.panels[panel].view, self.look.scale
+        view = self.window.grid.panels[panel].view
         at = view.mapToGlobal(QtCore.QPoint(round(x * view.width()), round(y * view.height())))
-        self.pointer("mousemove", at.x() * scale, at.y() * scale)
+        self.pointer("mousemove", *self.on_screen(at))
 
     def point_at_surface(self, panel: int = 0) -> None:
         """To the surface, where it is met first on the way from the middle."""

@@ -2,13 +2,25 @@
 
 from collections.abc import Callable
 from itertools import combinations
-from typing import Any
 
 from app.document.shared_parts.pins import Pins
 from app.document.shared_parts.selections import Selections
 from tests.qt.parts import parts
 
 from .driver import Driver
+from .pointer import (
+    click_near,
+    close_docks,
+    dock_of,
+    drag_along,
+    place_on,
+    point_near,
+    press,
+    rest,
+    scroll_of,
+    to_panels,
+    type_source,
+)  # fmt: skip
 
 PINNED = ((0.2, 0.3), (0.8, 0.25), (0.3, 0.8), (0.75, 0.8), (0.5, 0.4))
 """Places of a view near which pins go, as shares of its width and height."""
@@ -23,97 +35,27 @@ def instruments(d: Driver) -> None:
     d.open(mesh_path(d.closed))
     for scene in (_pins, _profile, _section, _scatter, _statistics, _quality, _regions, _all_open):
         scene(d)
-        _close_all(d)
+        close_docks(d)
     _interpolation(d)
-    _close_all(d)
+    close_docks(d)
     _robustness(d)
-    _close_all(d)
+    close_docks(d)
     _sources(d)
     _live(d)
     d.open(mesh_path(d.bounded))
     _loop(d)
 
 
-# ---------------------------------------------------------------------- by hand
-def _at(d: Driver, panel: int, x: float, y: float) -> None:
-    """The pointer to the place of the surface that is nearest to a place of a view."""
-    from qtpy import QtCore
-
-    view = d.window.grid.panels[panel].view
-    places = [((i + 0.5) / 40, (j + 0.5) / 40) for i in range(40) for j in range(40)]
-    for near in sorted(places, key=lambda at: (at[0] - x) ** 2 + (at[1] - y) ** 2):
-        at = QtCore.QPoint(round(near[0] * view.width()), round(near[1] * view.height()))
-        if view.pick(at) is not None and view.mark_at(at) < 0 and view.over.points.standing_at(at) is None:
-            d.point(panel, *near)
-            return
-
-
-def _click(d: Driver, panel: int, x: float, y: float, key: str = "") -> None:
-    _at(d, panel, x, y)
-    d.pointer(*(("keydown", key) if key else ()), "click", 1, *(("keyup", key) if key else ()))
-
-
-def _drag(d: Driver, places: list[tuple[int, int]], *, key: str = "", then: Callable[[], None] | None = None) -> None:
-    """Along places of the screen; then: before the button is let go."""
-    first, *rest = places
-    d.pointer("mousemove", *first, *(("keydown", key) if key else ()), "mousedown", 1)
-    for place in rest:  # each by itself: moves that wait together are one
-        d.tool("mousemove", *place)
-        d.spin(0.03)
-    if then is not None:
-        then()
-    d.pointer("mouseup", 1, *(("keyup", key) if key else ()))
-
-
-def _on(d: Driver, widget: Any, x: float, y: float) -> tuple[int, int]:
-    """Where a place of a widget is on the screen, in device pixels."""
-    from qtpy import QtCore
-
-    at = widget.mapToGlobal(QtCore.QPoint(round(x * widget.width()), round(y * widget.height())))
-    return at.x() * d.look.scale, at.y() * d.look.scale
-
-
-def _press(d: Driver, widget: Any) -> None:
-    d.pointer("mousemove", *_on(d, widget, 0.5, 0.5), "click", 1)
-
-
-def _dock(d: Driver, word: str, key: str = "") -> Any:
-    """An instrument, opened by its key if it is not open."""
-    if key:
-        _to_panels(d)
-        d.pointer("key", key)
-    d.complete()
-    return parts(d.window).docks._docks[word].content
-
-
-def _to_panels(d: Driver) -> None:
-    """The keys go to the panels."""
-    d.window.activateWindow()
-    d.window.grid.focus()
-    d.spin(0.1)
-
-
-def _close_all(d: Driver) -> None:
-    for word in d.window.session.document.docks:
-        parts(d.window).docks.close(word)
-    d.complete()
-
-
-def _rest(d: Driver) -> None:
-    """The pointer beside all that answers to it."""
-    d.pointer("mousemove", d.look.width * d.look.scale // 2, 8 * d.look.scale)
-
-
 # ---------------------------------------------------------------------- the scenes
 def _pins(d: Driver) -> None:
-    _click(d, 0, *SOURCE)
+    click_near(d, 0, *SOURCE)
     for place in PINNED:
-        _click(d, 0, *place, key="shift")
-    dock = _dock(d, "pins", "p")
-    d.pointer("mousemove", *_on(d, dock.distances.cells, 0.7, 0.3))
+        click_near(d, 0, *place, key="shift")
+    dock = dock_of(d, "pins", "p")
+    d.pointer("mousemove", *place_on(d, dock.distances.cells, 0.7, 0.3))
     d.shot("pins and the distances among them")
-    _rest(d)
-    _press(d, dock.box)
+    rest(d)
+    press(d, dock.box)
     d.pointer("type", "12, 40, 99999999")
     d.pointer("key", "Return")
     d.shot("a pin at no vertex")
@@ -124,16 +66,16 @@ def _pins(d: Driver) -> None:
 
 
 def _profile(d: Driver) -> None:
-    dock = _dock(d, "profile", "f")
+    dock = dock_of(d, "profile", "f")
     d.until(lambda: dock.path is not None)
-    _dock(d, "pins", "p")
-    d.pointer("mousemove", *_on(d, dock.chart, 0.45, 0.4))
+    dock_of(d, "pins", "p")
+    d.pointer("mousemove", *place_on(d, dock.chart, 0.45, 0.4))
     d.shot("profile through the pins")
-    _rest(d)
-    _press(d, dock.scale.buttons["value"])
+    rest(d)
+    press(d, dock.scale.buttons["value"])
     d.complete()
     d.shot("profile in values")
-    _press(d, dock.scale.buttons["share"])
+    press(d, dock.scale.buttons["share"])
     d.complete()
 
 
@@ -142,7 +84,7 @@ def _section(d: Driver) -> None:
     from app.tools.profile.dock import FINDING
     from app.tools.profile.part import Profile
 
-    dock = _dock(d, "profile", "f")
+    dock = dock_of(d, "profile", "f")
     before = d.window.session.document
     for points in combinations([pin.point for pin in before[Pins].pins], 2):
         path = dock.path
@@ -151,25 +93,25 @@ def _section(d: Driver) -> None:
         if dock.path is not None:
             break
     d.complete()
-    d.pointer("mousemove", *_on(d, dock.chart, 0.6, 0.5))
+    d.pointer("mousemove", *place_on(d, dock.chart, 0.6, 0.5))
     d.shot("section by a plane")
     d.window.session.show(before)
     d.complete()
 
 
 def _scatter(d: Driver) -> None:
-    dock = _dock(d, "scatter", "s")
+    dock = dock_of(d, "scatter", "s")
     d.until(lambda: dock.chart.scatter is not None)
     d.spin(1.0)
     d.shot("scatter")
     corners = ((0.5, 0.5), (0.6, 0.2), (0.8, 0.15), (0.9, 0.3), (0.8, 0.5), (0.6, 0.6))
-    _drag(d, [_on(d, dock.chart, *corner) for corner in corners], then=lambda: d.shot("lasso"))
+    drag_along(d, [place_on(d, dock.chart, *corner) for corner in corners], then=lambda: d.shot("lasso"))
     d.complete()
-    _at(d, 0, 0.3, 0.5)
+    point_near(d, 0, 0.3, 0.5)
     d.pointer("keydown", "b")
     d.pointer("mousedown", 1)
     for step in range(8):
-        _at(d, 0, 0.3 + 0.02 * step, 0.5)
+        point_near(d, 0, 0.3 + 0.02 * step, 0.5)
     d.shot("brush on the surface")
     d.pointer("mouseup", 1)
     d.pointer("keyup", "b")
@@ -180,18 +122,18 @@ def _scatter(d: Driver) -> None:
 
 
 def _statistics(d: Driver) -> None:
-    dock = _dock(d, "statistics", "h")
+    dock = dock_of(d, "statistics", "h")
     d.until(lambda: dock.statistics is not None)
     d.shot("statistics")
-    scroll = _scroll_of(dock)
+    scroll = scroll_of(dock)
     scroll.ensureWidgetVisible(dock.truncation.button)
-    _press(d, dock.truncation.button)
+    press(d, dock.truncation.button)
     d.until(lambda: dock.truncation.loss is not None)
     scroll.ensureWidgetVisible(dock.truncation.facts)
     d.shot("truncation")
     scroll.ensureWidgetVisible(dock.levels.low)
     for box, words in ((dock.levels.low, "25 %"), (dock.levels.high, "50 %")):
-        _press(d, box)
+        press(d, box)
         d.pointer("type", words)
     d.until(lambda: dock.levels.band is not None)
     scroll.ensureWidgetVisible(dock.levels.note)
@@ -202,32 +144,26 @@ def _statistics(d: Driver) -> None:
         d.window.session.undo()
 
 
-def _scroll_of(dock: Any) -> Any:
-    from qtpy import QtWidgets
-
-    return dock.findChild(QtWidgets.QScrollArea)
-
-
 def _quality(d: Driver) -> None:
-    dock = _dock(d, "quality", "q")
+    dock = dock_of(d, "quality", "q")
     d.until(lambda: "…" not in dock.text())
     d.spin(1.0)
     d.shot("quality with extrema")
-    _scroll_of(dock).verticalScrollBar().setValue(10_000)
+    scroll_of(dock).verticalScrollBar().setValue(10_000)
     d.shot("circles around the source")
 
 
 def _regions(d: Driver) -> None:
-    dock = _dock(d, "regions", "n")
+    dock = dock_of(d, "regions", "n")
     for panel in d.window.grid.panels[:2]:
-        d.pointer("mousemove", *_on(d, dock.ticks[panel.id], 0.03, 0.5), "click", 1)
+        d.pointer("mousemove", *place_on(d, dock.ticks[panel.id], 0.03, 0.5), "click", 1)
     d.complete()
     d.spin(1.0)
     d.shot("regions of the pins")
     before = d.window.session.document
     dock.sampler.count.setValue(8)
-    _scroll_of(dock).ensureWidgetVisible(dock.sampler.pin)
-    _press(d, dock.sampler.pin)
+    scroll_of(dock).ensureWidgetVisible(dock.sampler.pin)
+    press(d, dock.sampler.pin)
     d.until(lambda: len(d.window.session.document[Pins].pins) > len(before[Pins].pins))
     d.complete()
     d.spin(1.0)
@@ -242,32 +178,32 @@ VALUES = ("0", "1", "0.35", "0.7", "0.55")
 
 def _interpolation(d: Driver) -> None:
     before = d.window.session.document
-    dock = _dock(d, "anchors", "i")
+    dock = dock_of(d, "anchors", "i")
     d.shot("no anchors yet")
-    _press(d, dock.start)
+    press(d, dock.start)
     d.complete()
     for place in ANCHORED:
-        _click(d, 0, *place)
+        click_near(d, 0, *place)
         d.complete()
     for row, value in zip(dock.rows.values(), VALUES, strict=False):
-        d.pointer("mousemove", *_on(d, row.box, 0.5, 0.5), "click", 1, "key", "ctrl+a")
+        d.pointer("mousemove", *place_on(d, row.box, 0.5, 0.5), "click", 1, "key", "ctrl+a")
         d.pointer("type", value)
         d.pointer("key", "Return")
         d.complete()
     d.until(lambda: parts(d.window).quality.is_complete and "…" not in str(dock.extrema.facts))
     d.shot("anchors")
     row = list(dock.rows.values())[3]
-    x, y = _on(d, row.slider, 0.7, 0.5)
-    _drag(d, [(x - 3 * step * d.look.scale, y) for step in range(10)], then=lambda: d.shot("a value on its way"))
+    x, y = place_on(d, row.slider, 0.7, 0.5)
+    drag_along(d, [(x - 3 * step * d.look.scale, y) for step in range(10)], then=lambda: d.shot("a value on its way"))
     d.complete()
-    _scroll_of(dock).ensureWidgetVisible(dock.samples.add)
-    _press(d, dock.samples.add)
+    scroll_of(dock).ensureWidgetVisible(dock.samples.add)
+    press(d, dock.samples.add)
     d.until(lambda: len(dock.rows) > len(ANCHORED))
     d.complete()
     d.until(lambda: parts(d.window).quality.is_complete)
     d.shot("samples as anchors")
-    _scroll_of(dock).ensureWidgetVisible(dock.shows)
-    d.pointer("mousemove", *_on(d, dock.shows, 0.75, 0.5), "click", 1)
+    scroll_of(dock).ensureWidgetVisible(dock.shows)
+    d.pointer("mousemove", *place_on(d, dock.shows, 0.75, 0.5), "click", 1)
     d.complete()
     d.shot("the sum of weights")
     d.window.session.show(before)
@@ -276,36 +212,36 @@ def _interpolation(d: Driver) -> None:
 
 def _robustness(d: Driver) -> None:
     before = d.window.session.document
-    dock = _dock(d, "robustness", "e")
+    dock = dock_of(d, "robustness", "e")
     d.shot("no change yet")
-    x, y = _on(d, dock.noise.slider, 0.03, 0.5)
+    x, y = place_on(d, dock.noise.slider, 0.03, 0.5)
     width = dock.noise.slider.width() * d.look.scale
-    _drag(d, [(round(x + width * 0.03 * k), y) for k in range(10)], then=lambda: d.shot("noise on its way"))
+    drag_along(d, [(round(x + width * 0.03 * k), y) for k in range(10)], then=lambda: d.shot("noise on its way"))
     d.complete()
-    _at(d, 4 if len(d.window.grid.panels) > 4 else 1, 0.5, 0.5)
+    point_near(d, 4 if len(d.window.grid.panels) > 4 else 1, 0.5, 0.5)
     d.shot("noise before and after")
-    _rest(d)
+    rest(d)
     dock.remove()
     _wait(d, lambda: len(d.window.session.document.surfaces) == 1)
-    _scroll_of(dock).ensureWidgetVisible(dock.cut)
-    _press(d, dock.cut.button)
+    scroll_of(dock).ensureWidgetVisible(dock.cut)
+    press(d, dock.cut.button)
     d.spin(0.5)
     places = []
     for step in range(10):
-        _at(d, 0, 0.42 + 0.02 * step, 0.5)
+        point_near(d, 0, 0.42 + 0.02 * step, 0.5)
         from qtpy import QtGui
 
         places.append((QtGui.QCursor.pos().x() * d.look.scale, QtGui.QCursor.pos().y() * d.look.scale))
-    _drag(d, places, then=lambda: d.shot("faces to be cut out"))
+    drag_along(d, places, then=lambda: d.shot("faces to be cut out"))
     _wait(d, lambda: len(d.window.session.document.surfaces) == 2)
     d.pointer("key", "Escape")
-    _scroll_of(dock).ensureWidgetVisible(dock.handle)
-    _press(d, dock.handle.button)
-    _click(d, 0, 0.3, 0.3)
+    scroll_of(dock).ensureWidgetVisible(dock.handle)
+    press(d, dock.handle.button)
+    click_near(d, 0, 0.3, 0.3)
     d.shot("the first of two places")
-    _click(d, 0, 0.7, 0.7)
+    click_near(d, 0, 0.7, 0.7)
     _wait(d, lambda: dock.settings.handle is not None)
-    _rest(d)
+    rest(d)
     d.shot("a hole and a handle")
     d.window.session.show(before)
     d.complete()
@@ -322,47 +258,38 @@ def _all_open(d: Driver) -> None:
     for word, key in (
         ("statistics", "h"), ("quality", "q"), ("regions", "n"), ("pins", "p"), ("scatter", "s"), ("profile", "f"),
     ):  # fmt: skip
-        _dock(d, word, key)
+        dock_of(d, word, key)
     d.spin(1.5)
     d.shot("all docks")
 
 
 def _sources(d: Driver) -> None:
     before = d.window.session.document
-    _click(d, 0, 0.3, 0.6, key="ctrl")
-    _click(d, 0, 0.7, 0.3, key="ctrl")
+    click_near(d, 0, 0.3, 0.6, key="ctrl")
+    click_near(d, 0, 0.7, 0.3, key="ctrl")
     d.complete()
     d.shot("a set as source")
     for text, name in (("f311:0.2,0.5", "a place in a face"), ("12+40+f7:0.3,0.3", "a set as words")):
-        _type_source(d, text)
+        type_source(d, text)
         d.shot(name)
-    _to_panels(d)
+    to_panels(d)
     d.window.actions_by_word["draw source"].trigger()
     view = d.window.grid.panels[0].view
     places = []
     for step in range(12):
-        _at(d, 0, 0.4 + 0.015 * step, 0.45 + 0.01 * step)
+        point_near(d, 0, 0.4 + 0.015 * step, 0.45 + 0.01 * step)
         from qtpy import QtGui
 
         at = QtGui.QCursor.pos()
         places.append((at.x() * d.look.scale, at.y() * d.look.scale))
     assert view is not None
-    _drag(d, places, then=lambda: d.shot("drawing a source"))
+    drag_along(d, places, then=lambda: d.shot("drawing a source"))
     d.complete()
-    _rest(d)
+    rest(d)
     d.shot("a curve as source")
     d.pointer("key", "Escape")
     d.window.session.show(before)
     d.complete()
-
-
-def _type_source(d: Driver, text: str) -> None:
-    _to_panels(d)
-    d.pointer("key", "g")
-    d.pointer("type", text)
-    d.pointer("key", "Return")
-    d.complete()
-    _rest(d)
 
 
 def _live(d: Driver) -> None:
@@ -374,10 +301,10 @@ def _live(d: Driver) -> None:
     assert isinstance(at, QtCore.QPoint)
     places = [(at.x() + round(3 * step * d.look.scale), at.y() - step * d.look.scale) for step in range(14)]
     places += places[::-1][:12]
-    _drag(d, places, then=lambda: d.shot("live drag"))
+    drag_along(d, places, then=lambda: d.shot("live drag"))
     d.complete()
 
 
 def _loop(d: Driver) -> None:
-    _type_source(d, "loop:0")
+    type_source(d, "loop:0")
     d.shot("a boundary as source")

@@ -1,8 +1,8 @@
 """What there is to see of errors and full maps, for the contact sheet: two poses, and two meshes without a truth."""
 
 from .driver import Driver
-from .instrument_scenes import _close_all, _dock, _on
 from .pair_scenes import far_apart
+from .pointer import close_docks, dock_of, open_beside, place_on
 
 
 def full_maps(d: Driver) -> None:
@@ -13,8 +13,8 @@ def full_maps(d: Driver) -> None:
 
     d.open(mesh_path("beast"))
     session = d.window.session
-    _beside(d, "beast_pose2")
-    dock = _dock(d, "pairs", "m")
+    open_beside(d, "beast_pose2")
+    dock = dock_of(d, "pairs", "m")
     d.complete()
     section = dock.errors
     d.shot("errors without pairs")
@@ -27,32 +27,22 @@ def full_maps(d: Driver) -> None:
     if scroll is not None:
         scroll.ensureWidgetVisible(section.full)
     d.shot("errors of predictions")
-    d.pointer("mousemove", *_on(d, section.chart, 0.4, 0.4))
+    d.pointer("mousemove", *place_on(d, section.chart, 0.4, 0.4))
     d.shot("errors at the pointer")
     d.shot_while(section.truth.button.click, "menu of the truth")
-    d.pointer("mousemove", *_on(d, section.full, 0.5, 0.5), "click", 1)
+    d.pointer("mousemove", *place_on(d, section.full, 0.5, 0.5), "click", 1)
     d.complete()
     d.shot("a full map")
     d.point_at_surface(1)
     d.shot("where a vertex is mapped")
     d.shot_while(section.save.click, "menu of full maps")
-    d.pointer("mousemove", *_on(d, section.full, 0.5, 0.5), "click", 1)
+    d.pointer("mousemove", *place_on(d, section.full, 0.5, 0.5), "click", 1)
     d.complete()
-    _beside(d, "figure")
+    open_beside(d, "figure")
     d.complete()
     d.shot("errors without a truth")
-    _close_all(d)
+    close_docks(d)
     session.show(close_beside(session.document))
-    d.complete()
-
-
-def _beside(d: Driver, name: str) -> None:
-    """Open a sample as the second mesh."""
-    from app.samples import mesh_path
-
-    session, path = d.window.session, mesh_path(name)
-    session.open_beside(path)
-    d.until(lambda: not session.is_opening and session.document.surfaces[-1].path == path)
     d.complete()
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .driver import Driver
-from .instrument_scenes import _at, _close_all, _dock, _on, _to_panels
+from .pointer import close_docks, dock_of, place_on, point_near, to_panels
 
 PAIRED = 8
 """Vertices of both poses that are pairs before any is clicked, far apart."""
@@ -25,16 +25,16 @@ def correspondence(d: Driver) -> None:
     from app.tools.correspondence.pairs import add_pairs
 
     d.open(mesh_path("beast"))
-    dock, session = _dock(d, "pairs", "m"), d.window.session
+    dock, session = dock_of(d, "pairs", "m"), d.window.session
     d.shot("correspondence with one mesh")
     session.open_beside(mesh_path("beast_pose2"))
     d.until(lambda: len(session.document.surfaces) == 2 and not session.is_opening)
     d.complete()
-    d.pointer("mousemove", *_on(d, dock.start, 0.5, 0.5), "click", 1)
+    d.pointer("mousemove", *place_on(d, dock.start, 0.5, 0.5), "click", 1)
     d.complete()
     d.shot("no pairs yet")
     for panel in (0, 1):
-        _at(d, panel, 0.5, 0.4)
+        point_near(d, panel, 0.5, 0.4)
         d.pointer("click", 1)
         d.complete()
         d.shot(f"a pair at {'AB'[panel]}")
@@ -42,7 +42,7 @@ def correspondence(d: Driver) -> None:
     session.undo()
     session.show(add_pairs(session.document, [(vertex, vertex) for vertex in far_apart(session.surface.vertices)]))
     d.complete()
-    _at(d, 0, 0.6, 0.5)
+    point_near(d, 0, 0.6, 0.5)
     d.pointer("click", 1)
     d.complete()
     d.spin(2.0)
@@ -50,18 +50,18 @@ def correspondence(d: Driver) -> None:
     d.point_at_surface(1)
     d.shot("the misfit at the pointer")
     row = list(dock.rows.values())[2]
-    d.pointer("mousemove", *_on(d, row, 0.5, 0.5), "click", 1)
+    d.pointer("mousemove", *place_on(d, row, 0.5, 0.5), "click", 1)
     d.shot("a pair stands out")
-    _to_panels(d)
+    to_panels(d)
     d.pointer("key", "Return")
     d.complete()
     d.shot("accepted")
-    _at(d, 1, 0.4, 0.6)
+    point_near(d, 1, 0.4, 0.6)
     d.pointer("click", 1)
     d.complete()
     d.shot("the other way round")
     d.pointer("key", "Escape")
     d.complete()
-    _close_all(d)
+    close_docks(d)
     session.show(close_beside(session.document))
     d.complete()

@@ -7,7 +7,6 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core.distances.kinds import Parameter, Value
 
-from ..look.icons import icon
 from ..look.look import LOOK
 from ..look.numbers import number_width
 from ..look.painting import baseline
@@ -223,8 +222,6 @@ def tick(action: QtWidgets.QAction, is_chosen: bool) -> None:
     """Show that an entry of a menu is the one that holds."""
     action.setCheckable(True)
     action.setChecked(is_chosen)
-    if is_chosen:
-        action.setIcon(icon("check", LOOK.theme.accent))
 
 
 def signs(parameters: Sequence[Parameter]) -> list[str]:
