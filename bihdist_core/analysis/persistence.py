@@ -26,6 +26,12 @@ class Extrema:
 
     The lowest minimum and the highest maximum of each connected piece have the whole range there as persistence.
     raw_minima, raw_maxima: how many vertices are lower or higher than all their neighbours, however little.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> found = bihdist.extrema(sphere, sphere.points[:, 2])
+    >>> len(found.minima), len(found.maxima), found.maxima_persistence.round(3).tolist()  # from pole to pole
+    (1, 1, [2.0])
     """
 
     minima: IntArray
@@ -44,6 +50,13 @@ def extrema(surface: MeshLike, field: npt.ArrayLike, share: float = 1e-3) -> Ext
     counts may count a plateau several times.)
 
     Raises ParameterError for a field of another shape, or a share outside 0 to 1.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> found = bihdist.extrema(sphere, field)
+    >>> found.minima.tolist(), found.maxima.tolist()  # the source, and what is opposite to it
+    ([0], [2])
     """
     surface = Surface.of(surface)
     f = surface.check_field(field)

@@ -46,6 +46,14 @@ class Circle:
     (k,) in the tangent plane of the source, from -pi to pi, and values (k,).  A closed curve comes back to its first.
     Where it is folded as seen from above, as on a finger's tip, the angles are shares of its length instead.
     ratio: the greatest over the least value, 1 where the field is isotropic; infinite if it is 0 somewhere.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> geodesic = bihdist.GeodesicDistance(sphere).from_source(0)
+    >>> circle, = bihdist.geodesic_circles(sphere, field, geodesic, 0, radii=[0.6])
+    >>> len(circle.values), round(circle.ratio, 2)  # one curve, and nearly one value on it
+    (1, 1.0)
     """
 
     radius: float
@@ -62,6 +70,14 @@ def geodesic_circles(
     source: a vertex or a place in a face; around others there are no circles.  radii: (q,) in the mesh's unit, in
     order; by default `CIRCLES`.  Those that no vertex is as far as are left out.  Raises VertexError or ParameterError
     for a bad source, ParameterError for bad radii or fields.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> geodesic = bihdist.GeodesicDistance(sphere).from_source(0)
+    >>> circles = bihdist.geodesic_circles(sphere, field, geodesic, 0, radii=[0.6, 1.2, 2.4])
+    >>> [(circle.radius, round(circle.ratio, 2)) for circle in circles]
+    [(0.6, 1.0), (1.2, 1.0), (2.4, 1.0)]
     """
     surface = Surface.of(surface)
     f, usual = surface.check_field(field), surface.mean_edge_length * np.array(CIRCLES)
@@ -177,6 +193,12 @@ class OtherExtrema:
     """The extrema of a field away from its source, the most persistent first.
 
     minima, maxima: (k,) vertices.  minima_depth, maxima_height: (k,) their persistence over the field's range; no unit.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> found = bihdist.other_extrema(sphere, bihdist.BiharmonicDistance(sphere).from_source(0), 0)
+    >>> found.minima.tolist(), found.maxima.tolist(), found.maxima_height.tolist()
+    ([], [2], [1.0])
     """
 
     minima: IntArray
@@ -186,7 +208,13 @@ class OtherExtrema:
 
     @property
     def vertices(self) -> IntArray:
-        """(k,) vertices of all minima, then of all maxima."""
+        """(k,) vertices of all minima, then of all maxima.
+
+        >>> import bihdist, pyvista
+        >>> sphere = pyvista.Icosphere(nsub=3)
+        >>> bihdist.other_extrema(sphere, bihdist.BiharmonicDistance(sphere).from_source(0), 0).vertices.tolist()
+        [2]
+        """
         return np.concatenate([self.minima, self.maxima])
 
 
@@ -195,6 +223,13 @@ def other_extrema(surface: MeshLike, field: npt.ArrayLike, source: Source | None
 
     source: None for a field that starts nowhere, all extrema of which count.  Raises VertexError or ParameterError for
     a bad source, ParameterError for a field of another shape or with nothing but one value.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> field = sphere.points[:, 2] + 0.3 * (sphere.points[:, 0] > 0.9)  # a height, with a bump at the side
+    >>> found = bihdist.other_extrema(sphere, field, None)
+    >>> len(found.minima), len(found.maxima)
+    (1, 2)
     """
     surface = Surface.of(surface)
     f = surface.check_field(field)
@@ -217,6 +252,12 @@ def apparent_source(field: npt.ArrayLike) -> int | None:
     """The vertex that a field (n,) seems to be the distance from; None where there is none.
 
     It is the only one with less than `ZERO` of the maximum, while all others, where the field is finite, are positive.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> field = bihdist.BiharmonicDistance(sphere).from_source(12)
+    >>> bihdist.apparent_source(field), bihdist.apparent_source(field + 1)
+    (12, None)
     """
     f = real_numbers(field, "Values of a field")
     ids = np.flatnonzero(np.isfinite(f))
@@ -241,6 +282,14 @@ class FieldQuality:
     round; that of a smooth field shrinks with the edges.  kink_edge: (2,) the ends of the edge, -1 where there is none
     away from the source.  kink_length: of all edges away from the source whose kink is at least 1, over the root of the
     surface's area: long where there is a ridge, next to nothing where a few edges are too long for the field.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> geodesic = bihdist.GeodesicDistance(sphere).from_source(0)
+    >>> quality = bihdist.field_quality(sphere, field, geodesic, 0)
+    >>> len(quality.minima), len(quality.maxima), round(quality.isotropy, 2), round(quality.kink, 1)
+    (0, 1, 1.0, 0.2)
     """
 
     source: Source | None
@@ -262,6 +311,13 @@ def field_quality(
 
     share: of the field's range, which extrema persist at least.  Raises VertexError or ParameterError for a bad source,
     ParameterError for fields of another shape or with nothing but one value.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> diffusion = bihdist.DiffusionDistance(sphere).from_source(0)
+    >>> geodesic = bihdist.GeodesicDistance(sphere).from_source(0)
+    >>> round(bihdist.field_quality(sphere, diffusion, geodesic, 0).isotropy, 2)  # 1 is round
+    1.0
     """
     surface = Surface.of(surface)
     f, near = surface.check_field(field), surface.check_field(geodesic)
@@ -285,6 +341,14 @@ def difference_quality(
     for a field that starts nowhere: then no extremum is left out, and no edge but those along the boundary.  share: of
     the field's range, which extrema persist at least.  Raises VertexError or ParameterError for a bad source,
     ParameterError for fields of another shape or with nothing but one value.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> biharmonic = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> geodesic = bihdist.GeodesicDistance(sphere).from_source(0)
+    >>> quality = bihdist.difference_quality(sphere, bihdist.difference(biharmonic, geodesic), geodesic, 0)
+    >>> quality.circles, round(quality.kink, 1)
+    ((), 1.2)
     """
     surface = Surface.of(surface)
     f = surface.check_field(field)
@@ -323,6 +387,12 @@ def triangle_sample(
 
     The distance is asked for all pairs of `points` vertices, or all there are.  Raises ParameterError for a component
     that does not exist or has fewer than three vertices, and for fewer points than three.
+
+    >>> import bihdist, pyvista
+    >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
+    >>> sample = bihdist.triangle_sample(distance, points=20, count=1000)
+    >>> sample.triples, sample.violations, sample.tightest > 0
+    (1000, 0, True)
     """
     *_, (_, last) = triangle_samples(distance, points, component, count, seed, progress)
     return last
@@ -341,6 +411,14 @@ def triangle_samples(
     For distances that take a second for each point: early results can be shown.  When the first is asked for, raises
     ParameterError for a component that does not exist or has fewer than three vertices, and for fewer points than
     three.
+
+    >>> import bihdist, pyvista
+    >>> distance = bihdist.GeodesicDistance(pyvista.Icosphere(nsub=3))
+    >>> for points, sample in bihdist.triangle_samples(distance, points=20, count=1000):
+    ...     print(points, sample.violations)
+    8 0
+    16 0
+    20 0
     """
     ids = (
         np.flatnonzero(distance.surface.component_of_vertex == component)

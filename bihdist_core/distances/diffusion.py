@@ -38,6 +38,14 @@ class DiffusionDistance(SpectralDistance):
     enough.  None means `TOLERANCE`, or where that takes more than `MOST_PAIRS` eigenpairs what these give, down to
     `COARSEST`.  Raises ParameterError if t or the tolerance is not positive, or if they need more than `MOST_PAIRS`
     eigenpairs.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> for t in (1, 0.1):
+    ...     distance = bihdist.DiffusionDistance(sphere, t=t)
+    ...     print(f"t = {t}: {distance.pair_count(0)} eigenpairs, farthest {distance.from_source(0).max():.3f}")
+    t = 1: 48 eigenpairs, farthest 0.599
+    t = 0.1: 641 eigenpairs, farthest 1.855
     """
 
     length_power = -1.0
@@ -116,7 +124,13 @@ class DiffusionDistance(SpectralDistance):
         return _largest(self.t, next_value, component.spectrum(1).eigenvalues[0]) * tails
 
     def pair_count(self, vertex: int) -> int:
-        """How many eigenpairs the sum has on the component of a vertex."""
+        """How many eigenpairs the sum has on the component of a vertex.
+
+        >>> import bihdist, pyvista
+        >>> sphere = pyvista.Icosphere(nsub=3)
+        >>> [bihdist.DiffusionDistance(sphere, t=1, tolerance=tolerance).pair_count(0) for tolerance in (1e-2, 1e-4)]
+        [15, 35]
+        """
         return int(self.points(self.laplacian.component_of(vertex)).shape[1])
 
     def bound(self, vertex: int) -> FloatArray:
@@ -125,6 +139,11 @@ class DiffusionDistance(SpectralDistance):
         With s_x^2 = C_xx - sum_{k <= K} phi_k(x)^2 / lambda_k^2, C centred, and m the largest w lambda^2 there is from
         the first omitted eigenvalue on, at most tail = m (s_x + s_y)^2 is left out of d^2.  So d is too small by at
         most sqrt(d^2 + tail) - d, which is no more than sqrt(tail) and tail / 2 d.
+
+        >>> import bihdist, pyvista
+        >>> distance = bihdist.DiffusionDistance(pyvista.Icosphere(nsub=3), t=1, tolerance=1e-3)
+        >>> bool(distance.bound(0).max() <= 1e-3 * distance.from_source(0).max())
+        True
         """
         component = self.laplacian.component_of(vertex)
         self.prepare(component)

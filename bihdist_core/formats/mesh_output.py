@@ -18,6 +18,11 @@ def write_mesh(path: str | os.PathLike[str], surface: MeshLike) -> None:
     """Write a surface as .off, .obj, .ply or .vtp, vertices in their order and so that they read back exactly.
 
     Raises OutputError if the file cannot be written; what was there then stays.
+
+    >>> import bihdist
+    >>> bihdist.write_mesh("triangle.off", bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
+    >>> bihdist.read_surface("triangle.off")
+    Surface(triangle.off: 3 vertices, 1 faces)
     """
     surface = Surface.of(surface)
     extension = check_output(path, MESH_FORMATS)
