@@ -65,7 +65,9 @@ class FieldScatter:
     def cells(
         self, columns: int, rows: int, across: tuple[float, float], up: tuple[float, float]
     ) -> tuple[IntArray, IntArray]:
-        """(p,) cells of the grid of `density`, numbered row by row, of the points in it, and (p,) which these are.
+        """(p,) in which cell of a grid the p points inside it are, and (p,) which points these are.
+
+        Cells are numbered row by row, from the lowest; across, up: where the grid begins and ends.
 
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=1, j_resolution=1)
@@ -126,7 +128,7 @@ class FieldScatter:
 
 
 def field_scatter(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, shares: bool = False) -> FieldScatter:
-    """The second of two fields (n,) against the first; shares: each divided by its largest size.
+    """The second of two fields (n,) against the first at the vertices; shares: each divided by its largest size first.
 
     Raises ParameterError for fields of other shapes, no common vertices, and shares of a field that is 0.
 

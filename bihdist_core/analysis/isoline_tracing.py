@@ -53,7 +53,7 @@ class Isoline:
 
     @property
     def length(self) -> float:
-        """Length of the curve.
+        """Length of the curve, unit length.
 
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)

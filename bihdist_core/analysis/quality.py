@@ -68,8 +68,8 @@ def geodesic_circles(
     """A field (n,) along geodesic circles around its source; geodesic: (n,) geodesic distances from it.
 
     source: a vertex or a place in a face; around others there are no circles.  radii: (q,) in the mesh's unit, in
-    order; by default `CIRCLES`.  Those that no vertex is as far as are left out.  Raises VertexError or ParameterError
-    for a bad source, ParameterError for bad radii or fields.
+    order; by default 3 to 12 mean edge lengths.  Those that no vertex is as far as are left out.  Raises
+    VertexError or ParameterError for a bad source, ParameterError for bad radii or fields.
 
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
@@ -251,7 +251,7 @@ def other_extrema(surface: MeshLike, field: npt.ArrayLike, source: Source | None
 def apparent_source(field: npt.ArrayLike) -> int | None:
     """The vertex that a field (n,) seems to be the distance from; None where there is none.
 
-    It is the only one with less than `ZERO` of the maximum, while all others, where the field is finite, are positive.
+    It is the only one with less than 1e-6 of the maximum, while all others, where the field is finite, are positive.
 
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
@@ -274,9 +274,9 @@ class FieldQuality:
 
     minima, maxima: (k,) vertices at extrema, the source left out, the most persistent first; minima_depth,
     maxima_height: (k,) their persistence over the field's range, which is a distance's maximum.
-    circles: of growing radius around the source.  isotropy: the greatest over the least value on the circle of the
-    small radius (`small_radius`), or the largest circle if that is smaller; NaN where there is none, as around a source
-    of several places, and for what is no distance.
+    circles: of growing radius around the source.  isotropy: the greatest over the least value on the circle whose
+    radius is 4 % of the root of the area, but at least four mean edges, or the largest circle if that is smaller; NaN
+    where there is none, as around a source of several places, and for what is no distance.
     kink: the largest jump of the gradient across an edge away from the source, over the gradient's mean length on both
     sides of it, or over its median length on the surface if that is more; no unit.  About 2 on a ridge where it turns
     round; that of a smooth field shrinks with the edges.  kink_edge: (2,) the ends of the edge, -1 where there is none
@@ -406,7 +406,7 @@ def triangle_samples(
     seed: int = 0,
     progress: Progress | None = None,
 ) -> Iterator[tuple[int, TriangleSample]]:
-    """For ever more vertices, `TRIANGLE_STEP` at a time up to `points`: how many, and their `triangle_sample`.
+    """For ever more vertices, 8 at a time up to `points`: how many, and what `triangle_sample` finds among them.
 
     For distances that take a second for each point: early results can be shown.  When the first is asked for, raises
     ParameterError for a component that does not exist or has fewer than three vertices, and for fewer points than

@@ -53,7 +53,9 @@ class Boundary:
 
 
 def region_boundaries(surface: MeshLike, regions: Regions) -> list[Boundary]:
-    """The boundary segments of regions put end to end, in the order of the regions between.
+    """The boundaries of regions as curves: their segments put end to end, in the order of the regions between.
+
+    regions: those of `voronoi_regions` on this surface.
 
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
@@ -81,7 +83,7 @@ def region_boundaries(surface: MeshLike, regions: Regions) -> list[Boundary]:
 
 
 def write_boundaries(path: str | os.PathLike[str], curves: Sequence[Boundary], labels: Sequence[int] = ()) -> None:
-    """Write boundaries as .csv, .obj, .vtp or .json (see `write_curves`), with the numbers `region` and `other`.
+    """Write boundaries as .csv, .obj, .vtp or .json, each curve with numbers `region` and `other` of what it divides.
 
     labels: (k,) what to write for region i, such as the id of its pin; i by default.  Raises OutputError if the file
     cannot be written.

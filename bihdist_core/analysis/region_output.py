@@ -21,7 +21,7 @@ REGION_MESH_FORMATS = (".ply", ".vtp")
 def write_labels(
     path: str | os.PathLike[str], surface: MeshLike, regions: Regions, labels: Sequence[int] | None = None
 ) -> None:
-    """Write the region of each vertex as the field `region` (see `write_fields`); NaN where there is none.
+    """Write the region of each vertex as the field `region`, NaN where there is none: .npy, .csv, .ply, .vtp or GIFTI.
 
     labels: (k,) what to write for region i, such as the id of its pin; i by default.  Raises OutputError if the file
     cannot be written.

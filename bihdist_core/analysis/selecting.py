@@ -131,9 +131,9 @@ def read_ids(path: str | os.PathLike[str]) -> IntArray:
 def write_selection(
     path: str | os.PathLike[str], surface: MeshLike, vertices: npt.ArrayLike, way: str = "ids", name: str = "selection"
 ) -> None:
-    """Write vertices (k,) of a surface; way: "ids" (`write_ids`), "field", 1 at them and 0 elsewhere under a name
-    (`write_fields`), or "mesh", the faces all of whose corners they are, with the field `vertex` of their ids (.ply or
-    .vtp).
+    """Write vertices (k,) of a surface; way: "ids" (.txt, .csv, .npy), "field", 1 at them and 0 elsewhere under a
+    name (.npy, .csv, .ply, .vtp, GIFTI), or "mesh", the faces all of whose corners they are, with the field `vertex` of
+    their ids (.ply or .vtp).
 
     Raises OutputError if the file cannot be written, ParameterError for another way or where no face is cut out,
     VertexError for vertices that are not there.

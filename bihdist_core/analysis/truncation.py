@@ -54,7 +54,7 @@ def truncation_loss(
     """The loss of the truncated biharmonic distance (paper, Eq. 11) from a source, with 1 to `most` eigenpairs.
 
     source: a vertex or any other, or its words.  counts: (q,) those wanted, ascending, instead of all; of a boundary
-    loop, a curve, or a set on several components not all are computed, but some (`LINE_COUNTS`).  The Laplacian keeps
+    loop, a curve, or a set on several components 14 numbers up to 200 are computed, not all.  The Laplacian keeps
     the eigenpairs, so that another source costs a field and a pass over them.  No more are used than the source's
     component has.
     Raises ParameterError for bad numbers, VertexError or ParameterError for a bad source.

@@ -137,7 +137,7 @@ class ErrorCurve:
     """The share of vertices whose error is at most so large.
 
     errors: (m,) sorted, those that are known.  mean, median: of these, infinite if a vertex was mapped nowhere.  area:
-    under the curve from 0 to LIMIT, over LIMIT; 1 for a perfect map.
+    under the curve from 0 to 0.25, over 0.25; 1 for a perfect map.
 
     >>> import bihdist
     >>> curve = bihdist.error_curve([0.0, 0.0, 0.02, 0.1])

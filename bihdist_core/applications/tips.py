@@ -37,7 +37,7 @@ def tips(laplacian: Laplacian | MeshLike, share: float = PROMINENT) -> IntArray:
 
 
 def at_tips(surface: MeshLike, vertices: npt.ArrayLike, ends: npt.ArrayLike) -> BoolArray:
-    """(k,) whether vertices (k,) are at one of the tips `ends` (t,): within NEAR roots of the surface's area.
+    """(k,) whether vertices (k,) are at one of the tips `ends` (t,): within a tenth of the root of the surface's area.
 
     Raises VertexError for a bad vertex.
 

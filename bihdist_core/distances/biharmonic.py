@@ -59,7 +59,11 @@ class BiharmonicDistance(FactoredDistance):
     def embedding(
         self, k: int | None = None, tolerance: float | None = None, progress: Progress | None = None
     ) -> Embedding:
-        """Points of a Euclidean space with biharmonic distances within a bound (`biharmonic_embedding`).
+        """Points of a Euclidean space whose distances are the biharmonic ones within a bound, for trees and indices.
+
+        k: how many coordinates; tolerance: the bound, unit length, instead.  The bound falls like 1 / sqrt(k): half of
+        it takes four times as many coordinates.  Raises ParameterError unless one of the two is given, and for a bad
+        number.
 
         >>> import bihdist, pyvista
         >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))

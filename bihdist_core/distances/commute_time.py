@@ -18,7 +18,9 @@ MOST_NEAR, MOST_SPRINGS = 128, 256
 
 
 class CommuteTimeDistance(FactoredDistance):
-    """d(i, j)^2 = G_ii + G_jj - 2 G_ij with the Green's function G of the stiffness matrix (paper, Eq. 2); no unit.
+    """d(i, j)^2 = G_ii + G_jj - 2 G_ij with the Green's function G of the stiffness matrix (paper, Eq. 3); no unit.
+
+    Exact, with all eigenpairs (Eq. 2).  On ever finer meshes of one surface it grows without limit.
 
     >>> import bihdist, pyvista
     >>> for nsub in (2, 3, 4):  # grows with every refinement: on a surface it has no limit

@@ -35,9 +35,8 @@ class DiffusionDistance(SpectralDistance):
 
     lambda_1: the first eigenvalue of the component.  tolerance: how far any distance may be off because eigenpairs are
     left out, as a fraction of the maximum of the field it stands in; the sum takes as many as are proven to be
-    enough.  None means `TOLERANCE`, or where that takes more than `MOST_PAIRS` eigenpairs what these give, down to
-    `COARSEST`.  Raises ParameterError if t or the tolerance is not positive, or if they need more than `MOST_PAIRS`
-    eigenpairs.
+    enough.  None means 1e-7, or where that takes more than 3,000 eigenpairs what these give, down to
+    1e-4.  Raises ParameterError if t or the tolerance is not positive, or if they need more than 3,000 eigenpairs.
 
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
