@@ -55,9 +55,14 @@ class Laplacian:
     >>> import bihdist, pyvista
     >>> laplacian = bihdist.Laplacian(pyvista.Icosphere(nsub=3))
     >>> biharmonic = bihdist.BiharmonicDistance(laplacian)
-    >>> commute = bihdist.CommuteTimeDistance(laplacian)  # with the factor that is already there
-    >>> len(laplacian.components), round(biharmonic.between(0, 1), 3), round(commute.between(0, 1), 3)
-    (1, 0.466, 1.184)
+    >>> # with the factor that is already there
+    >>> commute = bihdist.CommuteTimeDistance(laplacian)
+    >>> len(laplacian.components)
+    1
+    >>> round(biharmonic.between(0, 1), 3)
+    0.466
+    >>> round(commute.between(0, 1), 3)
+    1.184
     """
 
     pickles_factors = False
@@ -89,7 +94,8 @@ class Laplacian:
 
         >>> import bihdist
         >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
-        >>> bihdist.Laplacian(square).stiffness.toarray().round(9).tolist()  # rows have sum 0
+        >>> # rows have sum 0
+        >>> bihdist.Laplacian(square).stiffness.toarray().round(9).tolist()
         [[1.0, -0.5, 0.0, -0.5], [-0.5, 1.0, -0.5, 0.0], [0.0, -0.5, 1.0, -0.5], [-0.5, 0.0, -0.5, 1.0]]
         """
         return self._operators[0]
@@ -112,7 +118,8 @@ class Laplacian:
         """(c,) how many eigenpairs each component has besides the constant: as vertices with an area, less one.
 
         >>> import bihdist, pyvista
-        >>> bihdist.Laplacian(pyvista.Icosphere(nsub=2)).eigenpair_counts.tolist()  # of 162 vertices
+        >>> sphere = pyvista.Icosphere(nsub=2)  # 162 vertices
+        >>> bihdist.Laplacian(sphere).eigenpair_counts.tolist()
         [161]
         """
         label = self.surface.component_of_vertex[self.areas > 0]
@@ -378,7 +385,8 @@ def eigenpairs(laplacian: Laplacian | MeshLike, count: int, progress: Progress |
 
     >>> import bihdist, pyvista
     >>> spectrum = bihdist.eigenpairs(pyvista.Icosphere(nsub=3), 8)
-    >>> spectrum.eigenvalues.round(2).tolist()  # of the unit sphere: 2 three times, then 6 five times
+    >>> # of the unit sphere: 2 three times, then 6 five times
+    >>> spectrum.eigenvalues.round(2).tolist()
     [2.0, 2.0, 2.0, 5.97, 5.97, 5.97, 5.97, 5.97]
     """
     laplacian = as_laplacian(laplacian)

@@ -40,7 +40,8 @@ class Surface:
     Raises MeshError for wrong shapes, a coordinate that is not finite, a vertex id out of range, or no faces.
 
     >>> import bihdist
-    >>> square = bihdist.Surface([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
     >>> square, square.area, square.n_components, len(square.boundary_edges)
     (Surface(surface: 4 vertices, 2 faces), 1.0, 1, 4)
     """
@@ -74,7 +75,8 @@ class Surface:
         >>> import bihdist, pyvista
         >>> bihdist.Surface.of(pyvista.Plane(i_resolution=2, j_resolution=2)).facts
         ('4 quads divided into 8 triangles',)
-        >>> bihdist.Surface.of([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], name="triangle")
+        >>> corners, faces = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+        >>> bihdist.Surface.of(corners, faces, name="triangle")
         Surface(triangle: 3 vertices, 1 faces)
         """
         from .formats.mesh_objects import surface_of
@@ -88,7 +90,8 @@ class Surface:
 
         >>> import bihdist, pyvista
         >>> surface = bihdist.Surface.of(pyvista.Icosphere(nsub=2))
-        >>> shown = surface.to_pyvista({"distance": bihdist.BiharmonicDistance(surface).from_source(0)})
+        >>> field = bihdist.BiharmonicDistance(surface).from_source(0)
+        >>> shown = surface.to_pyvista({"distance": field})
         >>> shown.n_points, shown.array_names
         (162, ['distance'])
         """
@@ -122,7 +125,8 @@ class Surface:
         """The id as an int, from any whole number; VertexError if there is no such vertex or it belongs to no face.
 
         >>> import bihdist
-        >>> triangle = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], "triangle")
+        >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+        >>> triangle = bihdist.Surface(corners, [[0, 1, 2]], "triangle")
         >>> try:
         ...     triangle.check_vertex(3)
         ... except bihdist.VertexError as error:
@@ -198,8 +202,9 @@ class Surface:
         Vertices that share a face are connected, also through a single vertex.
 
         >>> import bihdist
-        >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [5, 0, 0], [6, 0, 0], [5, 1, 0], [9, 9, 9]]
-        >>> surface = bihdist.Surface(corners, [[4, 5, 6], [0, 1, 2], [0, 2, 3]])
+        >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> others = [[5, 0, 0], [6, 0, 0], [5, 1, 0], [9, 9, 9]]
+        >>> surface = bihdist.Surface(square + others, [[4, 5, 6], [0, 1, 2], [0, 2, 3]])
         >>> surface.component_of_vertex.tolist()
         [0, 0, 0, 0, 1, 1, 1, -1]
         """
@@ -232,7 +237,8 @@ class Surface:
 
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
-        >>> bihdist.Surface(corners, [[0, 1, 2], [2, 1, 0]]).n_faces  # the second is the first, turned over
+        >>> # the second is the first, turned over
+        >>> bihdist.Surface(corners, [[0, 1, 2], [2, 1, 0]]).n_faces
         1
         """
         return len(self.faces)
@@ -267,8 +273,10 @@ class Surface:
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [9, 9, 9]]
         >>> surface = bihdist.Surface(corners, [[0, 1, 2]])
-        >>> surface.unreferenced_count, bihdist.BiharmonicDistance(surface).from_source(0).round(3).tolist()
-        (1, [0.0, 0.612, 0.612, nan])
+        >>> surface.unreferenced_count
+        1
+        >>> bihdist.BiharmonicDistance(surface).from_source(0).round(3).tolist()
+        [0.0, 0.612, 0.612, nan]
         """
         return int((self.component_of_vertex < 0).sum())
 
@@ -299,8 +307,8 @@ class Surface:
         ParameterError for a tolerance below 0 or not finite, MeshError where no face is left.
 
         >>> import bihdist
-        >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0]]  # a corner for each face
-        >>> torn = bihdist.Surface(corners, [[0, 1, 2], [3, 4, 5]])
+        >>> one, other = [[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> torn = bihdist.Surface(one + other, [[0, 1, 2], [3, 4, 5]])
         >>> whole, new = torn.merged()
         >>> torn.n_components, whole.n_components, new.tolist()
         (2, 1, [0, 1, 2, 0, 2, 3])
@@ -325,9 +333,12 @@ class Surface:
         is left.
 
         >>> import bihdist
-        >>> square = bihdist.Surface([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
-        >>> square.without([1]), square.without(square.vertices[:, 1] < square.vertices[:, 0]).unreferenced_count
-        (Surface(surface: 4 vertices, 1 faces), 1)
+        >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
+        >>> square.without([1])
+        Surface(surface: 4 vertices, 1 faces)
+        >>> square.without(square.vertices[:, 1] < square.vertices[:, 0]).unreferenced_count
+        1
         """
         gone = self._chosen(vertices)
         left = np.flatnonzero(~gone[self.faces].any(axis=1))
@@ -379,7 +390,8 @@ class Surface:
         """(e, 2) vertex ids, smaller first, each edge once.
 
         >>> import bihdist
-        >>> square = bihdist.Surface([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
         >>> square.edges.tolist()
         [[0, 1], [0, 2], [0, 3], [1, 2], [2, 3]]
         """
@@ -390,7 +402,8 @@ class Surface:
         """(3m,) the edge of each face's sides 01, 12, 20: all 01 first, then all 12, then all 20.
 
         >>> import bihdist
-        >>> square = bihdist.Surface([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
         >>> square.edge_of_side.tolist()
         [0, 1, 3, 4, 1, 2]
         >>> square.edges[square.edge_of_side[4]].tolist()  # side 20 of face 0
@@ -403,7 +416,8 @@ class Surface:
         """(e,) how many faces meet at each edge: 1 on a boundary, more than 2 where not manifold.
 
         >>> import bihdist
-        >>> square = bihdist.Surface([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
         >>> square.faces_per_edge.tolist()  # the diagonal, edge 1, has two
         [1, 2, 1, 1, 1]
         """
@@ -414,7 +428,8 @@ class Surface:
         """(b, 2) edges with one face.
 
         >>> import bihdist
-        >>> square = bihdist.Surface([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
         >>> square.boundary_edges.tolist()
         [[0, 1], [0, 3], [1, 2], [2, 3]]
         """
@@ -426,7 +441,8 @@ class Surface:
         """How many connected pieces the boundary has.
 
         >>> import bihdist, pyvista
-        >>> bihdist.Surface.of(pyvista.Cylinder(resolution=12, capping=False).clean()).boundary_loop_count
+        >>> tube = pyvista.Cylinder(resolution=12, capping=False).clean()
+        >>> bihdist.Surface.of(tube).boundary_loop_count
         2
         """
         b = self.boundary_edges
@@ -452,8 +468,9 @@ class Surface:
         """How many vertices have faces that fall apart into several fans.
 
         >>> import bihdist
-        >>> bow_tie = [[0, 0, 0], [1, 1, 0], [1, -1, 0], [-1, 1, 0], [-1, -1, 0]], [[0, 2, 1], [0, 3, 4]]
-        >>> bihdist.Surface(*bow_tie).nonmanifold_vertex_count
+        >>> corners = [[0, 0, 0], [1, 1, 0], [1, -1, 0], [-1, 1, 0], [-1, -1, 0]]
+        >>> bow_tie = bihdist.Surface(corners, [[0, 2, 1], [0, 3, 4]])
+        >>> bow_tie.nonmanifold_vertex_count
         1
         """
         return len(self.nonmanifold_vertices)
@@ -463,8 +480,9 @@ class Surface:
         """(k,) the vertices whose faces fall apart into several fans.
 
         >>> import bihdist
-        >>> bow_tie = [[0, 0, 0], [1, 1, 0], [1, -1, 0], [-1, 1, 0], [-1, -1, 0]], [[0, 2, 1], [0, 3, 4]]
-        >>> bihdist.Surface(*bow_tie).nonmanifold_vertices.tolist()
+        >>> corners = [[0, 0, 0], [1, 1, 0], [1, -1, 0], [-1, 1, 0], [-1, -1, 0]]
+        >>> bow_tie = bihdist.Surface(corners, [[0, 2, 1], [0, 3, 4]])
+        >>> bow_tie.nonmanifold_vertices.tolist()
         [0]
         """
         m = len(self.faces)
@@ -494,8 +512,9 @@ class Surface:
         >>> import bihdist, pyvista
         >>> bihdist.Surface.of(pyvista.Icosphere(nsub=1)).is_manifold
         True
-        >>> bow_tie = [[0, 0, 0], [1, 1, 0], [1, -1, 0], [-1, 1, 0], [-1, -1, 0]], [[0, 2, 1], [0, 3, 4]]
-        >>> bihdist.Surface(*bow_tie).is_manifold
+        >>> corners = [[0, 0, 0], [1, 1, 0], [1, -1, 0], [-1, 1, 0], [-1, -1, 0]]
+        >>> bow_tie = bihdist.Surface(corners, [[0, 2, 1], [0, 3, 4]])
+        >>> bow_tie.is_manifold
         False
         """
         return self.nonmanifold_edge_count == 0 and self.nonmanifold_vertex_count == 0
@@ -520,7 +539,8 @@ class Surface:
         Each step on them then runs over contiguous memory, which is several times faster.
 
         >>> import bihdist
-        >>> first, second, third = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]).sides()
+        >>> triangle = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        >>> first, second, third = triangle.sides()
         >>> first.ravel().tolist(), (first + second + third).ravel().tolist()
         ([-1.0, 1.0, 0.0], [0.0, 0.0, 0.0])
         """
@@ -556,7 +576,8 @@ class Surface:
 
         >>> import bihdist, math, pyvista
         >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=3))
-        >>> print(f"{sphere.area / (4 * math.pi):.4f}")  # a little less than the sphere it approximates
+        >>> # a little less than the sphere it approximates
+        >>> print(f"{sphere.area / (4 * math.pi):.4f}")
         0.9952
         """
         return float(self.face_areas.sum())
@@ -566,7 +587,8 @@ class Surface:
         """(2, 3) the least and the greatest coordinates of vertices that belong to a face.
 
         >>> import bihdist
-        >>> bihdist.Surface([[0, 0, 0], [3, 0, 0], [0, 4, 0], [9, 9, 9]], [[0, 1, 2]]).bounds.tolist()
+        >>> corners = [[0, 0, 0], [3, 0, 0], [0, 4, 0], [9, 9, 9]]  # the last is of no face
+        >>> bihdist.Surface(corners, [[0, 1, 2]]).bounds.tolist()
         [[0.0, 0.0, 0.0], [3.0, 4.0, 0.0]]
         """
         used = self.vertices[self.component_of_vertex >= 0]
@@ -577,7 +599,8 @@ class Surface:
         """(m,) each face's height over its longest side, as a share of that side; 0 for three points in one place.
 
         >>> import bihdist
-        >>> bihdist.Surface([[0, 0, 0], [1, 0, 0], [0.5, 0.001, 0]], [[0, 1, 2]]).face_heights.tolist()
+        >>> sliver = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0.5, 0.001, 0]], [[0, 1, 2]])
+        >>> sliver.face_heights.tolist()
         [0.001]
         """
         areas, longest = self._face_measures

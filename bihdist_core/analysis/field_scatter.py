@@ -54,7 +54,8 @@ class FieldScatter:
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=3, j_resolution=3)
         >>> scatter = bihdist.field_scatter(plane, plane.points[:, 0], plane.points[:, 0])
-        >>> scatter.density(2, 2, (-0.5, 0.5), (-0.5, 0.5)).tolist()  # equal fields lie on the diagonal
+        >>> # equal fields lie on the diagonal
+        >>> scatter.density(2, 2, (-0.5, 0.5), (-0.5, 0.5)).tolist()
         [[8, 0], [0, 8]]
         """
         if min(columns, rows) < 1 or not (across[0] < across[1] and up[0] < up[1]):
@@ -134,8 +135,9 @@ def field_scatter(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, shares:
 
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
-    >>> biharmonic, geodesic = bihdist.BiharmonicDistance(sphere), bihdist.GeodesicDistance(sphere)
-    >>> scatter = bihdist.field_scatter(sphere, geodesic.from_source(0), biharmonic.from_source(0), shares=True)
+    >>> one = bihdist.GeodesicDistance(sphere).from_source(0)
+    >>> other = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> scatter = bihdist.field_scatter(sphere, one, other, shares=True)
     >>> scatter.x.max().item(), scatter.y.max().item(), len(scatter.ids)
     (1.0, 1.0, 642)
     """

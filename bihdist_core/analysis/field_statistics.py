@@ -33,7 +33,8 @@ class FieldStatistics:
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> statistics = bihdist.field_statistics(plane, plane.points[:, 0])
-    >>> round(statistics.deviation, 4), statistics.greatest, statistics.greatest_at  # deviation: the root of 1/12
+    >>> # deviation: the root of 1/12
+    >>> round(statistics.deviation, 4), statistics.greatest, statistics.greatest_at
     (0.2887, 0.5, 8)
     """
 
@@ -73,7 +74,8 @@ def field_statistics(
 
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
-    >>> statistics = bihdist.field_statistics(plane, plane.points[:, 0], bins=4, shares=[0.25, 0.5])
+    >>> x = plane.points[:, 0]
+    >>> statistics = bihdist.field_statistics(plane, x, bins=4, shares=[0.25, 0.5])
     >>> statistics.areas.round(6).tolist(), statistics.quantiles.round(6).tolist()
     ([0.25, 0.25, 0.25, 0.25], [-0.25, 0.0])
     """
@@ -113,10 +115,11 @@ class Agreement:
 
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
-    >>> biharmonic, geodesic = bihdist.BiharmonicDistance(sphere), bihdist.GeodesicDistance(sphere)
-    >>> one, other = biharmonic.from_source(0), geodesic.from_source(0)
+    >>> one = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> other = bihdist.GeodesicDistance(sphere).from_source(0)
     >>> agreement = bihdist.field_agreement(sphere, one, other, shares=True)
-    >>> round(agreement.spearman, 2), round(agreement.mean, 2)  # ordered alike, while values differ
+    >>> # ordered alike, while values differ
+    >>> round(agreement.spearman, 2), round(agreement.mean, 2)
     (1.0, 0.26)
     """
 
@@ -136,8 +139,11 @@ def field_agreement(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, share
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> x, y = plane.points[:, 0], plane.points[:, 1]
-    >>> [round(bihdist.field_agreement(plane, x, other).spearman, 6) for other in (3 * x + 1, y, -x)]
-    [1.0, 0.0, -1.0]
+    >>> for other in (3 * x + 1, y, -x):
+    ...     print(bihdist.field_agreement(plane, x, other).spearman)
+    1.0
+    0.0
+    -1.0
     """
     surface = Surface.of(surface)
     both = field_scatter(surface, a, b, shares)

@@ -57,8 +57,8 @@ class GeodesicPaths:
         >>> import bihdist, pyvista
         >>> paths = bihdist.GeodesicPaths(pyvista.Plane(i_resolution=4, j_resolution=4))
         >>> path = paths.path([0, 24])
-        >>> print(f"{path.length:.3f} by the exact way, {paths.path([0, 4, 24]).length:.3f} by another corner")
-        1.414 by the exact way, 2.000 by another corner
+        >>> print(f"{path.length:.3f}, by another corner {paths.path([0, 4, 24]).length:.3f}")
+        1.414, by another corner 2.000
         """
         if method not in METHODS:
             raise ParameterError(f"There is no path method {method!r}; choose one of {', '.join(METHODS)}.")

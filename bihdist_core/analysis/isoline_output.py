@@ -24,7 +24,8 @@ def write_isolines(path: str | os.PathLike[str], lines: Sequence[Isoline]) -> No
     >>> import bihdist, pyvista
     >>> from pathlib import Path
     >>> plane = pyvista.Plane(i_resolution=1, j_resolution=1)
-    >>> bihdist.write_isolines("lines.csv", bihdist.isolines(plane, plane.points[:, 0], [0.25]))
+    >>> lines = bihdist.isolines(plane, plane.points[:, 0], [0.25])
+    >>> bihdist.write_isolines("lines.csv", lines)
     >>> print(Path("lines.csv").read_text().strip())
     line,value,closed,x,y,z
     0,0.25,0,0.25,-0.5,0.0

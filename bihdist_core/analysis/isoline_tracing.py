@@ -57,7 +57,8 @@ class Isoline:
 
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
-        >>> [round(line.length, 6) for line in bihdist.isolines(plane, plane.points[:, 0], [0.1, 0.2])]
+        >>> lines = bihdist.isolines(plane, plane.points[:, 0], [0.1, 0.2])
+        >>> [round(line.length, 6) for line in lines]
         [1.0, 1.0]
         """
         points = np.concatenate([self.points, self.points[:1]]) if self.closed else self.points

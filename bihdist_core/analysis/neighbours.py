@@ -45,7 +45,8 @@ def nearest(
     mask of another shape.
 
     >>> import bihdist, pyvista
-    >>> distance = bihdist.GeodesicDistance(pyvista.Plane(i_resolution=8, j_resolution=8))
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> distance = bihdist.GeodesicDistance(plane)
     >>> ids, lengths = bihdist.nearest(distance, [0], k=3)
     >>> ids.tolist(), lengths.round(3).tolist()
     ([[1, 9, 10]], [[0.125, 0.125, 0.177]])

@@ -35,9 +35,14 @@ class Parcels:
 
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
-    >>> parcels = bihdist.parcel_means(bihdist.GeodesicDistance(plane), (plane.points[:, 0] > 0).astype(int))
-    >>> parcels.labels.tolist(), parcels.counts.tolist(), parcels.distances.round(3).tolist()
-    ([0, 1], [45, 36], [[0.461, 0.718], [0.718, 0.434]])
+    >>> labels = (plane.points[:, 0] > 0).astype(int)  # the left half, and the right
+    >>> parcels = bihdist.parcel_means(bihdist.GeodesicDistance(plane), labels)
+    >>> parcels.labels.tolist()
+    [0, 1]
+    >>> parcels.counts.tolist()
+    [45, 36]
+    >>> parcels.distances.round(3).tolist()
+    [[0.461, 0.718], [0.718, 0.434]]
     """
 
     labels: AnyArray
@@ -97,9 +102,11 @@ def parcel_means(
 
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
-    >>> distance, labels = bihdist.GeodesicDistance(plane), (plane.points[:, 0] > 0).astype(int)
+    >>> distance = bihdist.GeodesicDistance(plane)
+    >>> labels = (plane.points[:, 0] > 0).astype(int)  # the left half, and the right
     >>> for way in ("mean", "min", "hausdorff", "centroid"):
-    ...     print(way, bihdist.parcel_means(distance, labels, reduce=way).distances[0, 1].round(3))
+    ...     parcels = bihdist.parcel_means(distance, labels, reduce=way)
+    ...     print(way, parcels.distances[0, 1].round(3))
     mean 0.718
     min 0.125
     hausdorff 0.625

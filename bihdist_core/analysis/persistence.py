@@ -30,7 +30,8 @@ class Extrema:
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> found = bihdist.extrema(sphere, sphere.points[:, 2])
-    >>> len(found.minima), len(found.maxima), found.maxima_persistence.round(3).tolist()  # from pole to pole
+    >>> # from pole to pole
+    >>> len(found.minima), len(found.maxima), found.maxima_persistence.round(3).tolist()
     (1, 1, [2.0])
     """
 
@@ -55,7 +56,8 @@ def extrema(surface: MeshLike, field: npt.ArrayLike, share: float = 1e-3) -> Ext
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
     >>> found = bihdist.extrema(sphere, field)
-    >>> found.minima.tolist(), found.maxima.tolist()  # the source, and what is opposite to it
+    >>> # the source, and what is opposite to it
+    >>> found.minima.tolist(), found.maxima.tolist()
     ([0], [2])
     """
     surface = Surface.of(surface)

@@ -31,8 +31,12 @@ class Places:
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> places = bihdist.Places.of(plane, [40, "f0:0.25,0.25"])
-    >>> places.corners[1].tolist(), places.weights[1].tolist(), places.values(plane.points[:, 0]).tolist()
-    ([0, 1, 10], [0.25, 0.25, 0.5], [0.0, -0.40625])
+    >>> places.corners[1].tolist()
+    [0, 1, 10]
+    >>> places.weights[1].tolist()
+    [0.25, 0.25, 0.5]
+    >>> places.values(plane.points[:, 0]).tolist()
+    [0.0, -0.40625]
     """
 
     faces: IntArray
@@ -47,7 +51,8 @@ class Places:
 
         >>> import bihdist
         >>> triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
-        >>> places = bihdist.Places.of(triangle, [2, bihdist.SurfacePoint(0, (0.5, 0.25, 0.25))])
+        >>> middle = bihdist.SurfacePoint(0, (0.5, 0.25, 0.25))
+        >>> places = bihdist.Places.of(triangle, [2, middle])
         >>> places.weights.tolist()
         [[0.0, 0.0, 1.0], [0.5, 0.25, 0.25]]
         """

@@ -52,7 +52,8 @@ class Circle:
     >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
     >>> geodesic = bihdist.GeodesicDistance(sphere).from_source(0)
     >>> circle, = bihdist.geodesic_circles(sphere, field, geodesic, 0, radii=[0.6])
-    >>> len(circle.values), round(circle.ratio, 2)  # one curve, and nearly one value on it
+    >>> # one curve, and nearly one value on it
+    >>> len(circle.values), round(circle.ratio, 2)
     (1, 1.0)
     """
 
@@ -196,7 +197,8 @@ class OtherExtrema:
 
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
-    >>> found = bihdist.other_extrema(sphere, bihdist.BiharmonicDistance(sphere).from_source(0), 0)
+    >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> found = bihdist.other_extrema(sphere, field, 0)
     >>> found.minima.tolist(), found.maxima.tolist(), found.maxima_height.tolist()
     ([], [2], [1.0])
     """
@@ -212,7 +214,8 @@ class OtherExtrema:
 
         >>> import bihdist, pyvista
         >>> sphere = pyvista.Icosphere(nsub=3)
-        >>> bihdist.other_extrema(sphere, bihdist.BiharmonicDistance(sphere).from_source(0), 0).vertices.tolist()
+        >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
+        >>> bihdist.other_extrema(sphere, field, 0).vertices.tolist()
         [2]
         """
         return np.concatenate([self.minima, self.maxima])
@@ -226,7 +229,8 @@ def other_extrema(surface: MeshLike, field: npt.ArrayLike, source: Source | None
 
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
-    >>> field = sphere.points[:, 2] + 0.3 * (sphere.points[:, 0] > 0.9)  # a height, with a bump at the side
+    >>> # a height, with a bump at the side
+    >>> field = sphere.points[:, 2] + 0.3 * (sphere.points[:, 0] > 0.9)
     >>> found = bihdist.other_extrema(sphere, field, None)
     >>> len(found.minima), len(found.maxima)
     (1, 2)
@@ -288,8 +292,14 @@ class FieldQuality:
     >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
     >>> geodesic = bihdist.GeodesicDistance(sphere).from_source(0)
     >>> quality = bihdist.field_quality(sphere, field, geodesic, 0)
-    >>> len(quality.minima), len(quality.maxima), round(quality.isotropy, 2), round(quality.kink, 1)
-    (0, 1, 1.0, 0.2)
+    >>> len(quality.minima)
+    0
+    >>> len(quality.maxima)
+    1
+    >>> round(quality.isotropy, 2)
+    1.0
+    >>> round(quality.kink, 1)
+    0.2
     """
 
     source: Source | None
@@ -316,7 +326,8 @@ def field_quality(
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> diffusion = bihdist.DiffusionDistance(sphere).from_source(0)
     >>> geodesic = bihdist.GeodesicDistance(sphere).from_source(0)
-    >>> round(bihdist.field_quality(sphere, diffusion, geodesic, 0).isotropy, 2)  # 1 is round
+    >>> # 1 is round
+    >>> round(bihdist.field_quality(sphere, diffusion, geodesic, 0).isotropy, 2)
     1.0
     """
     surface = Surface.of(surface)
@@ -346,7 +357,8 @@ def difference_quality(
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> biharmonic = bihdist.BiharmonicDistance(sphere).from_source(0)
     >>> geodesic = bihdist.GeodesicDistance(sphere).from_source(0)
-    >>> quality = bihdist.difference_quality(sphere, bihdist.difference(biharmonic, geodesic), geodesic, 0)
+    >>> field = bihdist.difference(biharmonic, geodesic)
+    >>> quality = bihdist.difference_quality(sphere, field, geodesic, 0)
     >>> quality.circles, round(quality.kink, 1)
     ((), 1.2)
     """

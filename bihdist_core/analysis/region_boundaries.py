@@ -26,7 +26,8 @@ class Boundary:
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 8])
-    >>> boundary, = bihdist.region_boundaries(plane, bihdist.voronoi_regions(plane, fields))
+    >>> regions = bihdist.voronoi_regions(plane, fields)
+    >>> boundary, = bihdist.region_boundaries(plane, regions)
     >>> boundary.between, boundary.closed, round(boundary.length, 6)
     ((0, 1), False, 1.0)
     """
@@ -44,7 +45,8 @@ class Boundary:
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
         >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 8])
-        >>> boundary, = bihdist.region_boundaries(plane, bihdist.voronoi_regions(plane, fields))
+        >>> regions = bihdist.voronoi_regions(plane, fields)
+        >>> boundary, = bihdist.region_boundaries(plane, regions)
         >>> round(boundary.length, 6)  # between two corners of the unit square
         1.0
         """
@@ -60,7 +62,8 @@ def region_boundaries(surface: MeshLike, regions: Regions) -> list[Boundary]:
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> fields = bihdist.BiharmonicDistance(sphere).from_sources([0, 1, 2])
-    >>> boundaries = bihdist.region_boundaries(sphere, bihdist.voronoi_regions(sphere, fields))
+    >>> regions = bihdist.voronoi_regions(sphere, fields)
+    >>> boundaries = bihdist.region_boundaries(sphere, regions)
     >>> [(boundary.between, boundary.closed) for boundary in boundaries]
     [((0, 1), False), ((0, 2), False), ((1, 2), False)]
     """
@@ -91,8 +94,10 @@ def write_boundaries(path: str | os.PathLike[str], curves: Sequence[Boundary], l
     >>> import bihdist, pyvista
     >>> from pathlib import Path
     >>> sphere = pyvista.Icosphere(nsub=2)
-    >>> regions = bihdist.voronoi_regions(sphere, bihdist.BiharmonicDistance(sphere).from_sources([0, 1]))
-    >>> bihdist.write_boundaries("boundaries.csv", bihdist.region_boundaries(sphere, regions))
+    >>> fields = bihdist.BiharmonicDistance(sphere).from_sources([0, 1])
+    >>> regions = bihdist.voronoi_regions(sphere, fields)
+    >>> boundaries = bihdist.region_boundaries(sphere, regions)
+    >>> bihdist.write_boundaries("boundaries.csv", boundaries)
     >>> print(Path("boundaries.csv").read_text().split()[0])
     line,region,other,closed,x,y,z
     """

@@ -27,9 +27,14 @@ class RegionMesh:
 
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
-    >>> cut = bihdist.region_mesh(plane, bihdist.GeodesicDistance(plane).from_sources([0, 80]))
-    >>> cut.surface.n_components, sorted(set(cut.regions.tolist())), round(cut.surface.area, 6)
-    (2, [0, 1], 1.0)
+    >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 80])
+    >>> cut = bihdist.region_mesh(plane, fields)
+    >>> cut.surface.n_components
+    2
+    >>> sorted(set(cut.regions.tolist()))
+    [0, 1]
+    >>> round(cut.surface.area, 6)
+    1.0
     """
 
     surface: Surface
@@ -60,7 +65,8 @@ def region_mesh(surface: MeshLike, columns: npt.ArrayLike) -> RegionMesh:
 
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
-    >>> cut = bihdist.region_mesh(sphere, bihdist.BiharmonicDistance(sphere).from_sources([0, 1, 2]))
+    >>> fields = bihdist.BiharmonicDistance(sphere).from_sources([0, 1, 2])
+    >>> cut = bihdist.region_mesh(sphere, fields)
     >>> cut.surface.n_components, cut.regions.max().item()
     (3, 2)
     """

@@ -28,7 +28,8 @@ def write_labels(
 
     >>> import bihdist, numpy as np, pyvista
     >>> plane = pyvista.Plane(i_resolution=2, j_resolution=2)
-    >>> regions = bihdist.voronoi_regions(plane, bihdist.GeodesicDistance(plane).from_sources([0, 8]))
+    >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 8])
+    >>> regions = bihdist.voronoi_regions(plane, fields)
     >>> bihdist.write_labels("regions.npy", plane, regions, labels=[5, 7])
     >>> np.load("regions.npy").tolist()
     [5.0, 5.0, 5.0, 5.0, 5.0, 7.0, 5.0, 7.0, 7.0]
@@ -44,7 +45,8 @@ def write_region_mesh(path: str | os.PathLike[str], mesh: RegionMesh, labels: Se
 
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
-    >>> cut = bihdist.region_mesh(plane, bihdist.GeodesicDistance(plane).from_sources([0, 24]))
+    >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 24])
+    >>> cut = bihdist.region_mesh(plane, fields)
     >>> bihdist.write_region_mesh("regions.ply", cut)
     >>> bihdist.read_surface("regions.ply").n_components
     2

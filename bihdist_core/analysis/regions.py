@@ -39,7 +39,8 @@ class Regions:
 
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
-    >>> regions = bihdist.voronoi_regions(plane, bihdist.GeodesicDistance(plane).from_sources([0, 8]))
+    >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 8])
+    >>> regions = bihdist.voronoi_regions(plane, fields)
     >>> regions.areas.round(6).tolist(), regions.lengths.sum().round(6).item()
     ([0.5, 0.5], 1.0)
     """
@@ -60,7 +61,8 @@ class Regions:
 
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
-        >>> regions = bihdist.voronoi_regions(plane, bihdist.GeodesicDistance(plane).from_sources([0, 8]))
+        >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 8])
+        >>> regions = bihdist.voronoi_regions(plane, fields)
         >>> print(f"{regions.lengths.sum():.3f} in {len(regions.lengths)} segments")
         1.000 in 15 segments
         """
@@ -77,7 +79,8 @@ def voronoi_regions(surface: MeshLike, columns: npt.ArrayLike) -> Regions:
 
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
-    >>> regions = bihdist.voronoi_regions(sphere, bihdist.BiharmonicDistance(sphere).from_sources([0, 1, 2]))
+    >>> fields = bihdist.BiharmonicDistance(sphere).from_sources([0, 1, 2])
+    >>> regions = bihdist.voronoi_regions(sphere, fields)
     >>> regions.areas.round(2).tolist(), regions.labels[[0, 1, 2]].tolist()
     ([5.15, 3.13, 4.23], [0, 1, 2])
     """

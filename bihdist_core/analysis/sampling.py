@@ -39,8 +39,10 @@ def farthest_points(
     more of them than `count`; and if the component has fewer different points than `count`.
 
     >>> import bihdist, pyvista
-    >>> distance = bihdist.GeodesicDistance(pyvista.Plane(i_resolution=8, j_resolution=8))
-    >>> bihdist.farthest_points(distance, start=40, count=5).tolist()  # from the middle of a square to its corners
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> distance = bihdist.GeodesicDistance(plane)
+    >>> # from the middle of a square to its corners
+    >>> bihdist.farthest_points(distance, start=40, count=5).tolist()
     [40, 0, 80, 8, 72]
     """
     if whole_number(count, "count") < 1:

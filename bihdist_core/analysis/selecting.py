@@ -31,7 +31,8 @@ class Brush:
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> brush = bihdist.Brush(plane)
-    >>> brush.near(face=0, position=(-0.5, -0.5, 0), radius=0.13).tolist()  # the corner and its neighbours
+    >>> # the corner and its neighbours
+    >>> brush.near(face=0, position=(-0.5, -0.5, 0), radius=0.13).tolist()
     [0, 1, 9]
     """
 

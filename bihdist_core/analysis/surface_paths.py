@@ -49,7 +49,8 @@ class SurfacePath:
         """(k,) length along the path up to each point.
 
         >>> import bihdist, pyvista
-        >>> path = bihdist.GeodesicPaths(pyvista.Plane(i_resolution=2, j_resolution=2)).path([0, 5])
+        >>> plane = pyvista.Plane(i_resolution=2, j_resolution=2)
+        >>> path = bihdist.GeodesicPaths(plane).path([0, 5])
         >>> path.arcs.round(3).tolist()  # up to each edge that is crossed
         [0.0, 0.559, 1.118]
         """
@@ -60,7 +61,8 @@ class SurfacePath:
         """Length of the path, unit length.
 
         >>> import bihdist, pyvista
-        >>> path = bihdist.GeodesicPaths(pyvista.Plane(i_resolution=4, j_resolution=4)).path([0, 24])
+        >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
+        >>> path = bihdist.GeodesicPaths(plane).path([0, 24])
         >>> round(path.length, 3)  # the diagonal of the unit square
         1.414
         """

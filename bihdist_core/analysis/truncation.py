@@ -60,7 +60,8 @@ def truncation_loss(
     Raises ParameterError for bad numbers, VertexError or ParameterError for a bad source.
 
     >>> import bihdist, pyvista
-    >>> loss = bihdist.truncation_loss(pyvista.Icosphere(nsub=3), 0, counts=[10, 20, 40, 80])
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> loss = bihdist.truncation_loss(sphere, 0, counts=[10, 20, 40, 80])
     >>> loss.means.round(4).tolist()
     [0.0498, 0.025, 0.0148, 0.0087]
     """

@@ -38,8 +38,10 @@ class Correspondence:
 
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
-    >>> one, twice = (bihdist.BiharmonicDistance(mesh) for mesh in (plane, plane.scale(2)))
-    >>> found = bihdist.Correspondence(one, twice, [(0, 0), (8, 8), (72, 72)])  # three corners of two squares
+    >>> one = bihdist.BiharmonicDistance(plane)
+    >>> twice = bihdist.BiharmonicDistance(plane.scale(2))
+    >>> # three corners of two squares
+    >>> found = bihdist.Correspondence(one, twice, [(0, 0), (8, 8), (72, 72)])
     >>> found.best(40)[0], (found.map() == range(81)).all().item()
     (40, True)
     """
@@ -80,9 +82,11 @@ class Correspondence:
         ParameterError for pairs or weights of another form.
 
         >>> import bihdist, pyvista
-        >>> distance = bihdist.BiharmonicDistance(pyvista.Plane(i_resolution=8, j_resolution=8))
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
         >>> found = bihdist.Correspondence(distance, distance, [(0, 0), (8, 8)])
-        >>> better = found.changed([(0, 0), (8, 8), (72, 72)])  # a third pair costs one field on each surface
+        >>> # a third pair costs one field on each surface
+        >>> better = found.changed([(0, 0), (8, 8), (72, 72)])
         >>> better.best(30)[0]
         30
         """
@@ -106,7 +110,8 @@ class Correspondence:
         NaN where y or x is on another component than one of the known points.  Raises VertexError for a bad vertex.
 
         >>> import bihdist, pyvista
-        >>> distance = bihdist.BiharmonicDistance(pyvista.Plane(i_resolution=8, j_resolution=8))
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
         >>> found = bihdist.Correspondence(distance, distance, [(0, 0), (8, 8), (72, 72)])
         >>> misfit = found.misfit(40)
         >>> misfit.shape, int(misfit.argmin()), bool(misfit[40] < 1e-9)
@@ -123,7 +128,8 @@ class Correspondence:
         """The vertex of N that fits x best, and its misfit; (-1, NaN) where none can be compared.
 
         >>> import bihdist, pyvista
-        >>> distance = bihdist.BiharmonicDistance(pyvista.Plane(i_resolution=8, j_resolution=8))
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
         >>> found = bihdist.Correspondence(distance, distance, [(0, 0), (8, 8), (72, 72)])
         >>> vertex, misfit = found.best(30)
         >>> vertex, round(misfit, 9)
@@ -142,7 +148,8 @@ class Correspondence:
         Raises VertexError for a bad vertex.
 
         >>> import bihdist, pyvista
-        >>> distance = bihdist.BiharmonicDistance(pyvista.Plane(i_resolution=8, j_resolution=8))
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
         >>> found = bihdist.Correspondence(distance, distance, [(0, 0), (8, 8), (72, 72)])
         >>> found.map([30, 40, 50]).tolist()
         [30, 40, 50]
@@ -177,8 +184,10 @@ def correspondence_prediction(
     Raises VertexError for bad vertices, ParameterError for pairs or weights of another form.
 
     >>> import bihdist, pyvista
-    >>> distance = bihdist.BiharmonicDistance(pyvista.Plane(i_resolution=8, j_resolution=8))
-    >>> misfit = bihdist.correspondence_prediction(distance, distance, [(0, 0), (8, 8), (72, 72)], 40)
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> distance = bihdist.BiharmonicDistance(plane)
+    >>> pairs = [(0, 0), (8, 8), (72, 72)]
+    >>> misfit = bihdist.correspondence_prediction(distance, distance, pairs, 40)
     >>> int(misfit.argmin())
     40
     """

@@ -14,7 +14,9 @@ from .weights import Weights
 
 
 class ShepardInterpolant:
-    """f(p) = sum_i w_i f_i / sum_i w_i,  w_i = r(d(p, p_i)) ** -exponent,  with any distance d (paper, section 5.2).
+    """Values between anchors by Shepard's interpolation, with any distance.
+
+    f(p) = sum_i w_i f_i / sum_i w_i,  w_i = r(d(p, p_i)) ** -exponent (paper, section 5.2).
 
     anchors: (k,) vertices p_i, all different.  values: (k,) real numbers f_i.  Each connected component of the
     surface uses its own anchors only, since between components there is no distance.  The paper has exponent 1 and
@@ -26,8 +28,10 @@ class ShepardInterpolant:
     anchors, for values that are not k finite numbers, and for an exponent or a smoothness out of range.
 
     >>> import bihdist, pyvista
-    >>> distance = bihdist.GeodesicDistance(pyvista.Plane(i_resolution=8, j_resolution=8))
-    >>> f = bihdist.ShepardInterpolant(distance, [0, 80], [0.0, 1.0]).evaluate()  # two opposite corners of a square
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> distance = bihdist.GeodesicDistance(plane)
+    >>> # two opposite corners of a square
+    >>> f = bihdist.ShepardInterpolant(distance, [0, 80], [0.0, 1.0]).evaluate()
     >>> f[[0, 40, 80]].round(6).tolist()
     [0.0, 0.5, 1.0]
     """
@@ -68,9 +72,11 @@ class ShepardInterpolant:
         numbers, and for an exponent or a smoothness out of range.
 
         >>> import bihdist, pyvista
-        >>> distance = bihdist.BiharmonicDistance(pyvista.Plane(i_resolution=8, j_resolution=8))
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
         >>> f = bihdist.ShepardInterpolant(distance, [0, 80], [0.0, 1.0])
-        >>> f.changed(values=[0.0, 3.0]).evaluate()[40].round(6).item()  # no distance is computed again
+        >>> # no distance is computed again
+        >>> f.changed(values=[0.0, 3.0]).evaluate()[40].round(6).item()
         1.5
         """
         other = ShepardInterpolant(
@@ -93,7 +99,8 @@ class ShepardInterpolant:
         """The anchors whose distances have still to be solved for.
 
         >>> import bihdist, pyvista
-        >>> distance = bihdist.BiharmonicDistance(pyvista.Plane(i_resolution=8, j_resolution=8))
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
         >>> f = bihdist.ShepardInterpolant(distance, [0, 80], [0.0, 1.0])
         >>> before, _ = f.missing, f.evaluate()
         >>> before, f.missing, f.changed(anchors=[0, 8], values=[0, 1]).missing
@@ -108,7 +115,8 @@ class ShepardInterpolant:
         distances cannot tell all vertices apart) gets the mean of their values.
 
         >>> import bihdist, pyvista
-        >>> distance = bihdist.BiharmonicDistance(pyvista.Plane(i_resolution=8, j_resolution=8))
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
         >>> f = bihdist.ShepardInterpolant(distance, [0, 8, 80], [2.0, 2.0, 5.0]).evaluate()
         >>> f.min().item(), f.max().item()
         (2.0, 5.0)
@@ -126,8 +134,10 @@ class ShepardInterpolant:
         Infinite at the anchors, NaN on components without one.
 
         >>> import bihdist, pyvista
-        >>> distance = bihdist.BiharmonicDistance(pyvista.Plane(i_resolution=8, j_resolution=8))
-        >>> weights = bihdist.ShepardInterpolant(distance, [0, 80], [0.0, 1.0]).sum_of_weights()
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
+        >>> f = bihdist.ShepardInterpolant(distance, [0, 80], [0.0, 1.0])
+        >>> weights = f.sum_of_weights()
         >>> weights[0].item(), weights.min().item()
         (inf, 0.0)
         """

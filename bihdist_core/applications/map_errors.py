@@ -71,8 +71,10 @@ def map_errors(
     not there.
 
     >>> import bihdist, pyvista
-    >>> distance = bihdist.GeodesicDistance(pyvista.Plane(i_resolution=8, j_resolution=8))
-    >>> bihdist.map_errors(distance, found=[0, 9, -1], truth=[0, 10, 20]).round(3).tolist()
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> distance = bihdist.GeodesicDistance(plane)
+    >>> errors = bihdist.map_errors(distance, found=[0, 9, -1], truth=[0, 10, 20])
+    >>> errors.round(3).tolist()
     [0.0, 0.125, inf]
     """
     surface = distance.surface
@@ -199,7 +201,8 @@ def error_curve(errors: npt.ArrayLike) -> ErrorCurve:
     Raises ParameterError if there is none.
 
     >>> import bihdist
-    >>> curve = bihdist.error_curve([0.0, 0.1, float("nan"), 0.02])  # NaN: no truth is known
+    >>> # NaN: no truth is known
+    >>> curve = bihdist.error_curve([0.0, 0.1, float("nan"), 0.02])
     >>> curve.errors.tolist(), round(curve.mean, 3)
     ([0.0, 0.02, 0.1], 0.04)
     """

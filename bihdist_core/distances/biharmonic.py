@@ -27,9 +27,10 @@ SWEEP = 0.8
 
 
 class BiharmonicDistance(FactoredDistance):
-    """d(i, j)^2 = C_ii + C_jj - 2 C_ij, C the Green's function of the biharmonic operator (paper, Eq. 4); unit length.
+    """The exact biharmonic distance, with all eigenpairs; unit length.
 
-    One to all costs one sweep through the factor, with the diagonal of C computed once by selected inversion.  Pairs
+    d(i, j)^2 = C_ii + C_jj - 2 C_ij, with the Green's function C of the biharmonic operator (paper, Eqs. 4 and 9).  One
+    to all costs one sweep through the factor, with the diagonal of C computed once by selected inversion.  Pairs
     use the half-order form, free of cancellation: solve L y = e_i - e_j, centre y by area, d = |y|_A.
 
     >>> import bihdist, pyvista

@@ -18,13 +18,15 @@ MOST_NEAR, MOST_SPRINGS = 128, 256
 
 
 class CommuteTimeDistance(FactoredDistance):
-    """d(i, j)^2 = G_ii + G_jj - 2 G_ij with the Green's function G of the stiffness matrix (paper, Eq. 3); no unit.
+    """The exact commute-time distance, with all eigenpairs; no unit.
 
-    Exact, with all eigenpairs (Eq. 2).  On ever finer meshes of one surface it grows without limit.
+    d(i, j)^2 = G_ii + G_jj - 2 G_ij with the Green's function G of the stiffness matrix (paper, Eqs. 2 and 3).  On
+    ever finer meshes of one surface it grows without limit.
 
     >>> import bihdist, pyvista
     >>> for nsub in (2, 3, 4):  # grows with every refinement: on a surface it has no limit
-    ...     print(f"{bihdist.CommuteTimeDistance(pyvista.Icosphere(nsub=nsub)).between(0, 1):.3f}")
+    ...     distance = bihdist.CommuteTimeDistance(pyvista.Icosphere(nsub=nsub))
+    ...     print(f"{distance.between(0, 1):.3f}")
     1.081
     1.184
     1.277

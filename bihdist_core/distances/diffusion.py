@@ -31,7 +31,9 @@ STEP = 1.02
 
 
 class DiffusionDistance(SpectralDistance):
-    """d(i, j)^2 = sum_k exp(-t lambda_k / lambda_1) (phi_k(i) - phi_k(j))^2 (paper, Eq. 1); unit 1 / length.
+    """The diffusion distance at a time t; unit 1 / length.
+
+    d(i, j)^2 = sum_k exp(-t lambda_k / lambda_1) (phi_k(i) - phi_k(j))^2 (paper, Eq. 1).
 
     lambda_1: the first eigenvalue of the component.  tolerance: how far any distance may be off because eigenpairs are
     left out, as a fraction of the maximum of the field it stands in; the sum takes as many as are proven to be
@@ -42,7 +44,8 @@ class DiffusionDistance(SpectralDistance):
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> for t in (1, 0.1):
     ...     distance = bihdist.DiffusionDistance(sphere, t=t)
-    ...     print(f"t = {t}: {distance.pair_count(0)} eigenpairs, farthest {distance.from_source(0).max():.3f}")
+    ...     farthest = distance.from_source(0).max()
+    ...     print(f"t = {t}: {distance.pair_count(0)} eigenpairs, farthest {farthest:.3f}")
     t = 1: 48 eigenpairs, farthest 0.599
     t = 0.1: 641 eigenpairs, farthest 1.855
     """
@@ -127,8 +130,10 @@ class DiffusionDistance(SpectralDistance):
 
         >>> import bihdist, pyvista
         >>> sphere = pyvista.Icosphere(nsub=3)
-        >>> [bihdist.DiffusionDistance(sphere, t=1, tolerance=tolerance).pair_count(0) for tolerance in (1e-2, 1e-4)]
-        [15, 35]
+        >>> for tolerance in (1e-2, 1e-4):
+        ...     print(bihdist.DiffusionDistance(sphere, 1, tolerance).pair_count(0))
+        15
+        35
         """
         return int(self.points(self.laplacian.component_of(vertex)).shape[1])
 
@@ -140,7 +145,8 @@ class DiffusionDistance(SpectralDistance):
         most sqrt(d^2 + tail) - d, which is no more than sqrt(tail) and tail / 2 d.
 
         >>> import bihdist, pyvista
-        >>> distance = bihdist.DiffusionDistance(pyvista.Icosphere(nsub=3), t=1, tolerance=1e-3)
+        >>> sphere = pyvista.Icosphere(nsub=3)
+        >>> distance = bihdist.DiffusionDistance(sphere, t=1, tolerance=1e-3)
         >>> bool(distance.bound(0).max() <= 1e-3 * distance.from_source(0).max())
         True
         """

@@ -74,8 +74,12 @@ class Embedding:
         >>> import bihdist, pyvista
         >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
         >>> least, most = distance.embedding(k=50).between([(0, 1), (0, 400)])
-        >>> least.round(3).tolist(), most.round(3).tolist(), distance.of_pairs([(0, 1), (0, 400)]).round(3).tolist()
-        ([0.462, 0.353], [0.471, 0.364], [0.466, 0.359])
+        >>> least.round(3).tolist()
+        [0.462, 0.353]
+        >>> most.round(3).tolist()
+        [0.471, 0.364]
+        >>> distance.of_pairs([(0, 1), (0, 400)]).round(3).tolist()
+        [0.466, 0.359]
         """
         table = array_of(pairs, "Pairs of vertices")
         if table.ndim != 2 or table.shape[1] != 2 or table.dtype.kind not in "iu":

@@ -61,7 +61,8 @@ class GeodesicDistance(Distance):
     >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
     >>> bihdist.GeodesicDistance(square).from_source(1).round(3).tolist()
     [1.0, 0.0, 1.0, 1.414]
-    >>> bihdist.GeodesicDistance(square, "dijkstra").from_source(1).tolist()  # along edges: 2 instead of 1.414
+    >>> # along edges: 2 instead of 1.414
+    >>> bihdist.GeodesicDistance(square, "dijkstra").from_source(1).tolist()
     [1.0, 0.0, 1.0, 2.0]
     """
 

@@ -46,8 +46,10 @@ class PairQuestions(SourceQuestions):
 
         >>> import bihdist, pyvista
         >>> distance = bihdist.GeodesicDistance(pyvista.Icosphere(nsub=3))
-        >>> round(distance.between(0, 1), 3), distance.between([0, 0], [1, 2]).round(3).tolist()
-        (2.03, [2.03, 3.134])
+        >>> round(distance.between(0, 1), 3)
+        2.03
+        >>> distance.between([0, 0], [1, 2]).round(3).tolist()
+        [2.03, 3.134]
         """
         if are_many(u) or are_many(v):
             return self.of_pairs(paired(u, v), progress)

@@ -146,8 +146,10 @@ class SourceQuestions(ABC):
         >>> import bihdist, pyvista
         >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
         >>> fields = distance.from_sources([0, 12, 40])
-        >>> fields.shape, bool((fields.min(axis=1) == distance.from_source("0+12+40")).all())
-        ((642, 3), True)
+        >>> fields.shape
+        (642, 3)
+        >>> bool((fields.min(axis=1) == distance.from_source("0+12+40")).all())
+        True
         """
         (progress or silent)(0.0, self.label)
         n, kind = len(self.surface.vertices), _checked_type(out, dtype)

@@ -149,7 +149,9 @@ class SpectralDistance(Distance):
 
 
 class PowerDistance(SpectralDistance):
-    """The family of the paper's section 6, weights 1 / lambda^alpha, from the first k eigenpairs.
+    """The family of distances with weights 1 / lambda^alpha, from the first k eigenpairs.
+
+    See section 6 of the paper.
 
     alpha > 1 (else the sum diverges on a surface); scales like length ** (alpha - 1).  A component with fewer than
     k + 1 vertices uses all its eigenpairs.  Raises ParameterError for another alpha, and if no component has k of them.
@@ -245,9 +247,10 @@ class PowerDistance(SpectralDistance):
 
 
 class TruncatedBiharmonicDistance(PowerDistance):
-    """The biharmonic distance from its first k eigenpairs (paper, Eq. 11); unit length.
+    """The biharmonic distance from its first k eigenpairs; unit length.
 
-    Its error falls about like 1 / k; `BiharmonicDistance` is exact and, for one source, faster.
+    d(i, j)^2 = sum_{k <= K} (phi_k(i) - phi_k(j))^2 / lambda_k^2 (paper, Eq. 11).  Its error falls about
+    like 1 / k; `BiharmonicDistance` is exact and, for one source, faster.
 
     >>> import bihdist, pyvista
     >>> laplacian = bihdist.Laplacian(pyvista.Icosphere(nsub=3))

@@ -20,7 +20,8 @@ def write_mesh(path: str | os.PathLike[str], surface: MeshLike) -> None:
     Raises OutputError if the file cannot be written; what was there then stays.
 
     >>> import bihdist
-    >>> bihdist.write_mesh("triangle.off", bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
+    >>> triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+    >>> bihdist.write_mesh("triangle.off", triangle)
     >>> bihdist.read_surface("triangle.off")
     Surface(triangle.off: 3 vertices, 1 faces)
     """

@@ -53,7 +53,8 @@ class Spectrum:
     >>> laplacian = bihdist.Laplacian(pyvista.Icosphere(nsub=3))
     >>> spectrum = bihdist.eigenpairs(laplacian, 3)
     >>> phi = spectrum.eigenvectors
-    >>> abs(phi.T @ (laplacian.areas[:, None] * phi)).round(6).tolist()  # orthonormal by area
+    >>> # orthonormal by area
+    >>> abs(phi.T @ (laplacian.areas[:, None] * phi)).round(6).tolist()
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
     """
 

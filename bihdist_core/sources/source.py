@@ -99,10 +99,12 @@ class Curve:
 
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
-    >>> left, right = bihdist.SurfacePoint(0, (1, 0, 0)), bihdist.SurfacePoint(14, (0, 1, 0))
+    >>> left = bihdist.SurfacePoint(0, (1, 0, 0))
+    >>> right = bihdist.SurfacePoint(14, (0, 1, 0))
     >>> along_an_edge = bihdist.Curve((left, right))
     >>> field = bihdist.GeodesicDistance(plane).from_source(along_an_edge)
-    >>> field[[40, 80]].round(3).tolist()  # the middle of the square, and the side opposite
+    >>> # the middle of the square, and the side opposite
+    >>> field[[40, 80]].round(3).tolist()
     [0.5, 1.0]
     """
 
@@ -131,10 +133,13 @@ class SourceSet:
     members: each once.
 
     >>> import bihdist, pyvista
-    >>> distance = bihdist.GeodesicDistance(pyvista.Plane(i_resolution=8, j_resolution=8))
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> distance = bihdist.GeodesicDistance(plane)
     >>> corners = bihdist.SourceSet((0, 8, 72, 80))
-    >>> distance.from_source(corners).max().round(3).item(), distance.from_source(0).max().round(3).item()
-    (0.707, 1.414)
+    >>> distance.from_source(corners).max().round(3).item()
+    0.707
+    >>> distance.from_source(0).max().round(3).item()
+    1.414
     """
 
     members: tuple[Member, ...] = field(default=())
