@@ -4,7 +4,15 @@ from .sentences import one_line
 
 
 class BihdistError(Exception):
-    """Anything this library refuses or fails to do; the message is one sentence a user can act on."""
+    """Anything this library refuses or fails to do; the message is one sentence a user can act on.
+
+    >>> import bihdist
+    >>> try:
+    ...     bihdist.read_surface("missing.off")
+    ... except bihdist.BihdistError as error:
+    ...     print(type(error).__name__, isinstance(error, FileNotFoundError))
+    MissingFileError True
+    """
 
     def __str__(self) -> str:
         return one_line(super().__str__())
@@ -46,6 +54,15 @@ class Cancelled(BihdistError):
     """Raised from a progress callback to stop long work; raised again to whoever asked for it.
 
     No failure: whoever catches BihdistError to report failures and stops work by it catches this one first.
+
+    >>> import bihdist, pyvista
+    >>> def stop(fraction, text):
+    ...     raise bihdist.Cancelled
+    >>> try:
+    ...     bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3), progress=stop)
+    ... except bihdist.Cancelled:
+    ...     print("stopped")
+    stopped
     """
 
 

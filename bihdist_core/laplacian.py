@@ -51,6 +51,18 @@ class Laplacian:
 
     pickles_factors: whether factors and eigenpairs are part of its pickles, and of those of its distances.  Without,
     which is usual, only the surface is, and they are computed again where they are needed.
+
+    >>> import bihdist, pyvista
+    >>> laplacian = bihdist.Laplacian(pyvista.Icosphere(nsub=3))
+    >>> biharmonic = bihdist.BiharmonicDistance(laplacian)
+    >>> # with the factor that is already there
+    >>> commute = bihdist.CommuteTimeDistance(laplacian)
+    >>> len(laplacian.components)
+    1
+    >>> round(biharmonic.between(0, 1), 3)
+    0.466
+    >>> round(commute.between(0, 1), 3)
+    1.184
     """
 
     pickles_factors = False
@@ -78,22 +90,52 @@ class Laplacian:
 
     @property
     def stiffness(self) -> sp.csr_matrix:
-        """(n, n) cotangent stiffness matrix, positive semi-definite, read-only; no unit."""
+        """(n, n) cotangent stiffness matrix, positive semi-definite, read-only; no unit.
+
+        >>> import bihdist
+        >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
+        >>> # rows have sum 0
+        >>> bihdist.Laplacian(square).stiffness.toarray().round(9).tolist()
+        [[1.0, -0.5, 0.0, -0.5], [-0.5, 1.0, -0.5, 0.0], [0.0, -0.5, 1.0, -0.5], [-0.5, 0.0, -0.5, 1.0]]
+        """
         return self._operators[0]
 
     @property
     def areas(self) -> FloatArray:
-        """(n,) vertex areas, read-only; unit length squared."""
+        """(n,) vertex areas, read-only; unit length squared.
+
+        >>> import bihdist
+        >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
+        >>> bihdist.Laplacian(square).areas.tolist()
+        [0.25, 0.25, 0.25, 0.25]
+        >>> bihdist.Laplacian(square, areas="barycentric").areas.round(3).tolist()
+        [0.333, 0.167, 0.333, 0.167]
+        """
         return self._operators[1]
 
     @locked_cached_property
     def eigenpair_counts(self) -> IntArray:
-        """(c,) how many eigenpairs each component has besides the constant: as vertices with an area, less one."""
+        """(c,) how many eigenpairs each component has besides the constant: as vertices with an area, less one.
+
+        >>> import bihdist, pyvista
+        >>> sphere = pyvista.Icosphere(nsub=2)  # 162 vertices
+        >>> bihdist.Laplacian(sphere).eigenpair_counts.tolist()
+        [161]
+        """
         label = self.surface.component_of_vertex[self.areas > 0]
         return np.bincount(label[label >= 0], minlength=len(self.components)) - 1
 
     def check_eigenpairs(self, k: int, most: int) -> None:
-        """ParameterError, which says what is possible, unless there are k eigenpairs among `most`."""
+        """ParameterError, which says what is possible, unless there are k eigenpairs among `most`.
+
+        >>> import bihdist, pyvista
+        >>> laplacian = bihdist.Laplacian(pyvista.Icosphere(nsub=1))
+        >>> try:
+        ...     laplacian.check_eigenpairs(100, most=41)
+        ... except bihdist.ParameterError as error:
+        ...     print(error)
+        PolyData has 41 eigenpairs besides the constant, and k is 100; choose k from 1 to 41.
+        """
         if not 1 <= whole_number(k, "k") <= most:
             name = self.surface.name
             raise ParameterError(
@@ -101,7 +143,14 @@ class Laplacian:
             )
 
     def component_of(self, vertex: int) -> Component:
-        """The component a vertex belongs to; VertexError if there is none."""
+        """The component a vertex belongs to; VertexError if there is none.
+
+        >>> import bihdist, pyvista
+        >>> both = pyvista.Icosphere(nsub=1) + pyvista.Icosphere(nsub=2, center=(3, 0, 0))
+        >>> laplacian = bihdist.Laplacian(both)
+        >>> laplacian.component_of(0).index, len(laplacian.component_of(0).vertices)
+        (1, 42)
+        """
         index: int = self.surface.component_of_vertex[self.surface.check_vertex(vertex)]
         return self.components[index]
 
@@ -333,6 +382,12 @@ def eigenpairs(laplacian: Laplacian | MeshLike, count: int, progress: Progress |
 
     Returns eigenvalues (count,), ascending, unit 1 / length squared, and eigenvectors (n, count), 0 at
     unreferenced vertices.  Raises ParameterError if there are not that many.
+
+    >>> import bihdist, pyvista
+    >>> spectrum = bihdist.eigenpairs(pyvista.Icosphere(nsub=3), 8)
+    >>> # of the unit sphere: 2 three times, then 6 five times
+    >>> spectrum.eigenvalues.round(2).tolist()
+    [2.0, 2.0, 2.0, 5.97, 5.97, 5.97, 5.97, 5.97]
     """
     laplacian = as_laplacian(laplacian)
     components = laplacian.components

@@ -39,8 +39,10 @@ class Surface:
 
     Raises MeshError for wrong shapes, a coordinate that is not finite, a vertex id out of range, or no faces.
 
-    >>> surface = Surface([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
-    >>> surface, surface.area, surface.n_components, len(surface.boundary_edges)
+    >>> import bihdist
+    >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
+    >>> square, square.area, square.n_components, len(square.boundary_edges)
     (Surface(surface: 4 vertices, 2 faces), 1.0, 1, 4)
     """
 
@@ -69,6 +71,13 @@ class Surface:
 
         Raises MeshError as `read_surface` and `Surface` do and where an object has no faces, ParameterError for an
         object of another kind.
+
+        >>> import bihdist, pyvista
+        >>> bihdist.Surface.of(pyvista.Plane(i_resolution=2, j_resolution=2)).facts
+        ('4 quads divided into 8 triangles',)
+        >>> corners, faces = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+        >>> bihdist.Surface.of(corners, faces, name="triangle")
+        Surface(triangle: 3 vertices, 1 faces)
         """
         from .formats.mesh_objects import surface_of
 
@@ -78,6 +87,13 @@ class Surface:
         """A `pyvista.PolyData` with vertex k as point k; fields: arrays (n,) or (n, k) that become its point data.
 
         ImportError where PyVista is not installed.
+
+        >>> import bihdist, pyvista
+        >>> surface = bihdist.Surface.of(pyvista.Icosphere(nsub=2))
+        >>> field = bihdist.BiharmonicDistance(surface).from_source(0)
+        >>> shown = surface.to_pyvista({"distance": field})
+        >>> shown.n_points, shown.array_names
+        (162, ['distance'])
         """
         mesh = import_module("pyvista").PolyData.from_regular_faces(self.vertices, self.faces)
         for name, values in (fields or {}).items():
@@ -85,7 +101,13 @@ class Surface:
         return mesh
 
     def to_trimesh(self) -> Any:
-        """A `trimesh.Trimesh` with the same vertices and faces; ImportError where trimesh is not installed."""
+        """A `trimesh.Trimesh` with the same vertices and faces; ImportError where trimesh is not installed.
+
+        >>> import bihdist
+        >>> triangle = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        >>> float(triangle.to_trimesh().area)
+        0.5
+        """
         return import_module("trimesh").Trimesh(self.vertices, self.faces, process=False)
 
     def __getstate__(self) -> dict[str, object]:
@@ -100,7 +122,17 @@ class Surface:
         return f"Surface({self.name}: {len(self.vertices):,} vertices, {len(self.faces):,} faces)"
 
     def check_vertex(self, vertex: int) -> int:
-        """The id as an int, from any whole number; VertexError if there is no such vertex or it belongs to no face."""
+        """The id as an int, from any whole number; VertexError if there is no such vertex or it belongs to no face.
+
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+        >>> triangle = bihdist.Surface(corners, [[0, 1, 2]], "triangle")
+        >>> try:
+        ...     triangle.check_vertex(3)
+        ... except bihdist.VertexError as error:
+        ...     print(error)
+        triangle has no vertex 3; ids run from 0 to 2.
+        """
         n = len(self.vertices)
         try:
             vertex = index(None if isinstance(vertex, bool) else vertex)  # type: ignore[arg-type]
@@ -123,7 +155,13 @@ class Surface:
         return int(used[int(apart.argmin())])
 
     def check_vertices(self, vertices: npt.ArrayLike | Sequence[object]) -> IntArray:
-        """(k,) int64 ids, each checked as by `check_vertex`."""
+        """(k,) int64 ids, each checked as by `check_vertex`.
+
+        >>> import bihdist
+        >>> triangle = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        >>> triangle.check_vertices([2, 0]).tolist()
+        [2, 0]
+        """
         try:
             ids = np.atleast_1d(np.asarray(vertices))
         except ValueError:
@@ -137,7 +175,18 @@ class Surface:
         return np.array([self.check_vertex(v) for v in ids], np.int64)
 
     def check_field(self, field: npt.ArrayLike) -> FloatArray:
-        """(n,) float64 values at the vertices; ParameterError for another shape, and for what is no real number."""
+        """(n,) float64 values at the vertices; ParameterError for another shape, and for what is no real number.
+
+        >>> import bihdist
+        >>> triangle = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        >>> triangle.check_field([1, 2, 3]).dtype
+        dtype('float64')
+        >>> try:
+        ...     triangle.check_field([1, 2])
+        ... except bihdist.ParameterError as error:
+        ...     print(error)
+        A field is a real number for each of 3 vertices, not an array of shape (2,).
+        """
         values, n = real_numbers(field, "Values of a field"), len(self.vertices)
         if values.shape != (n,):
             raise ParameterError(
@@ -151,6 +200,13 @@ class Surface:
         """(n,) component of each vertex, the one with most vertices first (0); -1 for a vertex of no face.
 
         Vertices that share a face are connected, also through a single vertex.
+
+        >>> import bihdist
+        >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> others = [[5, 0, 0], [6, 0, 0], [5, 1, 0], [9, 9, 9]]
+        >>> surface = bihdist.Surface(square + others, [[4, 5, 6], [0, 1, 2], [0, 2, 3]])
+        >>> surface.component_of_vertex.tolist()
+        [0, 0, 0, 0, 1, 1, 1, -1]
         """
         n, f = len(self.vertices), self.faces
         label = connected(f.T, n)
@@ -165,31 +221,74 @@ class Surface:
 
     @property
     def n_vertices(self) -> int:
-        """How many vertices there are, those of no face among them."""
+        """How many vertices there are, those of no face among them.
+
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [9, 9, 9]]
+        >>> surface = bihdist.Surface(corners, [[0, 1, 2]])
+        >>> surface.n_vertices, surface.unreferenced_count
+        (4, 1)
+        """
         return len(self.vertices)
 
     @property
     def n_faces(self) -> int:
-        """How many faces there are."""
+        """How many faces there are.
+
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+        >>> # the second is the first, turned over
+        >>> bihdist.Surface(corners, [[0, 1, 2], [2, 1, 0]]).n_faces
+        1
+        """
         return len(self.faces)
 
     @cached_property
     def n_components(self) -> int:
-        """How many connected components the surface has."""
+        """How many connected components the surface has.
+
+        >>> import bihdist, pyvista
+        >>> sphere = pyvista.Icosphere(nsub=1)
+        >>> bihdist.Surface.of(sphere + sphere.translate((3, 0, 0))).n_components
+        2
+        """
         return int(self.component_of_vertex.max()) + 1
 
     @property
     def largest_component_size(self) -> int:
-        """How many vertices the component 0 has."""
+        """How many vertices the component 0 has.
+
+        >>> import bihdist, pyvista
+        >>> both = pyvista.Icosphere(nsub=1) + pyvista.Icosphere(nsub=2, center=(3, 0, 0))
+        >>> surface = bihdist.Surface.of(both)
+        >>> surface.n_vertices, surface.largest_component_size
+        (204, 162)
+        """
         return int((self.component_of_vertex == 0).sum())
 
     @property
     def unreferenced_count(self) -> int:
-        """How many vertices belong to no face."""
+        """How many vertices belong to no face.
+
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [9, 9, 9]]
+        >>> surface = bihdist.Surface(corners, [[0, 1, 2]])
+        >>> surface.unreferenced_count
+        1
+        >>> bihdist.BiharmonicDistance(surface).from_source(0).round(3).tolist()
+        [0.0, 0.612, 0.612, nan]
+        """
         return int((self.component_of_vertex < 0).sum())
 
     def component(self, index: int) -> tuple[Surface, IntArray]:
-        """One component as a surface of its own, and (k,) the ids its vertices have here, ascending."""
+        """One component as a surface of its own, and (k,) the ids its vertices have here, ascending.
+
+        >>> import bihdist, pyvista
+        >>> both = pyvista.Icosphere(nsub=1) + pyvista.Icosphere(nsub=2, center=(3, 0, 0))
+        >>> smaller, ids = bihdist.Surface.of(both).component(1)
+        >>> smaller.n_vertices, ids[:3].tolist()
+        (42, [0, 1, 2])
+        """
         ids = np.flatnonzero(self.component_of_vertex == index)
         if len(ids) == len(self.vertices):
             return self, ids
@@ -206,6 +305,13 @@ class Surface:
         a corner, or become another's, are dropped, which `repairs` says, and `facts` how many vertices were merged.
 
         ParameterError for a tolerance below 0 or not finite, MeshError where no face is left.
+
+        >>> import bihdist
+        >>> one, other = [[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> torn = bihdist.Surface(one + other, [[0, 1, 2], [3, 4, 5]])
+        >>> whole, new = torn.merged()
+        >>> torn.n_components, whole.n_components, new.tolist()
+        (2, 1, [0, 1, 2, 0, 2, 3])
         """
         if not (isfinite(tolerance) and tolerance >= 0):
             raise ParameterError(f"A tolerance is a length, 0 or more, not {tolerance!r}.")
@@ -226,9 +332,13 @@ class Surface:
         VertexError for ids off the mesh, ParameterError for what is neither ids nor booleans, MeshError where no face
         is left.
 
-        >>> surface = Surface([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
-        >>> surface.without([1]), surface.without(surface.vertices[:, 1] < surface.vertices[:, 0]).unreferenced_count
-        (Surface(surface: 4 vertices, 1 faces), 1)
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
+        >>> square.without([1])
+        Surface(surface: 4 vertices, 1 faces)
+        >>> square.without(square.vertices[:, 1] < square.vertices[:, 0]).unreferenced_count
+        1
         """
         gone = self._chosen(vertices)
         left = np.flatnonzero(~gone[self.faces].any(axis=1))
@@ -277,28 +387,64 @@ class Surface:
 
     @property
     def edges(self) -> IntArray:
-        """(e, 2) vertex ids, smaller first, each edge once."""
+        """(e, 2) vertex ids, smaller first, each edge once.
+
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
+        >>> square.edges.tolist()
+        [[0, 1], [0, 2], [0, 3], [1, 2], [2, 3]]
+        """
         return self._sides[0]
 
     @property
     def edge_of_side(self) -> IntArray:
-        """(3m,) the edge of each face's sides 01, 12, 20: all 01 first, then all 12, then all 20."""
+        """(3m,) the edge of each face's sides 01, 12, 20: all 01 first, then all 12, then all 20.
+
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
+        >>> square.edge_of_side.tolist()
+        [0, 1, 3, 4, 1, 2]
+        >>> square.edges[square.edge_of_side[4]].tolist()  # side 20 of face 0
+        [0, 2]
+        """
         return self._sides[1]
 
     @cached_property
     def faces_per_edge(self) -> IntArray:
-        """(e,) how many faces meet at each edge: 1 on a boundary, more than 2 where not manifold."""
+        """(e,) how many faces meet at each edge: 1 on a boundary, more than 2 where not manifold.
+
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
+        >>> square.faces_per_edge.tolist()  # the diagonal, edge 1, has two
+        [1, 2, 1, 1, 1]
+        """
         return np.bincount(self._sides[1], minlength=len(self.edges))
 
     @property
     def boundary_edges(self) -> IntArray:
-        """(b, 2) edges with one face."""
+        """(b, 2) edges with one face.
+
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
+        >>> square.boundary_edges.tolist()
+        [[0, 1], [0, 3], [1, 2], [2, 3]]
+        """
         edges: IntArray = self.edges[self.faces_per_edge == 1]
         return edges
 
     @cached_property
     def boundary_loop_count(self) -> int:
-        """How many connected pieces the boundary has."""
+        """How many connected pieces the boundary has.
+
+        >>> import bihdist, pyvista
+        >>> tube = pyvista.Cylinder(resolution=12, capping=False).clean()
+        >>> bihdist.Surface.of(tube).boundary_loop_count
+        2
+        """
         b = self.boundary_edges
         if not len(b):
             return 0
@@ -308,17 +454,37 @@ class Surface:
 
     @property
     def nonmanifold_edge_count(self) -> int:
-        """How many edges have more than two faces."""
+        """How many edges have more than two faces.
+
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [-1, 0, 0]]
+        >>> bihdist.Surface(corners, [[0, 1, 2], [0, 1, 3], [0, 1, 4]]).nonmanifold_edge_count
+        1
+        """
         return int((self.faces_per_edge > 2).sum())
 
     @property
     def nonmanifold_vertex_count(self) -> int:
-        """How many vertices have faces that fall apart into several fans."""
+        """How many vertices have faces that fall apart into several fans.
+
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [1, 1, 0], [1, -1, 0], [-1, 1, 0], [-1, -1, 0]]
+        >>> bow_tie = bihdist.Surface(corners, [[0, 2, 1], [0, 3, 4]])
+        >>> bow_tie.nonmanifold_vertex_count
+        1
+        """
         return len(self.nonmanifold_vertices)
 
     @cached_property
     def nonmanifold_vertices(self) -> IntArray:
-        """(k,) the vertices whose faces fall apart into several fans."""
+        """(k,) the vertices whose faces fall apart into several fans.
+
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [1, 1, 0], [1, -1, 0], [-1, 1, 0], [-1, -1, 0]]
+        >>> bow_tie = bihdist.Surface(corners, [[0, 2, 1], [0, 3, 4]])
+        >>> bow_tie.nonmanifold_vertices.tolist()
+        [0]
+        """
         m = len(self.faces)
         # Two corners at one vertex are in one fan if their faces share an edge there.  Side s of a face has the
         # corners s and s + 1; the corners of a face are numbered face + m * corner.
@@ -341,12 +507,27 @@ class Surface:
 
     @property
     def is_manifold(self) -> bool:
-        """Whether no edge has more than two faces, and the faces of each vertex are one fan."""
+        """Whether no edge has more than two faces, and the faces of each vertex are one fan.
+
+        >>> import bihdist, pyvista
+        >>> bihdist.Surface.of(pyvista.Icosphere(nsub=1)).is_manifold
+        True
+        >>> corners = [[0, 0, 0], [1, 1, 0], [1, -1, 0], [-1, 1, 0], [-1, -1, 0]]
+        >>> bow_tie = bihdist.Surface(corners, [[0, 2, 1], [0, 3, 4]])
+        >>> bow_tie.is_manifold
+        False
+        """
         return self.nonmanifold_edge_count == 0 and self.nonmanifold_vertex_count == 0
 
     @property
     def genus(self) -> int | None:
-        """Handles of all components together; None where the mesh is not manifold or not orientable."""
+        """Handles of all components together; None where the mesh is not manifold or not orientable.
+
+        >>> import bihdist, pyvista
+        >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=2))
+        >>> sphere.genus, bihdist.with_handle(sphere, 0, 200).genus
+        (0, 1)
+        """
         used = len(self.vertices) - self.unreferenced_count
         twice = 2 * self.n_components - self.boundary_loop_count - (used - len(self.edges) + len(self.faces))
         return twice // 2 if self.is_manifold and twice % 2 == 0 else None
@@ -356,6 +537,12 @@ class Surface:
         """Of each face the three sides as vectors, side k opposite to corner k: (3, m) each, coordinates first.
 
         Each step on them then runs over contiguous memory, which is several times faster.
+
+        >>> import bihdist
+        >>> triangle = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        >>> first, second, third = triangle.sides()
+        >>> first.ravel().tolist(), (first + second + third).ravel().tolist()
+        ([-1.0, 1.0, 0.0], [0.0, 0.0, 0.0])
         """
         x, f = np.ascontiguousarray(self.vertices.T), self.faces
         corners = [x.take(f[:, k], axis=1) for k in range(3)]
@@ -375,41 +562,82 @@ class Surface:
 
     @property
     def face_areas(self) -> FloatArray:
-        """(m,) areas of the faces, unit length squared."""
+        """(m,) areas of the faces, unit length squared.
+
+        >>> import bihdist
+        >>> bihdist.Surface([[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[0, 1, 2]]).face_areas.tolist()
+        [6.0]
+        """
         return self._face_measures[0]
 
     @property
     def area(self) -> float:
-        """The area of all faces together, unit length squared."""
+        """The area of all faces together, unit length squared.
+
+        >>> import bihdist, math, pyvista
+        >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=3))
+        >>> # a little less than the sphere it approximates
+        >>> print(f"{sphere.area / (4 * math.pi):.4f}")
+        0.9952
+        """
         return float(self.face_areas.sum())
 
     @property
     def bounds(self) -> FloatArray:
-        """(2, 3) the least and the greatest coordinates of vertices that belong to a face."""
+        """(2, 3) the least and the greatest coordinates of vertices that belong to a face.
+
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [3, 0, 0], [0, 4, 0], [9, 9, 9]]  # the last is of no face
+        >>> bihdist.Surface(corners, [[0, 1, 2]]).bounds.tolist()
+        [[0.0, 0.0, 0.0], [3.0, 4.0, 0.0]]
+        """
         used = self.vertices[self.component_of_vertex >= 0]
         return np.stack([used.min(axis=0), used.max(axis=0)])
 
     @cached_property
     def face_heights(self) -> FloatArray:
-        """(m,) each face's height over its longest side, as a share of that side; 0 for three points in one place."""
+        """(m,) each face's height over its longest side, as a share of that side; 0 for three points in one place.
+
+        >>> import bihdist
+        >>> sliver = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0.5, 0.001, 0]], [[0, 1, 2]])
+        >>> sliver.face_heights.tolist()
+        [0.001]
+        """
         areas, longest = self._face_measures
         return 2 * areas / np.where(longest > 0, longest, 1)
 
     @cached_property
     def degenerate_faces(self) -> IntArray:
-        """(k,) faces of (nearly) no area: height less than the fraction `FLAT` of the longest side."""
+        """(k,) faces of (nearly) no area: height less than the fraction `FLAT` of the longest side.
+
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0]]
+        >>> bihdist.Surface(corners, [[0, 1, 3], [0, 1, 2]]).degenerate_faces.tolist()
+        [1]
+        """
         return np.flatnonzero(self.face_heights < FLAT)
 
     @cached_property
     def in_proper_face(self) -> BoolArray:
-        """(n,) whether a vertex belongs to a face that is not degenerate."""
+        """(n,) whether a vertex belongs to a face that is not degenerate.
+
+        >>> import bihdist
+        >>> corners = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0]]
+        >>> bihdist.Surface(corners, [[0, 1, 3], [0, 1, 2]]).in_proper_face.tolist()
+        [True, True, False, True]
+        """
         proper = np.zeros(len(self.vertices), bool)
         proper[np.delete(self.faces, self.degenerate_faces, axis=0)] = True
         return proper
 
     @cached_property
     def mean_edge_length(self) -> float:
-        """Mean length of the edges, unit length."""
+        """Mean length of the edges, unit length.
+
+        >>> import bihdist
+        >>> bihdist.Surface([[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[0, 1, 2]]).mean_edge_length
+        4.0
+        """
         i, j = self.edges.T
         x = np.ascontiguousarray(self.vertices.T)
         along = x.take(i, axis=1) - x.take(j, axis=1)

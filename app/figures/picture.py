@@ -37,6 +37,11 @@ class Picture:
     """A figure that is drawn when it is first looked at.
 
     document: what it shows.  answers: for each panel the field, its label, unit and accuracy, or why there is none.
+
+    >>> import bihdist, pyvista
+    >>> picture = bihdist.figure(pyvista.Icosphere(nsub=3), ["biharmonic", "geodesic"], source=0)
+    >>> [round(float(answer.field.max()), 3) for answer in picture.answers]
+    [0.515, 3.134]
     """
 
     def __init__(self, recipe: Recipe, surfaces: Surfaces, given: ArrayStore, answers: list[Answer]) -> None:
@@ -184,7 +189,15 @@ def figure(
 
 
 def figure_again(recipe: str | os.PathLike[str], progress: Progress | None = None) -> Picture:
-    """The figure of a recipe's file, as `bihdist figure --recipe` draws it; BihdistError where it cannot be drawn."""
+    """The figure of a recipe's file, as `bihdist figure --recipe` draws it; BihdistError where it cannot be drawn.
+
+    >>> import bihdist
+    >>> first = bihdist.figure("hand", ["biharmonic"], source=12, size="200x200")
+    >>> _ = first.save("hand.png")  # and hand.json, the recipe
+    >>> again = bihdist.figure_again("hand.json")
+    >>> bool((again.pixels == first.pixels).all())
+    True
+    """
     read = read_recipe(recipe)
     given = ArrayStore.read(read)
     document, surfaces = open_document(read, given)

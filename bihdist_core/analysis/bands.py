@@ -24,6 +24,12 @@ class Band:
     face of the whole surface that each face is part of.
     vertices, faces: ids of the vertices of the whole surface in the band, and of its faces that are in it entirely.
     area: of the part, exact.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
+    >>> strip = bihdist.band(plane, plane.points[:, 0], -0.1, 0.3)
+    >>> strip.surface, round(strip.area, 6)
+    (Surface(PolyData: 28 vertices, 32 faces), 0.4)
     """
 
     surface: Surface
@@ -35,12 +41,27 @@ class Band:
 
     @property
     def area(self) -> float:
-        """Exact area of the part, unit length squared."""
+        """Exact area of the part, unit length squared.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
+        >>> strip = bihdist.band(plane, plane.points[:, 0], -0.1, 0.3)
+        >>> round(strip.area, 6)  # of the unit square
+        0.4
+        """
         return float(self.surface.face_areas.sum())
 
     def along(self, field: npt.ArrayLike) -> FloatArray:
         """(v,) or (v, d): values (n,) or (n, d) at the vertices of the whole surface, linear on its faces, at the
-        vertices of the part, on whose faces they are linear too."""
+        vertices of the part, on whose faces they are linear too.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
+        >>> strip = bihdist.band(plane, plane.points[:, 0], 0.1, 0.3)
+        >>> ends = strip.along(plane.points[:, 0])
+        >>> ends.min().round(6).item(), ends.max().round(6).item()
+        (0.1, 0.3)
+        """
         at = np.asarray(field)
         t = self.parameters.reshape(-1, *(1,) * (at.ndim - 1))
         return np.where(t == 0, at[self.ends[:, 0]], (1 - t) * at[self.ends[:, 0]] + t * at[self.ends[:, 1]])
@@ -51,6 +72,14 @@ def band(surface: MeshLike, field: npt.ArrayLike, low: float = -np.inf, high: fl
 
     Faces with a corner that is not finite are left out.  Raises ParameterError for a field that is not (n,) numbers,
     for values that are NaN or not in order, and where nothing lies between them.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> distance = bihdist.GeodesicDistance(sphere).from_source(0)
+    >>> near = bihdist.band(sphere, distance, high=1.0)
+    >>> # of a cap of the unit sphere: 2 pi (1 - cos 1) = 2.89
+    >>> print(f"{near.area:.2f}")
+    2.88
     """
     surface = Surface.of(surface)
     f = surface.check_field(field)

@@ -25,6 +25,15 @@ def isotropy_ratio(surface: MeshLike, field: npt.ArrayLike, geodesic: npt.ArrayL
     interpolated where the circle crosses the mesh's edges.  A circle of few edges measures the triangulation: take
     a radius of at least three or four.  Infinite if the field is 0 on the circle.  Raises ParameterError if no vertex
     is as far as that.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=16, j_resolution=16)
+    >>> field = bihdist.BiharmonicDistance(plane).from_source(144)
+    >>> geodesic = bihdist.GeodesicDistance(plane).from_source(144)
+    >>> for radius in (0.25, 0.45):  # the second comes near the boundary
+    ...     print(f"{bihdist.isotropy_ratio(plane, field, geodesic, radius):.2f}")
+    1.04
+    1.17
     """
     surface = Surface.of(surface)
     f = surface.check_field(field)
@@ -41,6 +50,17 @@ class GradientJumps:
 
     edges: (k, 2) vertex ids.  jumps: (k,), at least 0.  lengths: (k,) mean length of the gradient on both sides.
     slope: median length of the gradient over the surface, by area.
+
+    >>> import bihdist, numpy as np, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> # a ridge along x = 0
+    >>> jumps = bihdist.gradient_jumps(plane, np.abs(plane.points[:, 0]))
+    >>> jumps.jumps.max().round(6).item()
+    2.0
+    >>> jumps.relative.max().round(6).item()
+    2.0
+    >>> int((jumps.jumps > 1).sum())
+    8
     """
 
     edges: IntArray
@@ -54,6 +74,15 @@ class GradientJumps:
 
         A smooth field's shrink with the edges, away from boundary corners; across a ridge the gradient turns round,
         and they stay near 2.
+
+        >>> import bihdist, numpy as np, pyvista
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> x = plane.points[:, 0]
+        >>> for field in (np.abs(x), x, (x + 2) ** 2):
+        ...     print(bihdist.gradient_jumps(plane, field).relative.max().round(2))
+        2.0
+        0.0
+        0.08
         """
         return self.jumps / np.maximum(self.lengths, self.slope / 4)
 
@@ -63,6 +92,12 @@ def gradient_jumps(surface: MeshLike, field: npt.ArrayLike) -> GradientJumps:
 
     A continuous field's gradient can only jump across an edge, by the sum of the two slopes away from the faces'
     insides.  Degenerate faces and edges of another number of faces are left out.
+
+    >>> import bihdist, numpy as np, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> field = 5 * np.abs(plane.points[:, 0])  # the slope turns from -5 to 5
+    >>> bihdist.gradient_jumps(plane, field).jumps.max().round(6).item()
+    10.0
     """
     surface = Surface.of(surface)
     f, faces, x = surface.check_field(field), surface.faces, surface.vertices
@@ -101,6 +136,12 @@ class FieldChange:
     """The change |d' - d| of a field, mean and largest; no unit.
 
     mean, largest: over max d.  normalised_mean, normalised_largest: with each field divided by its own maximum first.
+
+    >>> import bihdist
+    >>> change = bihdist.field_change([0, 1, 2], [0, 1.5, 3])
+    >>> # over the first maximum; and each over its own
+    >>> change.largest, change.normalised_largest
+    (0.5, 0.0)
     """
 
     mean: float
@@ -113,6 +154,13 @@ def field_change(before: npt.ArrayLike, after: npt.ArrayLike) -> FieldChange:
     """How much a field (k,) changed, at points where both are finite; the maxima are over these points.
 
     Raises ParameterError for fields of different shape, without common points, or whose maximum is not positive.
+
+    >>> import bihdist, pyvista
+    >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=3))
+    >>> before = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> after = bihdist.BiharmonicDistance(bihdist.noisy(sphere, 0.2)).from_source(0)
+    >>> round(bihdist.field_change(before, after).mean, 3)
+    0.028
     """
     d, e = (real_numbers(each, "Values of a field") for each in (before, after))
     if d.shape != e.shape:
@@ -137,6 +185,12 @@ class TriangleSample:
     violations: triples that break it by more than rounding (1e-9 of the largest distance).  worst: the most by which
     one breaks it, over the largest distance; 0 if none does.  tightest: the least d(i, j) + d(j, k) - d(i, k) over
     that sum, for three different points: how close some triple comes.
+
+    >>> import bihdist
+    >>> distances = [[0, 1, 5], [1, 0, 2], [5, 2, 0]]
+    >>> sample = bihdist.triangle_violations(distances, count=100)
+    >>> sample.violations > 0, sample.worst  # 5 is more than 1 + 2, by 2 of 5
+    (True, 0.4)
     """
 
     triples: int
@@ -149,6 +203,13 @@ def triangle_violations(distances: npt.ArrayLike, count: int = 1_000_000, seed: 
     """Hold `count` random triples among k points, whose distances are (k, k), against the triangle inequality.
 
     Raises ParameterError for fewer than three points, an array that is not square, or a count below 1.
+
+    >>> import bihdist, pyvista
+    >>> d = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3)).pairwise(range(20))
+    >>> bihdist.triangle_violations(d).violations
+    0
+    >>> bihdist.triangle_violations(d**2).violations > 0
+    True
     """
     d = real_numbers(distances, "Distances")
     if d.ndim != 2 or d.shape[0] != d.shape[1] or len(d) < 3:
@@ -182,6 +243,12 @@ def smallest_distance(distance: Distance, progress: Progress | None = None, bloc
     """The least distance of two different vertices of one component, and the two: over all pairs, n / block blocks.
 
     Raises ParameterError on a surface where no two vertices are connected by a distance.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> distance = bihdist.GeodesicDistance(plane)
+    >>> bihdist.smallest_distance(distance)
+    (0.125, 1, 0)
     """
     ids = np.flatnonzero(distance.surface.component_of_vertex >= 0)
     best: tuple[float, int, int] = (np.inf, -1, -1)

@@ -20,6 +20,14 @@ class FieldScatter:
 
     ids: (k,) these vertices, ascending.  x, y: (k,) the values of the first and the second field there, in their units,
     or as shares of each field's largest size over all these vertices.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
+    >>> scatter = bihdist.field_scatter(plane, plane.points[:, 0], plane.points[:, 1])
+    >>> len(scatter.ids), scatter.ends
+    (25, ((-0.5, 0.5), (-0.5, 0.5)))
+    >>> scatter.inside([(-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1)]).tolist()
+    [12]
     """
 
     ids: IntArray
@@ -28,7 +36,13 @@ class FieldScatter:
 
     @property
     def ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Least and greatest value, across and up, 0 always between them."""
+        """Least and greatest value, across and up, 0 always between them.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
+        >>> bihdist.field_scatter(plane, plane.points[:, 0], plane.points[:, 1] + 1).ends
+        ((-0.5, 0.5), (0.0, 1.5))
+        """
         across, up = ((min(float(v.min()), 0.0), max(float(v.max()), 0.0)) for v in (self.x, self.y))
         return across, up
 
@@ -36,6 +50,13 @@ class FieldScatter:
         """(rows, columns) how many points are in each cell of a grid; the first row is the lowest.
 
         across, up: where the grid begins and ends; what lies on its ends is in it, what lies beyond is not counted.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=3, j_resolution=3)
+        >>> scatter = bihdist.field_scatter(plane, plane.points[:, 0], plane.points[:, 0])
+        >>> # equal fields lie on the diagonal
+        >>> scatter.density(2, 2, (-0.5, 0.5), (-0.5, 0.5)).tolist()
+        [[8, 0], [0, 8]]
         """
         if min(columns, rows) < 1 or not (across[0] < across[1] and up[0] < up[1]):
             raise ParameterError(f"{columns} by {rows} cells from {across} to {up} are no grid.")
@@ -45,7 +66,17 @@ class FieldScatter:
     def cells(
         self, columns: int, rows: int, across: tuple[float, float], up: tuple[float, float]
     ) -> tuple[IntArray, IntArray]:
-        """(p,) cells of the grid of `density`, numbered row by row, of the points in it, and (p,) which these are."""
+        """(p,) in which cell of a grid the p points inside it are, and (p,) which points these are.
+
+        Cells are numbered row by row, from the lowest; across, up: where the grid begins and ends.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=1, j_resolution=1)
+        >>> scatter = bihdist.field_scatter(plane, plane.points[:, 0], plane.points[:, 1])
+        >>> cells, points = scatter.cells(2, 2, (-0.5, 0.5), (-0.5, 0.5))
+        >>> cells.tolist(), points.tolist()
+        ([0, 1, 2, 3], [0, 1, 2, 3])
+        """
         places = []
         for values, count, (low, high) in ((self.x, columns, across), (self.y, rows, up)):
             place = np.floor((values - low) * (count / (high - low)))
@@ -58,6 +89,12 @@ class FieldScatter:
         of times.
 
         Raises ParameterError for anything else than three or more finite corners.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
+        >>> scatter = bihdist.field_scatter(plane, plane.points[:, 0], plane.points[:, 1])
+        >>> scatter.inside([(0.3, -1), (1, -1), (1, 1), (0.3, 1)]).tolist()  # x above 0.3
+        [4, 9, 14, 19, 24]
         """
         corner = np.asarray(polygon, np.float64)
         if corner.ndim != 2 or corner.shape[1] != 2 or len(corner) < 3 or not np.isfinite(corner).all():
@@ -74,7 +111,15 @@ class FieldScatter:
         return np.sort(self.ids[order[is_in]])
 
     def sort(self) -> None:
-        """Prepare `inside`, which otherwise sorts when it is first asked: for a thread that may wait."""
+        """Prepare `inside`, which otherwise sorts when it is first asked: for a thread that may wait.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
+        >>> scatter = bihdist.field_scatter(plane, plane.points[:, 0], plane.points[:, 1])
+        >>> scatter.sort()
+        >>> len(scatter.inside([(-1, -1), (1, -1), (1, 1), (-1, 1)]))
+        25
+        """
         _ = self._upwards
 
     @cached_property
@@ -84,9 +129,17 @@ class FieldScatter:
 
 
 def field_scatter(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, shares: bool = False) -> FieldScatter:
-    """The second of two fields (n,) against the first; shares: each divided by its largest size.
+    """The second of two fields (n,) against the first at the vertices; shares: each divided by its largest size first.
 
     Raises ParameterError for fields of other shapes, no common vertices, and shares of a field that is 0.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> one = bihdist.GeodesicDistance(sphere).from_source(0)
+    >>> other = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> scatter = bihdist.field_scatter(sphere, one, other, shares=True)
+    >>> scatter.x.max().item(), scatter.y.max().item(), len(scatter.ids)
+    (1.0, 1.0, 642)
     """
     surface = Surface.of(surface)
     f, g = surface.check_field(a), surface.check_field(b)

@@ -29,6 +29,13 @@ class FieldStatistics:
     greatest_at, largest_at: vertices where (the smallest id).
     shares, quantiles: (q,) the field is at most quantiles[i] on shares[i] of the area.
     bins: (b + 1,) ends, ascending, and areas: (b,) of each.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> statistics = bihdist.field_statistics(plane, plane.points[:, 0])
+    >>> # deviation: the root of 1/12
+    >>> round(statistics.deviation, 4), statistics.greatest, statistics.greatest_at
+    (0.2887, 0.5, 8)
     """
 
     count: int
@@ -64,6 +71,13 @@ def field_statistics(
     bins: how many, of equal width from the least to the greatest value, or (b + 1,) their ends, ascending; faces on
     which the field is an end count above it, those on the last end below it.  shares: (q,) from 0 to 1.
     Raises ParameterError for a field of another shape or that is finite on no face, and bad bins or shares.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> x = plane.points[:, 0]
+    >>> statistics = bihdist.field_statistics(plane, x, bins=4, shares=[0.25, 0.5])
+    >>> statistics.areas.round(6).tolist(), statistics.quantiles.round(6).tolist()
+    ([0.25, 0.25, 0.25, 0.25], [-0.25, 0.0])
     """
     surface = Surface.of(surface)
     f, ids, faces = _chosen(surface, field)
@@ -98,6 +112,15 @@ class Agreement:
     spearman: rank correlation, from -1 to 1; by_area: rank correlation with vertices weighted by area; NaN where a
     field is constant.  mean, largest: of |a - b|, linear on each face, by area and exactly, after each field was
     divided by its maximum if shares were asked for; largest_at: the vertex of the largest.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> one = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> other = bihdist.GeodesicDistance(sphere).from_source(0)
+    >>> agreement = bihdist.field_agreement(sphere, one, other, shares=True)
+    >>> # ordered alike, while values differ
+    >>> round(agreement.spearman, 2), round(agreement.mean, 2)
+    (1.0, 0.26)
     """
 
     count: int
@@ -112,6 +135,15 @@ def field_agreement(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, share
     """The agreement of two fields (n,); shares: each divided by its largest size first, for fields of different unit.
 
     Raises ParameterError for fields of other shapes, no common vertices, and shares of a field that is 0.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> x, y = plane.points[:, 0], plane.points[:, 1]
+    >>> for other in (3 * x + 1, y, -x):
+    ...     print(bihdist.field_agreement(plane, x, other).spearman)
+    1.0
+    0.0
+    -1.0
     """
     surface = Surface.of(surface)
     both = field_scatter(surface, a, b, shares)
@@ -139,6 +171,12 @@ def rank_correlation(a: npt.ArrayLike, b: npt.ArrayLike, weights: npt.ArrayLike 
 
     Equal values have the mean of their ranks.  A weight is as so many points in one place.
     Raises ParameterError for arrays of different shape, values that are not finite, or bad weights.
+
+    >>> import bihdist
+    >>> bihdist.rank_correlation([1, 2, 3, 4], [10, 20, 25, 900])
+    1.0
+    >>> bihdist.rank_correlation([1, 2, 3, 4], [1, 2, 4, 3])
+    0.8
     """
     f, g = (real_numbers(each, "Ranked values") for each in (a, b))
     w = np.ones(f.shape) if weights is None else real_numbers(weights, "Weights")

@@ -29,7 +29,14 @@ NEAR = 1e-9
 
 
 class GeodesicPaths:
-    """Paths on one surface of any kind; what they need is made when first needed.  Usable from several threads."""
+    """Paths on one surface of any kind; what they need is made when first needed.  Usable from several threads.
+
+    >>> import bihdist, pyvista
+    >>> cube = bihdist.Surface.of(pyvista.Cube().triangulate().clean())
+    >>> path = bihdist.GeodesicPaths(cube).path([0, 6])
+    >>> path.label, len(path.points), round(path.length, 3)
+    ('shortest geodesic, exact', 3, 1.414)
+    """
 
     def __init__(self, surface: MeshLike) -> None:
         self.surface = Surface.of(surface)
@@ -46,6 +53,12 @@ class GeodesicPaths:
 
         Raises VertexError for a bad vertex; ParameterError for a bad place or method, fewer than two places, the same
         place twice in a row, and places on different components; SolverError for "exact" without the compiled kernel.
+
+        >>> import bihdist, pyvista
+        >>> paths = bihdist.GeodesicPaths(pyvista.Plane(i_resolution=4, j_resolution=4))
+        >>> path = paths.path([0, 24])
+        >>> print(f"{path.length:.3f}, by another corner {paths.path([0, 4, 24]).length:.3f}")
+        1.414, by another corner 2.000
         """
         if method not in METHODS:
             raise ParameterError(f"There is no path method {method!r}; choose one of {', '.join(METHODS)}.")

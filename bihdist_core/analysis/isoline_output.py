@@ -20,6 +20,17 @@ def write_isolines(path: str | os.PathLike[str], lines: Sequence[Isoline]) -> No
            "parameters": [t, ...]}: its points are (1 - t) x_a + t x_b of the vertices a, b of the mesh.
 
     Raises OutputError if the file cannot be written; what was at `path` before then stays.
+
+    >>> import bihdist, pyvista
+    >>> from pathlib import Path
+    >>> plane = pyvista.Plane(i_resolution=1, j_resolution=1)
+    >>> lines = bihdist.isolines(plane, plane.points[:, 0], [0.25])
+    >>> bihdist.write_isolines("lines.csv", lines)
+    >>> print(Path("lines.csv").read_text().strip())
+    line,value,closed,x,y,z
+    0,0.25,0,0.25,-0.5,0.0
+    0,0.25,0,0.25,0.25,0.0
+    0,0.25,0,0.25,0.5,0.0
     """
     curves = [
         Curve(line.points, line.closed, {"value": line.value}, {"edges": line.edges, "parameters": line.parameters})

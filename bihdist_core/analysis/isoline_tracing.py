@@ -22,6 +22,12 @@ class Isoline:
     points: (k, 3), in order along the curve; a closed curve does not repeat its first point at the end.
     edges: (k, 2) vertices a, b of the mesh edge each point lies on; parameters: (k,) t of x = (1 - t) x_a + t x_b.
     With these any other field or projection can be followed along the curve (`along`).
+
+    >>> import bihdist, numpy as np, pyvista
+    >>> plane = pyvista.Plane(i_resolution=16, j_resolution=16)
+    >>> circle, = bihdist.isolines(plane, np.hypot(*plane.points[:, :2].T), [0.4])
+    >>> circle.closed, round(circle.length, 2)  # 2 pi 0.4 = 2.51
+    (True, 2.51)
     """
 
     value: float
@@ -31,7 +37,15 @@ class Isoline:
     closed: bool
 
     def along(self, field: npt.ArrayLike) -> FloatArray:
-        """(k,) or (k, d): values (n,) or (n, d) at the vertices, interpolated at the points of this curve."""
+        """(k,) or (k, d): values (n,) or (n, d) at the vertices, interpolated at the points of this curve.
+
+        >>> import bihdist, numpy as np, pyvista
+        >>> plane = pyvista.Plane(i_resolution=16, j_resolution=16)
+        >>> line, = bihdist.isolines(plane, plane.points[:, 0], [0.1])
+        >>> heights = line.along(plane.points[:, 1])
+        >>> line.closed, heights.min().item(), heights.max().item()
+        (False, -0.5, 0.5)
+        """
         at = np.asarray(field)
         t = self.parameters.reshape(-1, *(1,) * (at.ndim - 1))
         values: FloatArray = (1 - t) * at[self.edges[:, 0]] + t * at[self.edges[:, 1]]
@@ -39,7 +53,14 @@ class Isoline:
 
     @property
     def length(self) -> float:
-        """Length of the curve."""
+        """Length of the curve, unit length.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
+        >>> lines = bihdist.isolines(plane, plane.points[:, 0], [0.1, 0.2])
+        >>> [round(line.length, 6) for line in lines]
+        [1.0, 1.0]
+        """
         points = np.concatenate([self.points, self.points[:1]]) if self.closed else self.points
         return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
 
@@ -53,6 +74,13 @@ def isolines(surface: MeshLike, field: npt.ArrayLike, values: npt.ArrayLike) -> 
     to a point are left out.
 
     Raises ParameterError for a field that is not (n,) numbers, or values that are not finite.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> lines = bihdist.isolines(sphere, field, [0.1, 0.3, 0.5])
+    >>> [(line.value, line.closed, round(line.length, 2)) for line in lines]
+    [(0.1, True, 1.21), (0.3, True, 4.91), (0.5, True, 3.62)]
     """
     surface = Surface.of(surface)
     f = surface.check_field(field)

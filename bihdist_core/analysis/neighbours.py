@@ -43,6 +43,13 @@ def nearest(
     Costs a field for each source and holds those of a block, of so many bytes as `memory` says.  Raises VertexError for
     a source that is not there or, if it is named, belongs to no face; ParameterError for a number that is none, and a
     mask of another shape.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> distance = bihdist.GeodesicDistance(plane)
+    >>> ids, lengths = bihdist.nearest(distance, [0], k=3)
+    >>> ids.tolist(), lengths.round(3).tolist()
+    ([[1, 9, 10]], [[0.125, 0.125, 0.177]])
     """
     surface = distance.surface
     n = len(surface.vertices)

@@ -32,6 +32,17 @@ class Parcels:
     """Distances between the parcels that labels divide the vertices into.
 
     labels: (p,) ascending.  counts: (p,) vertices of each.  distances: (p, p), symmetric, in the distance's unit.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> labels = (plane.points[:, 0] > 0).astype(int)  # the left half, and the right
+    >>> parcels = bihdist.parcel_means(bihdist.GeodesicDistance(plane), labels)
+    >>> parcels.labels.tolist()
+    [0, 1]
+    >>> parcels.counts.tolist()
+    [45, 36]
+    >>> parcels.distances.round(3).tolist()
+    [[0.461, 0.718], [0.718, 0.434]]
     """
 
     labels: AnyArray
@@ -88,6 +99,18 @@ def parcel_means(
     weights: "area" weighs vertices by their areas, in means and mean positions; None counts them alike.
 
     Raises ParameterError for labels or a mask of another shape or kind, another word, and if nothing is left.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> distance = bihdist.GeodesicDistance(plane)
+    >>> labels = (plane.points[:, 0] > 0).astype(int)  # the left half, and the right
+    >>> for way in ("mean", "min", "hausdorff", "centroid"):
+    ...     parcels = bihdist.parcel_means(distance, labels, reduce=way)
+    ...     print(way, parcels.distances[0, 1].round(3))
+    mean 0.718
+    min 0.125
+    hausdorff 0.625
+    centroid 0.5
     """
     if reduce not in REDUCTIONS:
         raise ParameterError(f"Distances of parcels are reduced by {', '.join(REDUCTIONS)}, not by {reduce!r}.")

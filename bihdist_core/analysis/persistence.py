@@ -26,6 +26,13 @@ class Extrema:
 
     The lowest minimum and the highest maximum of each connected piece have the whole range there as persistence.
     raw_minima, raw_maxima: how many vertices are lower or higher than all their neighbours, however little.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> found = bihdist.extrema(sphere, sphere.points[:, 2])
+    >>> # from pole to pole
+    >>> len(found.minima), len(found.maxima), found.maxima_persistence.round(3).tolist()
+    (1, 1, [2.0])
     """
 
     minima: IntArray
@@ -44,6 +51,14 @@ def extrema(surface: MeshLike, field: npt.ArrayLike, share: float = 1e-3) -> Ext
     counts may count a plateau several times.)
 
     Raises ParameterError for a field of another shape, or a share outside 0 to 1.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> found = bihdist.extrema(sphere, field)
+    >>> # the source, and what is opposite to it
+    >>> found.minima.tolist(), found.maxima.tolist()
+    ([0], [2])
     """
     surface = Surface.of(surface)
     f = surface.check_field(field)

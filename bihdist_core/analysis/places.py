@@ -26,7 +26,18 @@ APART = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """k places on a surface: faces (k,), the ids of their corners (k, 3), and weights (k, 3), at least 0, of sum 1."""
+    """k places on a surface: faces (k,), the ids of their corners (k, 3), and weights (k, 3), at least 0, of sum 1.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> places = bihdist.Places.of(plane, [40, "f0:0.25,0.25"])
+    >>> places.corners[1].tolist()
+    [0, 1, 10]
+    >>> places.weights[1].tolist()
+    [0.25, 0.25, 0.5]
+    >>> places.values(plane.points[:, 0]).tolist()
+    [0.0, -0.40625]
+    """
 
     faces: IntArray
     corners: IntArray
@@ -37,6 +48,13 @@ class Places:
         """Vertices and places in faces, or their words, checked.
 
         Raises VertexError for a bad vertex; ParameterError for other sources, and for a face that does not exist.
+
+        >>> import bihdist
+        >>> triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+        >>> middle = bihdist.SurfacePoint(0, (0.5, 0.25, 0.25))
+        >>> places = bihdist.Places.of(triangle, [2, middle])
+        >>> places.weights.tolist()
+        [[0.0, 0.0, 1.0], [0.5, 0.25, 0.25]]
         """
         surface = Surface.of(surface)
         if not len(places):
@@ -49,11 +67,24 @@ class Places:
         return len(self.faces)
 
     def split(self, surface: MeshLike) -> Split:
-        """The surface divided so that each of the places is a vertex."""
+        """The surface divided so that each of the places is a vertex.
+
+        >>> import bihdist
+        >>> triangle = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        >>> split = bihdist.Places.of(triangle, ["f0:0.5,0.25"]).split(triangle)
+        >>> split.surface.n_vertices, split.surface.n_faces
+        (4, 3)
+        """
         return split_at(Surface.of(surface), self.faces, self.weights, APART)
 
     def values(self, field: npt.ArrayLike) -> FloatArray:
-        """(k,) or (k, d): values (n,) or (n, d) at the vertices, interpolated linearly."""
+        """(k,) or (k, d): values (n,) or (n, d) at the vertices, interpolated linearly.
+
+        >>> import bihdist
+        >>> triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+        >>> bihdist.Places.of(triangle, ["f0:0.5,0.25"]).values([10, 20, 30]).tolist()
+        [17.5]
+        """
         return weighted(np.asarray(field), self.corners, self.weights)
 
 

@@ -40,6 +40,12 @@ def plane_section(
     Raises ParameterError for another part, fewer than two places, the same place twice in a row, places on different
     components, more than two for the whole, for a direction that is not three finite numbers or is that from one place
     to the next, and where the section does not join them, or in one way only; VertexError for a bad vertex.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> path = bihdist.plane_section(sphere, [0, 1], sphere.points[0], part="whole")
+    >>> round(path.length, 2)  # once round the unit sphere
+    6.27
     """
     surface = Surface.of(surface)
     d = real_numbers(direction, "The three numbers of a direction")

@@ -31,6 +31,14 @@ def write_profile(
     .json: {"points": [[face, b0, b1], ...], "method", "length", "arcs": [...], "fields": {name: [...]}}.
     Between the points the fields change linearly.  Raises OutputError if the file cannot be written; what was at `path`
     before then stays.
+
+    >>> import bihdist, pyvista
+    >>> from pathlib import Path
+    >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
+    >>> path = bihdist.GeodesicPaths(plane).path([0, 24])
+    >>> bihdist.write_profile("profile.csv", path, {"x": plane.points[:, 0]})
+    >>> print(Path("profile.csv").read_text().split()[0])
+    arc,x,y,z,face,b0,b1,b2,x
     """
     extension = check_output(path, PROFILE_FORMATS)
     values = {

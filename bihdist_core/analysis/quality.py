@@ -46,6 +46,15 @@ class Circle:
     (k,) in the tangent plane of the source, from -pi to pi, and values (k,).  A closed curve comes back to its first.
     Where it is folded as seen from above, as on a finger's tip, the angles are shares of its length instead.
     ratio: the greatest over the least value, 1 where the field is isotropic; infinite if it is 0 somewhere.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> geodesic = bihdist.GeodesicDistance(sphere).from_source(0)
+    >>> circle, = bihdist.geodesic_circles(sphere, field, geodesic, 0, radii=[0.6])
+    >>> # one curve, and nearly one value on it
+    >>> len(circle.values), round(circle.ratio, 2)
+    (1, 1.0)
     """
 
     radius: float
@@ -60,8 +69,16 @@ def geodesic_circles(
     """A field (n,) along geodesic circles around its source; geodesic: (n,) geodesic distances from it.
 
     source: a vertex or a place in a face; around others there are no circles.  radii: (q,) in the mesh's unit, in
-    order; by default `CIRCLES`.  Those that no vertex is as far as are left out.  Raises VertexError or ParameterError
-    for a bad source, ParameterError for bad radii or fields.
+    order; by default 3 to 12 mean edge lengths.  Those that no vertex is as far as are left out.  Raises
+    VertexError or ParameterError for a bad source, ParameterError for bad radii or fields.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> geodesic = bihdist.GeodesicDistance(sphere).from_source(0)
+    >>> circles = bihdist.geodesic_circles(sphere, field, geodesic, 0, radii=[0.6, 1.2, 2.4])
+    >>> [(circle.radius, round(circle.ratio, 2)) for circle in circles]
+    [(0.6, 1.0), (1.2, 1.0), (2.4, 1.0)]
     """
     surface = Surface.of(surface)
     f, usual = surface.check_field(field), surface.mean_edge_length * np.array(CIRCLES)
@@ -177,6 +194,13 @@ class OtherExtrema:
     """The extrema of a field away from its source, the most persistent first.
 
     minima, maxima: (k,) vertices.  minima_depth, maxima_height: (k,) their persistence over the field's range; no unit.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> found = bihdist.other_extrema(sphere, field, 0)
+    >>> found.minima.tolist(), found.maxima.tolist(), found.maxima_height.tolist()
+    ([], [2], [1.0])
     """
 
     minima: IntArray
@@ -186,7 +210,14 @@ class OtherExtrema:
 
     @property
     def vertices(self) -> IntArray:
-        """(k,) vertices of all minima, then of all maxima."""
+        """(k,) vertices of all minima, then of all maxima.
+
+        >>> import bihdist, pyvista
+        >>> sphere = pyvista.Icosphere(nsub=3)
+        >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
+        >>> bihdist.other_extrema(sphere, field, 0).vertices.tolist()
+        [2]
+        """
         return np.concatenate([self.minima, self.maxima])
 
 
@@ -195,6 +226,14 @@ def other_extrema(surface: MeshLike, field: npt.ArrayLike, source: Source | None
 
     source: None for a field that starts nowhere, all extrema of which count.  Raises VertexError or ParameterError for
     a bad source, ParameterError for a field of another shape or with nothing but one value.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> # a height, with a bump at the side
+    >>> field = sphere.points[:, 2] + 0.3 * (sphere.points[:, 0] > 0.9)
+    >>> found = bihdist.other_extrema(sphere, field, None)
+    >>> len(found.minima), len(found.maxima)
+    (1, 2)
     """
     surface = Surface.of(surface)
     f = surface.check_field(field)
@@ -216,7 +255,13 @@ def other_extrema(surface: MeshLike, field: npt.ArrayLike, source: Source | None
 def apparent_source(field: npt.ArrayLike) -> int | None:
     """The vertex that a field (n,) seems to be the distance from; None where there is none.
 
-    It is the only one with less than `ZERO` of the maximum, while all others, where the field is finite, are positive.
+    It is the only one with less than 1e-6 of the maximum, while all others, where the field is finite, are positive.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> field = bihdist.BiharmonicDistance(sphere).from_source(12)
+    >>> bihdist.apparent_source(field), bihdist.apparent_source(field + 1)
+    (12, None)
     """
     f = real_numbers(field, "Values of a field")
     ids = np.flatnonzero(np.isfinite(f))
@@ -233,14 +278,28 @@ class FieldQuality:
 
     minima, maxima: (k,) vertices at extrema, the source left out, the most persistent first; minima_depth,
     maxima_height: (k,) their persistence over the field's range, which is a distance's maximum.
-    circles: of growing radius around the source.  isotropy: the greatest over the least value on the circle of the
-    small radius (`small_radius`), or the largest circle if that is smaller; NaN where there is none, as around a source
-    of several places, and for what is no distance.
+    circles: of growing radius around the source.  isotropy: the greatest over the least value on the circle whose
+    radius is 4 % of the root of the area, but at least four mean edges, or the largest circle if that is smaller; NaN
+    where there is none, as around a source of several places, and for what is no distance.
     kink: the largest jump of the gradient across an edge away from the source, over the gradient's mean length on both
     sides of it, or over its median length on the surface if that is more; no unit.  About 2 on a ridge where it turns
     round; that of a smooth field shrinks with the edges.  kink_edge: (2,) the ends of the edge, -1 where there is none
     away from the source.  kink_length: of all edges away from the source whose kink is at least 1, over the root of the
     surface's area: long where there is a ridge, next to nothing where a few edges are too long for the field.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> geodesic = bihdist.GeodesicDistance(sphere).from_source(0)
+    >>> quality = bihdist.field_quality(sphere, field, geodesic, 0)
+    >>> len(quality.minima)
+    0
+    >>> len(quality.maxima)
+    1
+    >>> round(quality.isotropy, 2)
+    1.0
+    >>> round(quality.kink, 1)
+    0.2
     """
 
     source: Source | None
@@ -262,6 +321,14 @@ def field_quality(
 
     share: of the field's range, which extrema persist at least.  Raises VertexError or ParameterError for a bad source,
     ParameterError for fields of another shape or with nothing but one value.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> diffusion = bihdist.DiffusionDistance(sphere).from_source(0)
+    >>> geodesic = bihdist.GeodesicDistance(sphere).from_source(0)
+    >>> # 1 is round
+    >>> round(bihdist.field_quality(sphere, diffusion, geodesic, 0).isotropy, 2)
+    1.0
     """
     surface = Surface.of(surface)
     f, near = surface.check_field(field), surface.check_field(geodesic)
@@ -285,6 +352,15 @@ def difference_quality(
     for a field that starts nowhere: then no extremum is left out, and no edge but those along the boundary.  share: of
     the field's range, which extrema persist at least.  Raises VertexError or ParameterError for a bad source,
     ParameterError for fields of another shape or with nothing but one value.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> biharmonic = bihdist.BiharmonicDistance(sphere).from_source(0)
+    >>> geodesic = bihdist.GeodesicDistance(sphere).from_source(0)
+    >>> field = bihdist.difference(biharmonic, geodesic)
+    >>> quality = bihdist.difference_quality(sphere, field, geodesic, 0)
+    >>> quality.circles, round(quality.kink, 1)
+    ((), 1.2)
     """
     surface = Surface.of(surface)
     f = surface.check_field(field)
@@ -323,6 +399,12 @@ def triangle_sample(
 
     The distance is asked for all pairs of `points` vertices, or all there are.  Raises ParameterError for a component
     that does not exist or has fewer than three vertices, and for fewer points than three.
+
+    >>> import bihdist, pyvista
+    >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
+    >>> sample = bihdist.triangle_sample(distance, points=20, count=1000)
+    >>> sample.triples, sample.violations, sample.tightest > 0
+    (1000, 0, True)
     """
     *_, (_, last) = triangle_samples(distance, points, component, count, seed, progress)
     return last
@@ -336,11 +418,19 @@ def triangle_samples(
     seed: int = 0,
     progress: Progress | None = None,
 ) -> Iterator[tuple[int, TriangleSample]]:
-    """For ever more vertices, `TRIANGLE_STEP` at a time up to `points`: how many, and their `triangle_sample`.
+    """For ever more vertices, 8 at a time up to `points`: how many, and what `triangle_sample` finds among them.
 
     For distances that take a second for each point: early results can be shown.  When the first is asked for, raises
     ParameterError for a component that does not exist or has fewer than three vertices, and for fewer points than
     three.
+
+    >>> import bihdist, pyvista
+    >>> distance = bihdist.GeodesicDistance(pyvista.Icosphere(nsub=3))
+    >>> for points, sample in bihdist.triangle_samples(distance, points=20, count=1000):
+    ...     print(points, sample.violations)
+    8 0
+    16 0
+    20 0
     """
     ids = (
         np.flatnonzero(distance.surface.component_of_vertex == component)

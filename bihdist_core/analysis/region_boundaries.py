@@ -22,6 +22,14 @@ class Boundary:
 
     between: the numbers of the regions, the smaller first.  Open curves end where three regions meet, or at the
     boundary of the surface.  corners, weights: (k, 3) each point as a place among the vertices of a face that holds it.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 8])
+    >>> regions = bihdist.voronoi_regions(plane, fields)
+    >>> boundary, = bihdist.region_boundaries(plane, regions)
+    >>> boundary.between, boundary.closed, round(boundary.length, 6)
+    ((0, 1), False, 1.0)
     """
 
     between: tuple[int, int]
@@ -32,13 +40,33 @@ class Boundary:
 
     @property
     def length(self) -> float:
-        """Length of the curve, unit length."""
+        """Length of the curve, unit length.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 8])
+        >>> regions = bihdist.voronoi_regions(plane, fields)
+        >>> boundary, = bihdist.region_boundaries(plane, regions)
+        >>> round(boundary.length, 6)  # between two corners of the unit square
+        1.0
+        """
         points = np.concatenate([self.points, self.points[:1]]) if self.closed else self.points
         return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
 
 
 def region_boundaries(surface: MeshLike, regions: Regions) -> list[Boundary]:
-    """The boundary segments of regions put end to end, in the order of the regions between."""
+    """The boundaries of regions as curves: their segments put end to end, in the order of the regions between.
+
+    regions: those of `voronoi_regions` on this surface.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> fields = bihdist.BiharmonicDistance(sphere).from_sources([0, 1, 2])
+    >>> regions = bihdist.voronoi_regions(sphere, fields)
+    >>> boundaries = bihdist.region_boundaries(sphere, regions)
+    >>> [(boundary.between, boundary.closed) for boundary in boundaries]
+    [((0, 1), False), ((0, 2), False), ((1, 2), False)]
+    """
     surface = Surface.of(surface)
     if not len(regions.faces):
         return []
@@ -58,10 +86,20 @@ def region_boundaries(surface: MeshLike, regions: Regions) -> list[Boundary]:
 
 
 def write_boundaries(path: str | os.PathLike[str], curves: Sequence[Boundary], labels: Sequence[int] = ()) -> None:
-    """Write boundaries as .csv, .obj, .vtp or .json (see `write_curves`), with the numbers `region` and `other`.
+    """Write boundaries as .csv, .obj, .vtp or .json, each curve with numbers `region` and `other` of what it divides.
 
     labels: (k,) what to write for region i, such as the id of its pin; i by default.  Raises OutputError if the file
     cannot be written.
+
+    >>> import bihdist, pyvista
+    >>> from pathlib import Path
+    >>> sphere = pyvista.Icosphere(nsub=2)
+    >>> fields = bihdist.BiharmonicDistance(sphere).from_sources([0, 1])
+    >>> regions = bihdist.voronoi_regions(sphere, fields)
+    >>> boundaries = bihdist.region_boundaries(sphere, regions)
+    >>> bihdist.write_boundaries("boundaries.csv", boundaries)
+    >>> print(Path("boundaries.csv").read_text().split()[0])
+    line,region,other,closed,x,y,z
     """
     written = []
     for curve in curves:

@@ -24,6 +24,17 @@ class RegionMesh:
     surface: the cut surface.  regions: (v,) the region of each of its vertices.  parents: (m,) face of the whole
     surface that each face is part of.  corners, weights: (v, 3) each vertex as a place in a face of the whole surface:
     the ids of three of its vertices, and weights of sum 1.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 80])
+    >>> cut = bihdist.region_mesh(plane, fields)
+    >>> cut.surface.n_components
+    2
+    >>> sorted(set(cut.regions.tolist()))
+    [0, 1]
+    >>> round(cut.surface.area, 6)
+    1.0
     """
 
     surface: Surface
@@ -36,6 +47,13 @@ class RegionMesh:
         """(v,) or (v, d): values at the vertices of the cut surface, linear on the faces of the whole one.
 
         field: (n,) or (n, d) values at the vertices of the whole surface.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 80])
+        >>> cut = bihdist.region_mesh(plane, fields)
+        >>> cut.along(fields).shape
+        (106, 2)
         """
         return weighted(np.asarray(field), self.corners, self.weights)
 
@@ -44,6 +62,13 @@ def region_mesh(surface: MeshLike, columns: npt.ArrayLike) -> RegionMesh:
     """The regions of fields (n, k) as a mesh (see `voronoi_regions`); faces without a value are left out.
 
     Raises ParameterError for fields of another shape, or none; MeshError where no face has a value.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> fields = bihdist.BiharmonicDistance(sphere).from_sources([0, 1, 2])
+    >>> cut = bihdist.region_mesh(sphere, fields)
+    >>> cut.surface.n_components, cut.regions.max().item()
+    (3, 2)
     """
     surface = Surface.of(surface)
     f, labels = least_of(surface, columns)

@@ -21,10 +21,18 @@ REGION_MESH_FORMATS = (".ply", ".vtp")
 def write_labels(
     path: str | os.PathLike[str], surface: MeshLike, regions: Regions, labels: Sequence[int] | None = None
 ) -> None:
-    """Write the region of each vertex as the field `region` (see `write_fields`); NaN where there is none.
+    """Write the region of each vertex as the field `region`, NaN where there is none: .npy, .csv, .ply, .vtp or GIFTI.
 
     labels: (k,) what to write for region i, such as the id of its pin; i by default.  Raises OutputError if the file
     cannot be written.
+
+    >>> import bihdist, numpy as np, pyvista
+    >>> plane = pyvista.Plane(i_resolution=2, j_resolution=2)
+    >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 8])
+    >>> regions = bihdist.voronoi_regions(plane, fields)
+    >>> bihdist.write_labels("regions.npy", plane, regions, labels=[5, 7])
+    >>> np.load("regions.npy").tolist()
+    [5.0, 5.0, 5.0, 5.0, 5.0, 7.0, 5.0, 7.0, 7.0]
     """
     write_fields(path, surface, {"region": _labelled(regions.labels, labels)})
 
@@ -34,6 +42,14 @@ def write_region_mesh(path: str | os.PathLike[str], mesh: RegionMesh, labels: Se
 
     labels: (k,) what to write for region i, such as the id of its pin; i by default.  Raises OutputError if the file
     cannot be written.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
+    >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 24])
+    >>> cut = bihdist.region_mesh(plane, fields)
+    >>> bihdist.write_region_mesh("regions.ply", cut)
+    >>> bihdist.read_surface("regions.ply").n_components
+    2
     """
     check_output(path, REGION_MESH_FORMATS)
     write_fields(path, mesh.surface, {"region": _labelled(mesh.regions, labels)})

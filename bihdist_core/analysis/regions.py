@@ -36,6 +36,13 @@ class Regions:
     is listed once, in one of the edge's faces.  cut_by (s, 2): the third region that an end meets inside the face, -1
     where the segment ends at the face's rim.
     meetings: (q, 3) where three regions meet inside a face; of_meetings: (q, 3) these regions, ascending.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 8])
+    >>> regions = bihdist.voronoi_regions(plane, fields)
+    >>> regions.areas.round(6).tolist(), regions.lengths.sum().round(6).item()
+    ([0.5, 0.5], 1.0)
     """
 
     labels: IntArray
@@ -50,7 +57,15 @@ class Regions:
 
     @property
     def lengths(self) -> FloatArray:
-        """(s,) lengths of the boundary segments."""
+        """(s,) lengths of the boundary segments.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 8])
+        >>> regions = bihdist.voronoi_regions(plane, fields)
+        >>> print(f"{regions.lengths.sum():.3f} in {len(regions.lengths)} segments")
+        1.000 in 15 segments
+        """
         lengths: FloatArray = np.linalg.norm(self.segments[:, 1] - self.segments[:, 0], axis=1)
         return lengths
 
@@ -61,6 +76,13 @@ def voronoi_regions(surface: MeshLike, columns: npt.ArrayLike) -> Regions:
     What is not finite (NaN on another component, at a vertex of no face) is no value: there the other fields compete,
     and a face with a corner at which a field has none is not in that field's region.  Raises ParameterError for another
     shape, or no fields.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> fields = bihdist.BiharmonicDistance(sphere).from_sources([0, 1, 2])
+    >>> regions = bihdist.voronoi_regions(sphere, fields)
+    >>> regions.areas.round(2).tolist(), regions.labels[[0, 1, 2]].tolist()
+    ([5.15, 3.13, 4.23], [0, 1, 2])
     """
     surface = Surface.of(surface)
     f, labels = least_of(surface, columns)

@@ -37,6 +37,13 @@ def farthest_points(
     others are chosen from, all if None.  Costs a field for each point but the last.  Stays on the component of the
     start.  Raises VertexError for a bad start; ParameterError for starts on different components, the same twice, or
     more of them than `count`; and if the component has fewer different points than `count`.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> distance = bihdist.GeodesicDistance(plane)
+    >>> # from the middle of a square to its corners
+    >>> bihdist.farthest_points(distance, start=40, count=5).tolist()
+    [40, 0, 80, 8, 72]
     """
     if whole_number(count, "count") < 1:
         raise ParameterError(f"count is {count}; at least one point is needed.")
@@ -83,6 +90,13 @@ def write_samples(path: str | os.PathLike[str], surface: MeshLike, vertices: npt
     """Write vertices (k,) of a surface, in order: .txt, an id on each line; .npy; or as pins (`write_pins`).
 
     Raises OutputError if the file cannot be written; what was there then stays.
+
+    >>> import bihdist, pyvista
+    >>> from pathlib import Path
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> bihdist.write_samples("samples.txt", plane, [40, 0, 80])
+    >>> Path("samples.txt").read_text().split()
+    ['40', '0', '80']
     """
     surface = Surface.of(surface)
     ids = surface.check_vertices(vertices)

@@ -26,7 +26,15 @@ SELECTION_WAYS = {"ids": (".txt", ".npy", ".csv"), "field": (".csv", ".npy", ".p
 
 
 class Brush:
-    """Finds what is near a place and hangs together with it; made once for a surface."""
+    """Finds what is near a place and hangs together with it; made once for a surface.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> brush = bihdist.Brush(plane)
+    >>> # the corner and its neighbours
+    >>> brush.near(face=0, position=(-0.5, -0.5, 0), radius=0.13).tolist()
+    [0, 1, 9]
+    """
 
     def __init__(self, surface: MeshLike) -> None:
         self._surface = Surface.of(surface)
@@ -43,6 +51,11 @@ class Brush:
         between such vertices join them to the face, so none of another sheet behind it.
 
         Where the face has no corner within the radius, the corner nearest to the position.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> bihdist.Brush(plane).near(face=0, position=(-0.5, -0.5, 0), radius=0.2).tolist()
+        [0, 1, 9, 10]
         """
         place = np.asarray(position, np.float64)
         if not (radius > 0 and place.shape == (3,) and np.isfinite(place).all()):
@@ -63,6 +76,12 @@ def cut_out(surface: MeshLike, vertices: npt.ArrayLike) -> tuple[Surface, IntArr
     """The faces all of whose corners are among vertices (k,), as a mesh, and (v,) which vertex each of its own is.
 
     Raises ParameterError if there is no such face.
+
+    >>> import bihdist, numpy as np, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> half, ids = bihdist.cut_out(plane, np.flatnonzero(plane.points[:, 0] <= 0))
+    >>> half.n_faces, half.area, ids[:6].tolist()
+    (64, 0.5, [0, 1, 2, 3, 4, 9])
     """
     surface = Surface.of(surface)
     chosen = np.zeros(len(surface.vertices), bool)
@@ -113,12 +132,19 @@ def read_ids(path: str | os.PathLike[str]) -> IntArray:
 def write_selection(
     path: str | os.PathLike[str], surface: MeshLike, vertices: npt.ArrayLike, way: str = "ids", name: str = "selection"
 ) -> None:
-    """Write vertices (k,) of a surface; way: "ids" (`write_ids`), "field", 1 at them and 0 elsewhere under a name
-    (`write_fields`), or "mesh", the faces all of whose corners they are, with the field `vertex` of their ids (.ply or
-    .vtp).
+    """Write vertices (k,) of a surface; way: "ids" (.txt, .csv, .npy), "field", 1 at them and 0 elsewhere under a
+    name (.npy, .csv, .ply, .vtp, GIFTI), or "mesh", the faces all of whose corners they are, with the field `vertex` of
+    their ids (.ply or .vtp).
 
     Raises OutputError if the file cannot be written, ParameterError for another way or where no face is cut out,
     VertexError for vertices that are not there.
+
+    >>> import bihdist, pyvista
+    >>> from pathlib import Path
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> bihdist.write_selection("selection.txt", plane, [3, 40])
+    >>> Path("selection.txt").read_text().split()
+    ['3', '40']
     """
     surface = Surface.of(surface)
     if way not in SELECTION_WAYS:

@@ -27,6 +27,12 @@ class SurfacePath:
     points: (k, 3).  faces: (k - 1,) the faces of the pieces; corners: (k - 1, 3) their vertices; begins, ends:
     (k - 1, 3) the weights of both ends of each piece at them, at least 0 and 1 in sum.  knots: (j,) which of the points
     are the places the path was led through.  method, label: how it was made, as a word and in words.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
+    >>> path = bihdist.GeodesicPaths(plane).path([0, 9])
+    >>> round(path.length, 3), path.arcs.round(3).tolist()
+    (1.031, [0.0, 0.258, 0.344, 0.515, 0.687, 0.773, 1.031])
     """
 
     points: FloatArray
@@ -40,17 +46,39 @@ class SurfacePath:
 
     @cached_property
     def arcs(self) -> FloatArray:
-        """(k,) length along the path up to each point."""
+        """(k,) length along the path up to each point.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=2, j_resolution=2)
+        >>> path = bihdist.GeodesicPaths(plane).path([0, 5])
+        >>> path.arcs.round(3).tolist()  # up to each edge that is crossed
+        [0.0, 0.559, 1.118]
+        """
         return np.append(0, np.cumsum(np.linalg.norm(np.diff(self.points, axis=0), axis=1)))
 
     @property
     def length(self) -> float:
-        """Length of the path, unit length."""
+        """Length of the path, unit length.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
+        >>> path = bihdist.GeodesicPaths(plane).path([0, 24])
+        >>> round(path.length, 3)  # the diagonal of the unit square
+        1.414
+        """
         return float(self.arcs[-1])
 
     @property
     def places(self) -> Places:
-        """The k points as places."""
+        """The k points as places.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=2, j_resolution=2)
+        >>> path = bihdist.GeodesicPaths(plane).path([0, 5])
+        >>> places = path.places
+        >>> places.faces.tolist(), (places.weights[0]).round(3).tolist()
+        ([0, 3, 3], [1.0, 0.0, 0.0])
+        """
         faces, corners = (np.append(a, a[-1:], axis=0) for a in (self.faces, self.corners))
         return Places(faces, corners, np.append(self.begins, self.ends[-1:], axis=0))
 
@@ -58,11 +86,25 @@ class SurfacePath:
         """(k,) or (k, d): values (n,) or (n, d) at the vertices, linear on each face, at the points of the path.
 
         Between two points they change linearly with arc length, so this is the whole profile.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=2, j_resolution=2)
+        >>> path = bihdist.GeodesicPaths(plane).path([0, 5])
+        >>> path.along(plane.points[:, 0]).round(3).tolist()
+        [-0.5, 0.0, 0.5]
         """
         return self.places.values(field)
 
     def at(self, arcs: npt.ArrayLike) -> Places:
-        """The places (q,) at lengths (q,) along the path; those before its start or past its end are its ends."""
+        """The places (q,) at lengths (q,) along the path; those before its start or past its end are its ends.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=2, j_resolution=2)
+        >>> path = bihdist.GeodesicPaths(plane).path([0, 8])
+        >>> middle = path.at([path.length / 2])
+        >>> middle.values(plane.points).round(6).tolist()
+        [[0.0, 0.0, 0.0]]
+        """
         s = np.clip(np.array(arcs, np.float64, ndmin=1), 0, self.length)
         piece = np.clip(np.searchsorted(self.arcs, s, side="right") - 1, 0, len(self.faces) - 1)
         span = self.arcs[piece + 1] - self.arcs[piece]

@@ -30,6 +30,11 @@ class TruncationLoss:
 
     counts (q,): how many eigenpairs.  means, largest (q,): |d_k - d| over max d, by area and at worst.  at (q,): the
     vertex of the largest.
+
+    >>> import bihdist, pyvista
+    >>> loss = bihdist.truncation_loss(pyvista.Icosphere(nsub=3), 0, counts=[8, 80])
+    >>> loss.counts.tolist(), loss.largest.round(3).tolist()
+    ([8, 80], [0.099, 0.034])
     """
 
     source: Source
@@ -49,10 +54,16 @@ def truncation_loss(
     """The loss of the truncated biharmonic distance (paper, Eq. 11) from a source, with 1 to `most` eigenpairs.
 
     source: a vertex or any other, or its words.  counts: (q,) those wanted, ascending, instead of all; of a boundary
-    loop, a curve, or a set on several components not all are computed, but some (`LINE_COUNTS`).  The Laplacian keeps
+    loop, a curve, or a set on several components 14 numbers up to 200 are computed, not all.  The Laplacian keeps
     the eigenpairs, so that another source costs a field and a pass over them.  No more are used than the source's
     component has.
     Raises ParameterError for bad numbers, VertexError or ParameterError for a bad source.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> loss = bihdist.truncation_loss(sphere, 0, counts=[10, 20, 40, 80])
+    >>> loss.means.round(4).tolist()
+    [0.0498, 0.025, 0.0148, 0.0087]
     """
     laplacian = as_laplacian(laplacian)
     at = checked_source(source)

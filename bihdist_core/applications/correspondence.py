@@ -35,6 +35,15 @@ class Correspondence:
     correspondence of these distances.
 
     Raises VertexError for bad vertices, ParameterError for pairs or weights of another form.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> one = bihdist.BiharmonicDistance(plane)
+    >>> twice = bihdist.BiharmonicDistance(plane.scale(2))
+    >>> # three corners of two squares
+    >>> found = bihdist.Correspondence(one, twice, [(0, 0), (8, 8), (72, 72)])
+    >>> found.best(40)[0], (found.map() == range(81)).all().item()
+    (40, True)
     """
 
     def __init__(
@@ -71,6 +80,15 @@ class Correspondence:
 
         A new pair costs a field on each surface, pairs that are known cost none.  Raises VertexError for bad vertices,
         ParameterError for pairs or weights of another form.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
+        >>> found = bihdist.Correspondence(distance, distance, [(0, 0), (8, 8)])
+        >>> # a third pair costs one field on each surface
+        >>> better = found.changed([(0, 0), (8, 8), (72, 72)])
+        >>> better.best(30)[0]
+        30
         """
         return Correspondence(self.distance_m, self.distance_n, pairs, weights, progress, self._columns)
 
@@ -90,6 +108,14 @@ class Correspondence:
         """c(x, y) for every vertex y of N: (n,) for one vertex x of M, (n, m) for (m,).
 
         NaN where y or x is on another component than one of the known points.  Raises VertexError for a bad vertex.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
+        >>> found = bihdist.Correspondence(distance, distance, [(0, 0), (8, 8), (72, 72)])
+        >>> misfit = found.misfit(40)
+        >>> misfit.shape, int(misfit.argmin()), bool(misfit[40] < 1e-9)
+        ((81,), 40, True)
         """
         ids = self.distance_m.surface.check_vertices(x)
         squares = np.zeros((len(self._of_n), len(ids)))
@@ -99,7 +125,16 @@ class Correspondence:
         return misfit[:, 0] if np.ndim(x) == 0 else misfit
 
     def best(self, x: int) -> tuple[int, float]:
-        """The vertex of N that fits x best, and its misfit; (-1, NaN) where none can be compared."""
+        """The vertex of N that fits x best, and its misfit; (-1, NaN) where none can be compared.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
+        >>> found = bihdist.Correspondence(distance, distance, [(0, 0), (8, 8), (72, 72)])
+        >>> vertex, misfit = found.best(30)
+        >>> vertex, round(misfit, 9)
+        (30, 0.0)
+        """
         misfit = self.misfit(self.distance_m.surface.check_vertex(x))
         if np.isnan(misfit).all():
             return NOWHERE, float("nan")
@@ -111,6 +146,13 @@ class Correspondence:
 
         Found as nearest neighbours among the vectors; beside these (n, k) the memory is that of a block of vertices.
         Raises VertexError for a bad vertex.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
+        >>> found = bihdist.Correspondence(distance, distance, [(0, 0), (8, 8), (72, 72)])
+        >>> found.map([30, 40, 50]).tolist()
+        [30, 40, 50]
         """
         from scipy.spatial import cKDTree
 
@@ -140,6 +182,14 @@ def correspondence_prediction(
     """How badly each vertex of N fits a vertex x of M: (n,) for one x, (n, m) for several (m,); see `Correspondence`.
 
     Raises VertexError for bad vertices, ParameterError for pairs or weights of another form.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> distance = bihdist.BiharmonicDistance(plane)
+    >>> pairs = [(0, 0), (8, 8), (72, 72)]
+    >>> misfit = bihdist.correspondence_prediction(distance, distance, pairs, 40)
+    >>> int(misfit.argmin())
+    40
     """
     return Correspondence(distance_m, distance_n, pairs, weights).misfit(x)
 

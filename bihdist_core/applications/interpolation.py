@@ -14,7 +14,9 @@ from .weights import Weights
 
 
 class ShepardInterpolant:
-    """f(p) = sum_i w_i f_i / sum_i w_i,  w_i = r(d(p, p_i)) ** -exponent,  with any distance d (paper, section 5.2).
+    """Values between anchors by Shepard's interpolation, with any distance.
+
+    f(p) = sum_i w_i f_i / sum_i w_i,  w_i = r(d(p, p_i)) ** -exponent (paper, section 5.2).
 
     anchors: (k,) vertices p_i, all different.  values: (k,) real numbers f_i.  Each connected component of the
     surface uses its own anchors only, since between components there is no distance.  The paper has exponent 1 and
@@ -24,6 +26,14 @@ class ShepardInterpolant:
 
     Raises VertexError for an anchor that does not exist, belongs to no face or is named twice; ParameterError for no
     anchors, for values that are not k finite numbers, and for an exponent or a smoothness out of range.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> distance = bihdist.GeodesicDistance(plane)
+    >>> # two opposite corners of a square
+    >>> f = bihdist.ShepardInterpolant(distance, [0, 80], [0.0, 1.0]).evaluate()
+    >>> f[[0, 40, 80]].round(6).tolist()
+    [0.0, 0.5, 1.0]
     """
 
     def __init__(
@@ -60,6 +70,14 @@ class ShepardInterpolant:
         Distances that are known are kept: other values cost one product of matrices, a new anchor one field.  Raises
         VertexError for a bad anchor or one named twice; ParameterError for no anchors, for values that are not k finite
         numbers, and for an exponent or a smoothness out of range.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
+        >>> f = bihdist.ShepardInterpolant(distance, [0, 80], [0.0, 1.0])
+        >>> # no distance is computed again
+        >>> f.changed(values=[0.0, 3.0]).evaluate()[40].round(6).item()
+        1.5
         """
         other = ShepardInterpolant(
             self.distance,
@@ -78,7 +96,16 @@ class ShepardInterpolant:
 
     @property
     def missing(self) -> list[int]:
-        """The anchors whose distances have still to be solved for."""
+        """The anchors whose distances have still to be solved for.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
+        >>> f = bihdist.ShepardInterpolant(distance, [0, 80], [0.0, 1.0])
+        >>> before, _ = f.missing, f.evaluate()
+        >>> before, f.missing, f.changed(anchors=[0, 8], values=[0, 1]).missing
+        ([0, 80], [], [8])
+        """
         return [vertex for vertex in self.anchors.tolist() if vertex not in self._columns]
 
     def evaluate(self, progress: Progress | None = None) -> FloatArray:
@@ -86,6 +113,13 @@ class ShepardInterpolant:
 
         Never below the least f_i or above the greatest.  A vertex at distance 0 from anchors without being one (some
         distances cannot tell all vertices apart) gets the mean of their values.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
+        >>> f = bihdist.ShepardInterpolant(distance, [0, 8, 80], [2.0, 2.0, 5.0]).evaluate()
+        >>> f.min().item(), f.max().item()
+        (2.0, 5.0)
         """
         with np.errstate(invalid="ignore"):
             result = self._shares(progress) @ self.values
@@ -98,6 +132,14 @@ class ShepardInterpolant:
         """(n,) log10 of sum_i w_i over its least value on the surface: how far the anchors' influence reaches.
 
         Infinite at the anchors, NaN on components without one.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> distance = bihdist.BiharmonicDistance(plane)
+        >>> f = bihdist.ShepardInterpolant(distance, [0, 80], [0.0, 1.0])
+        >>> weights = f.sum_of_weights()
+        >>> weights[0].item(), weights.min().item()
+        (inf, 0.0)
         """
         self._shares(progress)
         assert self._total is not None

@@ -27,6 +27,13 @@ def noisy(surface: MeshLike, share: float, seed: int = 0, along: str = "xyz") ->
 
     along: "xyz", on each coordinate; "normals", along the normal of the vertex.  Raises ParameterError for another
     word, and for a share that is not a finite number of at least 0.
+
+    >>> import bihdist, pyvista
+    >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=3))
+    >>> moved = abs(bihdist.noisy(sphere, 0.1).vertices - sphere.vertices)
+    >>> # of a normal distribution 0.08
+    >>> print(f"{moved.mean() / sphere.mean_edge_length:.2f}")
+    0.08
     """
     surface = Surface.of(surface)
     if along not in WAYS:
@@ -57,6 +64,13 @@ def with_holes(surface: MeshLike, count: int, radius: float = 0.05, seed: int = 
 
     Vertex ids stay; what falls apart from the largest piece of a component goes as well.  Raises ParameterError for
     fewer holes than one, a radius that is not a share from 0 to 1, and where nothing or all would be left.
+
+    >>> import bihdist, pyvista
+    >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=3))
+    >>> sphere.boundary_loop_count
+    0
+    >>> bihdist.with_holes(sphere, 3, seed=1).boundary_loop_count
+    3
     """
     surface = Surface.of(surface)
     if whole_number(count, "The number of holes") < 1:
@@ -158,6 +172,11 @@ def welded(surface: MeshLike, face_a: int, face_b: int) -> Surface:
 
     A closed surface gets one handle more.  Vertex ids stay; the corners of `face_b` then belong to no face.  Raises
     ParameterError if the two faces or their neighbours touch.
+
+    >>> import bihdist, pyvista
+    >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=2))
+    >>> sphere.genus, bihdist.welded(sphere, 0, 200).genus
+    (0, 1)
     """
     surface = Surface.of(surface)
     a, b = _opposite_corners(surface, face_a, face_b)
@@ -173,6 +192,12 @@ def with_handle(surface: MeshLike, face_a: int, face_b: int) -> Surface:
     """A thin, straight, three-sided tube from the middle of one face to the middle of another.
 
     Vertex ids stay; the tube's come after them.  Raises ParameterError if the two faces or their neighbours touch.
+
+    >>> import bihdist, pyvista
+    >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=3))
+    >>> tube = bihdist.with_handle(sphere, 0, 640)
+    >>> sphere.genus, tube.genus, tube.n_vertices - sphere.n_vertices
+    (0, 1, 99)
     """
     surface = Surface.of(surface)
     a, b = _opposite_corners(surface, face_a, face_b)

@@ -63,6 +63,11 @@ def simplified(surface: MeshLike, count: int, progress: Progress | None = None) 
 
     Topology, components and boundary loops stay; vertices of edges with more than two faces stay; those of no face are
     left out.  Raises ParameterError if that leaves more than `count`, or if there are not so many to begin with.
+
+    >>> import bihdist, pyvista
+    >>> fewer, ids = bihdist.simplified(pyvista.Icosphere(nsub=3), 100)
+    >>> fewer.n_vertices, fewer.genus, ids.shape
+    (100, 0, (100,))
     """
     surface = Surface.of(surface)
     small, ids = _collapsed(surface, whole_number(count, "The number of vertices"), progress)

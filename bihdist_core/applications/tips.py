@@ -22,6 +22,11 @@ def tips(laplacian: Laplacian | MeshLike, share: float = PROMINENT) -> IntArray:
 
     They are the maxima, persistent over a share of the range, of the mean squared biharmonic distance to all points.  A
     function with few other extrema has one at each tip that has none of these: along a limb it must go up or down.
+
+    >>> import bihdist, pyvista
+    >>> long = pyvista.Icosphere(nsub=3).scale((3, 1, 1))
+    >>> long.points[bihdist.tips(long)].round(2).tolist()
+    [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0]]
     """
     found = []
     for component in as_laplacian(laplacian).components:
@@ -32,9 +37,15 @@ def tips(laplacian: Laplacian | MeshLike, share: float = PROMINENT) -> IntArray:
 
 
 def at_tips(surface: MeshLike, vertices: npt.ArrayLike, ends: npt.ArrayLike) -> BoolArray:
-    """(k,) whether vertices (k,) are at one of the tips `ends` (t,): within NEAR roots of the surface's area.
+    """(k,) whether vertices (k,) are at one of the tips `ends` (t,): within a tenth of the root of the surface's area.
 
     Raises VertexError for a bad vertex.
+
+    >>> import bihdist, pyvista
+    >>> long = pyvista.Icosphere(nsub=3).scale((3, 1, 1))
+    >>> ends = bihdist.tips(long)
+    >>> bihdist.at_tips(long, [ends[0], 0], ends).tolist()
+    [True, False]
     """
     surface = Surface.of(surface)
     x = surface.vertices

@@ -27,27 +27,51 @@ SWEEP = 0.8
 
 
 class BiharmonicDistance(FactoredDistance):
-    """d(i, j)^2 = C_ii + C_jj - 2 C_ij, C the Green's function of the biharmonic operator (paper, Eq. 4); unit length.
+    """The exact biharmonic distance, with all eigenpairs; unit length.
 
-    One to all costs one sweep through the factor, with the diagonal of C computed once by selected inversion.  Pairs
+    d(i, j)^2 = C_ii + C_jj - 2 C_ij, with the Green's function C of the biharmonic operator (paper, Eqs. 4 and 9).  One
+    to all costs one sweep through the factor, with the diagonal of C computed once by selected inversion.  Pairs
     use the half-order form, free of cancellation: solve L y = e_i - e_j, centre y by area, d = |y|_A.
 
-    >>> corners, faces = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
-    >>> BiharmonicDistance(corners, faces).from_source(0).round(3).tolist()
-    [0.0, 0.4, 0.4, 0.4]
+    >>> import bihdist, pyvista
+    >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
+    >>> distance.from_source(0).shape, round(distance.between(0, 1), 3)
+    ((642,), 0.466)
+    >>> larger = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3, radius=10))
+    >>> round(larger.between(0, 1), 3)  # in the mesh's unit of length
+    4.661
     """
 
     label = "biharmonic, exact"
     length_power = 1.0
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
-        """Compute the diagonal of the Green's function on a component, if that is not done."""
+        """Compute the diagonal of the Green's function on a component, if that is not done.
+
+        >>> import bihdist, pyvista
+        >>> both = pyvista.Icosphere(nsub=2) + pyvista.Icosphere(nsub=1, center=(3, 0, 0))
+        >>> distance = bihdist.BiharmonicDistance(both)  # prepared on the larger component
+        >>> distance.prepare(distance.laplacian.components[1])
+        >>> round(distance.between(162, 163), 3)
+        0.497
+        """
         component.biharmonic_diagonal(progress)
 
     def embedding(
         self, k: int | None = None, tolerance: float | None = None, progress: Progress | None = None
     ) -> Embedding:
-        """Points of a Euclidean space with biharmonic distances within a bound (`biharmonic_embedding`)."""
+        """Points of a Euclidean space whose distances are the biharmonic ones within a bound, for trees and indices.
+
+        k: how many coordinates; tolerance: the bound, unit length, instead.  The bound falls like 1 / sqrt(k): half of
+        it takes four times as many coordinates.  Raises ParameterError unless one of the two is given, and for a bad
+        number.
+
+        >>> import bihdist, pyvista
+        >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
+        >>> points = distance.embedding(k=20)
+        >>> points.points.shape, round(points.bound, 2)
+        ((642, 20), 0.15)
+        """
         return biharmonic_embedding(self.laplacian, k, tolerance, progress)
 
     def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:

@@ -18,13 +18,33 @@ MOST_NEAR, MOST_SPRINGS = 128, 256
 
 
 class CommuteTimeDistance(FactoredDistance):
-    """d(i, j)^2 = G_ii + G_jj - 2 G_ij with the Green's function G of the stiffness matrix (paper, Eq. 2); no unit."""
+    """The exact commute-time distance, with all eigenpairs; no unit.
+
+    d(i, j)^2 = G_ii + G_jj - 2 G_ij with the Green's function G of the stiffness matrix (paper, Eqs. 2 and 3).  On
+    ever finer meshes of one surface it grows without limit.
+
+    >>> import bihdist, pyvista
+    >>> for nsub in (2, 3, 4):  # grows with every refinement: on a surface it has no limit
+    ...     distance = bihdist.CommuteTimeDistance(pyvista.Icosphere(nsub=nsub))
+    ...     print(f"{distance.between(0, 1):.3f}")
+    1.081
+    1.184
+    1.277
+    """
 
     label = "commute-time, exact"
     length_power = 0.0
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
-        """Factor the stiffness matrix of a component, with the inverse's diagonal, if that is not done."""
+        """Factor the stiffness matrix of a component, with the inverse's diagonal, if that is not done.
+
+        >>> import bihdist, pyvista
+        >>> both = pyvista.Icosphere(nsub=2) + pyvista.Icosphere(nsub=1, center=(3, 0, 0))
+        >>> distance = bihdist.CommuteTimeDistance(both)  # prepared on the larger component
+        >>> distance.prepare(distance.laplacian.components[1])
+        >>> round(distance.between(162, 163), 3)
+        0.974
+        """
         component.factor(progress, diagonals=True)
 
     def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:

@@ -17,6 +17,12 @@ def difference(minuend: npt.ArrayLike, subtrahend: npt.ArrayLike, raw: bool = Fa
     absolute value, where some are negative): the result lies between -1 and 1, or -2 and 2 with negative values.  raw:
     the values themselves are subtracted, which makes sense for equal units only.  Raises ParameterError for fields of
     different shapes.
+
+    >>> import bihdist
+    >>> bihdist.difference([0, 1, 2], [0, 30, 40]).tolist()  # 1/2 - 3/4 in the middle
+    [0.0, -0.25, 0.0]
+    >>> bihdist.difference([0, 1, 2], [0, 30, 40], raw=True).tolist()
+    [0.0, -29.0, -38.0]
     """
     a, b = (real_numbers(field, "Values of a field") for field in (minuend, subtrahend))
     if a.shape != b.shape or a.ndim not in (1, 2):

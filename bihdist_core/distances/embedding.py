@@ -41,6 +41,13 @@ class Embedding:
 
     Between vertices i and j of a component, |p_i - p_j| <= d(i, j) <= sqrt(|p_i - p_j|^2 + (tails_i + tails_j)^2), but
     for rounding.  Points of different components have no distance that means anything: make an index for each.
+
+    >>> import bihdist, pyvista
+    >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
+    >>> embedding = distance.embedding(k=50)
+    >>> least, most = embedding.between([(0, 1)])
+    >>> bool(least[0] <= distance.between(0, 1) <= most[0])
+    True
     """
 
     points: FloatArray
@@ -49,7 +56,13 @@ class Embedding:
 
     @property
     def bound(self) -> float:
-        """How far the distance of two points may be below the biharmonic one, at worst; mesh units."""
+        """How far the distance of two points may be below the biharmonic one, at worst; mesh units.
+
+        >>> import bihdist, pyvista
+        >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
+        >>> [round(distance.embedding(k).bound, 3) for k in (10, 40, 160)]
+        [0.2, 0.109, 0.063]
+        """
         pairs = [np.sort(self.tails[mine])[-2:] for mine in self._each() if len(mine) > 1]
         return max((float(two.sum()) for two in pairs), default=0.0)
 
@@ -57,6 +70,16 @@ class Embedding:
         """(q,), (q,): the least and the most that pairs of vertices (q, 2) can be apart; NaN between components.
 
         Raises ParameterError for another shape, or a vertex that is not there.
+
+        >>> import bihdist, pyvista
+        >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
+        >>> least, most = distance.embedding(k=50).between([(0, 1), (0, 400)])
+        >>> least.round(3).tolist()
+        [0.462, 0.353]
+        >>> most.round(3).tolist()
+        [0.471, 0.364]
+        >>> distance.of_pairs([(0, 1), (0, 400)]).round(3).tolist()
+        [0.466, 0.359]
         """
         table = array_of(pairs, "Pairs of vertices")
         if table.ndim != 2 or table.shape[1] != 2 or table.dtype.kind not in "iu":

@@ -57,9 +57,13 @@ class GeodesicDistance(Distance):
     Raises ParameterError for any other word, a radius that is no length, and one for another method; SolverError for
     "exact" without the compiled kernel, or where it gives up; "auto" is heat there.
 
+    >>> import bihdist
     >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
-    >>> GeodesicDistance(square).from_source(1).round(3).tolist()
+    >>> bihdist.GeodesicDistance(square).from_source(1).round(3).tolist()
     [1.0, 0.0, 1.0, 1.414]
+    >>> # along edges: 2 instead of 1.414
+    >>> bihdist.GeodesicDistance(square, "dijkstra").from_source(1).tolist()
+    [1.0, 0.0, 1.0, 2.0]
     """
 
     length_power = 1.0
@@ -107,7 +111,12 @@ class GeodesicDistance(Distance):
         return not self._takes_long
 
     def takes_long(self, progress: Progress | None = None) -> bool:
-        """Whether a source is expected to take more than some 5 s, from a trial where the surface is large."""
+        """Whether a source is expected to take more than some 5 s, from a trial where the surface is large.
+
+        >>> import bihdist, pyvista
+        >>> bihdist.GeodesicDistance(pyvista.Icosphere(nsub=3), "exact").takes_long()
+        False
+        """
         if self.method != "exact":
             return False
         if self._takes_long is None:
@@ -118,7 +127,15 @@ class GeodesicDistance(Distance):
         return self._takes_long
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
-        """Make the solver of a component, if that is not done."""
+        """Make the solver of a component, if that is not done.
+
+        >>> import bihdist, pyvista
+        >>> both = pyvista.Icosphere(nsub=2) + pyvista.Icosphere(nsub=1, center=(3, 0, 0))
+        >>> distance = bihdist.GeodesicDistance(both)
+        >>> distance.prepare(distance.laplacian.components[1])
+        >>> round(distance.between(162, 163), 3)
+        1.966
+        """
         if component.index not in self._solvers:
             if self.method == "exact":
                 self._solvers[component.index] = exact = ExactGeodesic(component.surface)
@@ -136,6 +153,11 @@ class GeodesicDistance(Distance):
 
         The heat method is compared with exact distances on each component once; by less than it is known to have fallen
         below a straight line it is not off.
+
+        >>> import bihdist, pyvista
+        >>> sphere = pyvista.Icosphere(nsub=3)
+        >>> bihdist.GeodesicDistance(sphere, "heat").error_estimate().text
+        'accurate to 0.56 % of the maximum in the mean and 1.4 % at the worst, as measured from 8 vertices'
         """
         if self.method == "heat":
             with turn(self._errors.lock, progress, "waiting for the accuracy"):
@@ -156,7 +178,14 @@ class GeodesicDistance(Distance):
         return self._errors[component.index]
 
     def is_judged(self, component: int) -> bool:
-        """Whether the heat method's errors on a component are known."""
+        """Whether the heat method's errors on a component are known.
+
+        >>> import bihdist, pyvista
+        >>> heat = bihdist.GeodesicDistance(pyvista.Icosphere(nsub=2), "heat")
+        >>> before, estimate = heat.is_judged(0), heat.error_estimate()
+        >>> before, heat.is_judged(0)
+        (False, True)
+        """
         return self.method != "heat" or component in self._errors
 
     def _or_by_heat(self, found: Callable[[], FloatArray], progress: Progress | None) -> FloatArray:

@@ -43,6 +43,13 @@ class PairQuestions(SourceQuestions):
         One of them may be any source if the other is a vertex.  Of arrays or lists, as long as each other (k,), the
         distances (k,) of their vertices or places, as `of_pairs` has them.  ParameterError for what this distance does
         not know, and where one is longer.
+
+        >>> import bihdist, pyvista
+        >>> distance = bihdist.GeodesicDistance(pyvista.Icosphere(nsub=3))
+        >>> round(distance.between(0, 1), 3)
+        2.03
+        >>> distance.between([0, 0], [1, 2]).round(3).tolist()
+        [2.03, 3.134]
         """
         if are_many(u) or are_many(v):
             return self.of_pairs(paired(u, v), progress)
@@ -61,7 +68,13 @@ class PairQuestions(SourceQuestions):
     def pairwise(
         self, vertices: npt.ArrayLike | Sequence[Source | str], progress: Progress | None = None
     ) -> FloatArray:
-        """(k, k) distances among k vertices, or places in faces: symmetric, zero diagonal."""
+        """(k, k) distances among k vertices, or places in faces: symmetric, zero diagonal.
+
+        >>> import bihdist, pyvista
+        >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
+        >>> distance.pairwise([0, 12, 40]).round(3).tolist()
+        [[0.0, 0.216, 0.474], [0.216, 0.0, 0.452], [0.474, 0.452, 0.0]]
+        """
         (progress or silent)(0.0, self.label)
         if has_places(vertices):
             points = list(vertices)
@@ -87,6 +100,11 @@ class PairQuestions(SourceQuestions):
         solve for each pair; "all": free of cancellation, so that the smallest have all digits, too, by a solve for
         each, where a distance has such a form.  The mean of both ways where a distance is not symmetric.
         ParameterError for another shape, other digits, and for places in faces if this distance knows vertices only.
+
+        >>> import bihdist, pyvista
+        >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
+        >>> distance.of_pairs([(0, 12), (0, 40), (12, 40)]).round(3).tolist()
+        [0.216, 0.474, 0.452]
         """
         if digits not in DIGITS:
             raise ParameterError(f"Digits of pairs are {' or '.join(map(repr, DIGITS))}, not {digits!r}.")

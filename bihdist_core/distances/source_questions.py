@@ -59,6 +59,12 @@ class SourceQuestions(ABC):
         along a boundary loop or a curve, from its nearest point where the distance can be had anywhere in a face.
         Raises VertexError or ParameterError for a source that is not on this surface, and ParameterError for one that
         this distance cannot start from.
+
+        >>> import bihdist, pyvista
+        >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
+        >>> field = distance.from_source(12)
+        >>> field.shape, float(field[12]), float(distance.from_source("12+40")[40])
+        ((642,), 0.0, 0.0)
         """
         (progress or silent)(0.0, self.label)
         if isinstance(source, str):
@@ -136,6 +142,14 @@ class SourceQuestions(ABC):
         dtype: float64 or float32, of the array that is made.  out: an array (n, k) of either that takes them, such as a
         memory map, and is returned; then and in float32 only some fields at a time are in memory besides.  Raises
         VertexError or ParameterError for a source as `from_source` does, ParameterError for another shape or type.
+
+        >>> import bihdist, pyvista
+        >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
+        >>> fields = distance.from_sources([0, 12, 40])
+        >>> fields.shape
+        (642, 3)
+        >>> bool((fields.min(axis=1) == distance.from_source("0+12+40")).all())
+        True
         """
         (progress or silent)(0.0, self.label)
         n, kind = len(self.surface.vertices), _checked_type(out, dtype)

@@ -149,10 +149,21 @@ class SpectralDistance(Distance):
 
 
 class PowerDistance(SpectralDistance):
-    """The family of the paper's section 6, weights 1 / lambda^alpha, from the first k eigenpairs.
+    """The family of distances with weights 1 / lambda^alpha, from the first k eigenpairs.
+
+    See section 6 of the paper.
 
     alpha > 1 (else the sum diverges on a surface); scales like length ** (alpha - 1).  A component with fewer than
     k + 1 vertices uses all its eigenpairs.  Raises ParameterError for another alpha, and if no component has k of them.
+
+    >>> import bihdist, pyvista
+    >>> sphere = pyvista.Icosphere(nsub=3)
+    >>> for alpha in (1.5, 2, 3):
+    ...     distance = bihdist.PowerDistance(sphere, alpha, k=60)
+    ...     print(alpha, distance.length_power, round(distance.between(0, 1), 3))
+    1.5 0.5 0.605
+    2 1.0 0.462
+    3 2.0 0.303
     """
 
     def __init__(
@@ -196,6 +207,11 @@ class PowerDistance(SpectralDistance):
 
         components: their numbers; those that were asked about if there are none.  The sum of all is the biharmonic
         distance for alpha = 2.
+
+        >>> import bihdist, pyvista
+        >>> sphere = pyvista.Icosphere(nsub=3)
+        >>> [round(bihdist.PowerDistance(sphere, 2.0, k).beyond(), 2) for k in (10, 100)]
+        [1.21, 0.09]
         """
         shares = []
         for index in self._those(components):
@@ -231,9 +247,20 @@ class PowerDistance(SpectralDistance):
 
 
 class TruncatedBiharmonicDistance(PowerDistance):
-    """The biharmonic distance from its first k eigenpairs (paper, Eq. 11); unit length.
+    """The biharmonic distance from its first k eigenpairs; unit length.
 
-    Its error falls about like 1 / k; `BiharmonicDistance` is exact and, for one source, faster.
+    d(i, j)^2 = sum_{k <= K} (phi_k(i) - phi_k(j))^2 / lambda_k^2 (paper, Eq. 11).  Its error falls about
+    like 1 / k; `BiharmonicDistance` is exact and, for one source, faster.
+
+    >>> import bihdist, pyvista
+    >>> laplacian = bihdist.Laplacian(pyvista.Icosphere(nsub=3))
+    >>> exact = bihdist.BiharmonicDistance(laplacian).from_source(0)
+    >>> for k in (10, 40, 160):
+    ...     truncated = bihdist.TruncatedBiharmonicDistance(laplacian, k).from_source(0)
+    ...     print(f"{k}: {abs(truncated - exact).max() / exact.max():.3f} of the maximum")
+    10: 0.099 of the maximum
+    40: 0.047 of the maximum
+    160: 0.027 of the maximum
     """
 
     def __init__(self, laplacian: Laplacian | MeshLike, k: int = 200, progress: Progress | None = None) -> None:

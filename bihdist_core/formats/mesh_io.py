@@ -55,6 +55,15 @@ def read_surface(path: str | os.PathLike[str]) -> Surface:
 
     Raises MeshError, one sentence with the file, the place and the value, for a file that is missing (then it is a
     FileNotFoundError, too), unreadable, truncated, damaged or of another kind, and for a mesh without faces.
+
+    >>> import bihdist
+    >>> from pathlib import Path
+    >>> _ = Path("square.off").write_text('''OFF 4 1 0
+    ... 0 0 0  1 0 0  1 1 0  0 1 0
+    ... 4 0 1 2 3''')
+    >>> square = bihdist.read_surface("square.off")
+    >>> square.n_faces, square.facts
+    (2, ('1 quad divided into 2 triangles',))
     """
     return surface_in(mesh_content(path), Path(path).name)
 

@@ -18,6 +18,12 @@ def write_mesh(path: str | os.PathLike[str], surface: MeshLike) -> None:
     """Write a surface as .off, .obj, .ply or .vtp, vertices in their order and so that they read back exactly.
 
     Raises OutputError if the file cannot be written; what was there then stays.
+
+    >>> import bihdist
+    >>> triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+    >>> bihdist.write_mesh("triangle.off", triangle)
+    >>> bihdist.read_surface("triangle.off")
+    Surface(triangle.off: 3 vertices, 1 faces)
     """
     surface = Surface.of(surface)
     extension = check_output(path, MESH_FORMATS)

@@ -43,6 +43,12 @@ class Pins:
     """k vertices of a surface, in order: ids (k,), all different, vertices (k,), and names, which may be empty.
 
     moved: (k,) how far the vertex is from the place that the file named, in the mesh's unit; 0 where it named none.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> pins = bihdist.Pins.of(plane, [0, 40], names=["corner", "middle"])
+    >>> pins.ids.tolist(), pins.vertices.tolist(), pins.names
+    ([1, 2], [0, 40], ('corner', 'middle'))
     """
 
     ids: IntArray
@@ -58,6 +64,11 @@ class Pins:
 
         Raises VertexError for a bad vertex; ParameterError for no vertices, another number of names (none is fine) or
         ids, or ids that are not whole numbers or not different.
+
+        >>> import bihdist, pyvista
+        >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+        >>> bihdist.Pins.of(plane, [0, 40], ids=[7, 3]).ids.tolist()
+        [7, 3]
         """
         surface = Surface.of(surface)
         places = surface.check_vertices(vertices)
@@ -84,6 +95,15 @@ def read_pins(path: str | os.PathLike[str], surface: MeshLike) -> Pins:
     off that is.  Ids count from 1 where there are none.
 
     Raises ParameterError, a sentence with the file, the place in it and the value, for anything else.
+
+    >>> import bihdist, pyvista
+    >>> from pathlib import Path
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> _ = Path("pins.csv").write_text('''x,y,z,name
+    ... 0.01,0,0,middle''')
+    >>> pins = bihdist.read_pins("pins.csv", plane)
+    >>> pins.vertices.tolist(), pins.names, pins.moved.round(6).tolist()
+    ([40], ('middle',), [0.01])
     """
     return placed(picked_in(path), Surface.of(surface))
 
@@ -117,6 +137,14 @@ def write_pins(path: str | os.PathLike[str], surface: MeshLike, pins: Pins) -> N
     """Write pins in a form that `read_pins` reads, with the positions of their vertices, exactly.
 
     MeshLab's .pp has no place for ids.  Raises OutputError if the file cannot be written; what was there then stays.
+
+    >>> import bihdist, pyvista
+    >>> from pathlib import Path
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> bihdist.write_pins("pins.csv", plane, bihdist.Pins.of(plane, [40], ["middle"]))
+    >>> print(Path("pins.csv").read_text().strip())
+    id,vertex,x,y,z,name
+    1,40,0.0,0.0,0.0,middle
     """
     surface = Surface.of(surface)
     extension = check_output(path, PIN_FORMATS)

@@ -32,6 +32,12 @@ def read_map(path: str | os.PathLike[str], source: MeshLike, target: MeshLike) -
     same ids, where both have as many vertices.  Ids count from 0.
 
     Raises ParameterError, a sentence with the file, the place in it and the value, for anything else.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=1, j_resolution=1)
+    >>> bihdist.write_map("map.txt", [3, 2, -1, 0])
+    >>> bihdist.read_map("map.txt", plane, plane).tolist()
+    [3, 2, -1, 0]
     """
     source, target = Surface.of(source), Surface.of(target)
     n, most = len(source.vertices), len(target.vertices)
@@ -60,6 +66,12 @@ def write_map(path: str | os.PathLike[str], found: npt.ArrayLike) -> None:
     """Write a map (n,) so that `read_map` reads it.
 
     Raises OutputError if the file cannot be written, ParameterError for a map that is not whole numbers.
+
+    >>> import bihdist
+    >>> from pathlib import Path
+    >>> bihdist.write_map("map.txt", [3, 2, -1, 0])
+    >>> Path("map.txt").read_text().split()
+    ['3', '2', '-1', '0']
     """
     ids = array_of(found, "Vertices of a map").ravel()
     if ids.dtype.kind not in "iu":

@@ -34,6 +34,15 @@ def read_vertex_values(path: str | os.PathLike[str], what: str = "values", n_ver
     many there are.  .gz may follow.  what: how a message speaks of them.
 
     Raises ParameterError, a sentence with the file and the place in it, for anything else.
+
+    >>> import bihdist
+    >>> from pathlib import Path
+    >>> _ = Path("lh.V1.label").write_text('''#!ascii label
+    ... 2
+    ... 0 0 0 0 0
+    ... 3 1 1 1 0''')
+    >>> bihdist.read_vertex_values("lh.V1.label", n_vertices=5).tolist()
+    [1, 0, 0, 1, 0]
     """
     with value_file(path, what) as content:
         found = _values_in(content, Path(path).name, what, n_vertices)

@@ -48,6 +48,14 @@ class Spectrum:
     A-orthogonal to each other and to constants; unit 1 / length.
     residuals: (k,) ||L phi - lambda A phi|| / lambda, measured in the norm (sum_i r_i^2 / A_i)^(1/2): some exact
     eigenvalue is within this share of lambda.  No unit; empty where they were not measured.
+
+    >>> import bihdist, pyvista
+    >>> laplacian = bihdist.Laplacian(pyvista.Icosphere(nsub=3))
+    >>> spectrum = bihdist.eigenpairs(laplacian, 3)
+    >>> phi = spectrum.eigenvectors
+    >>> # orthonormal by area
+    >>> abs(phi.T @ (laplacian.areas[:, None] * phi)).round(6).tolist()
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
     """
 
     eigenvalues: FloatArray

@@ -19,7 +19,15 @@ MOST_PARTS = 100_000
 
 @dataclass(frozen=True)
 class SurfacePoint:
-    """A place in a face: its corners' weights, which are at least 0 and add up to 1."""
+    """A place in a face: its corners' weights, which are at least 0 and add up to 1.
+
+    >>> import bihdist, pyvista
+    >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
+    >>> middle = bihdist.SurfacePoint(0, (1 / 3, 1 / 3, 1 / 3))
+    >>> field = distance.from_source(middle)
+    >>> bool(0 < field.min() < 0.1)  # no vertex is there
+    True
+    """
 
     face: int
     weights: tuple[float, float, float]
@@ -41,7 +49,12 @@ class SurfacePoint:
 
     @staticmethod
     def of(face: int, first: float, second: float) -> "SurfacePoint":
-        """A place by the weights of the first two corners; the third gets the rest.  ParameterError if none is left."""
+        """A place by the weights of the first two corners; the third gets the rest.  ParameterError if none is left.
+
+        >>> import bihdist
+        >>> bihdist.SurfacePoint.of(311, 0.2, 0.5)
+        SurfacePoint(face=311, weights=(0.2, 0.5, 0.3))
+        """
         # 0.2 and 0.2 leave 0.6, not 0.6000000000000001.
         rest = round(1 - first - second, 15)
         if not (first >= 0 and second >= 0 and rest >= -ROUNDING):
@@ -61,6 +74,12 @@ class BoundaryLoop:
     """A connected piece of the boundary, all along its edges.
 
     Numbered by length, the longest first, those of equal length (to nine digits) by their least vertex.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> from_rim = bihdist.GeodesicDistance(plane).from_source(bihdist.BoundaryLoop(0))
+    >>> round(float(from_rim[40]), 6)  # vertex 40 is the middle of the unit square
+    0.5
     """
 
     number: int
@@ -77,6 +96,16 @@ class Curve:
 
     Places in one face are joined straight, others where a plane through both cuts the surface: upright on it, or turned
     where that does not lead from one to the other.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> left = bihdist.SurfacePoint(0, (1, 0, 0))
+    >>> right = bihdist.SurfacePoint(14, (0, 1, 0))
+    >>> along_an_edge = bihdist.Curve((left, right))
+    >>> field = bihdist.GeodesicDistance(plane).from_source(along_an_edge)
+    >>> # the middle of the square, and the side opposite
+    >>> field[[40, 80]].round(3).tolist()
+    [0.5, 1.0]
     """
 
     places: tuple[SurfacePoint, ...]
@@ -102,6 +131,15 @@ class SourceSet:
     """Several vertices, places, loops or curves as one source; the distance is from the nearest.
 
     members: each once.
+
+    >>> import bihdist, pyvista
+    >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
+    >>> distance = bihdist.GeodesicDistance(plane)
+    >>> corners = bihdist.SourceSet((0, 8, 72, 80))
+    >>> distance.from_source(corners).max().round(3).item()
+    0.707
+    >>> distance.from_source(0).max().round(3).item()
+    1.414
     """
 
     members: tuple[Member, ...] = field(default=())

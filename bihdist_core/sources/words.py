@@ -35,6 +35,12 @@ def source_from_words(text: str, known: Mapping[str, Member] = NONE, files: dict
     """The source that words mean; ParameterError, with what could have been written, for what means none.
 
     A curve's file is read; `files` gets its path.  known: what other words mean.
+
+    >>> import bihdist
+    >>> bihdist.source_from_words("12+40"), bihdist.source_from_words("loop:0")
+    (SourceSet(members=(12, 40)), BoundaryLoop(number=0))
+    >>> bihdist.source_from_words("f311:0.2,0.5")
+    SurfacePoint(face=311, weights=(0.2, 0.5, 0.3))
     """
     words = text.strip()
     members = []

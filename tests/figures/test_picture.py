@@ -130,8 +130,10 @@ def test_another_extension_is_refused(tmp_path):
         app.figure(bumpy(60), ["biharmonic"], size="300x200").save(tmp_path / "f.bmp")
 
 
-def test_the_example_in_the_docstring_runs(monkeypatch):
+@pytest.mark.parametrize("name", ["figure", "figure_again", "Picture"])
+def test_the_example_in_the_docstring_runs(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     # In a checkout the package has another name.
     monkeypatch.setitem(sys.modules, "bihdist", app)
-    (test,) = doctest.DocTestFinder(recurse=False).find(picture.figure, "figure")
+    (test,) = doctest.DocTestFinder(recurse=False).find(getattr(picture, name), name)
     assert doctest.DocTestRunner().run(test) == (0, len(test.examples))

@@ -3,10 +3,12 @@
 import doctest
 import importlib
 import re
+import sys
 from pathlib import Path
 
 import pytest
 
+import app
 from bihdist_core import write_mesh
 from tests.shapes import bumpy, spike
 
@@ -33,7 +35,9 @@ def test_the_guide(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("path", WITH_EXAMPLES, ids=lambda path: path.stem)
-def test_docstrings(path):
+def test_docstrings(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # where examples write their files
+    monkeypatch.setitem(sys.modules, "bihdist", app)  # in a checkout the package has another name
     name = ".".join(path.relative_to(ROOT).with_suffix("").parts)
     failed, tried = doctest.testmod(importlib.import_module(name))
     assert tried

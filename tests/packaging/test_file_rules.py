@@ -28,12 +28,14 @@ MAY_WRITE = {
     "app/qt/look/marks_in_controls.py",  # into a folder of its own
     "app/figures/composition.py",  # what it is given is temporary
 }
+EXAMPLE = re.compile(r"^ *>>> .*", re.MULTILINE)
+"""A line of an example in a docstring, where users read and write as they like."""
 
 
 def sources():
     for folder in ("app", "bihdist_core"):
         for path in sorted((ROOT / folder).rglob("*.py")):
-            yield path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")
+            yield path.relative_to(ROOT).as_posix(), EXAMPLE.sub("", path.read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("pattern", RULES)
