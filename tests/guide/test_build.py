@@ -92,7 +92,7 @@ def test_a_small_guide(source):
     assert (guide / "_images/red.png").is_file()
     example = (guide / "gallery/auto/one.html").read_text(encoding="utf-8")
     assert 'download="one.py"' in example
-    assert (guide / "_images/sphx_glr_blue_001.png").is_file() or (guide / "_images/sphx_glr_one_001.png").is_file()
+    assert (guide / "_images/sphx_glr_one_001.png").is_file()
     assert "red.png" in page
     assert '"gallery/auto/one.html"' in (guide / "search-index.js").read_text(encoding="utf-8")
 
