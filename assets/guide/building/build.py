@@ -15,27 +15,30 @@ KEPT = ("_blocks", "gallery/auto")
 
 
 def main() -> int:
-    """The exit status is 1 where a block fails or Sphinx warns; the installed copy then stays as it was."""
+    """The exit status is 1 where a block fails, Sphinx warns or a link is wrong; the installed copy then stays."""
+    write_sources(SOURCE)
+    return build(SOURCE, PAGES, ROOT / "app/guide")
+
+
+def build(source: Path, pages: Path, target: Path) -> int:
+    """Run the blocks of all sources, make pages of them, and install these; the exit status."""
     from sphinx.cmd.build import main as sphinx
 
     from .installed_copy import install
     from .page_runs import run_pages
     from .search_index import write_search_index
 
-    write_sources(SOURCE)
-    failures = run_pages(SOURCE)
+    failures = run_pages(source)
     if failures:
         print(*failures, sep="\n\n", file=sys.stderr)
         return 1
-    shutil.rmtree(PAGES, ignore_errors=True)
-    status = sphinx(
-        ["-b", "html", "-W", "--keep-going", "-q", "-d", str(SOURCE.with_name("read")), str(SOURCE), str(PAGES)]
-    )
-    if status:
+    shutil.rmtree(pages, ignore_errors=True)
+    options = ["-b", "html", "-W", "--keep-going", "-q", "-d", str(source.with_name("read"))]
+    if sphinx([*options, str(source), str(pages)]):
         return 1
-    write_search_index(PAGES)
+    write_search_index(pages)
     try:
-        print(install(PAGES, ROOT / "app/guide"))
+        print(install(pages, target))
     except ValueError as error:
         print(error, file=sys.stderr)
         return 1

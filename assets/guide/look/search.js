@@ -13,7 +13,7 @@ const TITLE = 6, HEADING = 2.5;
 
 /* The stem of a word, so that "distances", "measured" and "exporting" find "distance", "measure" and "export". */
 function stem(word) {
-  for (const [end, instead] of [["ies", "y"], ["sses", "ss"], ["ices", "ex"], ["ations", "at"], ["ation", "at"], ["ing", ""],
+  for (const [end, instead] of [["ies", "y"], ["ie", "y"], ["sses", "ss"], ["rices", "rix"], ["ices", "ex"], ["ations", "at"], ["ation", "at"], ["ing", ""],
     ["ed", ""], ["es", ""], ["s", ""], ["e", ""]]) {
     if (word.endsWith(end) && word.length - end.length >= 3 && !word.endsWith("ss")) { word = word.slice(0, -end.length) + instead; break; }
   }
