@@ -97,7 +97,7 @@ class Photographer(Driver):
             duration=FRAME_MS,
             loop=0,
             quality=60,
-            method=6,
+            method=4,
         )
         self.made.add(name)
 
