@@ -18,6 +18,9 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "assets/guide").rglob("*.md"))]
 HELD = {"Ctrl", "Shift", "Alt"}
 """Keys that are held while the mouse does something."""
 
+IN_THE_BROWSER = {"Ctrl+K"}
+"""Keys of the built guide itself, which opens its search."""
+
 LARGEST_PICTURE, LARGEST_MOVING = 130_000, 1_500_000
 """Bytes: the guide travels in the wheel."""
 
@@ -93,7 +96,7 @@ def keys_of(window) -> set[str]:
     found = {keys.toString() for action in window.actions() for keys in action.shortcuts()}
     found |= {QtGui.QKeySequence(key).toString() for act in ALL if act.of_view for key in act.keys}
     gestures = {word for each in GESTURES for word in re.findall(r"hold (\w)\b", each.keys)}
-    return found | HELD | {QtGui.QKeySequence(key).toString() for key in gestures}
+    return found | HELD | IN_THE_BROWSER | {QtGui.QKeySequence(key).toString() for key in gestures}
 
 
 def test_entries_of_menus_exist(window):

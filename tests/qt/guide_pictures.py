@@ -33,7 +33,7 @@ EDGE = {"light": (200, 205, 211), "dark": (70, 76, 84)}
 BADGE = "#b4235a"
 """Colour of the numbers that name parts of the window; it is none of the window's own."""
 
-MOVING_WIDTH, FRAME_MS = 800, 50
+MOVING_WIDTH, FRAME_MS = 720, 50
 """Pixels across a moving picture, and how long each of its frames is seen."""
 
 FLAT = 20
@@ -96,8 +96,8 @@ class Photographer(Driver):
             append_images=others,
             duration=FRAME_MS,
             loop=0,
-            quality=60,
-            method=6,
+            quality=50,
+            method=4,
         )
         self.made.add(name)
 

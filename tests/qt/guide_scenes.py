@@ -1,7 +1,7 @@
 """What the pictures of the guide show, scene by scene: a window of its own each, used as readers would use it."""
 
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import cos, sin
 from pathlib import Path
@@ -234,27 +234,39 @@ def parts_of_the_window(d: Any) -> None:
     d.shot("window-at-a-glance")
 
 
-PATH = ((0.42, 0.56), (0.5, 0.46), (0.6, 0.36), (0.68, 0.34), (0.75, 0.42), (0.82, 0.55))
+PATH = ((0.42, 0.56), (0.5, 0.46), (0.6, 0.38), (0.67, 0.42), (0.74, 0.49), (0.81, 0.56))
 """Over chest, shoulder and arm to the claws, as shares of a view's width and height."""
+
+
+def _between(places: Sequence[tuple[float, float]], share: float) -> tuple[float, float]:
+    """What is at a share of the way through places, each as far from the next."""
+    at = share * (len(places) - 1)
+    k = min(int(at), len(places) - 2)
+    (x, y), (next_x, next_y) = places[k], places[k + 1]
+    return x + (at - k) * (next_x - x), y + (at - k) * (next_y - y)
 
 
 def click_and_drag(d: Any) -> None:
     """A click on the chest, and the source's mark dragged into a hand and back."""
     import numpy as np
+    from qtpy import QtCore
 
     open_sample(d, "beast", "biharmonic|geodesic")
     view = d.window.grid.panels[0].view
 
-    def along(places: Any, steps: int) -> None:
+    def along(places: Sequence[tuple[float, float]], steps: int) -> None:
         """The pointer, slowly at first and at last."""
-        far = np.linspace(0, len(places) - 1, len(places))
         for share in (1 - np.cos(np.linspace(0, np.pi, steps))) / 2:
-            at = [float(np.interp(share * (len(places) - 1), far, [place[k] for place in places])) for k in range(2)]
-            d.tool("mousemove", *place_on(d, view, *at))
+            d.tool("mousemove", *place_on(d, view, *_between(places, share)))
             d.spin(0.08)
             d.until(lambda: d.window.session.is_complete)
             d.spin(0.08)
             d.film()
+
+    for share in np.linspace(0, 1, 40):
+        x, y = _between(PATH, share)
+        if view.pick(QtCore.QPoint(round(x * view.width()), round(y * view.height()))) is None:
+            raise RuntimeError(f"The path leaves the surface at {x:.2f}, {y:.2f}.")
 
     def press(is_down: bool) -> None:
         d.tool("mousedown" if is_down else "mouseup", 1)
