@@ -6,7 +6,8 @@ is open, asked and answered), `scene` (VTK and PyVista), `figures` (and movies),
 
 In a checkout this folder is called `app`; installed it is the package `bihdist`.  The library's names are those of
 `bihdist_core`, imported when they are first asked for, with `figure` and `figure_again`, which draw, `page`, which
-writes a page that computes, `widget`, which shows one in a notebook, and `show`, which opens the window.
+writes a page that computes, `sample`, a mesh that comes with the program, `widget`, which shows a page in a notebook,
+and `show`, which opens the window.
 """
 
 TYPE_CHECKING = False
@@ -16,19 +17,21 @@ if TYPE_CHECKING:
 
     from .figures.picture import figure as figure, figure_again as figure_again
     from .qt.show import show as show
+    from .samples import sample as sample
     from .web.page import page as page
     from .web.widget import widget as widget
 
     __version__: str
 
     # In two steps, which type checkers follow.
-    __all__ = ["figure", "figure_again", "page", "show", "widget"]
+    __all__ = ["figure", "figure_again", "page", "sample", "show", "widget"]
     __all__ += _library.__all__
 
 _OWN = {
     "figure": "figures.picture",
     "figure_again": "figures.picture",
     "page": "web.page",
+    "sample": "samples",
     "show": "qt.show",
     "widget": "web.widget",
 }

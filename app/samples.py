@@ -1,8 +1,14 @@
 """The meshes that come with the program, by name."""
 
+from __future__ import annotations
+
 import os
 import re
 from pathlib import Path
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from bihdist_core import Surface
 
 _ROOT = Path(__file__).resolve().parent.parent
 # Installed, the folder is the package bihdist_assets beside this one; in a checkout it is assets.
@@ -12,6 +18,20 @@ SAMPLES = next((_ROOT / name for name in ("bihdist_assets", "assets") if (_ROOT 
 def sample_names() -> list[str]:
     """The names of the sample meshes, sorted."""
     return sorted(path.stem for path in SAMPLES.glob("*.ply"))
+
+
+def sample(name: str) -> Surface:
+    """The sample mesh of a name such as "hand"; ParameterError if there is none.
+
+    >>> import bihdist
+    >>> bihdist.sample("hand").n_vertices
+    7569
+    """
+    from bihdist_core import ParameterError, read_surface
+
+    if name not in sample_names():
+        raise ParameterError(f"There is no sample {name!r}; the samples are {', '.join(sample_names())}.")
+    return read_surface(SAMPLES / f"{name}.ply")
 
 
 def sample_title(name: str) -> str:

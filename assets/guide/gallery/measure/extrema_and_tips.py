@@ -1,0 +1,27 @@
+"""
+Local extrema and the tips of limbs
+===================================
+
+A distance field should have its only minimum at the source, and maxima only where the shape ends. Triangles mark all
+extrema that persist over a thousandth of the range: the diffusion distance has many, far from any tip.
+"""
+
+import bihdist
+
+picture = bihdist.figure(
+    "octopus", ["biharmonic", "geodesic", "diffusion(t=1/8)"], source=8301, extrema=True, views="high", size="1100x420"
+)
+picture.save("extrema_and_tips.png")
+
+# %%
+surface = bihdist.sample("octopus")
+for answer in picture.answers:
+    found = bihdist.extrema(surface, answer.field)
+    print(f"{answer.label:24} {len(found.maxima)} maxima, {len(found.minima)} minima")
+print("tips of limbs:", *bihdist.tips(surface))
+
+# %%
+# .. code-block:: sh
+#
+#    bihdist figure octopus --sources 8301 --distance 'biharmonic,geodesic,diffusion(t=1/8)' --extrema --view high \
+#        --size 1100x420 -o extrema_and_tips.png

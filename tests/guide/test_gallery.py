@@ -1,0 +1,127 @@
+"""Each example of the gallery makes its pictures; its command lines and its recipes make the same; none has changed.
+
+All run in a small version: sizes are SMALLER times smaller.  After a change that is wanted, all that is stored is made
+again by `REMAKE=1 python -m pytest tests/guide/test_gallery.py`, and looked at.
+"""
+
+import os
+import re
+import runpy
+import shlex
+import shutil
+from itertools import pairwise
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from PIL import Image
+
+from app.document.file import read_recipe
+from app.figures.picture import figure_again
+from app.main import main
+
+ROOT = Path(__file__).parents[2]
+GALLERY = ROOT / "assets/guide/gallery"
+STORED = Path(__file__).parent / "gallery"
+EXAMPLES = sorted(GALLERY.rglob("*.py"))
+
+SMALLER = 3
+SIZE = re.compile(r"\b(\d{3,4})x(\d{3,4})\b|178mm@150dpi")
+FRAMES = re.compile(r"(frames[ =])\d+")
+
+ALIKE = 6.0
+"""Steps of 255 by which blocks of a picture may differ on another machine: fonts and OpenGL shift edges by a fraction
+of a pixel.  Another source, view or colour map changes some block by 30 and more."""
+
+BLOCK = 8
+
+
+def small(text):
+    """An example, or a command line, with small pictures and short movies."""
+    text = SIZE.sub(
+        lambda size: f"{int(size[1]) // SMALLER}x{int(size[2]) // SMALLER}" if size[1] else "178mm@40dpi", text
+    )
+    return FRAMES.sub(r"\g<1>3", text)
+
+
+def commands(text):
+    """The command lines of an example, as lists of words."""
+    blocks = re.findall(r"^# \.\. code-block:: sh\n#\n((?:#    .*\n)+)", text, re.MULTILINE)
+    lines = "".join(blocks).replace("\\\n", "\n").splitlines()
+    joined = " ".join(line.removeprefix("#").strip() for line in lines)
+    return [shlex.split(f"bihdist {words}")[1:] for words in joined.split("bihdist ")[1:]]
+
+
+@pytest.fixture(scope="module")
+def ran(tmp_path_factory):
+    """Runs an example in its small version, once; the folder with what it has saved."""
+    folders = {}
+
+    def run(example):
+        if example not in folders:
+            folder = folders[example] = tmp_path_factory.mktemp(example.stem)
+            script = folder / example.name
+            script.write_text(small(example.read_text("utf-8")), "utf-8")
+            before = Path.cwd()
+            os.chdir(folder)
+            try:
+                runpy.run_path(str(script))
+            finally:
+                os.chdir(before)
+                script.unlink()
+        return folders[example]
+
+    return run
+
+
+@pytest.fixture(autouse=True)
+def no_charts_left():
+    plt.switch_backend("Agg")
+    yield
+    plt.close("all")
+
+
+def pixels(path):
+    return np.asarray(Image.open(path).convert("RGB"))
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_an_example_makes_its_pictures_as_they_were(example, ran):
+    folder = ran(example)
+    assert all(path.name.removeprefix(example.stem)[0] in ".-" for path in folder.iterdir())
+    pictures = sorted(folder.glob("*.png"))
+    assert folder / f"{example.stem}.png" in pictures or len(pictures) > 1
+    if os.environ.get("REMAKE"):
+        STORED.mkdir(exist_ok=True)
+        for path in pictures:
+            Image.open(path).convert("RGB").quantize(64).save(STORED / path.name, optimize=True)
+    for path in pictures:
+        now, then = blocks(path), blocks(STORED / path.name)
+        assert now.shape == then.shape, path.name
+        assert np.abs(now - then).max() < ALIKE, path.name
+
+
+def blocks(path):
+    """A picture by the mean colours of its blocks."""
+    picture = pixels(path).astype(float)
+    height, width = (side // BLOCK for side in picture.shape[:2])
+    return picture[: height * BLOCK, : width * BLOCK].reshape(height, BLOCK, width, BLOCK, 3).mean(axis=(1, 3))
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_command_lines_and_recipes_say_the_same(example, ran, tmp_path, monkeypatch, capsys):
+    folder = ran(example)
+    lines = commands(small(example.read_text("utf-8")))
+    monkeypatch.chdir(tmp_path)
+    for line in lines:
+        for option, word in pairwise(line):
+            if option == "--sources" and word.endswith(".json"):  # a curve, which the example has written
+                shutil.copy(folder / word, tmp_path)
+        assert main(line) == 0, f"{shlex.join(line)}: {capsys.readouterr().err}"
+    figures = [path for path in sorted(folder.glob("*.json")) if (tmp_path / path.with_suffix(".png").name).exists()]
+    assert figures
+    for recipe in figures:
+        assert read_recipe(tmp_path / recipe.name) == read_recipe(recipe)
+        assert np.array_equal(pixels(tmp_path / recipe.with_suffix(".png").name), pixels(recipe.with_suffix(".png")))
+    assert np.array_equal(figure_again(figures[0]).pixels, pixels(figures[0].with_suffix(".png")))
