@@ -9,7 +9,7 @@ structure. The biharmonic distance has no such parameter.
 
 import bihdist
 
-times = ["1/16", "1/4", "1", "4"]
+times = ["1/4", "1", "4", "16"]
 distances = [*(f"diffusion(t={t})" for t in times), "biharmonic"]
 picture = bihdist.figure("hand", distances, source=6835, range="shares", isolines=12, size="1200x400")
 picture.save("diffusion_times.png")
@@ -18,4 +18,4 @@ picture.save("diffusion_times.png")
 # .. code-block:: sh
 #
 #    bihdist figure hand --sources 6835 --range shares --isolines 12 --size 1200x400 -o diffusion_times.png \
-#        --distance 'diffusion(t=1/16),diffusion(t=1/4),diffusion(t=1),diffusion(t=4),biharmonic'
+#        --distance 'diffusion(t=1/4),diffusion(t=1),diffusion(t=4),diffusion(t=16),biharmonic'

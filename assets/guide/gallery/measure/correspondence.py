@@ -3,12 +3,17 @@ Corresponding points of two poses
 =================================
 
 A few known pairs of corresponding vertices give every other vertex a vector of distances from them, and the vertex of
-the other mesh with the most similar vector is its match. Where on the crouching beast is the standing beast's elbow?
+the other mesh with the most similar vector is its match. The colours of the crouching beast are carried to the standing
+one by this map; where it is right, both have the same colours.
 """
 
 import bihdist
 
-pairs = [(2991, 2991), (2990, 2990), (1437, 1437), (1, 1), (8, 8), (8382, 8382)]
+known = [7710, 1437, 2991, 2990, 1, 8, 3129, 5444, 5711, 8942, 6525, 8382, 8393, 1758]
+pairs = [(vertex, vertex) for vertex in known]
+with open("correspondence-pairs.csv", "w") as file:
+    file.writelines(f"{one},{other}\n" for one, other in pairs)
+
 picture = bihdist.figure("beast", ["biharmonic"], beside="beast_pose2", pairs=pairs, maps=["pairs"], size="900x520")
 picture.save("correspondence.png")
 
@@ -26,6 +31,6 @@ print(f"error in roots of the area: mean {curve.mean:.4f}, median {curve.median:
 # .. code-block:: sh
 #
 #    bihdist figure beast beast_pose2 --distance biharmonic --map pairs --size 900x520 -o correspondence.png \
-#        --pairs 2991:2991,2990:2990,1437:1437,1:1,8:8,8382:8382
+#        --pairs @correspondence-pairs.csv
 #    bihdist correspond beast beast_pose2 -o correspondence.txt \
-#        --pairs 2991:2991,2990:2990,1437:1437,1:1,8:8,8382:8382
+#        --pairs @correspondence-pairs.csv

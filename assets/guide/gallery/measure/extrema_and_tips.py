@@ -2,14 +2,15 @@
 Local extrema and the tips of limbs
 ===================================
 
-A distance field should have its only minimum at the source, and maxima only where the shape ends. Triangles mark all
-extrema that persist over a thousandth of the range: the diffusion distance has many, far from any tip.
+A distance has its minimum at the source, and should have maxima only where the shape ends. Triangles mark all extrema
+that persist over a thousandth of the range. The biharmonic distance has as many maxima as the octopus has tips;
+the geodesic distance has more, where its fronts meet on the far sides of the arms.
 """
 
 import bihdist
 
 picture = bihdist.figure(
-    "octopus", ["biharmonic", "geodesic", "diffusion(t=1/8)"], source=8301, extrema=True, views="high", size="1100x420"
+    "octopus", ["biharmonic", "geodesic", "diffusion"], source=8301, extrema=True, views="high", size="1100x420"
 )
 picture.save("extrema_and_tips.png")
 
@@ -23,5 +24,5 @@ print("tips of limbs:", *bihdist.tips(surface))
 # %%
 # .. code-block:: sh
 #
-#    bihdist figure octopus --sources 8301 --distance 'biharmonic,geodesic,diffusion(t=1/8)' --extrema --view high \
+#    bihdist figure octopus --sources 8301 --distance 'biharmonic,geodesic,diffusion' --extrema --view high \
 #        --size 1100x420 -o extrema_and_tips.png

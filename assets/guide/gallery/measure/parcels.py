@@ -27,8 +27,9 @@ values, vectors = np.linalg.eigh(-middle @ matrix**2 @ middle / 2)
 x, y = (vectors[:, -2:] * np.sqrt(values[-2:])).T
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), layout="constrained")
-figure.colorbar(left.imshow(matrix, cmap="viridis"), label="biharmonic distance")
-left.set(xlabel="parcel", ylabel="parcel")
+drawn = left.imshow(matrix, cmap="viridis", extent=(0.5, 16.5, 16.5, 0.5))
+figure.colorbar(drawn, label="biharmonic distance")
+left.set(xlabel="parcel", ylabel="parcel", xticks=range(1, 17, 3), yticks=range(1, 17, 3))
 right.scatter(y, x, c=matrix[0], s=60, cmap="viridis")
 for number, place in enumerate(zip(y, x, strict=True), 1):
     right.annotate(str(number), place, xytext=(5, 5), textcoords="offset points")

@@ -1,9 +1,10 @@
 """
-Robustness to holes
-===================
+What holes change
+=================
 
-Twelve round holes are cut into the hand. A geodesic has to go around each; the biharmonic distance, which is carried by
-all paths together, changes less.
+Twelve round holes are cut into the hand. Shortest paths go around each of them, so that the geodesic distance changes
+behind the holes alone. The biharmonic distance depends on the whole surface, and changes a little everywhere: the
+panels on the right say by how much.
 """
 
 import bihdist
