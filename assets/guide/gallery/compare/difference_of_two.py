@@ -20,7 +20,10 @@ picture = bihdist.figure("hand", ["raw biharmonic - geodesic"], source=6835, siz
 print(f"{picture.answers[0].field.min():.3f} to {picture.answers[0].field.max():.3f} {picture.answers[0].unit}")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure hand --sources 6835 --distance 'biharmonic,geodesic,biharmonic - geodesic' \
+#    bihdist figure hand --sources 6835 \
+#        --distance 'biharmonic,geodesic,biharmonic - geodesic' \
 #        --size 1000x480 -o difference_of_two.png

@@ -32,5 +32,7 @@ figure.savefig("scatter_of_two-points.png")
 #
 # .. code-block:: sh
 #
-#    bihdist figure elephant --sources 1866 --distance biharmonic,geodesic --size 900x420 -o scatter_of_two.png
-#    bihdist statistics elephant --sources 1866 --distance biharmonic,geodesic --scatter scatter.png
+#    bihdist figure elephant --sources 1866 --distance biharmonic,geodesic \
+#        --size 900x420 -o scatter_of_two.png
+#    bihdist statistics elephant --sources 1866 \
+#        --distance biharmonic,geodesic --scatter scatter.png

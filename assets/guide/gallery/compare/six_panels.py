@@ -14,7 +14,10 @@ picture = bihdist.figure("beast", distances, source=8382, columns=3, range="shar
 picture.save("six_panels.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure beast --sources 8382 --columns 3 --range shares --size 1000x860 -o six_panels.png \
+#    bihdist figure beast --sources 8382 --columns 3 --range shares \
+#        --size 1000x860 -o six_panels.png \
 #        --distance 'biharmonic,commute-time,diffusion(t=1/4),geodesic,truncated(k=20),power(alpha=3,k=100)'

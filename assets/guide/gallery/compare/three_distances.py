@@ -20,7 +20,10 @@ for answer in picture.answers:
     print(f"{answer.label:24} up to {answer.field.max():.3f}")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure animal --sources 5339 --distance biharmonic,geodesic,diffusion --view front \
+#    bihdist figure animal --sources 5339 \
+#        --distance biharmonic,geodesic,diffusion --view front \
 #        --size 1000x420 -o three_distances.png

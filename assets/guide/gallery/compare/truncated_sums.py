@@ -26,8 +26,11 @@ axes.legend()
 figure.savefig("truncated_sums-loss.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure animal --sources 5339 --view front --size 1200x380 -o truncated_sums.png \
+#    bihdist figure animal --sources 5339 --view front --size 1200x380 \
+#        -o truncated_sums.png \
 #        --distance 'truncated(k=5),truncated(k=20),truncated(k=100),biharmonic'
 #    bihdist statistics animal --sources 5339 --truncation --k 100

@@ -14,9 +14,11 @@ for colours in ["paper", "uniform", "ember", "safe", "diverging"]:
     picture.save(f"colour_maps-{colours}.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure genus3 --sources 2617 --distance biharmonic --colours paper --title none --size 360x380 \
-#        -o colour_maps-paper.png
-#    bihdist figure genus3 --sources 2617 --distance biharmonic --colours safe --title none --size 360x380 \
-#        -o colour_maps-safe.png
+#    bihdist figure genus3 --sources 2617 --distance biharmonic \
+#        --colours paper --title none --size 360x380 -o colour_maps-paper.png
+#    bihdist figure genus3 --sources 2617 --distance biharmonic \
+#        --colours safe --title none --size 360x380 -o colour_maps-safe.png

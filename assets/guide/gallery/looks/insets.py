@@ -14,7 +14,9 @@ picture = bihdist.figure(
 picture.save("insets.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure octopus --sources 8301 --distance biharmonic --zoom 8306:4:100,8301:3:60 --view high \
-#        --size 900x520 -o insets.png
+#    bihdist figure octopus --sources 8301 --distance biharmonic \
+#        --zoom 8306:4:100,8301:3:60 --view high --size 900x520 -o insets.png

@@ -21,7 +21,11 @@ picture = bihdist.figure(
 picture.save("isoline_through_a_point.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure figure --sources 8102 --distance biharmonic,geodesic,diffusion --isoline-through 8207 \
-#        --isolines 8 --colours uniform --size 1000x560 -o isoline_through_a_point.png
+#    bihdist figure figure --sources 8102 \
+#        --distance biharmonic,geodesic,diffusion --isoline-through 8207 \
+#        --isolines 8 --colours uniform --size 1000x560 \
+#        -o isoline_through_a_point.png

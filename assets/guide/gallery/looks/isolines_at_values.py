@@ -23,8 +23,12 @@ for curve in bihdist.isolines(bihdist.sample("domain"), field, [0.5, 3]):
     print(f"at {curve.value}: {len(curve.points)} points, {curve.length:.3f} long")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure domain --sources 323 --distance biharmonic --isoline-values 0.25,0.5,1,1.5,2,2.5,3,3.4 \
-#        --isoline-labels --bands --size 760x560 -o isolines_at_values.png
-#    bihdist isolines domain --sources 323 --isoline-values 0.5,3 -o isolines_at_values.csv
+#    bihdist figure domain --sources 323 --distance biharmonic \
+#        --isoline-values 0.25,0.5,1,1.5,2,2.5,3,3.4 --isoline-labels --bands \
+#        --size 760x560 -o isolines_at_values.png
+#    bihdist isolines domain --sources 323 --isoline-values 0.5,3 \
+#        -o isolines_at_values.csv

@@ -14,9 +14,11 @@ for style in ["paper", "uniform", "dark", "lines"]:
     picture.save(f"styles-{style}.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure beast --sources 1437 --distance biharmonic --view home-right --style dark --size 420x420 \
-#        -o styles-dark.png
-#    bihdist figure beast --sources 1437 --distance biharmonic --view home-right --style lines --size 420x420 \
-#        -o styles-lines.png
+#    bihdist figure beast --sources 1437 --distance biharmonic \
+#        --view home-right --style dark --size 420x420 -o styles-dark.png
+#    bihdist figure beast --sources 1437 --distance biharmonic \
+#        --view home-right --style lines --size 420x420 -o styles-lines.png

@@ -28,9 +28,12 @@ curve = bihdist.error_curve(errors)
 print(f"error in roots of the area: mean {curve.mean:.4f}, median {curve.median:.4f}")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure beast beast_pose2 --distance biharmonic --map pairs --size 900x520 -o correspondence.png \
+#    bihdist figure beast beast_pose2 --distance biharmonic --map pairs \
+#        --size 900x520 -o correspondence.png \
 #        --pairs @correspondence-pairs.csv
 #    bihdist correspond beast beast_pose2 -o correspondence.txt \
 #        --pairs @correspondence-pairs.csv

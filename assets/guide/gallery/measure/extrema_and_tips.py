@@ -22,7 +22,10 @@ for answer in picture.answers:
 print("tips of limbs:", *bihdist.tips(surface))
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure octopus --sources 8301 --distance 'biharmonic,geodesic,diffusion' --extrema --view high \
+#    bihdist figure octopus --sources 8301 \
+#        --distance 'biharmonic,geodesic,diffusion' --extrema --view high \
 #        --size 1100x420 -o extrema_and_tips.png

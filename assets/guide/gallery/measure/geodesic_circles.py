@@ -28,7 +28,10 @@ for answer, axes in zip(picture.answers, charts, strict=False):
 figure.savefig("geodesic_circles-polar.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure animal --sources 5339 --distance 'biharmonic,truncated(k=20),geodesic' --zoom 5339:4:60 \
+#    bihdist figure animal --sources 5339 \
+#        --distance 'biharmonic,truncated(k=20),geodesic' --zoom 5339:4:60 \
 #        --view front --size 1000x420 -o geodesic_circles.png

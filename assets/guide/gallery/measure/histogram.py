@@ -24,8 +24,12 @@ axes.legend()
 figure.savefig("histogram-chart.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure scan --sources 8690 --distance biharmonic,geodesic,commute-time --bands --isolines 10 \
+#    bihdist figure scan --sources 8690 \
+#        --distance biharmonic,geodesic,commute-time --bands --isolines 10 \
 #        --range shares --size 900x520 -o histogram.png
-#    bihdist statistics scan --sources 8690 --distance commute-time --histogram histogram-of-one.png
+#    bihdist statistics scan --sources 8690 --distance commute-time \
+#        --histogram histogram-of-one.png

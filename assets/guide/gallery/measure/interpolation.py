@@ -19,8 +19,13 @@ values = bihdist.ShepardInterpolant(distance, list(anchors), list(anchors.values
 print(f"{values.min():.3f} to {values.max():.3f}, at vertex 4000 {values[4000]:.3f}")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure figure --distance 'interpolant by biharmonic,interpolant by geodesic' \
-#        --anchors 8102=0,8207=1,8208=0.3,5=0.7,216=0.1 --anchor-values --size 800x560 -o interpolation.png
-#    bihdist interpolate figure --anchors 8102=0,8207=1,8208=0.3,5=0.7,216=0.1 -o interpolation.csv
+#    bihdist figure figure \
+#        --distance 'interpolant by biharmonic,interpolant by geodesic' \
+#        --anchors 8102=0,8207=1,8208=0.3,5=0.7,216=0.1 --anchor-values \
+#        --size 800x560 -o interpolation.png
+#    bihdist interpolate figure \
+#        --anchors 8102=0,8207=1,8208=0.3,5=0.7,216=0.1 -o interpolation.csv

@@ -37,8 +37,11 @@ right.set(aspect="equal", title="classical scaling to the plane")
 figure.savefig("parcels-matrix.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure beast --sources 7710 --distance biharmonic --pins farthest:16:7710 --regions all --isolines 0 \
-#        --bands --size 520x520 -o parcels.png
+#    bihdist figure beast --sources 7710 --distance biharmonic \
+#        --pins farthest:16:7710 --regions all --isolines 0 --bands \
+#        --size 520x520 -o parcels.png
 #    bihdist pairs beast --sources farthest:16:7710 -o parcels.npy

@@ -30,6 +30,8 @@ figure.savefig("profile_along_a_path-chart.png")
 #
 # .. code-block:: sh
 #
-#    bihdist figure hand --sources 6945 --distance biharmonic,geodesic,diffusion --profile 6945,2157,4506 \
+#    bihdist figure hand --sources 6945 \
+#        --distance biharmonic,geodesic,diffusion --profile 6945,2157,4506 \
 #        --size 1000x440 -o profile_along_a_path.png
-#    bihdist profile hand --sources 6945 --through 6945,2157,4506 -o profile.csv --chart profile.png
+#    bihdist profile hand --sources 6945 --through 6945,2157,4506 \
+#        -o profile.csv --chart profile.png

@@ -22,8 +22,12 @@ picture = bihdist.figure(
 picture.save("voronoi_regions.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure animal --sources 9403 --distance biharmonic,geodesic --pins 9403,6739,2068,22,133,19,9467 \
-#        --regions all --isolines 0 --view front --size 1000x520 -o voronoi_regions.png
-#    bihdist regions animal --sources 9403,6739,2068,22,133,19,9467 -o voronoi_regions.csv
+#    bihdist figure animal --sources 9403 --distance biharmonic,geodesic \
+#        --pins 9403,6739,2068,22,133,19,9467 --regions all --isolines 0 \
+#        --view front --size 1000x520 -o voronoi_regions.png
+#    bihdist regions animal --sources 9403,6739,2068,22,133,19,9467 \
+#        -o voronoi_regions.csv

@@ -13,7 +13,9 @@ picture = bihdist.figure("hand", ["biharmonic", "geodesic"], source=6835, pertur
 picture.save("handle.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure hand --sources 6835 --distance biharmonic,geodesic --perturb handle=6835:6945 --size 900x1000 \
-#        -o handle.png
+#    bihdist figure hand --sources 6835 --distance biharmonic,geodesic \
+#        --perturb handle=6835:6945 --size 900x1000 -o handle.png

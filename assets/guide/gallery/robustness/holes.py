@@ -13,7 +13,9 @@ picture = bihdist.figure("hand", ["biharmonic", "geodesic"], source=6835, pertur
 picture.save("holes.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure hand --sources 6835 --distance biharmonic,geodesic --perturb holes=12,seed=3 \
-#        --size 900x1000 -o holes.png
+#    bihdist figure hand --sources 6835 --distance biharmonic,geodesic \
+#        --perturb holes=12,seed=3 --size 900x1000 -o holes.png

@@ -15,7 +15,10 @@ picture = bihdist.figure(
 picture.save("noise.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
 #    bihdist figure figure --sources 8102 --distance biharmonic,geodesic \
-#        --perturb noise=0.4,along=normals,seed=1 --size 900x1000 -o noise.png
+#        --perturb noise=0.4,along=normals,seed=1 --size 900x1000 \
+#        -o noise.png

@@ -23,5 +23,7 @@ print(page.differs)
 #
 # .. code-block:: sh
 #
-#    bihdist figure hand --sources 6835 --distance 'biharmonic,biharmonic - geodesic' --size 800x460 -o live_page.png
+#    bihdist figure hand --sources 6835 \
+#        --distance 'biharmonic,biharmonic - geodesic' --size 800x460 \
+#        -o live_page.png
 #    bihdist page --recipe live_page.json -o live_page.html

@@ -14,7 +14,11 @@ picture.save("page_of_a_flat_domain.png")
 bihdist.page("domain", "page_of_a_flat_domain.html", distances, source=323, views="front")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure domain --sources 323 --distance biharmonic,geodesic --size 1000x400 -o page_of_a_flat_domain.png
-#    bihdist page domain --sources 323 --distance biharmonic,geodesic --view front -o page_of_a_flat_domain.html
+#    bihdist figure domain --sources 323 --distance biharmonic,geodesic \
+#        --size 1000x400 -o page_of_a_flat_domain.png
+#    bihdist page domain --sources 323 --distance biharmonic,geodesic \
+#        --view front -o page_of_a_flat_domain.html

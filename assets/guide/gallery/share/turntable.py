@@ -13,8 +13,11 @@ picture.save("turntable.png")
 picture.save_movie("turntable-movie.gif", frames=20, fps=8)
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure elephant --sources 1866 --distance biharmonic --isolines 12 --title none --size 320x260 \
-#        -o turntable.png
-#    bihdist movie --recipe turntable.json --frames 20 --fps 8 -o turntable-movie.gif
+#    bihdist figure elephant --sources 1866 --distance biharmonic \
+#        --isolines 12 --title none --size 320x260 -o turntable.png
+#    bihdist movie --recipe turntable.json --frames 20 --fps 8 \
+#        -o turntable-movie.gif

@@ -30,8 +30,13 @@ picture.save("two_column_paper.pdf", tex=True)
 print(Path("two_column_paper.tex").read_text())
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure figure --sources 8207 --distance 'biharmonic,geodesic,biharmonic - geodesic' --bold-isolines 5 \
-#        --isoline-labels --title caption --crop --size 178mm@150dpi -o two_column_paper.png
-#    bihdist figure --recipe two_column_paper.json --tex -o two_column_paper.pdf
+#    bihdist figure figure --sources 8207 \
+#        --distance 'biharmonic,geodesic,biharmonic - geodesic' \
+#        --bold-isolines 5 --isoline-labels --title caption --crop \
+#        --size 178mm@150dpi -o two_column_paper.png
+#    bihdist figure --recipe two_column_paper.json --tex \
+#        -o two_column_paper.pdf

@@ -16,8 +16,10 @@ surface = bihdist.sample("hare")
 print(surface.n_components, "components;", ", ".join(surface.facts))
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure hare --sources 7991 --distance biharmonic,geodesic --size 800x560 \
-#        -o components_and_boundaries.png
+#    bihdist figure hare --sources 7991 --distance biharmonic,geodesic \
+#        --size 800x560 -o components_and_boundaries.png
 #    bihdist info hare

@@ -26,8 +26,12 @@ picture = bihdist.figure("figure", ["biharmonic", "geodesic"], source=curve, siz
 picture.save("curve_as_source-figure.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure hand --sources loop:0 --distance biharmonic,geodesic --size 800x460 -o curve_as_source.png
-#    bihdist figure figure --sources curve_as_source-belt.json --distance biharmonic,geodesic --size 800x560 \
+#    bihdist figure hand --sources loop:0 --distance biharmonic,geodesic \
+#        --size 800x460 -o curve_as_source.png
+#    bihdist figure figure --sources curve_as_source-belt.json \
+#        --distance biharmonic,geodesic --size 800x560 \
 #        -o curve_as_source-figure.png

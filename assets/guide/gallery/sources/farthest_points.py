@@ -17,8 +17,11 @@ picture = bihdist.figure("beast", ["biharmonic"], source=7710, pins=points, view
 picture.save("farthest_points.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
 #    bihdist samples beast --sources farthest:14:7710 -o farthest_points.txt
-#    bihdist figure beast --sources 7710 --distance biharmonic --pins farthest:14:7710 --view home,home-back \
-#        --size 900x480 -o farthest_points.png
+#    bihdist figure beast --sources 7710 --distance biharmonic \
+#        --pins farthest:14:7710 --view home,home-back --size 900x480 \
+#        -o farthest_points.png

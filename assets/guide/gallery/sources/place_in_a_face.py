@@ -19,5 +19,6 @@ picture.save("place_in_a_face.png")
 #
 # .. code-block:: sh
 #
-#    bihdist figure hand --sources f10444:0.2,0.5 --distance biharmonic,geodesic --zoom 2157:8:100 --wireframe \
+#    bihdist figure hand --sources f10444:0.2,0.5 \
+#        --distance biharmonic,geodesic --zoom 2157:8:100 --wireframe \
 #        --size 1000x480 -o place_in_a_face.png

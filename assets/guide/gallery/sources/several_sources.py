@@ -14,7 +14,10 @@ picture = bihdist.figure(
 picture.save("several_sources.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure genus3 --sources 2617,2656 --distance biharmonic,geodesic,diffusion --isolines 14 \
+#    bihdist figure genus3 --sources 2617,2656 \
+#        --distance biharmonic,geodesic,diffusion --isolines 14 \
 #        --size 900x700 -o several_sources.png

@@ -18,7 +18,10 @@ picture.save("several_vertices.png")
 print(bihdist.tips(bihdist.sample("hand")))
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure hand --sources 6945+6835+6772+5885+4506 --distance biharmonic,geodesic --size 800x520 \
+#    bihdist figure hand --sources 6945+6835+6772+5885+4506 \
+#        --distance biharmonic,geodesic --size 800x520 \
 #        -o several_vertices.png
