@@ -34,7 +34,7 @@ SMALLER = 3
 SIZE = re.compile(r"\b(\d{3,4})x(\d{3,4})\b|178mm@150dpi")
 FRAMES = re.compile(r"(frames[ =])\d+")
 
-DRAWN = ("three_distances", "curve_as_source", "correspondence")
+DRAWN = ("three_distances", "correspondence")
 """Examples whose command lines and recipes are drawn; of all others the recipes are compared, which say it all."""
 
 REDUCED = 8
