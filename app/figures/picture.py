@@ -58,6 +58,24 @@ class Picture:
         write_figure(self._figure, self._recipe, self._given, os.fspath(path), version(), tex=answers)
         return Path(path)
 
+    def save_movie(
+        self,
+        path: str | os.PathLike[str],
+        turn: float = 360.0,
+        frames: int = 120,
+        fps: float = 25.0,
+        progress: Progress | None = None,
+    ) -> Path:
+        """Turning by so many degrees, into a .gif or .mp4 file, as `bihdist movie` draws it; BihdistError if not.
+
+        frames: how many pictures; fps: how many of them a second.
+        """
+        from .movie import Movie, check_movie, write_movie
+
+        check_movie(path)
+        write_movie(Movie(self._recipe, turn, frames=frames, fps=fps), path, progress, self._given)
+        return Path(path)
+
     @property
     def pixels(self) -> ByteArray:
         """(height, width, 3) uint8, or (height, width, 4) if it is transparent."""

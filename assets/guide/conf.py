@@ -23,6 +23,7 @@ extensions = [
     "sphinx_design",
     "sphinx_gallery.gen_gallery",
     "assets.guide.building.docstrings",
+    "assets.guide.building.gallery",
     "assets.guide.building.mathml",
     "assets.guide.building.shown_blocks",
 ]
@@ -54,7 +55,7 @@ sphinx_gallery_conf = {
     "examples_dirs": "gallery",
     "gallery_dirs": "gallery/auto",
     "filename_pattern": r"\.py$",
-    "image_scrapers": ("assets.guide.building.saved_pictures.saved_pictures",),
+    "image_scrapers": ("assets.guide.building.gallery.saved_files",),
     "reset_modules": ("matplotlib",),
     "capture_repr": (),
     "download_all_examples": False,

@@ -137,3 +137,14 @@ def test_the_example_in_the_docstring_runs(name, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "bihdist", app)
     (test,) = doctest.DocTestFinder(recurse=False).find(getattr(picture, name), name)
     assert doctest.DocTestRunner().run(test) == (0, len(test.examples))
+
+
+def test_a_picture_turns_as_the_command_turns_it(mesh_file, tmp_path):
+    path = mesh_file(bumpy(300))
+    words = ["--distance", "biharmonic", "--sources", "4", "--size", "120x120", "--frames", "3", "--fps", "5"]
+    assert main(["movie", path, *words, "--turn", "90", "-o", str(tmp_path / "command.gif")]) == 0
+    made = app.figure(path, ["biharmonic"], source=4, size="120x120")
+    assert made.save_movie(tmp_path / "python.gif", turn=90, frames=3, fps=5) == tmp_path / "python.gif"
+    assert (tmp_path / "python.gif").read_bytes() == (tmp_path / "command.gif").read_bytes()
+    with pytest.raises(ParameterError, match="2 to 10,000 frames, not 1"):
+        made.save_movie(tmp_path / "one.gif", frames=1)

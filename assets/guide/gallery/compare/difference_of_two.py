@@ -3,8 +3,8 @@ The difference of two distances
 ===============================
 
 Two names with a minus between them are a panel of their own: each distance is divided by its maximum first, and the
-difference is in percentage points, with a colour map of its own around zero. From the tip of the index finger, the
-biharmonic distance ranks the palm nearer and the other fingertips farther than the geodesic distance does.
+difference is in percentage points, with a colour map of its own and a mark where it is largest. To the other fingers it
+is farther by the biharmonic distance than by the geodesic one, since nothing but the palm joins them.
 """
 
 import bihdist
@@ -20,7 +20,10 @@ picture = bihdist.figure("hand", ["raw biharmonic - geodesic"], source=6835, siz
 print(f"{picture.answers[0].field.min():.3f} to {picture.answers[0].field.max():.3f} {picture.answers[0].unit}")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure hand --sources 6835 --distance 'biharmonic,geodesic,biharmonic - geodesic' \
+#    bihdist figure hand --sources 6835 \
+#        --distance 'biharmonic,geodesic,biharmonic - geodesic' \
 #        --size 1000x480 -o difference_of_two.png

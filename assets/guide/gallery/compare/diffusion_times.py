@@ -15,7 +15,10 @@ picture = bihdist.figure("hand", distances, source=6835, range="shares", isoline
 picture.save("diffusion_times.png")
 
 # %%
+# The same from the command line:
+#
 # .. code-block:: sh
 #
-#    bihdist figure hand --sources 6835 --range shares --isolines 12 --size 1200x400 -o diffusion_times.png \
+#    bihdist figure hand --sources 6835 --range shares --isolines 12 \
+#        --size 1200x400 -o diffusion_times.png \
 #        --distance 'diffusion(t=1/4),diffusion(t=1),diffusion(t=4),diffusion(t=16),biharmonic'

@@ -1,0 +1,23 @@
+"""
+Six distances in two rows
+=========================
+
+A figure has as many panels as you name distances; ``columns`` says how many stand side by side. With
+``range="shares"`` all colour bars show fractions of the maximum, so that colours mean the same in every panel although
+the units differ. Parameters stand in parentheses.
+"""
+
+import bihdist
+
+distances = ["biharmonic", "commute-time", "diffusion(t=1/4)", "geodesic", "truncated(k=20)", "power(alpha=3,k=100)"]
+picture = bihdist.figure("beast", distances, source=8382, columns=3, range="shares", size="1000x860")
+picture.save("six_panels.png")
+
+# %%
+# The same from the command line:
+#
+# .. code-block:: sh
+#
+#    bihdist figure beast --sources 8382 --columns 3 --range shares \
+#        --size 1000x860 -o six_panels.png \
+#        --distance 'biharmonic,commute-time,diffusion(t=1/4),geodesic,truncated(k=20),power(alpha=3,k=100)'

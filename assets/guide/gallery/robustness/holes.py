@@ -1,0 +1,21 @@
+"""
+What holes change
+=================
+
+Twelve round holes are cut into the hand. Shortest paths go around each of them, so that the geodesic distance changes
+behind the holes alone. The biharmonic distance depends on the whole surface, and changes a little everywhere: the
+panels on the right say by how much.
+"""
+
+import bihdist
+
+picture = bihdist.figure("hand", ["biharmonic", "geodesic"], source=6835, perturb="holes=12,seed=3", size="900x1000")
+picture.save("holes.png")
+
+# %%
+# The same from the command line:
+#
+# .. code-block:: sh
+#
+#    bihdist figure hand --sources 6835 --distance biharmonic,geodesic \
+#        --perturb holes=12,seed=3 --size 900x1000 -o holes.png

@@ -1,0 +1,23 @@
+"""
+A movie of a shape that turns
+=============================
+
+What a figure shows can turn: ``save_movie`` writes a GIF, or an MP4 with the extra ``movie``. On the command line
+the source may wander as well, through the vertices of ``--path``.
+"""
+
+import bihdist
+
+picture = bihdist.figure("elephant", ["biharmonic"], source=1866, isolines=12, title="none", size="320x260")
+picture.save("turntable.png")
+picture.save_movie("turntable-movie.gif", frames=20, fps=8)
+
+# %%
+# The same from the command line:
+#
+# .. code-block:: sh
+#
+#    bihdist figure elephant --sources 1866 --distance biharmonic \
+#        --isolines 12 --title none --size 320x260 -o turntable.png
+#    bihdist movie --recipe turntable.json --frames 20 --fps 8 \
+#        -o turntable-movie.gif
