@@ -19,6 +19,8 @@ from pathlib import Path
 
 PICTURES = (".png", ".svg", ".gif", ".webp", ".jpg")
 OPENING = re.compile(r"^(?P<indent>[ \t]*)(?P<fence>`{3,})\{(?P<kind>shell|python|file)\}[ \t]*(?P<argument>.*)$")
+PROGRESS = re.compile(r"^bihdist: +\d+%.*\n?", re.MULTILINE)
+"""What commands say of how far they are, on machines where they take long."""
 OPTION = re.compile(r"^:(?P<name>[\w-]+):[ \t]*(?P<value>.*)$")
 
 
@@ -102,7 +104,7 @@ def _run_shell(block: Block, names: dict[str, object]) -> Outcome:
         if status != wanted:
             raise _Failed(f"{line}: exit status {status} instead of {wanted}\n{printed.getvalue()}")
         pictures += _pictures_named(words)
-    return Outcome(printed.getvalue(), tuple(dict.fromkeys(pictures)))
+    return Outcome(PROGRESS.sub("", printed.getvalue()), tuple(dict.fromkeys(pictures)))
 
 
 def _status_of(arguments: list[str]) -> int:

@@ -13,8 +13,6 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from PIL import Image
-
 PICTURES = (".png", ".gif")
 PAGE = ".html"
 OTHERS = (".json", ".tex", ".csv")
@@ -22,9 +20,6 @@ OTHERS = (".json", ".tex", ".csv")
 
 PAGES = "pages"
 """The folder of web pages beside an example's page, which Sphinx knows nothing of."""
-
-QUALITY = 88
-"""Of pictures as they are shown; those that the example saves are four times as large."""
 
 IFRAME = """
 .. raw:: html
@@ -45,7 +40,8 @@ def saved_files(block: tuple[Any, ...], variables: dict[str, Any], conf: Mapping
     shown, text = [], ""
     for path in new:
         if path.suffix in PICTURES:
-            shown.append(_shown(path, next(variables["image_path_iterator"])))
+            shown.append(str(Path(next(variables["image_path_iterator"])).with_suffix(path.suffix)))
+            shutil.copy(path, shown[-1])
         elif path.suffix == PAGE:
             (page / PAGES).mkdir(exist_ok=True)
             shutil.copy(path, page / PAGES)
@@ -65,17 +61,6 @@ def own_files(source: Path) -> list[Path]:
         for path in source.parent.glob(f"{source.stem}*")
         if path.suffix in (*PICTURES, PAGE, *OTHERS) and path.name.removeprefix(source.stem)[:1] in ".-"
     ]
-
-
-def _shown(path: Path, place: str) -> str:
-    """A copy for the page, in fewer bytes."""
-    if path.suffix == ".png":
-        place = str(Path(place).with_suffix(".webp"))
-        Image.open(path).save(place, quality=QUALITY, method=6)
-    else:
-        place = str(Path(place).with_suffix(path.suffix))
-        shutil.copy(path, place)
-    return place
 
 
 # ---------------------------------------------------------------------- Sphinx

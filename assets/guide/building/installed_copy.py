@@ -2,7 +2,10 @@
 
 import re
 import shutil
+import zlib
 from pathlib import Path
+
+from PIL import Image
 
 from .links import wrong_links
 
@@ -20,7 +23,9 @@ CHANGES = [
 ]
 """Patterns in pages, and what stands there instead."""
 MOST = 6_000_000
-"""Bytes of all files."""
+"""Bytes of all files, compressed as they are in a wheel."""
+QUALITY = 84
+"""Of drawings; pictures of the window, in few colours, lose nothing."""
 
 
 def install(pages: Path, target: Path) -> str:
@@ -33,14 +38,15 @@ def install(pages: Path, target: Path) -> str:
     shutil.copytree(pages, fresh, ignore=shutil.ignore_patterns(*LEFT_OUT))
     for path in list(fresh.rglob("*.py")):
         path.rename(path.with_name(f"{path.name}.txt"))
+    changes = [*CHANGES, *_smaller_pictures(fresh / "_images")]
     for path in fresh.rglob("*.html"):
         text = path.read_text(encoding="utf-8")
-        for pattern, instead in CHANGES:
+        for pattern, instead in changes:
             text = re.sub(pattern, instead, text, flags=re.DOTALL)
         path.write_text(text, encoding="utf-8")
     if wrong := wrong_links(fresh):
         raise ValueError("links of the guide are wrong:\n" + "\n".join(wrong))
-    sizes = {path: path.stat().st_size for path in fresh.rglob("*") if path.is_file()}
+    sizes = {path: len(zlib.compress(path.read_bytes())) for path in fresh.rglob("*") if path.is_file()}
     if sum(sizes.values()) > MOST:
         largest = sorted(sizes, key=sizes.__getitem__, reverse=True)[:10]
         named = ", ".join(f"{path.relative_to(fresh)} {sizes[path] // 1000} kB" for path in largest)
@@ -48,4 +54,15 @@ def install(pages: Path, target: Path) -> str:
     shutil.rmtree(target, ignore_errors=True)
     shutil.move(fresh, target)
     count = sum(path.suffix == ".html" for path in sizes)
-    return f"{target / 'index.html'}: {count} pages, {sum(sizes.values()) / 1e6:.1f} MB"
+    return f"{target / 'index.html'}: {count} pages, {sum(sizes.values()) / 1e6:.1f} MB compressed"
+
+
+def _smaller_pictures(folder: Path) -> list[tuple[str, str]]:
+    """Have PNG files become WebP; what has to be changed in pages for that."""
+    changes = []
+    for path in folder.glob("*.png"):
+        with Image.open(path) as picture:
+            picture.save(path.with_suffix(".webp"), lossless=picture.mode == "P", quality=QUALITY, method=6)
+        path.unlink()
+        changes.append((rf"(_images/{re.escape(path.stem)})\.png\b", r"\1.webp"))
+    return changes
