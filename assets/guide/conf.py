@@ -64,6 +64,9 @@ sphinx_gallery_conf = {
     "min_reported_time": 1e9,
     "write_computation_times": False,
     "remove_config_comments": True,
+    "subsection_order": [
+        f"gallery/{name}" for name in ("compare", "sources", "looks", "measure", "robustness", "share")
+    ],
     "within_subsection_order": "ExampleTitleSortKey",
     "thumbnail_size": (400, 280),
     "abort_on_example_error": False,
@@ -92,7 +95,7 @@ html_theme_options = {
     "navbar_align": "left",
     "navbar_end": ["theme-switcher"],
     "navbar_persistent": ["search-button"],
-    "secondary_sidebar_items": ["page-toc"],
+    "secondary_sidebar_items": {"reference/**": ["page-toc"], "explanation/*": ["page-toc"]},
     "show_nav_level": 1,
     "navigation_depth": 3,
     "collapse_navigation": True,
