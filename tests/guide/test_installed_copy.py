@@ -1,6 +1,9 @@
 """The copy to be installed stands by itself: links lead somewhere, nothing is fetched, and it is small."""
 
+import zlib
+
 import pytest
+from PIL import Image
 
 from app.guide_pages import GUIDE
 from assets.guide.building import installed_copy
@@ -28,12 +31,24 @@ def test_what_is_copied(pages, tmp_path):
     target = tmp_path / "guide"
     target.mkdir()
     (target / "old.html").write_text("of the build before")
-    assert install(pages, target).endswith("2 pages, 0.0 MB")
+    assert install(pages, target).endswith("2 pages, 0.0 MB compressed")
     files = {path.relative_to(target).as_posix() for path in target.rglob("*") if path.is_file()}
     assert files == {"index.html", "b.html", "_downloads/0f/one.py.txt"}
     text = (target / "index.html").read_text()
     assert "searchindex" not in text
     assert '<a download="one.py" href="_downloads/0f/one.py.txt">' in text
+
+
+@pytest.mark.parametrize("mode", ["RGB", "P"])
+def test_pictures_travel_as_webp(pages, tmp_path, mode):
+    (pages / "_images").mkdir()
+    Image.new(mode, (40, 30), 3).save(pages / "_images/a.b.png")
+    (pages / "c.html").write_text('<a href="_images/a.b.png"><img src="_images/a.b.png"></a> a.b.png')
+    install(pages, tmp_path / "guide")
+    assert [path.name for path in (tmp_path / "guide/_images").iterdir()] == ["a.b.webp"]
+    page = (tmp_path / "guide/c.html").read_text()
+    assert page == '<a href="_images/a.b.webp"><img src="_images/a.b.webp"></a> a.b.png'
+    assert Image.open(tmp_path / "guide/_images/a.b.webp").size == (40, 30)
 
 
 @pytest.mark.parametrize(
@@ -73,7 +88,8 @@ def test_sections_of_a_page():
 def test_the_guide_that_is_built():
     folder = GUIDE.parent
     assert wrong_links(folder) == []
-    assert sum(path.stat().st_size for path in folder.rglob("*") if path.is_file()) <= installed_copy.MOST
+    compressed = [len(zlib.compress(path.read_bytes())) for path in folder.rglob("*") if path.is_file()]
+    assert sum(compressed) <= installed_copy.MOST
     assert list(folder.rglob("*.py")) == []
     for path in folder.rglob("*.html"):
         assert "MathJax" not in path.read_text(encoding="utf-8")
