@@ -51,7 +51,7 @@ Of a picture.
 
 from PIL import Image
 
-Image.new("RGB", (40, 30), "blue").save("blue.png")
+Image.new("RGB", (40, 30), "blue").save("one.png")
 '''
 
 
@@ -89,10 +89,10 @@ def test_a_small_guide(source):
     assert "<msubsup>" in page
     assert "info --solver" not in page
     assert 'id="bihdist.tips"' in page
-    assert (guide / "_images/red.png").is_file()
+    assert (guide / "_images/red.webp").is_file()
     example = (guide / "gallery/auto/one.html").read_text(encoding="utf-8")
     assert 'download="one.py"' in example
-    assert (guide / "_images/sphx_glr_one_001.png").is_file()
+    assert (guide / "_images/sphx_glr_one_001.webp").is_file()
     assert "red.png" in page
     assert '"gallery/auto/one.html"' in (guide / "search-index.js").read_text(encoding="utf-8")
 

@@ -48,7 +48,8 @@ def test_pictures_travel_as_webp(pages, tmp_path, mode):
     assert [path.name for path in (tmp_path / "guide/_images").iterdir()] == ["a.b.webp"]
     page = (tmp_path / "guide/c.html").read_text()
     assert page == '<a href="_images/a.b.webp"><img src="_images/a.b.webp"></a> a.b.png'
-    assert Image.open(tmp_path / "guide/_images/a.b.webp").size == (40, 30)
+    with Image.open(tmp_path / "guide/_images/a.b.webp") as picture:
+        assert picture.size == (40, 30)
 
 
 @pytest.mark.parametrize(
