@@ -54,6 +54,12 @@ def __getattr__(name: str) -> object:
     if name == "__all__":
         return __dir__()
     if name in bihdist_core.__all__:
+        from .version import disagreement
+
+        if words := disagreement():
+            import warnings
+
+            warnings.warn(words, stacklevel=2)
         return getattr(bihdist_core, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
