@@ -46,10 +46,8 @@ def wheel(source: Path, tag: str, output: Path) -> Path:
     command = [sys.executable, "-m", "pip", "--disable-pip-version-check", "wheel", "--quiet", "--no-index"]
     setting = f"--config-settings=--build-option=--plat-name={tag}"
     run([*command, "--no-deps", "--no-build-isolation", setting, "--wheel-dir", str(output), str(source)])
-    found = list(output.glob(f"{source.name.partition('-')[0]}-*-{tag}.whl"))
-    if len(found) != 1:
-        raise Failed(f"There are {len(found)} wheels of {source.name} for {tag} in {output}.")
-    return found[0]
+    (made,) = output.glob(f"{source.name}-*-{tag}.whl")
+    return made
 
 
 def run(command: Sequence[str], **options: object) -> str:

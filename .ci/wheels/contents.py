@@ -57,7 +57,8 @@ def complaints(wheel: Path, source: Path) -> Iterator[str]:
         sizes = {info.filename: info.file_size for info in archive.infolist()}
         yield from _wrong_files(set(sizes), name, source)
         yield from _wrong_tags(archive, f"{name}-{version}.dist-info", (python, binary, platform))
-        yield from _wrong_kernel(archive, platform, _functions(source))
+        folder = PACKAGES[name]["bihdist_core"]
+        yield from _wrong_kernel(archive, platform, _functions(source / folder / "kernel" / "library.py"))
     size = sum(sizes.values()) if name == "bihdist_core" else wheel.stat().st_size
     if size > LARGEST[name]:
         yield f"{size:,} bytes are more than {LARGEST[name]:,}."
@@ -70,7 +71,7 @@ def _wrong_files(names: set[str], distribution: str, source: Path) -> Iterator[s
         yield f"It holds {', '.join(sorted(tops))} in place of {', '.join(packages)}."
     for package, folder in packages.items():
         held = {name for name in names if name.startswith(f"{package}/") and "libbihdist" not in name}
-        wanted = {f"{package}/{name}" for name in _package_files(source / folder)} if folder else held
+        wanted = {f"{package}/{name}" for name in package_files(source / folder)} if folder else held
         for name in sorted(held ^ wanted):
             yield f"{name} is {'missing' if name in wanted else 'no file of the package'}."
     for name in ESSENTIAL[distribution]:
@@ -78,7 +79,7 @@ def _wrong_files(names: set[str], distribution: str, source: Path) -> Iterator[s
             yield f"{name} is missing."
 
 
-def _package_files(folder: Path) -> Iterator[str]:
+def package_files(folder: Path) -> Iterator[str]:
     """Names of the files of a package that belong into any wheel."""
     for path in folder.rglob("*"):
         name = path.relative_to(folder).as_posix()
@@ -92,9 +93,8 @@ def _wrong_tags(archive: zipfile.ZipFile, information: str, tags: tuple[str, str
         yield f"Its tags are {', '.join(said)}, and its name has {'-'.join(tags)}."
 
 
-def _functions(source: Path) -> set[str]:
-    """Names of the functions that Python calls in the kernel."""
-    (path,) = source.glob("**/kernel/library.py")
+def _functions(path: Path) -> set[str]:
+    """Names of the functions that Python calls in the kernel, from the module that does."""
     text = path.read_text(encoding="utf-8").partition("_SIGNATURES")[2].partition("\n}")[0]
     return {f"bih_{name}" for name in re.findall(r'^    "(\w+)":', text, re.MULTILINE)}
 
@@ -107,7 +107,8 @@ def _wrong_kernel(archive: zipfile.ZipFile, tag: str, functions: set[str]) -> It
         return
     platform = platforms[0]
     if set(held) != set(platform.libraries):
-        yield f"It holds the libraries {', '.join(sorted(held)) or 'none'}, not {', '.join(platform.libraries)}."
+        both = (", ".join(names) or "none" for names in (sorted(held), platform.libraries))
+        yield f"It holds the libraries {', not '.join(both)}."
     for name, path in held.items():
         try:
             found = library(archive.read(path))

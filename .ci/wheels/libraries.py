@@ -26,6 +26,13 @@ VERSION_MIN_MACOSX, BUILD_VERSION, CODE_SIGNATURE = 0x24, 0x32, 0x1D
 
 def library(content: bytes) -> Library:
     """The library with these bytes; ValueError if they are none, or one for a machine that we have no wheels for."""
+    try:
+        return _library(content)
+    except struct.error:
+        raise ValueError("it ends in its headers") from None
+
+
+def _library(content: bytes) -> Library:
     # Names end with a zero in the tables of all three.
     names = frozenset(name.decode() for name in re.findall(rb"\bbih_\w+|(?<=_)bih_\w+(?=\0)", content))
     if content[:4] == b"\x7fELF":

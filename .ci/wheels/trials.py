@@ -15,7 +15,7 @@ TESTS = ("pytest", "pytest-xdist", "hypothesis")
 QUICK = tuple(
     f"tests/core/test_{name}.py"
     for name in ("components", "distances", "exact_geodesic", "factor", "heat_geodesic", "isolines", "kernels",
-                 "laplacian", "mesh_io", "operators", "ordering", "sources", "spectrum", "surface", "worker_threads")
+                 "laplacian", "mesh_io", "operators", "elimination_tree", "sources", "spectrum", "surface", "worker_threads")
 )  # fmt: skip
 """The tests of the core that say most in the least time."""
 
