@@ -14,12 +14,14 @@ TESTS = ("pytest", "pytest-xdist", "hypothesis")
 
 QUICK = tuple(
     f"tests/core/test_{name}.py"
-    for name in ("components", "distances", "exact_geodesic", "factor", "heat_geodesic", "isolines", "kernels",
-                 "laplacian", "mesh_io", "operators", "elimination_tree", "sources", "spectrum", "surface", "worker_threads")
+    for name in (
+        "components", "distances", "elimination_tree", "exact_geodesic", "factor", "heat_geodesic", "isolines", "kernels",
+        "laplacian", "mesh_io", "operators", "sources", "spectrum", "surface", "worker_threads",
+    )
 )  # fmt: skip
 """The tests of the core that say most in the least time."""
 
-WHERE = "import bihdist_core.kernel.library as found; print(found.__file__); print(found.kernel() is not None)"
+WHERE = "import bihdist_core.kernel.library as found; print(found.__file__); print(found.description())"
 OF_THE_CHECKOUT = re.compile(r"^(from|import) app\b", re.MULTILINE)
 """In tests that need the program under the name that it has there."""
 
@@ -68,15 +70,13 @@ def tried(wheel: Path, python: str, resolution: str, source: Path, folder: Path,
     away.mkdir()
     shutil.copytree(source / "tests", away / "tests")
     shutil.copy(source / "pyproject.toml", away)
-    place, compiled = run([str(inside), "-c", WHERE], cwd=away).split()[-2:]
+    place, kernel = run([str(inside), "-c", WHERE], cwd=away).splitlines()[-2:]
     if not Path(place).is_relative_to(environment):
         raise Failed(f"{place} is not what was installed into {environment}.")
     chosen = list(_of_the_library(away, tests))
     said, passed = _pytest([str(inside), "-m", "pytest", "-n", "2", "-p", "no:cacheprovider", *chosen], away)
-    names = ("python", "numpy", "scipy")
     code = "import numpy, platform, scipy; print(platform.python_version(), numpy.__version__, scipy.__version__)"
-    versions = ", ".join(run([str(inside), "-c", code]).split()[-len(names) :])
-    kernel = "compiled" if compiled == "True" else "NumPy"
+    versions = ", ".join(run([str(inside), "-c", code]).split()[-3:])
     return Trial(python, wheel.name, resolution, kernel, versions, seconds, said, passed)
 
 
