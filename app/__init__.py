@@ -54,12 +54,9 @@ def __getattr__(name: str) -> object:
     if name == "__all__":
         return __dir__()
     if name in bihdist_core.__all__:
-        from .version import disagreement
+        from .version import warn_of_disagreement
 
-        if words := disagreement():
-            import warnings
-
-            warnings.warn(words, stacklevel=2)
+        warn_of_disagreement()
         return getattr(bihdist_core, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 

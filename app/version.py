@@ -1,5 +1,6 @@
 """Which version this is, and whether what is installed is all of it."""
 
+import warnings
 from functools import cache
 from importlib import metadata
 
@@ -33,3 +34,10 @@ def disagreement() -> str:
         f"{found}, whose library says it is {VERSION}, do not fit together: install one version, by "
         f"`pip install --force-reinstall --no-deps {again}`."
     )
+
+
+@cache
+def warn_of_disagreement() -> None:
+    """A warning, once, if the program and the library do not fit together."""
+    if words := disagreement():
+        warnings.warn(words, stacklevel=3)
