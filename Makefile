@@ -5,7 +5,7 @@ ARGS ?=
 PICTURE = bihdist-comparison.png
 PYTHON_HERE = $(if $(filter Windows_NT,$(OS)),.venv/Scripts/python,.venv/bin/python)
 
-.PHONY: help run test check quick bench stress guide
+.PHONY: help run test check quick bench stress guide wheels
 .NOTPARALLEL:
 
 help:
@@ -16,6 +16,7 @@ help:
 	@echo 'make bench   the speed of the solver beside potpourri3d'
 	@echo 'make guide   the guide as pages, with its examples run: app/guide/index.html'
 	@echo 'make stress  attacks on the program, for hours; goes on where it was interrupted'
+	@echo 'make wheels  the files of a release, for all platforms, in dist'
 
 NO_DISPLAY = $(if $(filter Linux,$(shell uname -s)),$(if $(DISPLAY)$(WAYLAND_DISPLAY),,yes))
 NO_WINDOW = $(filter field pairs profile isolines statistics samples regions interpolate correspond evaluate perturb \
@@ -45,7 +46,7 @@ check:
 QUICK = $(addprefix tests/packaging/test_,import_rules.py words.py) \
     $(addprefix tests/app/test_,document.py history.py one_line.py) \
     $(addprefix tests/core/test_,components.py distances.py factor.py isolines.py laplacian.py mesh_io.py operators.py \
-    ordering.py sources.py surface.py)
+    elimination_tree.py sources.py surface.py)
 quick:
 	@.ci/set-up dev
 	$(checks)
@@ -76,3 +77,7 @@ guide:
 stress:
 	@.ci/set-up dev
 	$(PYTHON_HERE) -m tests.stress $(ARGS)
+
+wheels:
+	@.ci/set-up wheels
+	PYTHONPATH=.ci $(PYTHON_HERE) -m wheels $(ARGS)

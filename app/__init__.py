@@ -57,6 +57,9 @@ def __getattr__(name: str) -> object:
     if name == "__all__":
         return __dir__()
     if name in bihdist_core.__all__:
+        from .version import warn_of_disagreement
+
+        warn_of_disagreement()
         return getattr(bihdist_core, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 

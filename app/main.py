@@ -16,10 +16,10 @@ from .commands import batch, field, figure, guide, info, isolines, movie, page, 
 from .commands.mesh import check_mesh
 from .commands.parser import Parser
 from .commands.result import as_json
-from .commands.terminal import add_telling, standard_output, tell_failure, telling
+from .commands.terminal import add_telling, standard_output, tell_failure, telling, warn
 from .commands.termination import status_of, termination_raised, words_of
 from .document.tools import tools
-from .version import version
+from .version import disagreement, version
 
 COMMANDS = {
     **{module.__name__.rpartition(".")[2]: module for module in (view, field, pairs, isolines)},
@@ -28,6 +28,9 @@ COMMANDS = {
 }
 """By word: each has its `WORDS` (what it does), `add_options(parser)` and `run(options)`, which returns a `Result`;
 TEXT: the format in which it writes to standard output, for `-o -`."""
+
+DRAWING = {"matplotlib", "PIL", "pyvista", "pyvistaqt", "qtpy", "vtkmodules"}
+"""What is not there where the program was installed for batches alone."""
 
 FILES = re.compile(r"FILE|OUT|DIR|MAP|\.json|\.png")
 """Options whose values have such words are completed by names of files, as all that has no option."""
@@ -50,6 +53,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _run(options)
     except BihdistError as error:
         return _failed(options, str(error), 2)
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] not in DRAWING:
+            raise
+        return _failed(options, f"this draws, and {error.name} is not installed: `pip install bihdist` brings it.", 2)
     except MemoryError:
         return _failed(options, "there is not enough memory for this.", 2)
     except BrokenPipeError:
@@ -63,6 +70,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(options: argparse.Namespace) -> int:
     module = COMMANDS[options.command]
     with telling(options.quiet) as notes, standard_output(options, getattr(module, "TEXT", "")):
+        if words := disagreement():
+            warn(words)
         result = module.run(options)
     if options.json:
         print(as_json(options.command, result.status, {**result.facts, "notes": notes}))

@@ -12,4 +12,6 @@ them does not wait for all.
 
 import lazy_loader
 
+from .version import VERSION as __version__  # noqa: F401
+
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -5,6 +5,7 @@ import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from bihdist_core.counts import counted
@@ -45,6 +46,10 @@ EIGENPAIRS = 100
 
 OF_RECIPE = ("distance", "areas", *PARAMETERS)
 """Options that a recipe says itself."""
+
+DRAWN = {"figure": "vtkmodules", "evaluate": "matplotlib"}
+"""Works whose results are drawn, and the module they need, which is not there where batches are all that runs."""
+
 WORDS = "the same work on many meshes: fields, pairs, neighbours, eigenpairs, farthest points, figures, into a folder"
 
 
@@ -117,6 +122,7 @@ def run(options: argparse.Namespace) -> Result:
 
     wanted = _wanted(options)
     check_format(wanted.arrays)
+    _check_drawing(wanted.works)
     found = _meshes(options)
     meshes = found.paths
     address = options.output if "://" in options.output else os.path.abspath(options.output)
@@ -161,6 +167,17 @@ def run(options: argparse.Namespace) -> Result:
             tell_failure(line)
         tell_failure(f"{counted(len(outcome.failures), 'result')} missing; {place}/failures.csv says why.")
     return Result(_facts(folder, outcome, len(names), pages), 1 if outcome.failures else 0)
+
+
+def _check_drawing(works: Sequence[str]) -> None:
+    """ParameterError, before hours of work, where what draws its results is not installed."""
+    from bihdist_core.errors import ParameterError
+
+    for work in works:
+        if work in DRAWN and find_spec(DRAWN[work]) is None:
+            raise ParameterError(
+                f"--do {work} draws, and {DRAWN[work]} is not installed: `pip install bihdist` brings it."
+            )
 
 
 def _facts(folder: "Folder", outcome: "Outcome", n_meshes: int, pages: Sequence[str] = ()) -> Facts:

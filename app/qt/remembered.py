@@ -9,7 +9,7 @@ import os
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from datetime import datetime, timezone
+from datetime import UTC, datetime
 from pathlib import Path
 
 from qtpy import QtCore
@@ -58,7 +58,7 @@ def recent() -> list[str]:
 def remember(path: str) -> None:
     """Put a file first among the recent ones."""
     path = os.path.abspath(path)
-    files = [Recent(path, datetime.now(timezone.utc)), *(file for file in recent_files() if file.path != path)]
+    files = [Recent(path, datetime.now(UTC)), *(file for file in recent_files() if file.path != path)]
     entries = [{"path": file.path, "opened": file.opened_at and file.opened_at.isoformat()} for file in files]
     _write("recent.json", entries[:MOST_RECENT])
 

@@ -3,7 +3,7 @@
     python bihdist_core/kernel/build.py
 
 The compiler is what the environment variable CC names, else `cc`, `gcc` or `clang`, else zig where PyPI's `ziglang` is
-installed.  Nothing but the standard library is needed: setup.py runs this where nothing is installed yet.
+installed.  Nothing but the standard library is needed: `build_backend.py` runs this where nothing is installed yet.
 """
 
 import argparse

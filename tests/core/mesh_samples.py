@@ -7,6 +7,7 @@ import struct
 import zlib
 
 import numpy as np
+import pytest
 
 from bihdist_core.errors import MeshError
 
@@ -161,6 +162,7 @@ def vtk_old(vertices=VERTICES, polygons=FACES, binary=False):
 
 def written_by_vtk(path, polygons=FACES, mode="appended", version=None, vertices=VERTICES, compressor=True):
     """The mesh written by VTK itself."""
+    pytest.importorskip("vtkmodules", reason="VTK is not installed")
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
@@ -201,6 +203,7 @@ def written_by_vtk(path, polygons=FACES, mode="appended", version=None, vertices
 
 def grid_written_by_vtk(path, cells, version=42, vertices=VERTICES):
     """An unstructured grid of triangles (of 3 corners) and tetrahedra (of 4), written by VTK."""
+    pytest.importorskip("vtkmodules", reason="VTK is not installed")
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import VTK_TETRA, VTK_TRIANGLE, vtkUnstructuredGrid

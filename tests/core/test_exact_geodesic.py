@@ -321,7 +321,7 @@ def test_many_threads_get_the_same():
 
 def test_it_stops_and_goes_on():
     def stop(fraction, text):
-        assert text == "exact geodesic"
+        assert text.partition(":")[0] == "exact geodesic"  # on a slow machine with how long it will take
         raise Cancelled("enough")
 
     solver = ExactGeodesic(grid(150, 150))

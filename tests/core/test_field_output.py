@@ -44,6 +44,7 @@ def test_the_surface_reads_back_with_all_its_vertices(tmp_path, extension):
 
 
 def test_vtp_is_read_by_vtk(tmp_path):
+    pytest.importorskip("vtkmodules", reason="VTK is not installed")
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
@@ -60,6 +61,7 @@ def test_vtp_is_read_by_vtk(tmp_path):
 
 
 def test_ply_is_read_by_vtk_and_holds_the_fields(tmp_path):
+    pytest.importorskip("vtkmodules", reason="VTK is not installed")
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOPLY import vtkPLYReader
 

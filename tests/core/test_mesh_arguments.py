@@ -130,7 +130,10 @@ def mesh(request, tmp_path_factory):
         path = tmp_path_factory.mktemp("meshes") / "bumpy.ply"
         core.write_mesh(path, BUMPY)
         return str(path)
-    return (V, F) if request.param == "arrays" else BUMPY.to_pyvista()
+    if request.param == "arrays":
+        return V, F
+    pytest.importorskip("pyvista")
+    return BUMPY.to_pyvista()
 
 
 @pytest.mark.parametrize("name", TAKES_A_SURFACE)

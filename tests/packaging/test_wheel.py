@@ -9,8 +9,11 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from wheels import building
+from wheels.contents import package_files
 
 from bihdist_core.kernel import build, library
+from bihdist_core.version import VERSION
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -33,8 +36,7 @@ def pip(*arguments: str | Path) -> None:
 def source(tmp_path_factory) -> Path:
     """A copy of the checkout to build in: setuptools leaves folders behind."""
     copy = tmp_path_factory.mktemp("source") / "tree"
-    skipped = shutil.ignore_patterns(".*", "__pycache__", "build", "dist", "*.egg-info", "libbihdist*")
-    shutil.copytree(ROOT, copy, ignore=skipped)
+    shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(*building.LEFT_OUT))
     return copy
 
 
@@ -96,10 +98,7 @@ def test_is_for_every_machine_where_there_is_no_compiler(source, tmp_path, monke
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_holds_every_file_of_a_package(names, package):
-    folder = ROOT / PACKAGES[package]
-    files = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
-    wanted = {f"{package}/{name}" for name in files if "__pycache__" not in name}
-    wanted = {name for name in wanted if not name.endswith((".c", ".h")) and "libbihdist" not in name}
+    wanted = {f"{package}/{name}" for name in package_files(ROOT / PACKAGES[package])}
     held = {name for name in names if name.startswith(f"{package}/") and "libbihdist" not in name}
     assert held == wanted, "a new folder belongs into `packages` in pyproject.toml"
 
@@ -123,6 +122,7 @@ def test_is_imported_from_where_it_was_installed(installed, environment, tmp_pat
 def test_runs_under_its_installed_name(wheel, environment, tmp_path):
     said = run(sys.executable, "-m", "bihdist", "--version", cwd=tmp_path, env=environment)
     assert said == f"bihdist {wheel.name.split('-')[1]}\n"
+    assert wheel.name.split("-")[1] == VERSION
 
 
 def test_the_library_has_the_name_of_the_package(environment, tmp_path):
@@ -154,12 +154,37 @@ def test_writes_a_field(environment, tmp_path):
 
 
 def test_a_source_distribution_builds_the_same_wheel(source, names, tmp_path):
-    backend = "from setuptools import build_meta; build_meta."
-    run(sys.executable, "-c", f"{backend}build_sdist({str(tmp_path)!r})", cwd=source)
+    run(sys.executable, "-c", building.HOOK, "bihdist_core/kernel", tmp_path, cwd=source)
     (archive,) = tmp_path.glob("bihdist-*.tar.gz")
     shutil.unpack_archive(archive, tmp_path)
     unpacked = tmp_path / archive.name.removesuffix(".tar.gz")
-    run(sys.executable, "-c", f"{backend}build_wheel({str(tmp_path)!r})", cwd=unpacked)
+    pip("wheel", "--no-deps", "--no-build-isolation", "--no-index", "--wheel-dir", tmp_path, unpacked)
     (again,) = tmp_path.glob("*.whl")
     with zipfile.ZipFile(again) as contents:
         assert set(contents.namelist()) == names
+
+
+@pytest.fixture
+def with_other_library(environment, tmp_path) -> dict[str, str]:
+    """The environment where the light library of another version was installed, too."""
+    information = tmp_path / "other" / "bihdist_core-0.0.9.dist-info"
+    information.mkdir(parents=True)
+    (information / "METADATA").write_text("Metadata-Version: 2.1\nName: bihdist-core\nVersion: 0.0.9\n")
+    return {**environment, "PYTHONPATH": os.pathsep.join((str(information.parent), environment["PYTHONPATH"]))}
+
+
+APART = (
+    f"bihdist {VERSION} and bihdist-core 0.0.9, whose library says it is {VERSION}, do not fit together: install one "
+    f"version, by `pip install --force-reinstall --no-deps bihdist=={VERSION} bihdist-core=={VERSION}`."
+)
+
+
+def test_distributions_of_different_versions_say_so(environment, with_other_library, tmp_path):
+    solver = [sys.executable, "-m", "bihdist", "info", "--solver"]
+    said = run(*solver, cwd=tmp_path, env=with_other_library)
+    assert said.splitlines()[0] == f"bihdist: warning: {APART}"
+    assert "fit together" not in run(*solver, cwd=tmp_path, env=environment)
+    library = [sys.executable, "-c", "import bihdist; bihdist.Surface; bihdist.Surface"]
+    said = run(*library, cwd=tmp_path, env=with_other_library)
+    assert said.count(APART) == 1
+    assert run(*library, cwd=tmp_path, env=environment) == ""

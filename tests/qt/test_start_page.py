@@ -2,7 +2,7 @@
 
 import json
 import os
-from datetime import datetime, timedelta, timezone
+from datetime import UTC, datetime, timedelta
 from itertools import pairwise
 
 import numpy as np
@@ -55,12 +55,12 @@ def shown(page):
 # ---------------------------------------------------------------------- recent files
 def test_recent_files_have_the_time_they_were_opened(remembered, tmp_path):
     first, second = files_in(tmp_path, 2)
-    before = datetime.now(timezone.utc)
+    before = datetime.now(UTC)
     for path in (first, second, first):
         remembered.remember(path)
     files = remembered.recent_files()
     assert [file.path for file in files] == remembered.recent() == [first, second]
-    assert before <= files[1].opened_at <= files[0].opened_at <= datetime.now(timezone.utc)
+    assert before <= files[1].opened_at <= files[0].opened_at <= datetime.now(UTC)
     os.unlink(first)
     assert remembered.recent() == [second]
 

@@ -1,0 +1,99 @@
+"""A wheel in a clean environment: installed by uv from a folder of wheels, and the core's tests run on it."""
+
+import os
+import re
+import shutil
+import time
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from .building import Failed, run
+
+TESTS = ("pytest", "pytest-xdist", "hypothesis")
+
+QUICK = tuple(
+    f"tests/core/test_{name}.py"
+    for name in (
+        "components", "distances", "elimination_tree", "exact_geodesic", "factor", "heat_geodesic", "isolines",
+        "kernels", "laplacian", "mesh_io", "operators", "sources", "spectrum", "surface", "worker_threads",
+    )
+)  # fmt: skip
+"""The tests of the core that say most in the least time."""
+
+WHERE = "import bihdist_core.kernel.library as found; print(found.__file__); print(found.description())"
+OF_THE_CHECKOUT = re.compile(r"^(from|import) app\b", re.MULTILINE)
+"""In tests that need the program under the name that it has there."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """What became of a wheel in an environment; versions: of Python, NumPy and SciPy."""
+
+    python: str
+    requirement: str
+    resolution: str
+    kernel: str
+    versions: str
+    seconds: float
+    tests: str
+    passed: bool
+
+    def row(self) -> str:
+        """The line of a table."""
+        cells = (self.versions, self.resolution, self.requirement, self.kernel, f"{self.seconds:.1f} s", self.tests)
+        return f"| {' | '.join(cells)} |"
+
+
+HEAD = """\
+| Python, NumPy, SciPy | dependencies | installed | solver | installed in | core's tests |
+| --- | --- | --- | --- | --- | --- |"""
+
+
+def tried(wheel: Path, python: str, resolution: str, source: Path, folder: Path, tests: Iterable[str] = QUICK) -> Trial:
+    """Install a wheel with its dependencies, lowest or highest, and run tests of its source distribution.
+
+    Failed if it cannot be installed, or if what is imported is not what was installed.
+    """
+    environment = folder / "environment"
+    shutil.rmtree(environment, ignore_errors=True)
+    run(["uv", "venv", "--quiet", "--no-project", "--python", python, str(environment)])
+    inside = environment / ("Scripts" if os.name == "nt" else "bin") / "python"
+    install = ["uv", "pip", "install", "--quiet", "--python", str(inside), "--only-binary", ":all:"]
+    began = time.monotonic()
+    run([*install, "--resolution", resolution, str(wheel)])
+    seconds = time.monotonic() - began
+    run([*install, *TESTS])
+
+    away = folder / "tests"
+    shutil.rmtree(away, ignore_errors=True)
+    away.mkdir()
+    shutil.copytree(source / "tests", away / "tests")
+    shutil.copy(source / "pyproject.toml", away)
+    place, kernel = run([str(inside), "-c", WHERE], cwd=away).splitlines()[-2:]
+    if not Path(place).is_relative_to(environment):
+        raise Failed(f"{place} is not what was installed into {environment}.")
+    chosen = list(_of_the_library(away, tests))
+    # Where there is no kernel, it is meant: no warning.
+    plain = {"BIHDIST_PLAIN": "1"} if "NumPy" in kernel else {}
+    said, passed = _pytest([str(inside), "-m", "pytest", "-n", "2", "-p", "no:cacheprovider", *chosen], away, plain)
+    code = "import numpy, platform, scipy; print(platform.python_version(), numpy.__version__, scipy.__version__)"
+    versions = ", ".join(run([str(inside), "-c", code]).split()[-3:])
+    return Trial(python, wheel.name, resolution, kernel.partition(":")[0], versions, seconds, said, passed)
+
+
+def _of_the_library(folder: Path, tests: Iterable[str]) -> Iterable[str]:
+    """Names of files of tests, without those that need the program."""
+    for name in tests:
+        path = folder / name
+        for file in sorted(path.rglob("test_*.py")) if path.is_dir() else [path]:
+            if not OF_THE_CHECKOUT.search(file.read_text(encoding="utf-8")):
+                yield file.relative_to(folder).as_posix()
+
+
+def _pytest(command: list[str], folder: Path, more: dict[str, str]) -> tuple[str, bool]:
+    """How tests ended in their own words, and whether all passed."""
+    try:
+        return run(command, cwd=folder, env={**os.environ, **more}).splitlines()[-1].strip("= "), True
+    except Failed as error:
+        return str(error).splitlines()[-1].strip("= "), False
