@@ -4,6 +4,7 @@ from functools import lru_cache
 
 from qtpy import QtCore, QtGui, QtSvg, QtWidgets
 
+from ...samples import SAMPLES
 from .look import LOOK
 from .style_sheet import ICONS
 
@@ -30,6 +31,14 @@ def icon(name: str, colour: str = "") -> QtGui.QIcon:
         found.addPixmap(pixmap(name, colour or theme.accent, scale), mode.Normal, state.On)
         for each in state.Off, state.On:
             found.addPixmap(pixmap(name, theme.disabled, scale), mode.Disabled, each)
+    return found
+
+
+def window_icon() -> QtGui.QIcon:
+    """The program's own, in all sizes there are."""
+    found = QtGui.QIcon()
+    for picture in sorted((SAMPLES / "application").glob("*.png")):
+        found.addFile(str(picture))
     return found
 
 
