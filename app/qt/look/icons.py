@@ -2,6 +2,7 @@
 
 from functools import lru_cache
 
+import qtpy
 from qtpy import QtCore, QtGui, QtSvg, QtWidgets
 
 from ...samples import SAMPLES
@@ -22,8 +23,9 @@ def icon_names() -> list[str]:
 
 def icon(name: str, colour: str = "") -> QtGui.QIcon:
     """In the colours of the present theme, also disabled and checked; or in one colour."""
-    # Qt 5 takes the pictures for scale 1 otherwise; Qt 6 needs no telling.
-    QtCore.QCoreApplication.setAttribute(QtCore.Qt.ApplicationAttribute.AA_UseHighDpiPixmaps)
+    # Otherwise it takes the pictures for scale 1; Qt 6 needs no telling.
+    if qtpy.QT5:
+        QtCore.QCoreApplication.setAttribute(QtCore.Qt.ApplicationAttribute.AA_UseHighDpiPixmaps)
     theme, mode, state = LOOK.theme, QtGui.QIcon.Mode, QtGui.QIcon.State
     found = QtGui.QIcon()
     for scale in SCALES:
