@@ -20,7 +20,7 @@ help:
 
 NO_DISPLAY = $(if $(filter Linux,$(shell uname -s)),$(if $(DISPLAY)$(WAYLAND_DISPLAY),,yes))
 NO_WINDOW = $(filter field pairs profile isolines statistics samples regions interpolate correspond evaluate perturb \
-    figure movie page info paper batch guide,$(firstword $(ARGS)))
+    figure movie page info paper batch desktop guide,$(firstword $(ARGS)))
 run:
 	@.ci/set-up
 ifeq ($(if $(NO_WINDOW),,$(NO_DISPLAY)),yes)

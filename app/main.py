@@ -12,7 +12,7 @@ from typing import Any
 
 from bihdist_core.formats.mesh_names import MESH_FORMATS
 
-from .commands import batch, field, figure, guide, info, isolines, movie, page, pairs, paper, view
+from .commands import batch, desktop, field, figure, guide, info, isolines, movie, page, pairs, paper, view
 from .commands.mesh import check_mesh
 from .commands.parser import Parser
 from .commands.result import as_json
@@ -24,7 +24,10 @@ from .version import disagreement, version
 COMMANDS = {
     **{module.__name__.rpartition(".")[2]: module for module in (view, field, pairs, isolines)},
     **{word: tool.load(module) for tool in tools() for word, module in tool.commands.items()},
-    **{module.__name__.rpartition(".")[2]: module for module in (batch, figure, movie, page, info, paper, guide)},
+    **{
+        module.__name__.rpartition(".")[2]: module
+        for module in (batch, figure, movie, page, info, paper, desktop, guide)
+    },
 }
 """By word: each has its `WORDS` (what it does), `add_options(parser)` and `run(options)`, which returns a `Result`;
 TEXT: the format in which it writes to standard output, for `-o -`."""

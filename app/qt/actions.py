@@ -64,7 +64,9 @@ class Actions:
         key = QtCore.Qt.Key.Key_Tab if is_tab_back else event.key()
         # The plus stands on a key with or without shift, as the keyboard has it.
         plain = modifiers if key not in (QtCore.Qt.Key.Key_Plus, QtCore.Qt.Key.Key_Equal) else 0
-        action = self._of_view.get(QtGui.QKeySequence(int(plain) | int(key)).toString())
+        # Of Qt 6 modifiers are no numbers, but have one.
+        number = int(getattr(plain, "value", plain)) | int(key)
+        action = self._of_view.get(QtGui.QKeySequence(number).toString())
         if action is None or not action.isEnabled():
             return False
         action.trigger()

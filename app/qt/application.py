@@ -17,6 +17,9 @@ from .screen import check_screen as check_screen
 POLL_MS = 20
 """How often it is looked whether the waiting has an end."""
 
+PROGRAM = "bihdist"
+"""The name of its entry in a desktop's menu, and of its windows' class."""
+
 _kept: list[QtWidgets.QApplication] = []
 """Qt's application must not be taken down while there are windows."""
 
@@ -37,6 +40,9 @@ def application() -> QtWidgets.QApplication:
     spoken = locale.setlocale(locale.LC_ALL)
     with _drawn_through_x():
         _kept.append(QtWidgets.QApplication(sys.argv[:1]))
+    # By these desktops find the entry in their menu to which windows belong.
+    _kept[-1].setApplicationName(PROGRAM)
+    _kept[-1].setDesktopFileName(PROGRAM)
     # Qt takes the user's, and then C libraries write 0,5 for a half.
     locale.setlocale(locale.LC_ALL, spoken)
     # The one that looks the same everywhere, and takes our colours.

@@ -35,6 +35,7 @@ from .files.files import Files
 from .files.session_actions import SessionFile
 from .guide import Guide
 from .held_keys import HeldKeys
+from .look.icons import window_icon
 from .look.layouts import in_column, quiet_label
 from .look.look import LOOK
 from .pages.messages import Notice, tell
@@ -63,6 +64,7 @@ class MainWindow(QtWidgets.QMainWindow):
     def __init__(self, document: Document | None = None, preferences: Preferences | None = None) -> None:
         super().__init__()
         self.setWindowTitle("Biharmonic distance[*]")
+        self.setWindowIcon(window_icon())
         self.status = StatusBar(self)
         self.setStatusBar(self.status)
         self.context = context = Context(self, preferences or Preferences(), self.status)

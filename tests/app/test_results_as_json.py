@@ -36,6 +36,7 @@ LINES = {
     "movie": "movie a.off --sources 3 --distance biharmonic --size 200px --frames 2 --workers 1 -o movie.gif",
     "page": "page a.off --sources 3 --distance biharmonic -o page.html",
     "batch": "batch meshes -o results --do fields --workers 1",
+    "desktop": "desktop --install",
     "guide": "guide --where",
     "paper": "paper -o paper --only fig3 --quick --mesh a.off",
 }
@@ -46,6 +47,7 @@ LINES = {
 def folder(tmp_path, monkeypatch):
     """Where all of them find what they read."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
     write_mesh("a.off", bumpy(120))
     write_mesh("b.off", bumpy(120, 1))
     Path("meshes").mkdir()

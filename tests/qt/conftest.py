@@ -66,9 +66,9 @@ class Screen:
             time.sleep(0.005)
 
     def activate(self):
-        """Give the window the keyboard focus; told so, Qt waits for no window manager."""
+        """Give the window the keyboard focus, which comes from the screen's server where nothing manages windows."""
         self.window.activateWindow()
-        self.application.setActiveWindow(self.window)
+        self.until(self.window.isActiveWindow)
 
     def settle(self, seconds=0.2):
         """Let queued repaints happen, for which the views wait for each other."""

@@ -249,7 +249,7 @@ class MomentHands(Hands):
         while not shares or (shares[-1] > BUSY and len(shares) < 10):  # what has been given up may still end
             loop, begin = QtCore.QEventLoop(), time.process_time()
             QtCore.QTimer.singleShot(round(1000 * IDLE), loop.quit)
-            loop.exec_()
+            loop.exec()
             shares.append((time.process_time() - begin) / IDLE)
         if shares[-1] > BUSY:
             self.faults.append(f"a window at rest takes {shares[-1]:.0%} of a processor")

@@ -14,6 +14,7 @@ from app.document.quantities import DistanceFrom
 from app.tools.interpolation.part import Anchor, Anchors
 from bihdist_core import SurfacePoint
 from bihdist_core.distances.kinds import Spec
+from tests.qt.painting import pixels_of
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
@@ -29,14 +30,8 @@ def shown_dialog(s, **page):
     return dialog
 
 
-def pixels_of(image):
-    from qtpy.QtGui import QImage
-
-    image = image.convertToFormat(QImage.Format.Format_RGB888)
-    memory = image.constBits()
-    memory.setsize(image.sizeInBytes())
-    rows = np.frombuffer(memory, np.uint8).reshape(image.height(), image.bytesPerLine())
-    return rows[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).astype(int).copy()
+def colours_of(image):
+    return pixels_of(image)[..., :3].astype(int)
 
 
 def pasted():
@@ -52,7 +47,7 @@ def test_the_preview_is_the_figure_and_the_window_does_not_wait(screen, mesh_fil
     s.open(mesh_file(bumpy(400)), 5)
     dialog = shown_dialog(s, size="85mm")
     assert dialog.pane.caption.startswith("One column, 85 × ")
-    first = pixels_of(dialog.pane.image)
+    first = colours_of(dialog.pane.image)
     dialog.export(str(tmp_path / "f.png"))
     s.until(lambda: (tmp_path / "f.json").exists() and not parts(s.window).exports.running)
     with Image.open(tmp_path / "f.png") as file:
@@ -67,14 +62,14 @@ def test_each_change_is_seen_and_the_last_one_stays(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(400)), 5)
     dialog = shown_dialog(s)
-    before = pixels_of(dialog.pane.image)
+    before = colours_of(dialog.pane.image)
     for width in range(300, 330):
         dialog.size.write(f"{width}x200")
     dialog.style_box.setCurrentIndex(dialog.style_box.findData("dark"))
     assert not dialog.pane.is_true  # what is shown is dimmed until the new one is there
     s.until(lambda: dialog.pane.is_true)
     assert dialog.pane.caption.startswith("Own size, 329 × 200 pixels")
-    after = pixels_of(dialog.pane.image)
+    after = colours_of(dialog.pane.image)
     assert before[0, 0].tolist() == [255] * 3
     assert after[0, 0].max() < 40
     dialog.transparent.setChecked(True)
@@ -159,7 +154,7 @@ def test_the_picture_on_the_clipboard_is_the_exported_one(screen, mesh_file, tmp
     dialog.export(str(tmp_path / "f.png"))
     s.until(lambda: (tmp_path / "f.json").exists() and not parts(s.window).exports.running)
     with Image.open(tmp_path / "f.png") as file:
-        assert np.array_equal(pixels_of(pasted().image()), np.asarray(file.convert("RGB")).astype(int))
+        assert np.array_equal(colours_of(pasted().image()), np.asarray(file.convert("RGB")).astype(int))
     assert s.refusals == []
 
 

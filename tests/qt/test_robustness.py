@@ -249,7 +249,8 @@ def test_the_wheel_scrolls_the_dock_and_changes_nothing(loaded):
         middle = widget.rect().center()
         event = QtGui.QWheelEvent(
             QtCore.QPointF(middle), QtCore.QPointF(widget.mapToGlobal(middle)), QtCore.QPoint(), QtCore.QPoint(0, 120),
-            QtCore.Qt.MouseButtons(), QtCore.Qt.KeyboardModifier.NoModifier, QtCore.Qt.ScrollPhase.NoScrollPhase, False,
+            QtCore.Qt.MouseButton.NoButton, QtCore.Qt.KeyboardModifier.NoModifier,
+            QtCore.Qt.ScrollPhase.NoScrollPhase, False,
         )  # fmt: skip
         QtWidgets.QApplication.sendEvent(widget, event)
     complete(s)

@@ -20,6 +20,7 @@ from qtpy.QtTest import QTest
 from app.qt.acts import ALL
 from app.qt.look.look import LOOK
 from app.qt.look.numbers import number, number_width, share
+from tests.qt.painting import pixels_of
 from tests.qt.parts import parts
 
 ROOT = Path(__file__).parents[2]
@@ -33,12 +34,7 @@ def highest(screen):
 
 def seen(screen):
     """What the views show, (height, width, 4) each, with what lies over the surface."""
-    found = []
-    for panel in screen.panels:
-        image = panel.view.grab().toImage().convertToFormat(QtGui.QImage.Format.Format_RGBA8888)
-        pixels = np.frombuffer(image.constBits().asstring(image.sizeInBytes()), np.uint8)
-        found.append(pixels.reshape(image.height(), image.bytesPerLine() // 4, 4))
-    return found
+    return [pixels_of(panel.view.grab().toImage()) for panel in screen.panels]
 
 
 def differ(before, after, share=0.0):

@@ -2,8 +2,10 @@
 
 from functools import lru_cache
 
+import qtpy
 from qtpy import QtCore, QtGui, QtSvg, QtWidgets
 
+from ...samples import SAMPLES
 from .look import LOOK
 from .style_sheet import ICONS
 
@@ -21,8 +23,9 @@ def icon_names() -> list[str]:
 
 def icon(name: str, colour: str = "") -> QtGui.QIcon:
     """In the colours of the present theme, also disabled and checked; or in one colour."""
-    # Qt 5 takes the pictures for scale 1 otherwise; Qt 6 needs no telling.
-    QtCore.QCoreApplication.setAttribute(QtCore.Qt.ApplicationAttribute.AA_UseHighDpiPixmaps)
+    # Otherwise it takes the pictures for scale 1; Qt 6 needs no telling.
+    if qtpy.QT5:
+        QtCore.QCoreApplication.setAttribute(QtCore.Qt.ApplicationAttribute.AA_UseHighDpiPixmaps)
     theme, mode, state = LOOK.theme, QtGui.QIcon.Mode, QtGui.QIcon.State
     found = QtGui.QIcon()
     for scale in SCALES:
@@ -30,6 +33,14 @@ def icon(name: str, colour: str = "") -> QtGui.QIcon:
         found.addPixmap(pixmap(name, colour or theme.accent, scale), mode.Normal, state.On)
         for each in state.Off, state.On:
             found.addPixmap(pixmap(name, theme.disabled, scale), mode.Disabled, each)
+    return found
+
+
+def window_icon() -> QtGui.QIcon:
+    """The program's own, in all sizes there are."""
+    found = QtGui.QIcon()
+    for picture in sorted((SAMPLES / "application").glob("*.png")):
+        found.addFile(str(picture))
     return found
 
 

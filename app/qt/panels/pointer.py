@@ -191,7 +191,7 @@ class Pointer:
             if hit is not None:
                 view.happened.emit(BrushTouch(hit, view.pixel_size(hit.position)))
 
-    def _drag(self, step: QtCore.QPoint, modifiers: QtCore.Qt.KeyboardModifiers) -> None:
+    def _drag(self, step: QtCore.QPoint, modifiers: QtCore.Qt.KeyboardModifier) -> None:
         view, button = self._view, QtCore.Qt.MouseButton
         size = view.width(), view.height()
         if self._button == button.LeftButton and not modifiers & QtCore.Qt.KeyboardModifier.ShiftModifier:

@@ -110,7 +110,7 @@ class PinRows(QtCore.QAbstractTableModel):
         found = flag.ItemIsEnabled | flag.ItemIsSelectable | flag.ItemIsDragEnabled | flag.ItemIsDropEnabled
         return found | flag.ItemIsEditable if index.column() == NAME else found
 
-    def supportedDropActions(self) -> QtCore.Qt.DropActions:
+    def supportedDropActions(self) -> QtCore.Qt.DropAction:
         """Rows are moved, and never copied."""
         return QtCore.Qt.DropAction.MoveAction
 

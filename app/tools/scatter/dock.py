@@ -313,7 +313,7 @@ class ScatterDock(Instrument):
         scatter = replace(session.document[Scatter], shares=word == "shares")
         session.show(session.document.with_part(scatter))
 
-    def _select(self, corners: AnyArray, keys: QtCore.Qt.KeyboardModifiers) -> None:
+    def _select(self, corners: AnyArray, keys: QtCore.Qt.KeyboardModifier) -> None:
         modifier = QtCore.Qt.KeyboardModifier
         way = "added" if keys & modifier.ShiftModifier else "removed" if keys & modifier.ControlModifier else "new"
         if self.chart.scatter is not None:

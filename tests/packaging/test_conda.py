@@ -1,0 +1,84 @@
+"""The conda package's recipe and menu: they say what the project says, and render for every platform."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from app.desktop.menu_entry import CATEGORIES, NAME, SUMMARY, WINDOW_CLASS
+from app.desktop.mime_types import MIME_TYPES
+from app.version import version
+from bihdist_core.formats.mesh_names import MESH_FORMATS
+
+ROOT = Path(__file__).parents[2]
+tomllib = pytest.importorskip("tomllib")
+FOLDER = ROOT / ".ci/conda"
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+OTHER_NAMES = {"matplotlib": "matplotlib-base", "pyqt5": "pyqt"}
+"""Of distributions, in conda."""
+BINDING = {"pyqt", "pyside6-essentials"}
+"""Conda has PyQt5 everywhere, and does not count its bugfixes as PyPI does."""
+
+
+def recipe():
+    yaml = pytest.importorskip("yaml")
+    return yaml.safe_load((FOLDER / "recipe.yaml").read_text(encoding="utf-8"))
+
+
+def requirements(rows):
+    """By name, what follows it."""
+    found = {}
+    for row in rows:
+        name, bound = re.fullmatch(r"([\w-]+)\s*([^;]*?)\s*(?:;.*)?", row).groups()
+        found[OTHER_NAMES.get(name.lower(), name.lower())] = bound
+    return found
+
+
+def test_the_recipe_is_of_this_version_and_its_dependencies():
+    found = recipe()
+    assert found["context"]["version"] == version()
+    assert found["about"]["license"] == PROJECT["license"]
+    assert found["about"]["license_file"] == PROJECT["license-files"]
+    run = requirements(found["requirements"]["run"])
+    wanted = {"python": "", **requirements(PROJECT["dependencies"])}
+    assert {name: bound for name, bound in run.items() if name not in BINDING} == {
+        name: bound for name, bound in wanted.items() if name not in BINDING
+    }
+    assert "pyqt" in run
+
+
+@pytest.mark.parametrize("platform", ["linux-64", "linux-aarch64", "osx-64", "osx-arm64", "win-64"])
+def test_the_recipe_renders(platform):
+    rattler = pytest.importorskip("rattler_build")
+    stage = rattler.Stage0Recipe.from_file(FOLDER / "recipe.yaml")
+    here = "linux-64" if platform.startswith("linux") else platform
+    config = rattler.PlatformConfig(target_platform=platform, build_platform=here, host_platform=platform)
+    pythons = rattler.VariantConfig({"python": ["3.11.*", "3.14.*"]})
+    rendered = [each.recipe.to_dict() for each in stage.render(pythons, rattler.RenderConfig(platform=config))]
+    assert len(rendered) == 2
+    for each in rendered:
+        assert each["package"] == {"name": "bihdist", "version": version()}
+        assert each["requirements"]["build"][0].endswith(f"_{platform}")
+        assert any("Menu" in line for line in each["build"]["script"])
+
+
+def test_the_menu_opens_what_the_desktop_entry_opens():
+    (item,) = json.loads((FOLDER / "menu.json").read_text(encoding="utf-8"))["menu_items"]
+    assert (item["name"], item["description"]) == (NAME, SUMMARY)
+    linux, windows = item["platforms"]["linux"], item["platforms"]["win"]
+    assert windows["file_extensions"] == list(MESH_FORMATS)
+    patterns = {each.name: each.patterns for each in MIME_TYPES if set(each.patterns) & {f"*{f}" for f in MESH_FORMATS}}
+    assert linux["MimeType"] == list(patterns)
+    own = [each.name for each in MIME_TYPES if each.comment]
+    assert linux["glob_patterns"] == {name: found[0] for name, found in patterns.items() if name in own}
+    assert linux["Categories"] == list(CATEGORIES)
+    assert linux["StartupWMClass"] == WINDOW_CLASS
+
+
+def test_the_icons_are_there():
+    script = json.dumps(recipe()["build"]["script"])
+    names = {name.replace("\\", "/") for name in re.findall(r"assets[/\\]+application[/\\]+[\w.-]+", script)}
+    names = {re.sub("/+", "/", name) for name in names}
+    assert len(names) == 3
+    assert all((ROOT / name).is_file() for name in names)
