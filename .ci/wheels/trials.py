@@ -21,6 +21,12 @@ QUICK = tuple(
 )  # fmt: skip
 """The tests of the core that say most in the least time."""
 
+PLAIN = tuple(
+    f"tests/core/test_{name}.py"
+    for name in ("components", "elimination_tree", "isolines", "laplacian", "operators", "sources", "surface")
+)
+"""Those that ask for nothing which needs the kernel, as exact geodesic distances do."""
+
 WHERE = "import bihdist_core.kernel.library as found; print(found.__file__); print(found.description())"
 OF_THE_CHECKOUT = re.compile(r"^(from|import) app\b", re.MULTILINE)
 """In tests that need the program under the name that it has there."""
@@ -73,9 +79,10 @@ def tried(wheel: Path, python: str, resolution: str, source: Path, folder: Path,
     place, kernel = run([str(inside), "-c", WHERE], cwd=away).splitlines()[-2:]
     if not Path(place).is_relative_to(environment):
         raise Failed(f"{place} is not what was installed into {environment}.")
-    chosen = list(_of_the_library(away, tests))
-    # Where there is no kernel, it is meant: no warning.
-    plain = {"BIHDIST_PLAIN": "1"} if "NumPy" in kernel else {}
+    is_plain = "NumPy" in kernel
+    chosen = list(_of_the_library(away, PLAIN if is_plain else tests))
+    # It is meant: no warning.
+    plain = {"BIHDIST_PLAIN": "1"} if is_plain else {}
     said, passed = _pytest([str(inside), "-m", "pytest", "-n", "2", "-p", "no:cacheprovider", *chosen], away, plain)
     code = "import numpy, platform, scipy; print(platform.python_version(), numpy.__version__, scipy.__version__)"
     versions = ", ".join(run([str(inside), "-c", code]).split()[-3:])

@@ -11,7 +11,7 @@ import pytest
 from wheels import building
 from wheels.contents import LARGEST, PLATFORMS, complaints
 from wheels.libraries import library
-from wheels.trials import QUICK
+from wheels.trials import PLAIN, QUICK
 
 from bihdist_core.kernel import library as kernel
 from bihdist_core.version import VERSION
@@ -48,7 +48,7 @@ def test_the_version_is_in_one_place():
 
 
 def test_trials_are_of_tests_that_are_there():
-    assert all((ROOT / name).exists() for name in QUICK)
+    assert all((ROOT / name).exists() for name in (*QUICK, *PLAIN))
 
 
 # ---------------------------------------------------------------------- the build backend
