@@ -1,3 +1,3 @@
 """Which version this is: the one place that says it, for the library and for all that is built on it."""
 
-VERSION = "0.1.0"
+VERSION = "0.2.0rc1"

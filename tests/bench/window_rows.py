@@ -256,9 +256,9 @@ def _point(application: Any, window: Any, view: Any, count: int) -> Iterator[int
     none = QtCore.Qt.MouseButton.NoButton
     for step in range(count):
         place = _place(view, 0.3 + 0.4 * step / count, 0.4 + 0.2 * (step % 7) / 7)
-        move = QtGui.QMouseEvent(
-            QtCore.QEvent.Type.MouseMove, QtCore.QPointF(place), none, none, QtCore.Qt.KeyboardModifier.NoModifier
-        )
+        here, there = QtCore.QPointF(place), QtCore.QPointF(view.mapToGlobal(place))
+        keys = QtCore.Qt.KeyboardModifier.NoModifier
+        move = QtGui.QMouseEvent(QtCore.QEvent.Type.MouseMove, here, there, none, none, keys)
         application.sendEvent(view, move)
         application.processEvents()
         yield parts(window).gestures.hovered

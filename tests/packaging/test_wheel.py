@@ -108,6 +108,7 @@ def test_holds_the_sample_meshes_and_not_how_they_were_made(names):
     assert meshes
     icons = {f"bihdist_assets/icons/{path.name}" for path in (ROOT / "assets" / "icons").glob("*.svg")}
     assert icons
+    icons |= {f"bihdist_assets/application/bihdist{end}" for end in (".svg", "-16.png", "-256.png")}
     samples = {name for name in names if name.startswith("bihdist_assets/")}
     assert meshes | icons <= samples
     assert {Path(name).suffix for name in samples} <= {".ply", ".png", ".svg"}

@@ -24,9 +24,10 @@ def drag(view, start, now):
     head = next(at for at in heads if view.over.points.standing_at(at))
     QTest.mousePress(view, left, pos=head)
     for down in (8, 16, 24, 32):
-        at = QtCore.QPointF(head + QtCore.QPoint(0, down))
-        none = QtCore.Qt.KeyboardModifier.NoModifier
-        QtWidgets.QApplication.sendEvent(view, QtGui.QMouseEvent(QtCore.QEvent.Type.MouseMove, at, left, left, none))
+        at, none = head + QtCore.QPoint(0, down), QtCore.Qt.KeyboardModifier.NoModifier
+        here, there = QtCore.QPointF(at), QtCore.QPointF(view.mapToGlobal(at))
+        move = QtGui.QMouseEvent(QtCore.QEvent.Type.MouseMove, here, there, left, left, none)
+        QtWidgets.QApplication.sendEvent(view, move)
     QTest.mouseRelease(view, left, pos=head + QtCore.QPoint(0, 32))
     wait(lambda: now() != start)
 

@@ -7,6 +7,7 @@ import pytest
 
 from app.document.document import COMPARISON, comparison
 from bihdist_core.distances.kinds import Spec
+from tests.qt.events import send_mouse
 from tests.shapes import bumpy
 
 
@@ -100,16 +101,13 @@ class Screen:
 
     def hover(self, at, panel=0):
         """The pointer at a place (QPoint) of a view, no button down; the screen's own goes out of the way."""
-        from qtpy import QtCore, QtGui
+        from qtpy import QtGui
 
         corner = self.application.primaryScreen().geometry().bottomRight()
         if QtGui.QCursor.pos() != corner:
             QtGui.QCursor.setPos(corner)
             self.settle(0.1)
-        none, view = QtCore.Qt.MouseButton.NoButton, self.panels[panel].view
-        kind, keys = QtCore.QEvent.Type.MouseMove, QtCore.Qt.KeyboardModifier.NoModifier
-        event = QtGui.QMouseEvent(kind, QtCore.QPointF(at), none, none, keys)
-        self.application.sendEvent(view, event)
+        send_mouse(self.panels[panel].view, at)
         self.application.processEvents()
 
     def seen(self, count, panel=0):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from app.main import main
+from tests.qt.events import send_mouse
 from tests.qt.parts import parts
 
 
@@ -33,16 +34,12 @@ def ctrl_click(s, place, panel=0):
 
 def drag(s, places, panel=0, end=True):
     """With the left button down, through places of a view."""
-    from qtpy import QtCore, QtGui, QtTest
+    from qtpy import QtCore, QtTest
 
     view, left = s.panels[panel].view, QtCore.Qt.MouseButton.LeftButton
     QtTest.QTest.mousePress(view, left, pos=places[0])
     for place in places[1:]:
-        nothing = QtCore.Qt.KeyboardModifier.NoModifier
-        moved = QtGui.QMouseEvent(
-            QtCore.QEvent.Type.MouseMove, QtCore.QPointF(place), QtCore.Qt.MouseButton.NoButton, left, nothing
-        )
-        s.application.sendEvent(view, moved)
+        send_mouse(view, place, buttons=left)
         s.settle(0.02)
     if end:
         QtTest.QTest.mouseRelease(view, left, pos=places[-1])

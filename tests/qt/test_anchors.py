@@ -14,6 +14,7 @@ from bihdist_core import BiharmonicDistance, GeodesicDistance, ShepardInterpolan
 from bihdist_core.applications.weights import Weights
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.sources.source import SourceSet
+from tests.qt.events import send_mouse
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -151,12 +152,7 @@ def test_an_anchor_is_dragged_over_the_surface(loaded):
 
 
 def move(view, place):
-    from qtpy import QtGui, QtWidgets
-
-    event = QtGui.QMouseEvent(
-        QtCore.QEvent.Type.MouseMove, QtCore.QPointF(place), LEFT, LEFT, QtCore.Qt.KeyboardModifier.NoModifier
-    )
-    QtWidgets.QApplication.sendEvent(view, event)
+    send_mouse(view, place, LEFT, LEFT)
 
 
 def test_weights_and_extrema_are_those_of_the_library(loaded):

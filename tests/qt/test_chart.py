@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from tests.qt.events import send_mouse
+
 pytest.importorskip("qtpy.QtWidgets")
 
 
@@ -36,17 +38,13 @@ def test_ticks_are_round_and_percent_stands_once(chart):
 
 
 def test_the_pointer_is_told_in_values_and_only_over_the_plot(chart, application):
-    from qtpy import QtCore, QtGui
+    from qtpy import QtCore
 
     told = []
     application.processEvents()  # where the screen's own pointer is
     chart.pointed.connect(told.append)
-    button = QtCore.Qt.MouseButton.NoButton
     for place in (chart.plot.center(), QtCore.QPointF(2, 2)):
-        move = QtGui.QMouseEvent(
-            QtCore.QEvent.Type.MouseMove, place, button, button, QtCore.Qt.KeyboardModifier.NoModifier
-        )
-        application.sendEvent(chart, move)
+        send_mouse(chart, place)
     assert len(told) == 2
     assert told[0] == pytest.approx((1.276, 0.5), abs=0.02)
     assert told[-1] is None

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 pytest.importorskip("qtpy")
-from qtpy import QtCore, QtGui, QtWidgets
+from qtpy import QtCore
 
 from app.document.document import comparison
 from app.document.looks import Colours
@@ -17,6 +17,7 @@ from app.scene.colour_maps import MAPS
 from app.scene.style import STYLES
 from app.session.array_store import ArrayStore
 from app.session.recipe_file import recipe_written
+from tests.qt.events import send_mouse
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
@@ -158,14 +159,8 @@ def ticks(s, number=0):
 
 def test_an_end_is_typed_at_the_bar(shown):
     panel, own = shown.panels[0], shown.answers[0].maximum
-    event = QtGui.QMouseEvent(
-        QtCore.QEvent.Type.MouseButtonDblClick,
-        QtCore.QPointF(30, 30),
-        QtCore.Qt.MouseButton.LeftButton,
-        QtCore.Qt.MouseButton.LeftButton,
-        QtCore.Qt.KeyboardModifier.NoModifier,
-    )
-    QtWidgets.QApplication.sendEvent(panel.bar, event)
+    left = QtCore.Qt.MouseButton.LeftButton
+    send_mouse(panel.bar, QtCore.QPoint(30, 30), left, left, kind=QtCore.QEvent.Type.MouseButtonDblClick)
     box = panel._end
     assert box.isVisible()
     assert float(box.box.text()) == pytest.approx(own, rel=1e-5)

@@ -2,6 +2,7 @@
 
 import pytest
 
+from tests.qt.events import press
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
@@ -48,7 +49,6 @@ def test_no_two_actions_have_one_key():
 
 @pytest.mark.parametrize("key", ["Ctrl+E", "Ctrl+T", "Ctrl+M"])
 def test_keys_work_while_something_is_typed(screen, mesh_file, monkeypatch, key):
-    from qtpy import QtGui, QtTest
 
     s = screen()
     s.open(mesh_file(bumpy(300)), 5)
@@ -61,12 +61,7 @@ def test_keys_work_while_something_is_typed(screen, mesh_file, monkeypatch, key)
         action.triggered.connect(lambda *_, shown=shown: done.append(shown))
     parts(s.window).typed_source.box.setFocus()
     s.settle(0.2)
-    code = QtGui.QKeySequence(key)[0]
-    QtTest.QTest.keyClick(
-        parts(s.window).typed_source.box,
-        code & 0x01FFFFFF,
-        s.application.keyboardModifiers().__class__(code & ~0x01FFFFFF),
-    )
+    press(parts(s.window).typed_source.box, key)
     s.settle(0.1)
     assert done == [key]
     assert parts(s.window).typed_source.box.text() == "5"

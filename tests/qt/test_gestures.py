@@ -7,6 +7,7 @@ import pytest
 
 from app.tools.robustness.comparison import change_mesh
 from bihdist_core.applications.changes import Perturbation
+from tests.qt.events import press
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
@@ -27,11 +28,7 @@ def front(s):
 
 
 def key(s, name, panel=0):
-    from qtpy import QtGui, QtTest
-
-    code = QtGui.QKeySequence(name)[0]
-    modifiers = s.application.keyboardModifiers().__class__(code & ~0x01FFFFFF)
-    QtTest.QTest.keyClick(s.panels[panel].view, code & 0x01FFFFFF, modifiers)
+    press(s.panels[panel].view, name)
     s.settle(0.05)
 
 

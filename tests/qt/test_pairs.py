@@ -15,10 +15,11 @@ from app.tools.correspondence.prediction_answers import KnownColumns
 from app.tools.correspondence.quantity import Prediction
 from bihdist_core import BiharmonicDistance, Correspondence, GeodesicDistance, Surface
 from bihdist_core.distances.kinds import Spec
+from tests.qt.events import send_mouse
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
-from qtpy import QtCore, QtGui, QtTest, QtWidgets
+from qtpy import QtCore, QtTest
 
 from app.tools.correspondence.pairs import Pairs
 from tests.qt.parts import parts
@@ -233,10 +234,7 @@ def drag(s, view, start, stop):
     QtTest.QTest.mousePress(view, LEFT, pos=start + head)
     for k in range(1, 7):
         place = start + head + (stop - start) * k / 6
-        event = QtGui.QMouseEvent(
-            QtCore.QEvent.Type.MouseMove, QtCore.QPointF(place), LEFT, LEFT, QtCore.Qt.KeyboardModifier.NoModifier
-        )
-        QtWidgets.QApplication.sendEvent(view, event)
+        send_mouse(view, place, LEFT, LEFT)
     QtTest.QTest.mouseRelease(view, LEFT, pos=stop + head)
     complete(s)
 

@@ -2,6 +2,7 @@
 
 import pytest
 
+from tests.qt.events import send_mouse
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
@@ -172,9 +173,6 @@ def test_a_drop_is_dragged_in_one_step_and_the_matrix_follows(loaded):
 
 def _move(view, place):
     """The pointer, with the left button down."""
-    from qtpy import QtCore, QtGui, QtWidgets
+    from qtpy import QtCore
 
-    button = QtCore.Qt.MouseButton
-    kind, none = QtCore.QEvent.Type.MouseMove, QtCore.Qt.KeyboardModifier.NoModifier
-    event = QtGui.QMouseEvent(kind, QtCore.QPointF(place), button.NoButton, button.LeftButton, none)
-    QtWidgets.QApplication.sendEvent(view, event)
+    send_mouse(view, place, buttons=QtCore.Qt.MouseButton.LeftButton)

@@ -6,10 +6,11 @@ import pytest
 
 from bihdist_core import BiharmonicDistance, GeodesicDistance, Surface
 from bihdist_core.applications.changes import Perturbation, count_of
+from tests.qt.events import send_mouse
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
-from qtpy import QtCore, QtGui, QtTest, QtWidgets
+from qtpy import QtCore, QtTest, QtWidgets
 
 from app.document.shared_parts.selections import Selections
 from tests.qt.changing import change_of, check, complete, dock_of, open_it, press, seen
@@ -25,8 +26,7 @@ def loaded(screen, mesh_file):
 
 
 def move(view, place, keys=QtCore.Qt.KeyboardModifier.NoModifier):
-    event = QtGui.QMouseEvent(QtCore.QEvent.Type.MouseMove, QtCore.QPointF(place), LEFT, LEFT, keys)
-    QtWidgets.QApplication.sendEvent(view, event)
+    send_mouse(view, place, LEFT, LEFT, keys)
 
 
 def stroke(s, panel, start, stop):

@@ -13,6 +13,7 @@ from app.document.shared_parts.selections import Selections
 from app.tools.scatter.part import Scatter
 from bihdist_core import field_agreement
 from bihdist_core.distances.kinds import Spec
+from tests.qt.events import send_mouse
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
@@ -34,7 +35,7 @@ def loaded(screen, mesh_file):
 
 def lasso(s, corners, keys=None):
     """With the mouse, through places given as shares of the plot from its left top corner."""
-    from qtpy import QtCore, QtGui
+    from qtpy import QtCore
 
     chart, plot = s.dock.chart, s.dock.chart.plot
     left, none = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.MouseButton.NoButton
@@ -45,9 +46,7 @@ def lasso(s, corners, keys=None):
     steps += [(kinds.MouseMove, place, none, left) for place in places[1:]]
     steps += [(kinds.MouseButtonRelease, places[-1], left, none)]
     for kind, place, button, buttons in steps:
-        place = QtCore.QPointF(place.toPoint())
-        event = QtGui.QMouseEvent(kind, place, chart.mapToGlobal(place.toPoint()), button, buttons, keys)
-        s.application.sendEvent(chart, event)
+        send_mouse(chart, place.toPoint(), button, buttons, keys, kind)
     s.settle(0.1)
     return [(p.x(), p.y()) for p in (place.toPoint() for place in places)]
 

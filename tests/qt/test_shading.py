@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from qtpy import QtCore, QtGui, QtWidgets
+from qtpy import QtCore, QtWidgets
 from qtpy.QtTest import QTest
 
 import app.qt.panels.shades
@@ -10,6 +10,7 @@ import app.scene.stand_in
 from app.document.looks import AS_IT_IS, Shading
 from bihdist_core.distances.kinds import Spec
 from tests.app.test_shading import box
+from tests.qt.events import send_mouse
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
@@ -145,12 +146,10 @@ def drag(s, view, steps=3, let_go=True):
     middle = view.rect().center()
     QTest.mousePress(view, QtCore.Qt.MouseButton.LeftButton, pos=middle)
     for step in range(1, steps + 1):
-        place = QtCore.QPointF(middle + QtCore.QPoint(30 * step, 5))
-        button, none = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.KeyboardModifier.NoModifier
-        move = QtGui.QMouseEvent(QtCore.QEvent.Type.MouseMove, place, button, button, none)
-        s.application.sendEvent(view, move)
+        place, button = middle + QtCore.QPoint(30 * step, 5), QtCore.Qt.MouseButton.LeftButton
+        send_mouse(view, place, button, button)
     if let_go:
-        QTest.mouseRelease(view, QtCore.Qt.MouseButton.LeftButton, pos=place.toPoint())
+        QTest.mouseRelease(view, QtCore.Qt.MouseButton.LeftButton, pos=place)
 
 
 def test_what_stands_in_is_drawn_while_the_camera_moves_and_never_at_rest(large):

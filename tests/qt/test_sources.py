@@ -116,7 +116,7 @@ def test_without_snapping_the_mark_is_dragged_through_faces_and_is_exact_at_the_
     assert any("fields a second" in text and "geodesic, heat method" in text for text in rates)
     assert rates[-1] == "", "nothing is said once it rests"
     assert isinstance(s.source, SurfacePoint)
-    seen = view.place_of(view.handles[0]) - (start + QtCore.QPoint(116, 29))
+    seen = view.place_of(view.handles[0]) - QtCore.QPointF(start + QtCore.QPoint(116, 29))
     assert abs(seen.x()) < 1.5
     assert abs(seen.y()) < 1.5
     check_fields(s, parts(s.window).typed_source.box.text(), tmp_path)

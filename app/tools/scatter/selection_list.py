@@ -72,7 +72,8 @@ class SelectionList(QtWidgets.QTreeWidget):
                 item.setData(0, QtCore.Qt.ItemDataRole.UserRole, each.name)
                 item.setIcon(0, _dot(PINS[each.colour]))
                 item.setFlags(item.flags() | QtCore.Qt.ItemFlag.ItemIsEditable)
-                item.setTextAlignment(1, int(QtCore.Qt.AlignmentFlag.AlignRight | QtCore.Qt.AlignmentFlag.AlignVCenter))
+                right = int(QtCore.Qt.AlignmentFlag.AlignRight | QtCore.Qt.AlignmentFlag.AlignVCenter)
+                item.setData(1, QtCore.Qt.ItemDataRole.TextAlignmentRole, right)
                 item.setForeground(1, QtGui.QColor(LOOK.theme.quiet))
                 self.addTopLevelItem(item)
         names = [each.name for each in selections]
