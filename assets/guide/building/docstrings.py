@@ -51,7 +51,7 @@ def _prose(text: str, is_argument: Callable[[str], bool]) -> list[str]:
     """A paragraph, with its facts as a list under it."""
     facts = list(FACT.finditer(text))
     before = text[: facts[0].start()] if facts else text
-    made, after, last = [_text(before.strip()), ""], list[str](), list[str]()
+    made, after, last = [_text(re.sub(r"[;:,]$", ".", before.strip())), ""], list[str](), list[str]()
     ends = [*(fact.start() for fact in facts[1:]), len(text)][: len(facts)]
     for fact, end in zip(facts, ends, strict=True):
         meaning, *others = OTHERS.split(text[fact.end() : end].strip())
