@@ -78,6 +78,6 @@ stress:
 	@.ci/set-up dev
 	$(PYTHON_HERE) -m tests.stress $(ARGS)
 
-wheels:
+wheels: guide
 	@.ci/set-up wheels
 	PYTHONPATH=.ci $(PYTHON_HERE) -m wheels $(ARGS)
