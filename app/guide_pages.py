@@ -6,7 +6,7 @@ GUIDE = Path(__file__).resolve().parent / "guide" / "index.html"
 
 
 def guide_page() -> Path:
-    """The guide's first page; MissingFileError where it has not been built."""
+    """The guide's first page; MissingInputError where it has not been built."""
     from bihdist_core.errors import MissingInputError
 
     if not GUIDE.is_file():
