@@ -202,7 +202,7 @@ def test_the_dialog_writes_the_format_that_is_chosen_in_it(screen, mesh_file, tm
         (wanted,) = [each for each in dialog.nameFilters() if ".vtp" in each]
         box = dialog.findChild(QtWidgets.QComboBox, "fileTypeCombo")
         box.setCurrentText(wanted)
-        box.activated[str].emit(wanted)
+        dialog.filterSelected.emit(wanted)
         dialog.accept()
 
     QtCore.QTimer.singleShot(0, choose)
