@@ -137,7 +137,8 @@ class RegionsDock(Instrument):
             if panel.id not in self.ticks:
                 tick = self.ticks[panel.id] = QtWidgets.QCheckBox()
                 tick.setIconSize(QtCore.QSize(SIDE, SIDE))
-                tick.clicked.connect(partial(self._tick, panel.id))
+                # With a partial PySide would leave out whether it is on.
+                tick.clicked.connect(lambda is_on, id=panel.id: self._tick(id, is_on))
             tick = self.ticks[panel.id]
             self._ticks.removeWidget(tick)
             self._ticks.addWidget(tick)
