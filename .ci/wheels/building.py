@@ -33,7 +33,8 @@ def sources(folder: Path, output: Path) -> dict[str, Path]:
         kernel = "kernel" if project.name == "bihdist_core" else "bihdist_core/kernel"
         name = run([sys.executable, "-c", HOOK, kernel, str(output)], cwd=project).split()[-1]
         with tarfile.open(output / name) as archive:
-            archive.extractall(folder, filter="data")
+            archive.extraction_filter = getattr(tarfile, "data_filter", None)  # of Python 3.11.4 and newer
+            archive.extractall(folder)
         # setuptools made it in the folder, and would take it for another source.
         for left in project.glob("*.egg-info"):
             shutil.rmtree(left)

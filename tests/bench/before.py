@@ -26,7 +26,8 @@ def checked_out(ref: str) -> Iterator[Path]:
         raise ValueError(f"There is no commit {ref!r} to compare with.")
     with tempfile.TemporaryDirectory() as place:
         with tarfile.open(fileobj=BytesIO(archive.stdout)) as files:
-            files.extractall(place, filter="data")
+            files.extraction_filter = getattr(tarfile, "data_filter", None)  # of Python 3.11.4 and newer
+            files.extractall(place)
         build = Path(place, "bihdist_core", "kernel", "build.py")
         if build.exists():
             subprocess.run([sys.executable, str(build)], cwd=place, check=True, stdout=subprocess.DEVNULL)
