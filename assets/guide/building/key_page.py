@@ -1,7 +1,5 @@
 """The window's commands and keys, from its table."""
 
-import os
-
 INTRODUCTION = """# Commands and keys of the window
 
 Every command of the menus, with its keys. {kbd}`F1` in the window finds each of them by its name. What the mouse does
@@ -12,7 +10,6 @@ stands in [The viewer](viewer.md#mouse).
 
 def key_page() -> dict[str, str]:
     """The text of the page, by its path in the guide."""
-    os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
     from app.qt import acts
     from app.qt.actions import acts_of_tools
 
