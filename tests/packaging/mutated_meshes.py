@@ -21,8 +21,8 @@ from bihdist_core.sources.pieces import Pieces
 from tests.core.nasty_meshes import nasty_mesh
 from tests.shapes import bumpy, fin, grid, slivers, tetrahedron, torus, two_pieces
 
-MUTATED = 300
-MATRICES = 100
+MUTATED = 150
+MATRICES = 60
 HARD_FACES = 60
 WINDOWS = 10_000
 """Of a run of exact geodesics; a few meshes would take any number."""
