@@ -31,6 +31,7 @@ def _sources(context: Context) -> None:
 TABLE = (
     Row(lambda d: d.points, _sources),
     Row(lambda d: d, lambda c: c.grid.marks.show(c.document)),
+    Row(lambda d: d, lambda c: c.grid.show_edits(c.document)),
     Row(lambda d: d.zooms, lambda c: c.grid.marks.show_insets(c.document)),
     Row(lambda d: (d.isolines, d.isolines.through and d.points), lambda c: c.grid.marks.show_isolines(c.document)),
     Row(lambda d: d.shading, lambda c: c.grid.show_shading()),

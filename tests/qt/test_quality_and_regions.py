@@ -137,6 +137,7 @@ def test_farthest_points_are_pinned_and_divide_the_panels(loaded, tmp_path):
     key(s, "n")
     regions = dock(s, "regions")
     regions.sampler.count.setValue(5)
+    assert not s.panels[1].head.edits["Regions of the pins"].isEnabled()
     press(regions.sampler.pin)
     s.until(lambda: len(s.document[Pins].pins) == 5)
     distance = s.session.loaded().distances("voronoi").get(SHOWN[0])
@@ -153,7 +154,9 @@ def test_farthest_points_are_pinned_and_divide_the_panels(loaded, tmp_path):
     assert (before[0] != after[0]).any()
     assert (before[1] == after[1]).all()
     # The same from the panel's own menu, and back.
-    s.panels[1].head.edits["Regions of the pins"].trigger()
+    edit = s.panels[1].head.edits["Regions of the pins"]
+    assert edit.isEnabled()
+    edit.trigger()
     assert s.document[DividedPanels].regions == (0, 1)
     known(s)
     assert len(regions.text().splitlines()[1].split("\t")) == 3

@@ -70,6 +70,7 @@ class PanelGrid(QtWidgets.QWidget):
         self.marks = GridMarks(session, lambda: self._panels, self.moving)
         LOOK.changed.connect(self.update)
         self.show_panels(session.document)
+        self.show_edits(session.document)
 
     @property
     def panels(self) -> list[DistancePanel]:
@@ -142,11 +143,14 @@ class PanelGrid(QtWidgets.QWidget):
         self.pointing.begin(self._panels)
         self._arrange()
         self.update()
-        for id, panel in self._panels.items():
-            panel.head.allow(possible_edits(document, id))
         if self.active not in self._panels:
             self.activate(next(iter(self._panels), -1))
         self._show_active()
+
+    def show_edits(self, document: Document) -> None:
+        """Let the panels' menus offer what is possible now; pins alone may change that."""
+        for id, panel in self._panels.items():
+            panel.head.allow(possible_edits(document, id))
 
     def _new_panel(self) -> DistancePanel:
         panel = DistancePanel(self.offscreen, self)
