@@ -11,7 +11,8 @@ import pytest
 ROOT = Path(__file__).parents[2]
 GUIDE = ROOT / "assets/guide"
 
-pytest.importorskip("sphinx_gallery", reason="the guide's build is not installed: .ci/set-up guide")
+for name in ("myst_parser", "pydata_sphinx_theme", "sphinx_copybutton", "sphinx_design", "sphinx_gallery"):
+    pytest.importorskip(name, reason="the guide's build is not installed: .ci/set-up guide")
 
 PAGE = """# A page
 
