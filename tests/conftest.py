@@ -75,6 +75,15 @@ def mesh_file(tmp_path):
 
 
 @pytest.fixture
+def built_guide(tmp_path, monkeypatch):
+    """A guide that has been built."""
+    page = tmp_path / "index.html"
+    page.write_text("<title>The guide</title>")
+    monkeypatch.setattr("app.guide_pages.GUIDE", page)
+    return page
+
+
+@pytest.fixture
 def no_exact_geodesics(monkeypatch):
     """Exact geodesic distances that cannot be made."""
 

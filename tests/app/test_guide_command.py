@@ -16,39 +16,30 @@ def opened(monkeypatch):
     return addresses
 
 
-@pytest.fixture
-def page(tmp_path, monkeypatch):
-    """A guide that has been built."""
-    page = tmp_path / "index.html"
-    page.write_text("<title>The guide</title>")
-    monkeypatch.setattr("app.guide_pages.GUIDE", page)
-    return page
-
-
 def test_it_is_looked_for_where_the_build_puts_it():
     assert GUIDE.parts[-3:] == ("app", "guide", "index.html")
 
 
-def test_it_opens_in_the_browser(page, opened, capsys):
+def test_it_opens_in_the_browser(built_guide, opened, capsys):
     assert main(["guide"]) == 0
-    assert opened == [page.as_uri()]
-    assert capsys.readouterr().out == f"{page}\n"
+    assert opened == [built_guide.as_uri()]
+    assert capsys.readouterr().out == f"{built_guide}\n"
 
 
-def test_its_path_alone(page, opened, capsys):
+def test_its_path_alone(built_guide, opened, capsys):
     assert main(["guide", "--where"]) == 0
-    assert (capsys.readouterr().out, opened) == (f"{page}\n", [])
+    assert (capsys.readouterr().out, opened) == (f"{built_guide}\n", [])
 
 
-def test_no_browser(page, monkeypatch, capsys):
+def test_no_browser(built_guide, monkeypatch, capsys):
     monkeypatch.setattr(webbrowser, "open", lambda address: False)
     assert main(["guide"]) == 2
-    assert capsys.readouterr().err == f"bihdist: No browser could be started; open {page} in one.\n"
+    assert capsys.readouterr().err == f"bihdist: No browser could be started; open {built_guide} in one.\n"
 
 
-def test_a_guide_that_is_not_built(page, opened, capsys):
-    page.unlink()
+def test_a_guide_that_is_not_built(built_guide, opened, capsys):
+    built_guide.unlink()
     assert main(["guide"]) == 2
     said = capsys.readouterr().err
-    assert said.startswith(f"bihdist: The guide has not been built: there is no {page}. Run `make guide`")
+    assert said.startswith(f"bihdist: The guide has not been built: there is no {built_guide}. Run `make guide`")
     assert opened == []

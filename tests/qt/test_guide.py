@@ -7,15 +7,6 @@ from tests.qt.parts import parts
 pytest.importorskip("qtpy")
 
 
-@pytest.fixture
-def page(tmp_path, monkeypatch):
-    """A guide that has been built."""
-    page = tmp_path / "index.html"
-    page.write_text("<title>The guide</title>")
-    monkeypatch.setattr("app.guide_pages.GUIDE", page)
-    return page
-
-
 def browser(monkeypatch, opens=True):
     """The files that the desktop is asked to open, from now on."""
     from qtpy import QtGui
@@ -33,23 +24,23 @@ def failures(window):
     return said
 
 
-def test_the_menu_opens_it(screen, page, monkeypatch):
+def test_the_menu_opens_it(screen, built_guide, monkeypatch):
     asked = browser(monkeypatch)
     s = screen()
     said = failures(s.window)
     s.window.context.actions["guide"].trigger()
-    assert (asked, said) == ([str(page)], [])
+    assert (asked, said) == ([str(built_guide)], [])
 
 
-def test_no_browser_and_no_guide(screen, page, monkeypatch):
+def test_no_browser_and_no_guide(screen, built_guide, monkeypatch):
     asked = browser(monkeypatch, opens=False)
     s = screen()
     said = failures(s.window)
     s.window.context.actions["guide"].trigger()
-    page.unlink()
+    built_guide.unlink()
     s.window.context.actions["guide"].trigger()
     assert len(asked) == 1
-    assert said[0] == f"No browser could be started; open {page} in one."
+    assert said[0] == f"No browser could be started; open {built_guide} in one."
     assert "Run `make guide`" in said[1]
 
 
