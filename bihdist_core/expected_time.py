@@ -18,8 +18,9 @@ eigenpairs, windows of exact geodesics.  A beginning: how fast this machine is a
 LONG_S = 10.0
 """Shorter work is not spoken of."""
 
-TELLING_S = 0.2
-"""Work that has taken so long tells how fast the machine is: what is shorter is mostly beginnings and ends."""
+TELLING_S = 0.1
+"""Work that takes so long, and is expected to by SECONDS, tells how fast the machine is: less is mostly beginnings and
+ends, and little work that something else held up seems thousands of times as slow as it is."""
 
 _slowness = 1.0
 """How many times as long as SECONDS says the last work took, of whatever kind: what keeps a machine busy slows all."""
@@ -51,9 +52,9 @@ class Expected:
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         global _slowness
-        took = time.monotonic() - self._begun
-        if kind is None and took >= TELLING_S and self.done > 0:
-            _slowness = took / (self._seconds_each * self.done)
+        took, usual = time.monotonic() - self._begun, self._seconds_each * self.done
+        if kind is None and min(took, usual) >= TELLING_S:
+            _slowness = took / usual
 
 
 def duration_words(seconds: float) -> str:

@@ -74,7 +74,7 @@ def test_charts(mesh, tmp_path, extension, capsys):
         assert main(["profile", mesh, *options, "--chart", str(file)]) == 0
     assert files[0].read_bytes() != files[1].read_bytes()
     # Nothing of fonts, say, which the formats treat differently.
-    assert all("Dijkstra" in line for line in capsys.readouterr().err.splitlines())
+    assert [line for line in capsys.readouterr().err.splitlines() if "Dijkstra" not in line] == []
     if extension == ".svg":
         assert ">% of the maximum</text>" in files[0].read_text()
         assert ">mesh units</text>" in files[1].read_text()

@@ -47,7 +47,7 @@ def test_silence_stays_silent():
     assert part(silent, 0, 1) is silent
 
 
-def test_what_work_took_tells_of_the_machine_and_what_was_short_or_stopped_does_not(monkeypatch):
+def test_what_work_took_tells_of_the_machine_and_what_was_little_or_stopped_does_not(monkeypatch):
     now = 0.0
     monkeypatch.setattr(time, "monotonic", lambda: now)
     with Expected("factor", 1000, 2, None):
@@ -56,6 +56,8 @@ def test_what_work_took_tells_of_the_machine_and_what_was_short_or_stopped_does_
     assert expected_seconds("ordering", 1e6) == pytest.approx(3e6 * expected_time.SECONDS["ordering"])
     with Expected("factor", 1e9, 1, None):
         now += expected_time.TELLING_S / 2
+    with Expected("factor", 1, 1, None):
+        now += 3600.0  # held up by something else
     stopped = Expected("factor", 1e9, 1, None)
     now += 1.0
     stopped.__exit__(KeyboardInterrupt)
