@@ -17,7 +17,7 @@ from bihdist_core.arrays import ByteArray
 
 from ..scene.field_actor import CASING
 from ..scene.levels import BOLD, width_of
-from ..scene.line_labels import Line
+from ..scene.line_clipping import Line
 from ..scene.style import RGBA, RIM, Colour
 from .axes import draw_axes
 from .description import Figure

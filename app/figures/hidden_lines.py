@@ -11,6 +11,7 @@ from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
 
 from ..scene.camera import Projection, SeenNow
 from ..scene.levels import Levels
+from ..scene.line_clipping import Line, clipped
 from ..scene.line_labels import Contour
 from .occlusion import Occlusion
 
@@ -34,10 +35,6 @@ class Curve:
     points: FloatArray
     edges: IntArray
     closed: bool = False
-
-
-Part = tuple[FloatArray, bool]
-"""Points (k, 2) in pixels, and whether the last joins the first."""
 
 
 class HiddenLineRemoval:
@@ -77,11 +74,11 @@ class HiddenLineRemoval:
         """(k,) whether points (k, 2) of the picture are on the shape."""
         return np.isfinite(self.occlusion.nearest(points))
 
-    def visible(self, curves: Iterable[Curve]) -> list[list[Part]]:
-        """For each curve its visible parts."""
+    def visible(self, curves: Iterable[Curve]) -> list[list[Line]]:
+        """For each curve its visible parts, in the picture and about it."""
         whole = list(curves)
         kept = [(k, part) for k, curve in enumerate(whole) for part in self._before_the_camera(curve)]
-        result: list[list[Part]] = [[] for _ in whole]
+        result: list[list[Line]] = [[] for _ in whole]
         if not kept:
             return result
         curves = [part for _, part in kept]
@@ -97,13 +94,21 @@ class HiddenLineRemoval:
         for (k, curve), end in zip(kept, stops, strict=True):
             first = end - len(curve.points) - curve.closed
             inside = np.s_[np.searchsorted(hidden, first) : np.searchsorted(hidden, end - 1)]
-            result[k] += _parts(at[first:end, :2], length[first:end], bounds[inside], curve.closed)
+            result[k] += self._about(_parts(at[first:end, :2], length[first:end], bounds[inside], curve.closed))
         return result
 
-    def outlined(self, curves: Iterable[Curve]) -> list[Part]:
+    def outlined(self, curves: Iterable[Curve]) -> list[Line]:
         """Curves in the picture, seen or not."""
         parts = [part for curve in curves for part in self._before_the_camera(curve)]
-        return [(self.pixels(part.points)[:, :2], part.closed) for part in parts]
+        return self._about((self.pixels(part.points)[:, :2], part.closed) for part in parts)
+
+    def _about(self, lines: Iterable[Line]) -> list[Line]:
+        """Lines as far as they are in the picture or no farther from it than it is wide and high.
+
+        Where a surface passes beside the eye they go on for millions of pixels.
+        """
+        width, height = self._size
+        return [part for line in lines for part in clipped(line, (-width, 2 * width, -height, 2 * height))]
 
     def _hidden(self, at: FloatArray, segments: IntArray, on: IntArray) -> tuple[AnyArray, ...]:
         """(k,) segments, in order, and from where to where (k,) in the picture, 0 to 1, each is hidden.
@@ -201,7 +206,7 @@ def contours_seen(sight: HiddenLineRemoval, field: FloatArray, levels: Levels) -
     ]
 
 
-def _parts(at: FloatArray, length: FloatArray, hidden: FloatArray, closed: bool) -> list[Part]:
+def _parts(at: FloatArray, length: FloatArray, hidden: FloatArray, closed: bool) -> list[Line]:
     """The parts of one curve, points (k, 2) at lengths (k,), outside of hidden intervals (m, 2), in order."""
     seen = _outside(hidden, length[0], length[-1])
     if not len(seen):

@@ -9,7 +9,8 @@ from scipy.sparse.csgraph import connected_components
 from bihdist_core.analysis.chains import chains
 from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
 
-from .hidden_lines import HiddenLineRemoval, Part
+from ..scene.line_clipping import Line
+from .hidden_lines import HiddenLineRemoval
 
 BESIDE = 0.3
 """Pixels from an outline to where what lies behind it is looked for."""
@@ -21,7 +22,7 @@ BRIDGED, TICK = 6.0, 3.0
 """Pixels: shorter pieces of a fold that are no outline are drawn between others; shorter outlines are not drawn."""
 
 
-def outlines(sight: HiddenLineRemoval) -> list[Part]:
+def outlines(sight: HiddenLineRemoval) -> list[Line]:
     """Lines (k, 2) in pixels, each with whether its last point joins its first.
 
     An outline lies on folds, edges whose faces lie to the same side of them in the picture or that have not two faces.
@@ -93,7 +94,7 @@ def _between(ends: FloatArray, share: FloatArray) -> FloatArray:
     return places
 
 
-def _lines(nodes: AnyArray, places: FloatArray, drawn: AnyArray) -> list[Part]:
+def _lines(nodes: AnyArray, places: FloatArray, drawn: AnyArray) -> list[Line]:
     """Segments (k, 2) of nodes at places (n, 2) put end to end, without those that are not to be drawn (k,).
 
     Gaps are bridged, and ticks left out.

@@ -21,7 +21,8 @@ from ..marks.primitives import PointMark
 from ..scene.bands import band_edges
 from ..scene.drawable import drawable, normals_shading, outward_faces
 from ..scene.levels import levels, too_many
-from ..scene.line_labels import Contour, Line
+from ..scene.line_clipping import Line
+from ..scene.line_labels import Contour
 from ..scene.selected import selected_colours
 from ..scene.style import Style
 from .boxes import Box

@@ -9,8 +9,7 @@ from scipy.spatial import cKDTree
 
 from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
 
-Line = tuple[FloatArray, bool]
-"""Points (k, 2) in a picture, y down, and whether the last joins the first."""
+from .line_clipping import Line
 
 EVERY = 3.0
 """Pixels, or units of a page, along a line from one place that is tried to the next."""

@@ -16,7 +16,8 @@ from ...scene.camera import SeenNow
 from ...scene.corners import Rectangle
 from ...scene.drawable import outward_faces
 from ...scene.levels import Levels
-from ...scene.line_labels import Contour, Line, labelled, value_text
+from ...scene.line_clipping import Line, clipped
+from ...scene.line_labels import Contour, labelled, value_text
 from ..background import Background
 from ..look.look import LOOK
 from .label_painting import FONT_SIZE, Written, label_font, painted
@@ -237,16 +238,8 @@ def _moved(lines: Sequence[Line], part: Part) -> list[Line]:
     """From the picture into a part of it, as far as that shows them."""
     if part.box == part.source:
         return list(lines)
-    found: list[Line] = []
-    for points, closed in lines:
-        ring = np.concatenate([points, points[:1]]) if closed else points
-        shares = _shares(ring, part.source)
-        across, down = ((shares >= 0) & (shares <= 1)).T
-        inside = across & down
-        kept = inside | np.append(inside[1:], False) | np.append(False, inside[:-1])
-        ends = np.flatnonzero(np.diff(np.concatenate([[0], kept.astype(int), [0]]))).reshape(-1, 2)
-        found += [(shares[a:b] * _size(part.box) + _corner(part.box), False) for a, b in ends if b - a > 1]
-    return found
+    inside = [piece for line in lines for piece in clipped(line, part.source)]
+    return [(_shares(points, part.source) * _size(part.box) + _corner(part.box), closed) for points, closed in inside]
 
 
 def _shares(points: FloatArray, box: Rectangle) -> AnyArray:
