@@ -11,6 +11,7 @@ from tests.figures.marked_tool import FLAG, TOOL
 from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
+from app.marks.line_looks import SOURCE
 from app.qt.panels import line_marks
 
 
@@ -40,3 +41,20 @@ def test_points_lines_and_areas_of_a_tool_are_painted_and_follow_the_answers(scr
                 assert np.flatnonzero(tint.any(axis=1)).tolist() == np.unique(near).tolist()
     finally:
         tools.tools.cache_clear()
+
+
+def test_lines_that_pass_beside_the_eye_are_painted_about_the_view_only(screen, mesh_file):
+    s = screen()
+    s.open(mesh_file(bumpy(300)), 5)
+    view = s.panels[0].view
+    eye = np.array(view.camera.GetPosition())
+    ahead = np.array(view.camera.GetDirectionOfProjection())
+    right = np.cross(ahead, view.camera.GetViewUp())
+    view.over.lines.show([(SOURCE, np.stack([eye + ahead, eye + 1e-7 * ahead + right]))])
+    view.redraw()
+    s.settle(0.1)
+    assert np.nanmax(view.over.lines.pixels) > 1e7
+    boxes = [path.boundingRect() for _, strokes in view.over.lines._paths for _, path in strokes]
+    assert boxes
+    for box in boxes:
+        assert view.width() / 2 < box.right() <= 2 * view.width()

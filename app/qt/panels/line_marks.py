@@ -7,6 +7,7 @@ import numpy as np
 from qtpy import QtCore, QtGui
 
 from ...marks.line_looks import LineLook, Stroke
+from ...scene.line_clipping import clipped
 from ...scene.lines_of_sight import seen_in
 from ...scene.style import Style
 from ..look.painting import round_pen
@@ -64,12 +65,16 @@ class LineMarks:
         """The lowest first; lines of one look are one path, so that where they meet no rim lies over another line."""
         places, seen = np.split(pixels, self._ends), np.split(is_seen, self._ends)
         looks = dict.fromkeys(self._looks)
+        width, height = self._view.width(), self._view.height()
+        about = -width, 2 * width, -height, 2 * height
         for is_meant in (False, True):  # what is hidden lies behind
             for look in looks:
                 path = QtGui.QPainterPath()
                 for other, line, which in zip(self._looks, places, seen, strict=True):
-                    for piece in _runs(line, which == is_meant) if other == look else ():
-                        path.addPolygon(piece)
+                    for run in _runs(line, which == is_meant) if other == look else ():
+                        # Beside the eye lines go on for millions of pixels, each with its dots.
+                        for piece, _ in clipped((run, False), about):
+                            path.addPolygon(QtGui.QPolygonF([QtCore.QPointF(*place) for place in piece.tolist()]))
                 if not path.isEmpty():
                     yield from ((stroke, path) for stroke in (look.strokes if is_meant else look.hidden))
 
@@ -104,12 +109,10 @@ def _refined(points: np.ndarray, step: float) -> np.ndarray:
     return np.stack([np.interp(at, np.arange(len(points)), x) for x in points.T], 1)
 
 
-def _runs(places: np.ndarray, is_meant: np.ndarray) -> list[QtGui.QPolygonF]:
-    """The pieces both of whose ends are meant; a change in between belongs to neither, so that they just meet."""
+def _runs(places: np.ndarray, is_meant: np.ndarray) -> list[np.ndarray]:
+    """The pieces (l, 2) of places (k, 2) both of whose ends are meant; a change in between belongs to neither, so that
+    they just meet."""
     meant = is_meant & np.isfinite(places).all(axis=1)
     pieces = meant[:-1] & meant[1:]
     edges = np.flatnonzero(np.diff(np.concatenate([[False], pieces, [False]]).astype(int)))
-    return [
-        QtGui.QPolygonF([QtCore.QPointF(x, y) for x, y in places[first : last + 1].tolist()])
-        for first, last in edges.reshape(-1, 2)
-    ]
+    return [places[first : last + 1] for first, last in edges.reshape(-1, 2)]
