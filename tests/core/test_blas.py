@@ -38,6 +38,44 @@ after = {each["filepath"]: each["num_threads"] for each in threadpool_info()}
 assert all(after[path] == count for path, count in before.items()), (before, after)
 """
 
+THREADS = """
+import threading
+import numpy
+from threadpoolctl import threadpool_info
+from bihdist_core.solver.blas import one_blas_thread
+
+def threads():
+    return {each["num_threads"] for each in threadpool_info() if each["user_api"] == "blas"}
+
+found, entered, left = [], threading.Event(), threading.Event()
+before = threads()
+
+def first():
+    with one_blas_thread():
+        entered.set()
+        left.wait()
+    found.append(threads())
+
+with one_blas_thread():
+    assert threads() == {1}
+assert threads() == before
+# While this thread lives, another has kernels of its own; the one that enters first is not the last to leave.
+thread = threading.Thread(target=first)
+thread.start()
+entered.wait()
+assert threads() == {1}
+with one_blas_thread():
+    left.set()
+    thread.join()
+    assert threads() == {1}
+assert found == [{1}]
+assert threads() == before
+thread = threading.Thread(target=lambda: found.append(one_blas_thread()(threads)()))
+thread.start()
+thread.join()
+assert (found[1], threads()) == ({1}, before)
+"""
+
 
 def run(program):
     done = subprocess.run(
@@ -56,3 +94,7 @@ def test_a_library_that_is_loaded_between_two_kernels_is_limited_too():
 
 def test_one_that_is_loaded_inside_a_kernel_is_limited_by_the_next():
     run(MEANWHILE)
+
+
+def test_any_thread_limits_it_and_any_other_restores_it():
+    run(THREADS)
