@@ -285,6 +285,15 @@ def test_progress_rises_to_one_and_may_cancel() -> None:
     assert calls == 5
 
 
+def test_progress_counts_that_a_longer_basis_takes_longer() -> None:
+    seen: list[float] = []
+    bumpy_problem().pairs(60, progress=lambda fraction, text: seen.append(fraction) if "solving" in text else None)
+    steps = np.diff(seen)
+    assert (np.diff(steps) > 0).all()
+    # The last columns are made orthogonal to 200 others: by SOLVE, they take twice as long as the first.
+    assert 1.5 < steps[-1] / steps[0] < 3
+
+
 def test_block_method_that_does_not_arrive_gives_up(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(krylov, "PATIENCE", 0)
     # The second method makes up for it.
