@@ -242,6 +242,14 @@ def test_growing_from_fewer_pairs_gives_the_same() -> None:
     np.testing.assert_allclose(p.products(grown.eigenvectors), np.eye(120), atol=1e-12)
 
 
+def test_growing_from_very_few_pairs_needs_no_second_method(monkeypatch: pytest.MonkeyPatch) -> None:
+    p = bumpy_problem()
+    monkeypatch.setattr(spectrum, "_arnoldi", None)
+    # What the first pairs are off by is much beside the last.
+    for few, count in ((6, 150), (12, 150), (16, 250)):
+        assert p.residuals(p.pairs(count, start=p.pairs(few))).max() <= 2e-6
+
+
 def test_start_with_enough_pairs_is_cut_and_a_rough_one_is_not_trusted() -> None:
     p = bumpy_problem()
     start = p.pairs(20, tolerance=1e-3)
