@@ -1,5 +1,6 @@
 # The public names and where they live; each is imported when it is first asked for.
 from .analysis.bands import Band, band
+from .analysis.circles import Circle, geodesic_circles
 from .analysis.diagnostics import (
     FieldChange,
     GradientJumps,
@@ -16,23 +17,13 @@ from .analysis.geodesic_paths import GeodesicPaths
 from .analysis.isoline_output import write_isolines
 from .analysis.isoline_tracing import Isoline, isolines
 from .analysis.neighbours import nearest
+from .analysis.other_extrema import OtherExtrema, other_extrema
 from .analysis.parcels import Parcels, parcel_means
 from .analysis.persistence import Extrema, extrema
 from .analysis.places import Places
 from .analysis.plane_sections import plane_section
 from .analysis.profile_output import write_profile
-from .analysis.quality import (
-    Circle,
-    FieldQuality,
-    OtherExtrema,
-    apparent_source,
-    difference_quality,
-    field_quality,
-    geodesic_circles,
-    other_extrema,
-    triangle_sample,
-    triangle_samples,
-)
+from .analysis.quality import FieldQuality, apparent_source, difference_quality, field_quality
 from .analysis.region_boundaries import Boundary, region_boundaries, write_boundaries
 from .analysis.region_mesh import RegionMesh, region_mesh
 from .analysis.region_output import write_labels, write_region_mesh
@@ -40,6 +31,7 @@ from .analysis.regions import Regions, voronoi_regions
 from .analysis.sampling import farthest_points, write_samples
 from .analysis.selecting import Brush, cut_out, write_selection
 from .analysis.surface_paths import SurfacePath
+from .analysis.triangle_samples import triangle_sample, triangle_samples
 from .analysis.truncation import TruncationLoss, truncation_loss
 from .applications.correspondence import Correspondence, correspondence_prediction
 from .applications.interpolation import ShepardInterpolant

@@ -5,13 +5,16 @@ import logging
 import multiprocessing
 import os
 import signal
+import sys
 import threading
 import time
 import warnings
 from collections import Counter, deque
 from collections.abc import Callable, Iterator
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import replace
+from types import ModuleType
 from typing import Any, Protocol
 
 from bihdist_core.errors import ParameterError, PlainSolverWarning
@@ -106,7 +109,8 @@ class Processes:
     def _start(self, task: Task) -> None:
         """BrokenProcessPool if a process has ended since the last report."""
         assert self._pool is not None
-        self._under_way[self._pool.submit(do, task)] = task
+        with _no_program():
+            self._under_way[self._pool.submit(do, task)] = task
 
     def _report(self, future: "concurrent.futures.Future[Report]") -> Iterator[Report]:
         try:
@@ -142,6 +146,18 @@ class Processes:
                 process.kill()
             self._pool.shutdown(wait=False, cancel_futures=True)
             self._pool = None
+
+
+@contextmanager
+def _no_program() -> Iterator[None]:
+    """Processes that begin meanwhile import what their tasks need, and not the program that runs, which "spawn" would
+    run again in each of them: scripts need no `if __name__ == "__main__"`."""
+    program = sys.modules["__main__"]
+    sys.modules["__main__"] = ModuleType("__main__")
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = program
 
 
 def _begin(memory: int) -> None:

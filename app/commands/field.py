@@ -5,6 +5,7 @@ import argparse
 from bihdist_core.counts import counted
 
 from ..document.field_names import distinct, field_name
+from .array_output import check_array_output
 from .field_of import field_of
 from .mesh import add_meshes, into_each
 from .options import add_areas, add_distance, add_output, add_sources
@@ -32,9 +33,8 @@ def run(options: argparse.Namespace) -> Result:
 def _one(options: argparse.Namespace) -> Facts:
     from bihdist_core.distances.difference import PERCENTAGE_POINTS
     from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
-    from bihdist_core.whole_file import check_output
 
-    check_output(options.output, FIELD_FORMATS)
+    check_array_output(options.output, FIELD_FORMATS, "fields")
     with progress_line() as progress:
         it = field_of(options, options.distance, progress, several=True)
     label = f"{it.label}, {it.unit}" if it.unit == PERCENTAGE_POINTS else it.label

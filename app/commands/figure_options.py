@@ -9,9 +9,11 @@ from dataclasses import replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
+from bihdist_core.counts import counted
+
 from ..figures.options import made_from, rows, with_options, with_rows
 from ..figures.repair_options import REPAIRS
-from .mesh_sources import sources_of_document
+from .mesh_sources import sources_of_document, sources_of_two
 from .options import (
     MESH,
     PANELS,
@@ -29,7 +31,7 @@ from .terminal import progress_line, tell
 if TYPE_CHECKING:
     from bihdist_core.sources.source import Source
 
-    from ..document.document import Document
+    from ..document.document import Document, Point
     from ..document.page import Recipe
     from ..document.quantities import Quantity
 
@@ -38,7 +40,7 @@ def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
     """All but what only one of the two has.  None stands for what is not given."""
     parser.add_argument("mesh", metavar="MESH", nargs="?", help=MESH)
     parser.add_argument("beside", metavar="BESIDE", nargs="?", help="a second mesh B, to stand beside the first, A")
-    add_sources(parser, "where distances start, a row of panels each")
+    add_sources(parser, "where distances start, a row of panels each, or with two meshes one of each")
     add_output(parser, files)
     add_distance(parser, PANELS, is_field=True)
     add_recipe(parser, "draw this again; all other options change it")
@@ -81,17 +83,24 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
     if options.other_mesh is not None:
         document = _with_other_mesh(document, options.other_mesh)
     document = with_rows(replace(recipe, document=document), given(options, REPAIRS), (REPAIRS,)).document
-    document, columns = _with_panels(document, options, _sources(document, options))
+    asked, second = _sources(document, options), None
+    if options.beside is not None:
+        asked, second = sources_of_two(options.sources, asked, options.beside)
+    document, columns = _with_panels(document, options, asked)
     if columns is not None and not made:
         recipe = replace(recipe, page=replace(recipe.page, columns=columns))
     recipe = with_rows(replace(recipe, document=document), made, rows())
+
+    def with_second(document: "Document") -> "Document":
+        return _with_beside(document, options.beside, second)
+
     with progress_line() as progress:
-        recipe = with_options(recipe, values, lambda document: _with_beside(document, options.beside), tell, progress)
+        recipe = with_options(recipe, values, with_second, tell, progress)
     _tell_if_unseen(recipe.page.style, values)
     return recipe
 
 
-def _with_beside(document: "Document", path: str | None) -> "Document":
+def _with_beside(document: "Document", path: str | None, at: "Source | None") -> "Document":
     from ..document.beside_edits import open_beside
     from ..document.document import MeshFile
     from .mesh import check_mesh
@@ -99,7 +108,7 @@ def _with_beside(document: "Document", path: str | None) -> "Document":
     if path is None:
         return document
     check_mesh(path)
-    return open_beside(document, MeshFile("", path))
+    return open_beside(document, MeshFile("", path), at)
 
 
 def _tell_if_unseen(style: str, values: dict[str, Any]) -> None:
@@ -145,15 +154,21 @@ def _with_panels(
     from ..document.edits import put_point, show_in
     from ..document.quantities import from_point
 
-    if options.distance or (asked and len(asked) != len(document.sources)):
+    shown = dict.fromkeys(name for panel in document.panels for name in panel.shows.points)
+    starts = list(dict.fromkeys(map(_place, map(document.point, shown))))
+    if options.distance or (asked and len(asked) != len(starts)):
         words = options.distance
         shows = tuple(quantities(options, words, [field.name for field in document.fields])) if words else ()
         shows = shows or tuple(
             dict.fromkeys(from_point(_respecified(panel.shows, options), "") for panel in document.panels)
         )
+        if len(document.surfaces) != 1 and words:
+            raise ParameterError(f"--distance makes the panels of one mesh; this recipe has {len(document.surfaces)}.")
         if len(document.surfaces) != 1:
-            what = "--distance" if words else f"--sources with {len(asked)}"
-            raise ParameterError(f"{what} makes the panels of one mesh, and this recipe has {len(document.surfaces)}.")
+            raise ParameterError(
+                f"The {len(document.surfaces)} meshes of this recipe start from {counted(len(starts), 'source')}, and "
+                f"--sources names {len(asked)}; name as many, those of the first mesh first."
+            )
         surface, sources = document.surfaces[0].name, tuple(asked or document.sources)
         used = {*document.isolines.through, *(name for part in document.parts for name in part.points)}
         kept = [point for point in document.points if point.name in used]
@@ -167,11 +182,15 @@ def _with_panels(
         document = show_in(document, panel.id, _respecified(panel.shows, options))
     check_parameters(options, [spec for panel in document.panels for spec in panel.shows.specs])
     if asked:
-        moved = dict(zip(document.sources, asked, strict=True))
-        shown = dict.fromkeys(name for panel in document.panels for name in panel.shows.points)
-        for name, point in [(name, document.point(name)) for name in shown]:
-            document = put_point(document, name, moved[point.at], point.surface)
+        moved = dict(zip(starts, asked, strict=True))
+        for point in map(document.point, shown):
+            document = put_point(document, point.name, moved[_place(point)], point.surface)
     return document, None
+
+
+def _place(point: "Point") -> "tuple[Source | None, str]":
+    """Where a point is: vertex ids are of one mesh."""
+    return point.at, point.surface
 
 
 def _respecified(shows: "Quantity", options: argparse.Namespace) -> "Quantity":

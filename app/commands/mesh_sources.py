@@ -6,13 +6,15 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from bihdist_core.distances.kinds import Spec
+from bihdist_core.errors import ParameterError
+from bihdist_core.sources.words import short_words_of
 
 from ..document.document import COMPARISON
 from ..document.quantities import Quantity
 from ..document.repairs import Repairs
 from ..document.sources import HIGHEST, LISTED, Sources
 from .mesh import found_mesh
-from .terminal import tell_moved
+from .terminal import tell, tell_moved
 
 if TYPE_CHECKING:
     from bihdist_core import Distance, Surface
@@ -76,6 +78,25 @@ def sources_of_document(
     spec = first_spec(shows)
     distances = Distances(Laplacian(surface, areas or "voronoi"))
     return sources_of_mesh(asked, mesh, surface, lambda: distances.get(spec, progress), progress).sources
+
+
+def sources_of_two(asked: Sources | None, found: "list[Source]", other: str) -> "tuple[list[Source], Source | None]":
+    """What was found on the first mesh, as one source for it and one for the second; None is the highest vertex.
+
+    other: the second mesh.  ParameterError for more than two, and for a second one that a rule or a file names: it is
+    of the first mesh.
+    """
+    if len(found) > 2 or (asked is not None and asked.rule != LISTED and len(found) > 1):
+        raise ParameterError(
+            f"Two meshes have a source each, and --sources names {len(found):,} of the first; write one of each with a "
+            "comma, such as 12,40."
+        )
+    if len(found) == 1:
+        tell(
+            f"--sources names one of the first mesh, and {other} starts from its highest vertex; one of each is named "
+            f"as {short_words_of(found[0])},40."
+        )
+    return found[:1], found[1] if len(found) > 1 else None
 
 
 def first_spec(shows: "Sequence[Spec | Quantity]") -> Spec:

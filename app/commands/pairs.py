@@ -8,6 +8,7 @@ from bihdist_core.counts import counted
 from ..document.repairs import NAME
 from ..document.sources import ALL, Sources
 from ..version import version
+from .array_output import check_array_output
 from .mesh import add_meshes, found_mesh, into_each, read_laplacian
 from .mesh_sources import sources_of_mesh, sources_on
 from .options import (
@@ -77,12 +78,12 @@ def _one(options: argparse.Namespace) -> Facts:
     from bihdist_core.analysis.neighbours_output import NEIGHBOUR_FORMATS
     from bihdist_core.errors import ParameterError
     from bihdist_core.formats.field_output import ARRAY_FORMATS
-    from bihdist_core.whole_file import check_output
 
     words = list(dict.fromkeys(options.distance or ["biharmonic"]))
     is_all = not options.nearest and options.sources is not None and options.sources.rule == ALL
     formats = (".npy",) if is_all else NEIGHBOUR_FORMATS if options.nearest else ARRAY_FORMATS
-    is_matrix = check_output(options.output, formats) == ".npy" and not (options.nearest or options.pairs)
+    extension = check_array_output(options.output, formats, "nearest" if options.nearest else "pairs")
+    is_matrix = extension == ".npy" and not (options.nearest or options.pairs)
     count = neighbour_count(options, words) if options.nearest else 0
     chosen = specs(options, words)
     if (is_all or options.nearest) and len(chosen) > 1:

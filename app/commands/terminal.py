@@ -8,7 +8,7 @@ import threading
 import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager, nullcontext, redirect_stdout
+from contextlib import contextmanager, nullcontext, redirect_stdout, suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -36,6 +36,7 @@ class _Telling:
     clock: Callable[[], float] = time.monotonic
     notes: list[str] = field(default_factory=list)
     last: float = 0.0
+    turn: threading.Lock = field(default_factory=threading.Lock)
 
     def __post_init__(self) -> None:
         self.last = self.clock()
@@ -53,21 +54,45 @@ class _Telling:
 
     def line_if_due(self, words: Callable[[], str]) -> None:
         """A line of progress if there has been none for long."""
-        if self.clock() - self.last >= EVERY:
-            self.line(words())
+        with self.turn:
+            if self.clock() - self.last >= EVERY:
+                self.line(words())
 
-    def reporter(self) -> "Progress":
-        """Progress, as a line of its own now and then, and at once where work is expected to be long."""
-        left, announced = TimeLeft(), set[str]()
+    @contextmanager
+    def watched(self, words: Callable[[], str]) -> Iterator[None]:
+        """Meanwhile a line of progress is said where there has been none for long."""
+        ended = threading.Event()
+
+        def watch() -> None:
+            # A standard error that is closed ends the command where the work itself reports.
+            with suppress(OSError):
+                while not ended.wait(EVERY / 10):
+                    self.line_if_due(words)
+
+        watching = threading.Thread(target=watch, name="progress", daemon=True)
+        watching.start()
+        try:
+            yield
+        finally:
+            ended.set()
+            watching.join()
+
+    @contextmanager
+    def progress(self) -> "Iterator[Progress]":
+        """Progress, as a line of its own now and then, also where a step reports nothing for long, and at once where
+        work is expected to be long."""
+        left, announced, words = TimeLeft(), set[str](), "under way"
 
         def report(fraction: float, text: str) -> None:
-            expected, words = duration_in(text), with_time_left(fraction, text, left, self.clock())
-            if expected and text not in announced:
+            nonlocal words
+            words = with_time_left(fraction, text, left, self.clock())
+            if duration_in(text) and text not in announced:
                 announced.add(text)
                 self.line(words)
             self.line_if_due(lambda: words)
 
-        return report
+        with self.watched(lambda: words):
+            yield report
 
 
 _telling = _Telling()
@@ -112,7 +137,8 @@ def progress_line() -> "Iterator[Progress | None]":
         yield None
         return
     if not sys.stderr.isatty():
-        yield _telling.reporter()
+        with _telling.progress() as report_line:
+            yield report_line
         return
     last, left = 0.0, TimeLeft()
 
@@ -139,19 +165,9 @@ def with_time_left(fraction: float, text: str, left: TimeLeft, now: float) -> st
 @contextmanager
 def task_lines(words: Callable[[], str]) -> Iterator[Callable[[str], None]]:
     """Where there is no terminal: says a line for each task that is done, and `words` where none ends for long."""
-    telling, ended = _telling, threading.Event()
-
-    def watch() -> None:
-        while not ended.wait(EVERY / 10):
-            telling.line_if_due(words)
-
-    watching = threading.Thread(target=watch, name="progress", daemon=True)
-    watching.start()
-    try:
+    telling = _telling
+    with telling.watched(words):
         yield telling.line
-    finally:
-        ended.set()
-        watching.join()
 
 
 @contextmanager

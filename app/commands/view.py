@@ -11,7 +11,7 @@ from ..figures.options import VERTEX_AREAS, tool_rows, with_rows
 from ..figures.repair_options import MERGE, REPAIRS
 from ..figures.view_options import UP, up_meaning
 from .mesh import found_mesh
-from .mesh_sources import one_source, sources_of_document
+from .mesh_sources import one_source, sources_of_document, sources_of_two
 from .options import PANELS, add_distance, add_rows, add_sources, given, given_parameters, quantities, repairs_of
 from .result import Result
 
@@ -23,7 +23,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     what = "mesh file, the name of a sample, or a session or recipe (default: choose in the window)"
     parser.add_argument("mesh", metavar="MESH", nargs="?", help=what)
     parser.add_argument("beside", metavar="BESIDE", nargs="?", help="a second mesh, to stand beside the first")
-    add_sources(parser, "the one source where distances start")
+    add_sources(parser, "the one source where distances start, or with two meshes one of each")
     parser.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")
     parser.add_argument("--save-session", metavar="OUT.json", help="save the session once the window is complete")
     add_distance(parser, PANELS, is_field=True)
@@ -62,10 +62,13 @@ def run(options: argparse.Namespace) -> Result:
     else:
         chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
         sources = sources_of_document(options.sources, path, chosen, options.areas, repairs_of(options, path))
+        second = None
+        if options.beside is not None:
+            sources, second = sources_of_two(options.sources, sources, options.beside)
         shown = comparison(path, tuple(chosen), (one_source(sources),))
         shown = with_rows(Recipe(shown), given(options, *_rows()), _rows()).document
         if options.beside is not None:
-            shown = open_beside(shown, MeshFile("", found_mesh(options.beside)))
+            shown = open_beside(shown, MeshFile("", found_mesh(options.beside)), second)
         shown = with_rows(Recipe(shown), given(options, REPAIRS), (REPAIRS,)).document
     if is_choice and options.sources is not None:
         raise ParameterError("Sources need a mesh; name one.")

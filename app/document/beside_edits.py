@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from bihdist_core.distances.kinds import Spec
 from bihdist_core.errors import ParameterError
+from bihdist_core.sources.source import Source
 
 from .beside import Beside
 from .camera import View, view_alike
@@ -16,11 +17,12 @@ MOST_SHOWN = 2
 """Surfaces that stand beside each other in the window."""
 
 
-def open_beside(document: Document, mesh: MeshFile) -> Document:
+def open_beside(document: Document, mesh: MeshFile, at: Source | None = None) -> Document:
     """A second mesh beside the first, under a name of its own; the one that stood there goes.
 
-    Panels of it show what those of the first do, from a source of its own, as many as there is room for.
-    ParameterError where there is no room for any, or nothing that it could stand beside.
+    Panels of it show what those of the first do, from a source of its own, as many as there is room for.  at: that
+    source, the highest vertex if None.  ParameterError where there is no room for any panel, or nothing that the mesh
+    could stand beside.
     """
     if not document.surfaces:
         raise ParameterError("There is nothing to open a mesh beside; open the first one before.")
@@ -37,7 +39,7 @@ def open_beside(document: Document, mesh: MeshFile) -> Document:
         for point in shows.points:
             if point not in points:
                 (points[point],) = free_names("source", 1, [each.name for each in document.points])
-                document = put_point(document, points[point], None, name)
+                document = put_point(document, points[point], at, name)
         document = add_panel(document, renamed(shows, points), name)
     return document
 

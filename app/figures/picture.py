@@ -149,7 +149,8 @@ def figure(
 
     distances: in words, "diffusion(t=1/4)" or "biharmonic - geodesic".  source: a vertex, the highest if None, a
     `SurfacePoint`, `BoundaryLoop`, `Curve` or `SourceSet`, or words such as "12+40"; or a list of these for a row of
-    panels each.  fields: your own by name, (n,) with NaN where undefined; each has a panel, or is named in `distances`
+    panels each, or with a second mesh one of each.
+    fields: your own by name, (n,) with NaN where undefined; each has a panel, or is named in `distances`
     like one: "biharmonic - mine".  cut: a file with 1 for each vertex that stays and 0 for each that is cut out; {name}
     in it is the mesh's name.  merge: what is no farther apart becomes one vertex.  perturb: what is done to the mesh,
     such as "noise=0.4,along=normals,seed=1", "pose=FILE", "cut=3+10-20": each distance before and after, and the
@@ -186,6 +187,13 @@ def figure(
     sources = tuple(source) if isinstance(source, Sequence | np.ndarray) and not isinstance(source, str) else (source,)
     if not sources:
         raise ParameterError("There is no source in an empty list; name one, or None for the highest vertex.")
+    second = None
+    if beside is not None and several:
+        if len(sources) > 2:
+            raise ParameterError(
+                f"Two meshes have a source each, not {len(sources)}; give one of the first, then one of the second."
+            )
+        sources, second = sources[:1], sources[1] if len(sources) > 1 else None
     known = arguments()
     named |= named.pop("of_tools")
     unknown = named.keys() - known.keys() - {"mesh", "distances", "source", "fields", "beside", "progress"}
@@ -196,7 +204,7 @@ def figure(
     columns = len(distances) if several and len(sources) > 1 else None
 
     def with_second(document: Document) -> Document:
-        return document if beside is None else with_beside(document, store, beside)
+        return document if beside is None else with_beside(document, store, beside, second)
 
     recipe = with_options(Recipe(document, Page(columns=columns)), values, with_second, progress=progress)
     document, surfaces = open_document(recipe, store)

@@ -299,8 +299,8 @@ def show(
     `distances` like one: "biharmonic - mine".  source: a vertex, the highest if None, or what else `figure` takes.
     cut: a file with 1 for each vertex that stays and 0 for each that goes with its faces ({name} is the mesh's name);
     merge: make vertices one that are no farther apart, after that.  up: which axis is, "z" or "-z"; "auto" for what was
-    chosen for the mesh before, or a guess.  beside: a second mesh, with panels of the same distances and a camera of
-    its own.  on_pick: called with a `Pick` for each click on a surface,
+    chosen for the mesh before, or a guess.  beside: a second mesh, with panels of the same distances from its highest
+    vertex, and a camera of its own.  on_pick: called with a `Pick` for each click on a surface,
     once the source is there.  block: wait until the window is closed; if None, in scripts, but not in IPython,
     notebooks and Python's own prompt, where the window lives while you go on.
 

@@ -22,7 +22,7 @@ from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.file_content import open_regular
 from bihdist_core.formats.array_file import array_in
 from bihdist_core.mesh_like import MeshLike
-from bihdist_core.sources.source import Source
+from bihdist_core.sources.source import Source, checked_source
 
 from ..document.beside_edits import open_beside
 from ..document.document import Document, FieldArray, MeshFile, comparison
@@ -163,9 +163,9 @@ def comparison_of_arrays(
     return replace(comparison(entry.path, shows, sources, areas, own), surfaces=(entry,)), given
 
 
-def with_beside(document: Document, given: ArrayStore, mesh: Mesh) -> Document:
-    """A document with a second mesh beside the first, kept as the first one is."""
-    return open_beside(document, _entry(mesh, given))
+def with_beside(document: Document, given: ArrayStore, mesh: Mesh, at: Source | str | None = None) -> Document:
+    """A document with a second mesh beside the first, kept as the first one is.  at: where its distances start."""
+    return open_beside(document, _entry(mesh, given), None if at is None else checked_source(at))
 
 
 def _entry(mesh: Mesh, given: ArrayStore) -> MeshFile:

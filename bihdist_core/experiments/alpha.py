@@ -6,8 +6,8 @@ distance measure"; biharmonic distance (alpha = 2) balances between too local an
 
 import numpy as np
 
+from ..analysis.circles import small_radius
 from ..analysis.diagnostics import isotropy_ratio
-from ..analysis.quality import small_radius
 from ..arrays import FloatArray
 from ..laplacian import Laplacian
 from ..progress import Progress, part

@@ -6,8 +6,8 @@ geodesic field has a kink and isolines that are not aware of the shape far away;
 
 import numpy as np
 
+from ..analysis.circles import small_radius
 from ..analysis.persistence import extrema
-from ..analysis.quality import small_radius
 from ..applications.resizing import refined
 from ..arrays import FloatArray
 from ..distances.distance import Distance

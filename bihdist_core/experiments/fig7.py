@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..analysis.quality import small_radius
+from ..analysis.circles import small_radius
 from ..arrays import FloatArray
 from ..progress import Progress, part
 from ..surface import Surface

@@ -4,10 +4,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ..analysis import quality
+from ..analysis import kinks
+from ..analysis.circles import small_radius
 from ..analysis.diagnostics import FieldChange, field_change, isotropy_ratio
 from ..analysis.persistence import Extrema, extrema
-from ..analysis.quality import small_radius
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..surface import Surface
 from ._stated_figures import DEEP
@@ -61,14 +61,14 @@ def field_row(
 
 
 def inner_jumps(surface: Surface, field: FloatArray, near: FloatArray, radius: float | None = None) -> FloatArray:
-    """(k,) relative jumps of the gradient away from the source and the boundary (see `quality.inner_jumps`)."""
-    return quality.inner_jumps(surface, field, near, radius).relative
+    """(k,) relative jumps of the gradient away from the source and the boundary (see `kinks.inner_jumps`)."""
+    return kinks.inner_jumps(surface, field, near, radius).relative
 
 
 def largest_jump(surface: Surface, field: FloatArray, near: FloatArray, radius: float | None = None) -> float:
-    """The largest jump of the gradient (see `quality.kinks`) where `near` (n,) exceeds a radius, the small one by
+    """The largest jump of the gradient (see `kinks.kinks`) where `near` (n,) exceeds a radius, the small one by
     default."""
-    return quality.kinks(surface, field, near, radius).largest
+    return kinks.kinks(surface, field, near, radius).largest
 
 
 def deepest_minimum(surface: Surface, field: FloatArray, source: int, among: BoolArray | None = None) -> float:
@@ -85,7 +85,7 @@ def deepest_minimum(surface: Surface, field: FloatArray, source: int, among: Boo
 
 def kinked_edges(surface: Surface, field: FloatArray, geodesic: FloatArray) -> tuple[float, IntArray]:
     """The share of edges in kinks away from the source, and (k, 2) these edges."""
-    jumps = quality.inner_jumps(surface, field, geodesic)
+    jumps = kinks.inner_jumps(surface, field, geodesic)
     kinked = jumps.relative >= KINK
     return float(kinked.mean()) if len(kinked) else 0.0, jumps.edges[kinked]
 

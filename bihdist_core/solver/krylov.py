@@ -30,6 +30,8 @@ PATIENCE = 8
 EPS = float(np.finfo(float).eps)
 LOSS = 1e-11
 """A basis that is orthonormal up to so much is good enough: the pairs are made orthonormal afterwards."""
+SOLVE = 300
+"""For the progress: applying T to a column costs about as much as making it orthogonal to half as many; measured."""
 CROWD = 1.01
 """Eigenvalues within this ratio may hide further ones: a block sees at most as many equal ones as it has columns."""
 
@@ -50,12 +52,12 @@ def largest_eigenpairs(
     """
     n = len(weights)
     width = _width(count)
-    space = _Space(weights, _room(n, count), *known)
+    space = _Space(weights, _room(n, count), *known, tolerance)
     random = np.random.default_rng(0)
     space.inject(random.standard_normal((n, width)))
     families, applied, check, expected = 1, 0, 1.5 * count + width, usual_columns(count)
     while True:
-        share = min(0.98, applied / expected)
+        share = min(0.98, applied * (SOLVE + applied) / (expected * (SOLVE + expected)))
         progress(share, "eigenpairs: solving")
         image = apply(space.block)
         progress(share, "eigenpairs: orthogonalizing")
@@ -112,7 +114,8 @@ def _width(count: int) -> int:
 class _Space:
     """The basis V, the block Q to expand by next, and H and B ("couple") of the module's formula."""
 
-    def __init__(self, weights: FloatArray, room: int, values: FloatArray, vectors: FloatArray) -> None:
+    def __init__(self, weights: FloatArray, room: int, values: FloatArray, vectors: FloatArray, error: float) -> None:
+        """error: about how far what is known (values, vectors) is from eigenpairs, as a fraction of T."""
         n, self.size = vectors.shape
         self.weights = weights
         self.basis: list[FloatArray] = [np.array(vectors, order="C")] if self.size else []
@@ -120,7 +123,7 @@ class _Space:
         self.h = np.zeros((room, room))
         self.h[: self.size, : self.size] = np.diag(values)
         self.block = np.empty((n, 0))
-        self._error = EPS
+        self._error = error if self.size else EPS
         """About how far the formula is from true, as a fraction of T."""
         self._left = EPS, EPS
         """About the largest products of columns of V with the last ones of V, and with the block."""

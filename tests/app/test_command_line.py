@@ -1,7 +1,6 @@
-"""The command line without a window: what it writes, and what it says when it cannot."""
+"""The command line without a window: what it writes and says."""
 
 import json
-import os
 import re
 import subprocess
 import sys
@@ -23,6 +22,7 @@ from bihdist_core import (
     TruncatedBiharmonicDistance,
     read_surface,
 )
+from tests.app.refusals import refused
 from tests.shapes import bumpy, caps, grid, two_pieces
 
 ROOT = Path(__file__).parents[2]
@@ -31,16 +31,6 @@ ROOT = Path(__file__).parents[2]
 @pytest.fixture
 def mesh(mesh_file):
     return mesh_file(bumpy(200))
-
-
-def refused(capsys, *arguments):
-    """The sentence a refused command prints."""
-    assert main([str(a) for a in arguments]) == 2
-    *notes, said = capsys.readouterr().err.splitlines(keepends=True)
-    assert not any(note.startswith("bihdist: ") for note in notes)
-    assert said.startswith("bihdist: ")
-    assert "Traceback" not in said
-    return said
 
 
 # ---------------------------------------------------------------------- field
@@ -114,13 +104,6 @@ def test_several_distances_are_a_column_each(mesh, tmp_path, capsys):
     assert table[:, 3] == pytest.approx(DiffusionDistance(s, t=0.25).of_pairs([[1, 2], [3, 4]]))
     assert len(capsys.readouterr().out.splitlines()) == 2
     assert "name one" in refused(capsys, "pairs", mesh, "--sources", "all", *words, "-o", tmp_path / "all.npy")
-
-
-@pytest.mark.parametrize("line", ["1,--5", "1,²", "1,5.0", "1," + 30 * "9", "one,two"])
-def test_a_line_that_is_no_pair_is_named(mesh, tmp_path, capsys, line):
-    file = tmp_path / "pairs.csv"
-    file.write_text(f"1,2\n{line}\n", encoding="utf-8")
-    assert "line 2: " in refused(capsys, "pairs", mesh, "--pairs", f"@{file}", "-o", tmp_path / "p.npy")
 
 
 def test_listed_pairs_from_words_and_from_a_file(mesh, tmp_path):
@@ -243,16 +226,6 @@ def test_a_figure_of_failures_only_is_refused(mesh_file, tmp_path, capsys, no_ex
     assert not list(tmp_path.glob("f.*"))
 
 
-@pytest.mark.parametrize("words", [["truncated(k=200)"], ["power"]])
-@pytest.mark.parametrize("command", [["field", "-o", "f.npy"], ["figure", "-o", "f.png"], ["statistics"]])
-def test_more_eigenpairs_than_the_mesh_has_are_refused(mesh, tmp_path, capsys, monkeypatch, command, words):
-    monkeypatch.chdir(tmp_path)
-    word, *rest = command
-    told = refused(capsys, word, mesh, "--sources", "0", "--distance", *words, *rest)
-    assert re.search("has 199 eigenpairs besides the constant, and k is 200; choose k from 1 to 199", told)
-    assert not list(tmp_path.glob("f.*"))
-
-
 def test_a_recipe_with_more_eigenpairs_than_another_mesh_has_fails_in_that_panel_alone(
     mesh, mesh_file, tmp_path, capsys
 ):
@@ -309,109 +282,6 @@ def test_version_and_help(capsys):
     with pytest.raises(SystemExit):
         main(["field", "--help"])
     assert "--sources" in capsys.readouterr().out
-
-
-# ---------------------------------------------------------------------- what is refused
-def test_bad_input_gets_a_sentence_and_leaves_no_file(mesh, mesh_file, tmp_path, capsys):
-    out = tmp_path / "d.npy"
-    pieces = mesh_file(two_pieces(), "pieces.off")
-    bad_pairs = tmp_path / "bad.csv"
-    bad_pairs.write_text("1,2\n3,x\n")
-    empty = tmp_path / "empty.off"
-    empty.write_text("")
-    for arguments, words in [
-        (["field", tmp_path / "none.off", "--sources", 0, "-o", out], "none.off"),
-        (["field", tmp_path, "--sources", 0, "-o", out], "folder"),
-        (["field", empty, "--sources", 0, "-o", out], "empty.off"),
-        (["field", mesh, "--sources", 200, "-o", out], "no vertex 200; ids run from 0 to 199"),
-        (["field", pieces, "--sources", 60, "-o", out], "vertex 60 belongs to no face"),
-        (["field", mesh, "--sources", 0, "-o", tmp_path / "d.xyz"], ".xyz"),
-        (["field", mesh, "--sources", 0, "-o", tmp_path / "no" / "d.npy"], "no folder"),
-        (["field", mesh, "--sources", 0, "--distance", "power", "--alpha", 0.5, "-o", out], "alpha"),
-        (
-            ["field", mesh, "--sources", 0, "--distance", "euclidean", "-o", out],
-            "no distance 'euclidean'; choose one of",
-        ),
-        (["field", mesh, "--sources", 0, "--distance", "diffusion(k=3)", "-o", out], "has no parameter 'k'; it has t"),
-        (["figure", mesh, "--distance", "diffusion(t", "-o", tmp_path / "f.png"], "has no closing bracket"),
-        (["field", mesh, "--sources", 0, "--t", "-1", "-o", out], "t must be a number above 0, not -1"),
-        (["view", mesh, "--k", "many"], "k must be a whole number above 0, not 'many'"),
-        (["view", mesh, "--colours", "jet"], "There is no colour map 'jet', and no such file"),
-        (["pairs", mesh, "--sources", "1,900", "-o", out], "no vertex 900"),
-        (["pairs", mesh, "-o", out], "Which pairs?"),
-        (["pairs", mesh, "--sources", "7", "-o", out], "name another beside 7"),
-        (["pairs", mesh, "--pairs", "1:2", "--sources", "1,2", "-o", out], "--pairs and --sources are two ways"),
-        (["pairs", mesh, "--pairs", "1:2", "--nearest", "-o", out], "--pairs and --nearest are two ways"),
-        (["pairs", mesh, "--pairs", "1:2", "--dtype", "float32", "-o", out], "--dtype goes with a matrix"),
-        (["pairs", mesh, "--sources", "1,loop:0", "-o", out], "has no boundary loop 0"),
-        (["pairs", mesh, "--sources", "1,3+4", "-o", out], "Pairs are those of vertices, and 3+4 is none"),
-        (["pairs", mesh, "--nearest", "--k", "9", "--distance", "truncated", "-o", out], "such as truncated(k=200)"),
-        (
-            ["isolines", mesh, "--sources", "3,4", "-o", tmp_path / "l.csv"],
-            "one source, and --sources names 2",
-        ),
-        (["pairs", mesh, "--pairs", f"@{bad_pairs}", "-o", out], "line 2: '3,x'"),
-        (["pairs", mesh, "--pairs", f"@{tmp_path}/none.csv", "-o", out], "none.csv"),
-        (["figure", mesh, "-o", tmp_path / "f.jpg"], ".jpg"),
-        (["info", empty], "empty.off"),
-        (["view", tmp_path / "none.off"], "There is no file"),
-        (["view", tmp_path / "none.json"], "none.json."),
-        (["frobnicate"], "There is no command or file frobnicate. The samples are animal, "),
-        (["figre", "hand", "-o", tmp_path / "f.png"], "no command or file figre; did you mean figure?"),
-        (["view", "figre"], "no file figre; did you mean figure? The samples are"),
-        (["info", "hnad"], "no file hnad; did you mean hand?"),
-        (["field", "hnad", "--sources", 0, "-o", out], "did you mean hand?"),
-        (["pairs", "hnad", "--pairs", "1:2", "-o", out], "did you mean hand?"),
-        (["figure", "hnad", "-o", tmp_path / "f.png"], "did you mean hand?"),
-        (["movie", "hnad", "-o", tmp_path / "f.gif"], "did you mean hand?"),
-        (["paper", "--mesh", "hnad", "-o", tmp_path / "paper"], "did you mean hand?"),
-        (["info", "view.off"], "There is no file view.off. The samples are"),
-        (["info", 500 * "m"], f"There is no file {132 * 'm'}...{65 * 'm'}. The samples"),
-        (["pairs", mesh, "--pairs", "1:2", "--fresh", "-o", out], "--fresh goes with --sources all"),
-        (["pairs", mesh, "--nearest", "--k", "2", "--memory", "10", "-o", out], "--memory goes with --sources all"),
-    ]:
-        assert words in refused(capsys, *arguments)
-        assert not out.exists()
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["field", "figure"],
-        ["field", "figure", "--sources", "a", "-o", "x.npy"],
-        ["pairs", "figure", "--pairs", "1", "-o", "x.npy"],
-        ["pairs", "figure", "--pairs", "1,2", "-o", "x.npy"],
-        ["--nonsense"],
-    ],
-)
-def test_words_that_make_no_sense_exit_with_2(arguments, capsys):
-    with pytest.raises(SystemExit) as stop:
-        main(arguments)
-    assert stop.value.code == 2
-    assert "usage: bihdist" in capsys.readouterr().err
-
-
-def test_an_old_file_survives_a_failure(mesh, tmp_path, capsys, monkeypatch):
-    out = tmp_path / "d.npy"
-    out.write_text("old")
-    refused(capsys, "field", mesh, "--sources", 999, "-o", out)
-
-    def disk_full(*_, **__):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("bihdist_core.formats.field_output.put_array", disk_full)
-    assert "No space left" in refused(capsys, "field", mesh, "--sources", 3, "-o", out)
-    assert out.read_text() == "old"
-    assert set(os.listdir(tmp_path)) == {"d.npy", Path(mesh).name}
-
-
-def test_no_display_is_a_sentence():
-    without = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    done = subprocess.run([sys.executable, "-m", "app", "view"], cwd=ROOT, env=without, capture_output=True, text=True)
-    if sys.platform.startswith("linux"):
-        assert done.returncode == 2
-        assert "needs a display" in done.stderr
-        assert "`bihdist figure` draws without one, and in notebooks `bihdist.widget` shows it." in done.stderr
 
 
 def test_light_commands_import_nothing_heavy():

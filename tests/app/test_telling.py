@@ -30,6 +30,17 @@ def test_without_a_terminal_long_work_says_a_line_now_and_then(capsys):
     assert capsys.readouterr().err.splitlines() == [f"bihdist: {share}% solving" for share in (25, 50, 75)]
 
 
+def test_a_step_that_reports_nothing_for_long_is_told_of_meanwhile(capsys, monkeypatch):
+    monkeypatch.setattr(terminal, "EVERY", 0.05)
+    with terminal.telling(), terminal.progress_line() as progress:
+        time.sleep(0.2)
+        progress(0.3, "solving")
+        time.sleep(0.2)
+    lines = capsys.readouterr().err.splitlines()
+    assert set(lines) == {"bihdist: under way", "bihdist: 30% solving"}
+    assert len(lines) > 2
+
+
 def test_work_that_is_expected_to_be_long_is_announced_at_once(capsys):
     clock = Clock()
     with terminal.telling(clock=clock), terminal.progress_line() as progress:

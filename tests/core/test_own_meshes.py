@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bihdist_core import SolverError, Surface
-from bihdist_core.analysis.quality import small_radius
+from bihdist_core.analysis.circles import small_radius
 from bihdist_core.analysis.upright import axes_of
 from bihdist_core.distances.geodesic import GeodesicDistance
 from bihdist_core.experiments import (

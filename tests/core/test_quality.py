@@ -19,15 +19,11 @@ from bihdist_core import (
     isotropy_ratio,
     triangle_samples,
 )
+from bihdist_core.analysis.circles import geodesic_circles, small_radius
 from bihdist_core.analysis.diagnostics import triangle_violations
-from bihdist_core.analysis.quality import (
-    field_quality,
-    geodesic_circles,
-    inner_jumps,
-    kinks,
-    small_radius,
-    triangle_sample,
-)
+from bihdist_core.analysis.kinks import inner_jumps, kinks
+from bihdist_core.analysis.quality import field_quality
+from bihdist_core.analysis.triangle_samples import triangle_sample
 from bihdist_core.distances.difference import difference
 from tests.shapes import bumpy, grid, sphere, torus, two_pieces
 

@@ -242,6 +242,14 @@ def test_growing_from_fewer_pairs_gives_the_same() -> None:
     np.testing.assert_allclose(p.products(grown.eigenvectors), np.eye(120), atol=1e-12)
 
 
+def test_growing_from_very_few_pairs_needs_no_second_method(monkeypatch: pytest.MonkeyPatch) -> None:
+    p = bumpy_problem()
+    monkeypatch.setattr(spectrum, "_arnoldi", None)
+    # What the first pairs are off by is much beside the last.
+    for few, count in ((6, 150), (12, 150), (16, 250)):
+        assert p.residuals(p.pairs(count, start=p.pairs(few))).max() <= 2e-6
+
+
 def test_start_with_enough_pairs_is_cut_and_a_rough_one_is_not_trusted() -> None:
     p = bumpy_problem()
     start = p.pairs(20, tolerance=1e-3)
@@ -283,6 +291,15 @@ def test_progress_rises_to_one_and_may_cancel() -> None:
     with pytest.raises(Cancelled):
         bumpy_problem().pairs(60, progress=stop)
     assert calls == 5
+
+
+def test_progress_counts_that_a_longer_basis_takes_longer() -> None:
+    seen: list[float] = []
+    bumpy_problem().pairs(60, progress=lambda fraction, text: seen.append(fraction) if "solving" in text else None)
+    steps = np.diff(seen)
+    assert (np.diff(steps) > 0).all()
+    # The last columns are made orthogonal to 200 others: by SOLVE, they take twice as long as the first.
+    assert 1.5 < steps[-1] / steps[0] < 3
 
 
 def test_block_method_that_does_not_arrive_gives_up(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -211,6 +211,34 @@ def test_what_is_shown_again_after_a_crash_is_unsaved(screen, mesh_file, tmp_pat
     assert list(remembered.folder().glob("open-*.session")) == []
 
 
+def test_only_what_a_crash_would_lose_is_kept(screen, mesh_file, tmp_path):
+    from app.qt import remembered
+
+    s = screen()
+    s.window.context.remembers = True
+    file = parts(s.window).session_file
+
+    def is_kept():
+        return file.keep(), *(each.exists() for each in (remembered.own_state(), lock))
+
+    lock = Path(f"{remembered.own_state()}.lock")
+    s.open(mesh_file(bumpy(120)), 5)
+    assert is_kept() == (False, False, False)
+    s.session.show(move_source(s.document, 0, 7))
+    assert is_kept() == (True, True, True)
+    s.session.undo()
+    assert is_kept() == (False, False, False)
+    s.session.redo()
+    assert is_kept() == (True, True, True)
+    file.save(str(tmp_path / "s.json"))
+    assert not remembered.own_state().exists()
+    s.session.show(move_source(s.document, 0, 9))
+    assert is_kept() == (True, True, True)
+    file.open(str(tmp_path / "s.json"))
+    s.until(lambda: s.document.sources == (7,))
+    assert is_kept() == (False, False, False)
+
+
 def test_what_is_shown_again_stays_where_it_was_kept_if_it_cannot_be_kept_anew(screen, mesh_file, monkeypatch):
     from qtpy.QtWidgets import QMessageBox
 

@@ -156,6 +156,16 @@ def test_view_saves_its_session(mesh_file, tmp_path):
         assert (np.asarray(one) != np.asarray(other)).any(axis=2).mean() < 0.01
 
 
+def test_view_of_two_meshes_takes_a_source_of_each(mesh_file, tmp_path):
+    meshes = [mesh_file(bumpy(100), "a.off"), mesh_file(bumpy(120), "b.off")]
+    outputs = ["--screenshot", str(tmp_path / "w.png"), "--save-session", str(tmp_path / "s.json")]
+    words = ["view", *meshes, "--sources", "7,110", "--distance", "biharmonic", *outputs]
+    done = subprocess.run([sys.executable, "-m", "app", *words], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    points = read_recipe(tmp_path / "s.json").document.points
+    assert [(point.at, point.surface) for point in points] == [(7, "A"), (110, "B")]
+
+
 def test_a_session_whose_arrays_are_gone_ends_the_command_with_a_sentence(application, tmp_path):
     document, given = comparison_of_arrays(bumpy(60), ["biharmonic"], {}, (3,))
     with recipe_written(Recipe(document), given, tmp_path / "s.json", "9"):

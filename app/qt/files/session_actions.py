@@ -123,6 +123,8 @@ class SessionFile(QtCore.QObject):
         self._write(recipe, path)
         self._belongs_to(path, recipe)
         self._remember(path)
+        if self._context.remembers:
+            self.keep()
         self._context.tell(f"Saved {os.path.basename(path)}")
 
     def _write(self, recipe: Recipe, path: str | os.PathLike[str], stays: bool = False) -> None:
@@ -266,8 +268,12 @@ class SessionFile(QtCore.QObject):
             self._keep_soon.start()
 
     def keep(self) -> bool:
-        """Keep what is shown now, in case of a crash; whether that was possible."""
-        if self._context.session.surface is None:
+        """Keep what is shown now, in case of a crash, if that would lose something; whether it is kept."""
+        session = self._context.session
+        if session.surface is None:
+            return False
+        if not self.is_changed and (self._saved is not None or not session.can_undo):
+            remembered.forget_state()  # it can be opened again from where it came
             return False
         recipe = self.recipe()
         meshes = tuple(with_paths(mesh, _absolute) for mesh in recipe.document.surfaces)

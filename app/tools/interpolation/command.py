@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> Result:
     """Write the interpolant of values at a few vertices, and print its other extrema."""
     import numpy as np
 
-    from bihdist_core.analysis.quality import other_extrema
+    from bihdist_core.analysis.other_extrema import other_extrema
     from bihdist_core.applications.interpolation import ShepardInterpolant
     from bihdist_core.applications.tips import at_tips, tips
     from bihdist_core.distances.answers import Distances

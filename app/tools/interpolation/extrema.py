@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 from qtpy import QtWidgets
 
-from bihdist_core.analysis.quality import OtherExtrema
+from bihdist_core.analysis.other_extrema import OtherExtrema
 from bihdist_core.applications.tips import at_tips, tips
 from bihdist_core.arrays import AnyArray, IntArray
 from bihdist_core.progress import Progress

@@ -2,7 +2,7 @@
 
 from qtpy import QtCore, QtGui, QtWidgets
 
-from bihdist_core.analysis.quality import TRIANGLE_POINTS
+from bihdist_core.analysis.triangle_samples import TRIANGLE_POINTS
 
 from ...document.document import Document
 from ...document.edits import mark_extrema

@@ -3,7 +3,7 @@ those of all panels then and where the document says so, otherwise those of quan
 
 from qtpy import QtCore
 
-from bihdist_core.analysis.quality import OtherExtrema
+from bihdist_core.analysis.other_extrema import OtherExtrema
 
 from ...document.document import Panel
 from ...qt.context import Context

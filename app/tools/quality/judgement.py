@@ -13,15 +13,9 @@ from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 
 from bihdist_core.analysis.diagnostics import TriangleSample
-from bihdist_core.analysis.quality import (
-    TRIANGLE_POINTS,
-    FieldQuality,
-    OtherExtrema,
-    difference_quality,
-    field_quality,
-    other_extrema,
-    triangle_samples,
-)
+from bihdist_core.analysis.other_extrema import OtherExtrema, other_extrema
+from bihdist_core.analysis.quality import FieldQuality, difference_quality, field_quality
+from bihdist_core.analysis.triangle_samples import TRIANGLE_POINTS, triangle_samples
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer, failure_in_words
 from bihdist_core.distances.kinds import Spec

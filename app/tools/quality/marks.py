@@ -3,7 +3,7 @@
 from weakref import WeakKeyDictionary
 
 from bihdist_core import BihdistError
-from bihdist_core.analysis.quality import OtherExtrema, other_extrema
+from bihdist_core.analysis.other_extrema import OtherExtrema, other_extrema
 from bihdist_core.distances.answers import Answer
 
 from ...marks.glyphs import TRIANGLE_DOWN, TRIANGLE_UP

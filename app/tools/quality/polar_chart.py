@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
-from bihdist_core.analysis.quality import Circle
+from bihdist_core.analysis.circles import Circle
 
 from ...qt.look.look import LOOK
 
