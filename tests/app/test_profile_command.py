@@ -73,8 +73,8 @@ def test_charts(mesh, tmp_path, extension, capsys):
         options = ["--sources", "17", "--through", "source,300", *TWO, *words]
         assert main(["profile", mesh, *options, "--chart", str(file)]) == 0
     assert files[0].read_bytes() != files[1].read_bytes()
-    # Nothing of fonts, say, which the formats treat differently.
-    assert [line for line in capsys.readouterr().err.splitlines() if "Dijkstra" not in line] == []
+    # The formats treat fonts differently, and say nothing of that.
+    assert "font" not in capsys.readouterr().err
     if extension == ".svg":
         assert ">% of the maximum</text>" in files[0].read_text()
         assert ">mesh units</text>" in files[1].read_text()
