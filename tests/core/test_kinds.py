@@ -155,6 +155,7 @@ def run(package, code):
     return said.returncode, said.stdout
 
 
+@pytest.mark.skipif(not (ROOT / "app").is_dir(), reason="the program is not here")
 def test_a_distance_of_somebody_else_joins(package, mesh_file, tmp_path):
     mesh, out = mesh_file(bumpy(60)), tmp_path / "d.npy"
     status, said = run(

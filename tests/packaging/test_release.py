@@ -1,5 +1,6 @@
 """The files of a release: that they are checked, and that a check fails where something is wrong with them."""
 
+import ast
 import runpy
 import shutil
 import struct
@@ -11,7 +12,7 @@ import pytest
 from wheels import building
 from wheels.contents import LARGEST, PLATFORMS, complaints
 from wheels.libraries import library
-from wheels.trials import PLAIN, QUICK
+from wheels.trials import PLAIN, QUICK, laid_out, of_the_library
 
 from bihdist_core.kernel import library as kernel
 from bihdist_core.version import VERSION
@@ -117,6 +118,19 @@ def test_sources_have_what_tests_and_builds_them(made):
         names = {path.name for path in (folder / "kernel").iterdir()}
         assert {"kernel.h", "text.c", "build.py", "build_backend.py"} <= names
         assert not list(folder.rglob("libbihdist*"))
+
+
+def test_trials_of_the_core_need_the_library_alone(made, tmp_path):
+    away = laid_out(made["bihdist"][0], tmp_path / "away")
+    names = list(of_the_library(away, ("tests/core",)))
+    assert set(QUICK) < set(names)
+    for name in names:
+        found = list(ast.walk(ast.parse((away / name).read_text(encoding="utf-8"))))
+        asked = {each.module for each in found if isinstance(each, ast.ImportFrom)}
+        asked |= {alias.name for each in found if isinstance(each, ast.Import) for alias in each.names}
+        assert not {each.partition(".")[0] for each in asked if each} & {"app", "bihdist"}, name
+    assert {path.name for path in away.iterdir()} == {"assets", "pyproject.toml", "tests"}
+    assert (away / "assets" / "figure.ply").is_file()
 
 
 def test_an_unknown_platform_is_refused(made, tmp_path):
