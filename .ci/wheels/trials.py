@@ -21,12 +21,6 @@ QUICK = tuple(
 )  # fmt: skip
 """The tests of the core that say most in the least time."""
 
-PLAIN = tuple(
-    f"tests/core/test_{name}.py"
-    for name in ("components", "elimination_tree", "isolines", "laplacian", "operators", "sources", "surface")
-)
-"""Those that ask for nothing which needs the kernel, as exact geodesic distances do."""
-
 WHERE = "import bihdist_core.kernel.library as found; print(found.__file__); print(found.description())"
 OF_THE_PROGRAM = re.compile(r"^(from|import) (app|bihdist)\b", re.MULTILINE)
 """In tests that need more than the library."""
@@ -59,7 +53,7 @@ HEAD = """\
 def tried(wheel: Path, python: str, resolution: str, source: Path, folder: Path, tests: Iterable[str] = QUICK) -> Trial:
     """Install a wheel with its dependencies, lowest or highest, and run tests of its source distribution.
 
-    Failed if it cannot be installed, or if what is imported is not what was installed.
+    Failed if it cannot be installed, if what is imported is not what was installed, or if its kernel is not used.
     """
     environment = folder / "environment"
     shutil.rmtree(environment, ignore_errors=True)
@@ -76,7 +70,9 @@ def tried(wheel: Path, python: str, resolution: str, source: Path, folder: Path,
     if not Path(place).is_relative_to(environment):
         raise Failed(f"{place} is not what was installed into {environment}.")
     is_plain = "NumPy" in kernel
-    chosen = list(of_the_library(away, PLAIN if is_plain else tests))
+    if is_plain != wheel.stem.endswith("-any"):
+        raise Failed(f"{wheel.name} gives this solver: {kernel}.")
+    chosen = list(of_the_library(away, tests))
     # It is meant: no warning.
     plain = {"BIHDIST_PLAIN": "1"} if is_plain else {}
     said, passed = _pytest([str(inside), "-m", "pytest", "-n", "2", "-p", "no:cacheprovider", *chosen], away, plain)
