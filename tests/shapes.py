@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial import ConvexHull
 
 from bihdist_core import Surface
+from bihdist_core.kernel.library import library
 
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 MESHES = SHARED / "meshes"
@@ -14,6 +15,7 @@ ORACLE = SHARED / "oracle"
 ORACLE_NAMES = ("hand_lowres_boundary", "pelvis_genus1", "spot", "lilium_boundary")
 
 needs_meshes = pytest.mark.skipif(not MESHES.is_dir(), reason="the shared meshes are not here")
+needs_kernel = pytest.mark.skipif(library() is None, reason="there is no compiled kernel")
 needs_oracle = pytest.mark.skipif(not ORACLE.is_dir(), reason="the shared reference distances are not here")
 
 

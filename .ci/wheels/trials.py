@@ -21,15 +21,9 @@ QUICK = tuple(
 )  # fmt: skip
 """The tests of the core that say most in the least time."""
 
-PLAIN = tuple(
-    f"tests/core/test_{name}.py"
-    for name in ("components", "elimination_tree", "isolines", "laplacian", "operators", "sources", "surface")
-)
-"""Those that ask for nothing which needs the kernel, as exact geodesic distances do."""
-
 WHERE = "import bihdist_core.kernel.library as found; print(found.__file__); print(found.description())"
-OF_THE_CHECKOUT = re.compile(r"^(from|import) app\b", re.MULTILINE)
-"""In tests that need the program under the name that it has there."""
+OF_THE_PROGRAM = re.compile(r"^(from|import) (app|bihdist)\b", re.MULTILINE)
+"""In tests that need more than the library."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +53,7 @@ HEAD = """\
 def tried(wheel: Path, python: str, resolution: str, source: Path, folder: Path, tests: Iterable[str] = QUICK) -> Trial:
     """Install a wheel with its dependencies, lowest or highest, and run tests of its source distribution.
 
-    Failed if it cannot be installed, or if what is imported is not what was installed.
+    Failed if it cannot be installed, if what is imported is not what was installed, or if its kernel is not used.
     """
     environment = folder / "environment"
     shutil.rmtree(environment, ignore_errors=True)
@@ -71,16 +65,14 @@ def tried(wheel: Path, python: str, resolution: str, source: Path, folder: Path,
     seconds = time.monotonic() - began
     run([*install, *TESTS])
 
-    away = folder / "tests"
-    shutil.rmtree(away, ignore_errors=True)
-    away.mkdir()
-    shutil.copytree(source / "tests", away / "tests")
-    shutil.copy(source / "pyproject.toml", away)
+    away = laid_out(source, folder / "tests")
     place, kernel = run([str(inside), "-c", WHERE], cwd=away).splitlines()[-2:]
     if not Path(place).is_relative_to(environment):
         raise Failed(f"{place} is not what was installed into {environment}.")
     is_plain = "NumPy" in kernel
-    chosen = list(_of_the_library(away, PLAIN if is_plain else tests))
+    if is_plain != wheel.stem.endswith("-any"):
+        raise Failed(f"{wheel.name} gives this solver: {kernel}.")
+    chosen = list(of_the_library(away, tests))
     # It is meant: no warning.
     plain = {"BIHDIST_PLAIN": "1"} if is_plain else {}
     said, passed = _pytest([str(inside), "-m", "pytest", "-n", "2", "-p", "no:cacheprovider", *chosen], away, plain)
@@ -89,12 +81,22 @@ def tried(wheel: Path, python: str, resolution: str, source: Path, folder: Path,
     return Trial(python, wheel.name, resolution, kernel.partition(":")[0], versions, seconds, said, passed)
 
 
-def _of_the_library(folder: Path, tests: Iterable[str]) -> Iterable[str]:
+def laid_out(source: Path, away: Path) -> Path:
+    """A folder with the tests of a source distribution and what they read, and without its packages."""
+    shutil.rmtree(away, ignore_errors=True)
+    away.mkdir()
+    for name in ("tests", "assets"):
+        shutil.copytree(source / name, away / name)
+    shutil.copy(source / "pyproject.toml", away)
+    return away
+
+
+def of_the_library(folder: Path, tests: Iterable[str]) -> Iterable[str]:
     """Names of files of tests, without those that need the program."""
     for name in tests:
         path = folder / name
         for file in sorted(path.rglob("test_*.py")) if path.is_dir() else [path]:
-            if not OF_THE_CHECKOUT.search(file.read_text(encoding="utf-8")):
+            if not OF_THE_PROGRAM.search(file.read_text(encoding="utf-8")):
                 yield file.relative_to(folder).as_posix()
 
 

@@ -1,8 +1,9 @@
-"""What tests of files share, and those of fields on a surface."""
+"""What tests of files share, and those of fields on a surface; and what becomes of tests where there is no kernel."""
 
 import pytest
 
-from bihdist_core import BiharmonicDistance
+from bihdist_core import BiharmonicDistance, SolverError
+from bihdist_core.kernel.library import library
 from tests.shapes import bumpy
 
 
@@ -30,3 +31,24 @@ def field(rough):
     field = BiharmonicDistance(rough).from_source(7)
     field.flags.writeable = False
     return field
+
+
+def _skipped_without_kernel():
+    try:
+        return (yield)
+    except SolverError as error:
+        if library() is None and "needs the compiled kernel" in str(error):
+            pytest.skip(str(error))
+        raise
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_setup(item):
+    """Most tests of geodesic distance need no more than this to run on a wheel without a kernel."""
+    return (yield from _skipped_without_kernel())
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item):
+    """As for fixtures."""
+    return (yield from _skipped_without_kernel())

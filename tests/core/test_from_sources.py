@@ -33,7 +33,7 @@ from tests.core.every_distance import (
     from_points,
     points,
 )
-from tests.shapes import grid, two_pieces
+from tests.shapes import grid, needs_kernel, two_pieces
 
 
 # ---------------------------------------------------------------------- sets
@@ -184,6 +184,7 @@ def test_sources_that_are_not_there(make):
 
 
 # ---------------------------------------------------------------------- answers
+@needs_kernel
 def test_answers_have_the_words_and_the_certificate_of_all_components():
     s = two_pieces()
     distances, last = Distances(Laplacian(s)), len(s.faces) - 1

@@ -9,7 +9,7 @@ import pytest
 
 from bihdist_core import Laplacian, ParameterError
 from bihdist_core.distances.kinds import OURS, Spec, kind_of, kinds
-from tests.shapes import bumpy, two_pieces
+from tests.shapes import bumpy, needs_kernel, two_pieces
 
 ROOT = Path(__file__).parents[2]
 every_kind = pytest.mark.parametrize("kind", OURS, ids=lambda kind: kind.word)
@@ -97,6 +97,7 @@ def test_on_a_surface_k_is_bounded_by_the_eigenpairs_there_are():
     assert alpha.on(surface) is alpha
 
 
+@needs_kernel
 def test_a_stand_in_is_asked_of_the_distance_itself(monkeypatch):
     monkeypatch.setattr("bihdist_core.distances.kinds.FRAME", 99)
     laplacian, auto = Laplacian(bumpy(100)), Spec.of("geodesic")
@@ -155,6 +156,7 @@ def run(package, code):
     return said.returncode, said.stdout
 
 
+@pytest.mark.skipif(not (ROOT / "app").is_dir(), reason="the program is not here")
 def test_a_distance_of_somebody_else_joins(package, mesh_file, tmp_path):
     mesh, out = mesh_file(bumpy(60)), tmp_path / "d.npy"
     status, said = run(

@@ -1,6 +1,5 @@
 """Meshes of other libraries, wherever a surface is asked for."""
 
-import bihdist
 import numpy as np
 import pytest
 
@@ -88,7 +87,6 @@ def test_paths_surfaces_and_two_arrays(tmp_path):
         lambda folder: read_map(folder / "none.txt", BUMPY, BUMPY),
         lambda folder: read_map(folder / "none.npy", BUMPY, BUMPY),
         lambda folder: source_from_words(str(folder / "none.json")),
-        lambda folder: bihdist.figure_again(folder / "none.json"),
     ],
 )
 def test_a_missing_file_is_a_wrong_parameter_and_a_missing_file(read, tmp_path):
@@ -126,8 +124,6 @@ def test_what_does_not_fit_is_one_sentence():
         with pytest.raises(BihdistError, match=words) as caught:
             BiharmonicDistance(mesh)
         assert "\n" not in str(caught.value)
-    with pytest.raises(ParameterError, match="not dict"):
-        bihdist.figure({}, ["biharmonic"])
 
 
 def test_of_several_meshes_one_has_to_be_chosen():

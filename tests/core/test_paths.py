@@ -30,6 +30,7 @@ from tests.shapes import (
     fin,
     grid,
     needles,
+    needs_kernel,
     needs_meshes,
     slivers,
     sphere,
@@ -161,6 +162,7 @@ def test_profiles_are_written_and_read_back(rough, paths, tmp_path):
         write_profile(tmp_path / "b.txt", path)
 
 
+@needs_kernel
 def test_auto_is_exact_where_there_is_the_compiled_kernel(monkeypatch, rough):
     for surface in (rough, fin()):
         assert GeodesicPaths(surface).path([0, 4]).label == "shortest geodesic, exact"
@@ -221,6 +223,7 @@ def test_flat_faces_are_no_obstacle(shape):
             assert np.linalg.norm(x[a] - x[b]) * (1 - ROUNDING) <= path.length <= edges.length * (1 + ROUNDING)
 
 
+@needs_kernel
 def test_a_vertex_of_a_flat_face_is_reached_through_its_side():
     shape = slivers()
     path = GeodesicPaths(shape).path([11, 16])

@@ -9,7 +9,9 @@ from bihdist_core.distances.unfolding_mesh import UnfoldingMesh
 from bihdist_core.sources.pieces import Pieces
 from bihdist_core.surface import Surface
 from tests.core.nasty_meshes import nasty_mesh
-from tests.shapes import bumpy, caps, folded, grid, needles, slivers
+from tests.shapes import bumpy, caps, folded, grid, needles, needs_kernel, slivers
+
+pytestmark = needs_kernel
 
 NEAR = 1e-11
 """Of the size of the mesh: of some degenerate faces, one upon the other, each moves places by 2e-13 of its edges."""

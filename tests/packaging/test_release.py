@@ -1,5 +1,6 @@
 """The files of a release: that they are checked, and that a check fails where something is wrong with them."""
 
+import ast
 import runpy
 import shutil
 import struct
@@ -8,10 +9,10 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from wheels import building
+from wheels import building, trials
 from wheels.contents import LARGEST, PLATFORMS, complaints
 from wheels.libraries import library
-from wheels.trials import PLAIN, QUICK
+from wheels.trials import QUICK, laid_out, of_the_library
 
 from bihdist_core.kernel import library as kernel
 from bihdist_core.version import VERSION
@@ -48,7 +49,7 @@ def test_the_version_is_in_one_place():
 
 
 def test_trials_are_of_tests_that_are_there():
-    assert all((ROOT / name).exists() for name in (*QUICK, *PLAIN))
+    assert all((ROOT / name).exists() for name in QUICK)
 
 
 # ---------------------------------------------------------------------- the build backend
@@ -117,6 +118,26 @@ def test_sources_have_what_tests_and_builds_them(made):
         names = {path.name for path in (folder / "kernel").iterdir()}
         assert {"kernel.h", "text.c", "build.py", "build_backend.py"} <= names
         assert not list(folder.rglob("libbihdist*"))
+
+
+def test_trials_of_the_core_need_the_library_alone(made, tmp_path):
+    away = laid_out(made["bihdist"][0], tmp_path / "away")
+    names = list(of_the_library(away, ("tests/core",)))
+    assert set(QUICK) < set(names)
+    for name in names:
+        found = list(ast.walk(ast.parse((away / name).read_text(encoding="utf-8"))))
+        asked = {each.module for each in found if isinstance(each, ast.ImportFrom)}
+        asked |= {alias.name for each in found if isinstance(each, ast.Import) for alias in each.names}
+        assert not {each.partition(".")[0] for each in asked if each} & {"app", "bihdist"}, name
+    assert {path.name for path in away.iterdir()} == {"assets", "pyproject.toml", "tests"}
+    assert (away / "assets" / "figure.ply").is_file()
+
+
+def test_a_trial_fails_where_the_kernel_of_the_wheel_is_not_used(made, tmp_path, monkeypatch):
+    said = f"{tmp_path / 'environment' / 'library.py'}\nplain NumPy: libbihdist.so cannot be loaded\n"
+    monkeypatch.setattr(trials, "run", lambda command, **options: said)
+    with pytest.raises(building.Failed, match=r"manylinux.*\.whl gives this solver: plain NumPy: libbihdist\.so"):
+        trials.tried(Path(LINUX), "python3", "lowest", made["bihdist"][0], tmp_path)
 
 
 def test_an_unknown_platform_is_refused(made, tmp_path):
