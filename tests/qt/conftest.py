@@ -135,6 +135,8 @@ class Screen:
 @pytest.fixture
 def screen(application, request):
     """Makes windows."""
+    from qtpy import QtCore
+
     size = SMALL if request.module.__name__.rpartition("test_")[2] in SMALL_IN else WHOLE
     screens = []
 
@@ -146,6 +148,9 @@ def screen(application, request):
     for each in screens:
         each.window.close()
         each.settle(0.05)
+        # PySide keeps, until the sender is gone, whatever a lambda in a slot refers to: here, the window.
+        each.window.deleteLater()
+    application.sendPostedEvents(None, QtCore.QEvent.Type.DeferredDelete)
 
 
 @pytest.fixture
