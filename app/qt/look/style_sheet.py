@@ -63,7 +63,7 @@ QPushButton#link:focus {{ border: 2px solid {theme.accent}; padding: 0px; border
 QLineEdit, QSpinBox, QDoubleSpinBox, QComboBox, QPlainTextEdit, QTextEdit, QTextBrowser {{ background: {theme.raised};
   color: {theme.text}; border: 1px solid {theme.strong}; border-radius: 5px; padding: 3px 6px;
   selection-background-color: {theme.selection}; selection-color: {theme.text}; }}
-QLineEdit, QSpinBox, QDoubleSpinBox, QComboBox {{ min-height: 20px; }}
+QLineEdit, QSpinBox, QDoubleSpinBox, QComboBox {{ min-height: {round(20 * scale)}px; }}
 QLineEdit[plain="true"] {{ background: transparent; border: 1px solid transparent; }}
 QLineEdit[plain="true"]:hover {{ border: 1px solid {theme.strong}; }}
 QLineEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QComboBox:focus {{ border: 2px solid {theme.accent};
