@@ -32,7 +32,6 @@ class SourceBox(TextBox):
 
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setFixedWidth(WIDTH)
         self.setAccessibleName("Source")
         self.setPlaceholderText("–")
         self._source: Source | None = None
@@ -45,6 +44,7 @@ class SourceBox(TextBox):
         self.returnPressed.connect(self._choose)
         self.textEdited.connect(self.forgive)
         self.show_source(None, 0)
+        LOOK.follow(self, self._fit)
 
     def show_source(self, source: Source | None, count: int) -> None:
         """The present source, None if there is none; count: of vertices, all ids being less."""
@@ -57,7 +57,10 @@ class SourceBox(TextBox):
         self.forgive()
         known = f"\nNow: {words if len(words) < 200 else words[:200] + '…'}" if len(words) > 10 else ""
         self.setToolTip(f"What distances start from: type {WHAT} and press Enter (G){known}")
-        self.setFixedWidth(WIDTH if isinstance(source, int | None) else WIDER)
+        self._fit()
+
+    def _fit(self) -> None:
+        self.setFixedWidth(round((WIDTH if isinstance(self._source, int | None) else WIDER) * LOOK.scale))
 
     def value(self) -> Source:
         """The source that is shown; -1 if there is none."""
@@ -73,10 +76,10 @@ class SourceBox(TextBox):
         mark_wrong(self, True)
         theme = LOOK.theme
         self.wrong.setStyleSheet(
-            f"background: {theme.error_ground}; color: {theme.error}; border: 1px solid {theme.error}; font: 13px;"
+            f"background: {theme.error_ground}; color: {theme.error}; border: 1px solid {theme.error};"
         )
         self.wrong.setText(sentence)
-        asked = self.wrong.fontMetrics().horizontalAdvance(sentence) + 20
+        asked = QtGui.QFontMetrics(LOOK.font()).horizontalAdvance(sentence) + 20
         self.wrong.setFixedWidth(min(asked, round(WIDEST_SENTENCE * LOOK.scale)))
         self.wrong.setMinimumHeight(0)  # what a longer sentence needed
         self.wrong.setFixedHeight(self.wrong.heightForWidth(self.wrong.width()))

@@ -7,7 +7,7 @@ import pytest
 
 from app.document.document import COMPARISON, comparison
 from bihdist_core.distances.kinds import Spec
-from tests.qt.events import send_mouse
+from tests.qt.events import ROUNDS, send_mouse
 from tests.shapes import bumpy
 
 
@@ -73,10 +73,13 @@ class Screen:
 
     def settle(self, seconds=0.2):
         """Let queued repaints happen, for which the views wait for each other."""
-        end = time.monotonic() + seconds
-        while time.monotonic() < end or (self._is_unpainted and time.monotonic() < end + 10):
+        end, rounds = time.monotonic() + seconds, 0
+        while (
+            time.monotonic() < end or rounds < ROUNDS * seconds or (self._is_unpainted and time.monotonic() < end + 10)
+        ):
             self.application.processEvents()
             time.sleep(0.005)
+            rounds += 1
 
     @property
     def _is_unpainted(self):
@@ -135,6 +138,8 @@ class Screen:
 @pytest.fixture
 def screen(application, request):
     """Makes windows."""
+    from qtpy import QtCore
+
     size = SMALL if request.module.__name__.rpartition("test_")[2] in SMALL_IN else WHOLE
     screens = []
 
@@ -146,6 +151,9 @@ def screen(application, request):
     for each in screens:
         each.window.close()
         each.settle(0.05)
+        # PySide keeps, until the sender is gone, whatever a lambda in a slot refers to: here, the window.
+        each.window.deleteLater()
+    application.sendPostedEvents(None, QtCore.QEvent.Type.DeferredDelete)
 
 
 @pytest.fixture

@@ -1,4 +1,7 @@
-"""What a pointer and keys do, in the form that all bindings of Qt take."""
+"""What a pointer and keys do, in the form that all bindings of Qt take, and how long they take."""
+
+ROUNDS = 50
+"""Of events in a second of waiting, at least: on a busy machine one may take longer than all that is waited."""
 
 
 def send_mouse(widget, place, button=None, buttons=None, keys=None, kind=None):

@@ -134,7 +134,9 @@ class Photographer(Driver):
             painter.drawEllipse(QtCore.QPointF(0, 0), 15, 15)
             painter.setPen(QtGui.QPen(QtGui.QColor("black"), 2))
             painter.drawEllipse(QtCore.QPointF(0, 0), 15, 15)
-        painter.setPen(QtGui.QPen(QtGui.QColor("white"), 1.4, join=QtCore.Qt.PenJoinStyle.RoundJoin))
+        pen = QtGui.QPen(QtGui.QColor("white"), 1.4)
+        pen.setJoinStyle(QtCore.Qt.PenJoinStyle.RoundJoin)  # the bindings call the argument differently
+        painter.setPen(pen)
         painter.setBrush(QtGui.QColor("black"))
         painter.drawPolygon(QtGui.QPolygonF([QtCore.QPointF(*corner) for corner in ARROW]))
         painter.end()

@@ -11,6 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
+from .events import ROUNDS
+
 SYMS = {
     "+": "plus",
     "=": "equal",
@@ -65,11 +67,12 @@ class Hands:
 
     # ------------------------------------------------------------------ time
     def spin(self, seconds: float = 0.0) -> None:
-        end = time.monotonic() + seconds
+        end, rounds = time.monotonic() + seconds, 0
         while True:
             self._alive = time.monotonic()
             self.application.processEvents()
-            if time.monotonic() >= end:
+            rounds += 1
+            if time.monotonic() >= end and rounds >= ROUNDS * seconds:
                 break
             time.sleep(0.002)
 

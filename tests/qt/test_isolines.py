@@ -238,9 +238,11 @@ def test_labels_come_once_the_camera_rests_and_go_when_it_moves(s):
     ratio = panel.view.devicePixelRatioF()
     off = np.hypot(columns / ratio - source.x(), rows / ratio - source.y())
     assert off.min() > panel.view.scene.style.marker_size / 2
+    drawn = []
+    panel.view.drawn.connect(lambda: drawn.append(written_on(panel)))
     panel.view.turn_by(1, 0)
-    panel.view.repaint()
-    assert written_on(panel) is None
+    s.until(lambda: drawn)
+    assert drawn[0] is None
     s.until(lambda: written_on(panel) is not None)
     s.window.menus.isolines.labels.trigger()
     s.settle()

@@ -218,18 +218,19 @@ def test_undo_redo_and_the_walk_through_sources_by_keyboard(screen, mesh_file):
 def test_views_have_a_history_of_their_own(screen, mesh_file):
     s = screen()
     s.open(mesh_file(bumpy(300)), 5)
-    s.settle(0.6)
+    views = parts(s.window).views
+    s.until(lambda: not views._still.isActive())
     cameras = [s.window.grid.eye.camera.GetPosition()]
     for view in ("left", "top"):
-        parts(s.window).views.reset(view)
-        s.settle(0.6)
+        views.reset(view)
+        s.until(lambda: not views._still.isActive())
         cameras.append(s.window.grid.eye.camera.GetPosition())
 
     def there():
         return s.window.grid.eye.camera.GetPosition()
 
     for step, place in [(-1, 1), (-1, 0), (-1, 0), (1, 1), (1, 2), (1, 2), (-1, 1)]:
-        parts(s.window).views.back() if step < 0 else parts(s.window).views.on()
+        views.back() if step < 0 else views.on()
         assert np.allclose(there(), cameras[place])
     assert not s.session.history.can_undo
 

@@ -1,5 +1,7 @@
 """`bihdist.show`: the window from Python."""
 
+import gc
+import weakref
 from dataclasses import replace
 from pathlib import Path
 
@@ -232,6 +234,17 @@ def test_after_closing_it_says_so(shown):
     for name in ("source", "panels", "document"):
         with pytest.raises(BihdistError, match="closed"):
             getattr(viewer, name)
+
+
+def test_a_window_that_was_closed_leaves_nothing_in_memory(shown):
+    from qtpy.QtTest import QTest
+
+    viewer = shown(SURFACE, ["biharmonic", "diffusion"])
+    kept = [weakref.ref(each) for each in (viewer._window, viewer._session, viewer._window.grid)]
+    viewer.close()
+    QTest.qWait(50)
+    gc.collect()
+    assert [each() for each in kept] == [None] * 3
 
 
 # ---------------------------------------------------------------------- picking

@@ -96,6 +96,27 @@ def test_on_the_full_screen_of_a_talk_all_words_of_a_head_are_larger(window):
         LOOK.enlarge(1.0)
 
 
+def test_letters_keep_their_size_in_every_theme_and_all_grow_on_the_full_screen_of_a_talk(window):
+    bar, box = window.window.menuBar(), parts(window.window).typed_source.box
+    word = next(label for label in window.window.tool_bar.findChildren(QtWidgets.QLabel) if label.text() == "Source")
+    wide = box.width()
+
+    def sizes():
+        return {each.font().pixelSize() for each in (bar, box, word)}
+
+    assert sizes() == {13}
+    LOOK.choose("dark")
+    window.settle(0.05)
+    assert sizes() == {13}
+    LOOK.enlarge(1.35)
+    try:
+        assert sizes() == {18}
+        assert box.width() == round(1.35 * wide)
+    finally:
+        LOOK.enlarge(1.0)
+    assert sizes() == {13}
+
+
 def test_a_low_panel_says_what_it_waits_for_beside_its_shape(window):
     s = window
     s.window.resize(700, 560)

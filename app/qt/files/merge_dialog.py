@@ -88,7 +88,7 @@ class MergeDialog(QtWidgets.QDialog):
         self.count = quiet_label("")
         self.count.setFixedWidth(WIDTH)
         self.count.setWordWrap(True)
-        self.count.setMinimumHeight(2 * self.count.fontMetrics().lineSpacing() + 2)
+        self.count.setMinimumHeight(2 * QtGui.QFontMetrics(LOOK.font()).lineSpacing() + 2)
         self.count.setAlignment(QtCore.Qt.AlignmentFlag.AlignLeft | QtCore.Qt.AlignmentFlag.AlignTop)
         row = in_row(label, self.box, units, None, spacing=10)
         words = in_column(about, row, self.count, spacing=14, margins=(24, 22, 24, 14))

@@ -83,7 +83,6 @@ class _Follower(QtCore.QObject):
 
 def _put_on(window: QtWidgets.QWidget, look: Look) -> None:
     window.setPalette(palette(look.theme))
-    window.setFont(look.font())
     window.setStyleSheet(style_sheet(look.theme, look.scale))
 
 

@@ -9,10 +9,10 @@ ICONS = SAMPLES / "icons"
 
 def style_sheet(theme: Theme, scale: float = 1.0) -> str:
     """scale: of letters, as a multiple of the usual size."""
-    small = round(12 * scale)
+    usual, small, large = (round(size * scale) for size in (13, 12, 22))
     return f"""
 QMainWindow, QDialog, QMessageBox {{ background: {theme.window}; color: {theme.text}; }}
-QWidget {{ color: {theme.text}; }}
+QWidget {{ color: {theme.text}; font-size: {usual}px; }}
 QDialogButtonBox {{ dialogbuttonbox-buttons-have-icons: 0; }}
 QWidget:disabled {{ color: {theme.disabled}; }}
 QToolTip {{ background: {theme.raised}; color: {theme.text}; border: 1px solid {theme.strong}; padding: 3px 6px; }}
@@ -63,7 +63,7 @@ QPushButton#link:focus {{ border: 2px solid {theme.accent}; padding: 0px; border
 QLineEdit, QSpinBox, QDoubleSpinBox, QComboBox, QPlainTextEdit, QTextEdit, QTextBrowser {{ background: {theme.raised};
   color: {theme.text}; border: 1px solid {theme.strong}; border-radius: 5px; padding: 3px 6px;
   selection-background-color: {theme.selection}; selection-color: {theme.text}; }}
-QLineEdit, QSpinBox, QDoubleSpinBox, QComboBox {{ min-height: 20px; }}
+QLineEdit, QSpinBox, QDoubleSpinBox, QComboBox {{ min-height: {round(20 * scale)}px; }}
 QLineEdit[plain="true"] {{ background: transparent; border: 1px solid transparent; }}
 QLineEdit[plain="true"]:hover {{ border: 1px solid {theme.strong}; }}
 QLineEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QComboBox:focus {{ border: 2px solid {theme.accent};
@@ -118,6 +118,7 @@ QLabel[refusal="true"] {{ background: {theme.error_ground}; color: {theme.error}
 QLabel[warning="true"] {{ color: {theme.warning}; background: {theme.warning_ground}; border-radius: 9px;
   padding: 1px 8px; font-size: {small}px; }}
 QLabel[heading="true"] {{ font-weight: 600; }}
+QLabel#title {{ font-size: {large}px; font-weight: 600; }}
 
 QCheckBox, QRadioButton {{ spacing: 8px; }}
 QCheckBox::indicator, QRadioButton::indicator, QAbstractItemView::indicator {{ width: 14px; height: 14px;

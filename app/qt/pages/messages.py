@@ -26,7 +26,7 @@ class Message(QtWidgets.QDialog):
         self.sentence.setTextInteractionFlags(flag.TextSelectableByMouse | flag.TextSelectableByKeyboard)
         self.sentence.setAccessibleName(sentence)
         # Qt would otherwise guess a width, and make long sentences narrow towers.
-        self.sentence.setMinimumWidth(min(400, self.sentence.fontMetrics().horizontalAdvance(sentence) + 16))
+        self.sentence.setMinimumWidth(min(400, QtGui.QFontMetrics(LOOK.font()).horizontalAdvance(sentence) + 16))
         self.fold = QtWidgets.QPushButton("Show details", objectName="link", visible=bool(details), autoDefault=False)
         self.fold.setToolTip("What happened, in full")
         self.fold.clicked.connect(self._unfold)

@@ -45,7 +45,6 @@ class Palette(PopUp):
     def open(self) -> None:
         """Over the upper part of the window."""
         window = self.parentWidget()
-        self.setFont(LOOK.font())
         self.setFixedWidth(min(round(WIDTH * LOOK.scale), window.width() - 48))
         self._most = max(4, min(MOST_ROWS, int((window.height() - 150 * LOOK.scale) // (ROW * LOOK.scale))))
         self._fit()

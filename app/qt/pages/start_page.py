@@ -36,7 +36,7 @@ class StartPage(QtWidgets.QWidget):
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self.message = Refusal()
-        self.title = QtWidgets.QLabel("Open a triangle mesh")
+        self.title = QtWidgets.QLabel("Open a triangle mesh", objectName="title")
         self.zone = DropZone()
         self.zone.open.clicked.connect(lambda: self.open_wanted.emit())
         self.rows = [RecentRow() for _ in range(ROWS)]
@@ -49,8 +49,7 @@ class StartPage(QtWidgets.QWidget):
         self.commands = _link("All commands")
         self.commands.clicked.connect(lambda: self.commands_wanted.emit())
         self._fill()
-        self._apply_theme()
-        LOOK.changed.connect(self._apply_theme)
+        LOOK.changed.connect(self.update)
         self.refresh()
 
     def refresh(self) -> None:
@@ -88,14 +87,11 @@ class StartPage(QtWidgets.QWidget):
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         QtGui.QPainter(self).fillRect(event.rect(), QtGui.QColor(LOOK.theme.canvas))
 
-    def _apply_theme(self) -> None:
-        for widget, size in (self.title, 22), (self._recent, 13), (self._samples, 13), (self.zone.open, 13):
-            widget.setFont(LOOK.font(size, bold=True))
-        self.update()
-
     # ------------------------------------------------------------------ how it is made
     def _fill(self) -> None:
         self._recent, self._samples = QtWidgets.QLabel("Recent"), QtWidgets.QLabel("Samples")
+        for heading in (self._recent, self._samples):
+            heading.setProperty("heading", True)
         self._recent.setContentsMargins(OpenButton.INSET, 0, 0, 0)
         self.nothing.setContentsMargins(OpenButton.INSET, 4, 0, 0)
         files = in_column(self._recent, 8, self.nothing, *self.rows, None, spacing=0)

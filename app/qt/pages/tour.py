@@ -222,6 +222,7 @@ class Card(QtWidgets.QWidget):
         super().__init__(parent, visible=False)
         self._steps = steps
         self.title, self.text, self.count = QtWidgets.QLabel(), quiet_label(), quiet_label()
+        self.title.setProperty("heading", True)
         self.text.setWordWrap(True)
         self.close_button = QtWidgets.QToolButton(toolTip="End the tour (Esc)", accessibleName="End the tour")
         put_icon(self.close_button, "close", colour_of="quiet")
@@ -247,7 +248,6 @@ class Card(QtWidgets.QWidget):
 
     def fit(self) -> None:
         """As wide as cards are, as high as the longest text needs, so that the buttons stay where they are."""
-        self.title.setFont(LOOK.font(bold=True))
         self.setFixedWidth(round(WIDE * LOOK.scale))
         shown, heights = self.text.text(), []
         for step in self._steps:

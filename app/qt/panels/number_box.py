@@ -134,7 +134,6 @@ class PopUp(QtWidgets.QFrame):
     def open_under(self, control: QtWidgets.QWidget, right: int = 0) -> None:
         """Below a control, on the screen; right: of its left side."""
         self._under = control
-        self.setFont(LOOK.font())
         self.adjustSize()
         place = control.mapToGlobal(QtCore.QPoint(right, control.height() + 2))
         screen = control.screen().availableGeometry() if control.screen() else QtCore.QRect(place, self.size())

@@ -178,11 +178,6 @@ class FixedWord(QtWidgets.QLabel):
         self.setFixedHeight(HEIGHT)
         self.setContentsMargins(PAD, 0, PAD, 0)
         self.setIndent(0)
-        self._fit()
-        LOOK.follow(self, self._fit)
-
-    def _fit(self) -> None:
-        self.setFont(LOOK.font())  # a style sheet keeps a window's font from what is in it
 
     def least(self, with_slider: bool) -> int:
         """Pixels that it needs."""

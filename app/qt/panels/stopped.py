@@ -43,7 +43,7 @@ class Stopped(QtWidgets.QWidget):
     def fit(self) -> None:
         """Lie low in the view, as narrow as the words are."""
         view = self.parentWidget().rect()
-        margins, metrics = self.layout().contentsMargins(), self.words.fontMetrics()
+        margins, metrics = self.layout().contentsMargins(), QtGui.QFontMetrics(LOOK.font())
         beside = margins.left() + margins.right()
         room = max(view.width() - 2 * MARGIN - beside, 1)
         room_for_all, wrap = QtCore.QRect(0, 0, room, 10_000), int(QtCore.Qt.TextFlag.TextWordWrap)

@@ -136,7 +136,7 @@ class QualityDock(Instrument):
             middle = QtCore.Qt.AlignmentFlag.AlignHCenter
             self._grid.addWidget(self.charts[panel.id], 2 * row, column, middle)
             self._grid.addWidget(self._names[panel.id], 2 * row + 1, column, middle)
-            metrics = self._names[panel.id].fontMetrics()
+            metrics = QtGui.QFontMetrics(LOOK.font(12))
             name = metrics.elidedText(
                 quantity_name(panel.shows), QtCore.Qt.TextElideMode.ElideRight, self.charts[panel.id].width() + 8
             )
@@ -218,7 +218,7 @@ class QualityDock(Instrument):
         scale = LOOK.scale
         # No wider than its words: the columns need the room.
         names = self.table.verticalHeader()
-        widest = max(names.fontMetrics().horizontalAdvance(measure.name) for measure in MEASURES)
+        widest = max(QtGui.QFontMetrics(LOOK.font()).horizontalAdvance(measure.name) for measure in MEASURES)
         names.setFixedWidth(widest + PAD + round(BEHIND * scale))
         for row in range(self.table.rowCount()):
             self.table.setRowHeight(row, round(ROW * scale))
