@@ -22,6 +22,8 @@ def main() -> int:
     parser.add_argument("--all", action="store_true", help="all tests of the core, not those that say most")
     parser.add_argument("--here", default=_here(), metavar="TAG", help="the platform that --python runs: %(default)s")
     options = parser.parse_args()
+    if not (ROOT / "app/guide/index.html").is_file():
+        parser.error("the guide, which travels in the wheels, is not there: `make guide` makes it")
     options.output = options.output.resolve()
     options.output.mkdir(exist_ok=True)
     for old in (path for name in LARGEST for path in options.output.glob(f"{name}-*")):

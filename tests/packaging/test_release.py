@@ -9,7 +9,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from wheels import building, trials
+from wheels import __main__ as release, building, trials
 from wheels.contents import LARGEST, PLATFORMS, complaints
 from wheels.libraries import library
 from wheels.trials import QUICK, laid_out, of_the_library
@@ -268,3 +268,13 @@ def test_a_platform_that_is_none_of_ours_is_told(made, tmp_path):
     source, wheel = made["bihdist_core"]
     path = changed(wheel, tmp_path, LINUX.replace("manylinux_2_17_aarch64", "linux_x86_64"), lambda files: None)
     assert "linux_x86_64 is no platform of ours." in list(complaints(path, source))
+
+
+def test_a_release_without_the_guide_is_refused_and_leaves_the_last_one(tmp_path, monkeypatch, capsys):
+    (tmp_path / "bihdist-0.1.whl").touch()
+    monkeypatch.setattr(release, "ROOT", tmp_path)
+    monkeypatch.setattr("sys.argv", ["wheels", "--output", str(tmp_path)])
+    with pytest.raises(SystemExit):
+        release.main()
+    assert "`make guide` makes it" in capsys.readouterr().err
+    assert (tmp_path / "bihdist-0.1.whl").exists()
