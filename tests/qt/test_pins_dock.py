@@ -7,6 +7,7 @@ from tests.shapes import bumpy
 
 pytest.importorskip("qtpy")
 
+from app.document.edits import move_source
 from app.document.shared_parts.pins import Pins
 from tests.qt.parts import parts
 from tests.qt.pinning import dock_of, ids, seen_vertices, shift_click, type_ids
@@ -139,8 +140,16 @@ def test_pins_in_faces_are_listed_and_compared(loaded, tmp_path):
     dock.files.save(str(tmp_path / "pins.csv"))
     assert said[-1].startswith("Saved 3 pins in pins.csv: 2 pins moved to a vertex, the farthest")
     select_row(s, dock, 1)
-    dock.menu._move_source()
+    dock.menu._fill_whole()
+    source_here = next(action for action in dock.menu.whole.actions() if action.text() == "Source here")
+    source_here.trigger()
     assert s.source == SurfacePoint.of(17, 0.2, 0.5)
+    # A menu whose pin is gone meanwhile does nothing.
+    dock.remove(dock.table.points)
+    s.settle(0.05)
+    s.window.context.edit(move_source(s.document, 0, 5))
+    source_here.trigger()
+    assert s.source == 5
 
 
 def test_the_cell_under_the_pointer_says_the_pair_in_all_distances(loaded):

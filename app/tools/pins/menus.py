@@ -53,7 +53,7 @@ class PinMenu:
         dock = self._dock
         points = dock.table.points
         is_one = len(points) == 1
-        menu.addAction("Source here", self._move_source).setEnabled(is_one)
+        menu.addAction("Source here", lambda: self._move_source(points)).setEnabled(is_one)
         menu.addAction("Rename\tF2", dock.table.rename).setEnabled(is_one)
         colours = menu.addMenu("Colour")
         for k, (name, colour) in enumerate(zip(COLOURS, PINS, strict=True)):
@@ -66,12 +66,12 @@ class PinMenu:
     def _remove_all(self) -> None:
         self._dock.remove([place.point for place in self._dock.places])
 
-    def _move_source(self) -> None:
-        """To the pin whose row is selected, in the active panel."""
-        dock = self._dock
-        context, point = dock.context, dock.table.points[0]
-        at = next(place.at for place in dock.places if place.point == point)
-        context.edit(move_source(context.document, context.grid.active, at))
+    def _move_source(self, points: tuple[str, ...]) -> None:
+        """To the one pin among these that is selected, if it is still there, in the active panel."""
+        context = self._dock.context
+        for place in self._dock.places:
+            if points == (place.point,):
+                context.edit(move_source(context.document, context.grid.active, place.at))
 
 
 def _disc(colour: str) -> QtGui.QIcon:
