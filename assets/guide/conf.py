@@ -2,9 +2,12 @@
 
 import os
 import warnings
+from importlib.metadata import metadata
 
 os.environ["MPLBACKEND"] = "Agg"
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+from pygments.lexers.special import TextLexer as _TextLexer
 
 from app.version import version as _version
 
@@ -19,12 +22,13 @@ extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
+    "sphinx.ext.napoleon",
     "sphinx_copybutton",
     "sphinx_design",
     "sphinx_gallery.gen_gallery",
-    "assets.guide.building.docstrings",
     "assets.guide.building.gallery",
     "assets.guide.building.mathml",
+    "assets.guide.building.navigation",
     "assets.guide.building.shown_blocks",
 ]
 exclude_patterns = ["_blocks", "building", "**/GALLERY_HEADER.rst"]
@@ -42,11 +46,13 @@ myst_links_external_new_tab = False
 
 default_role = "py:obj"
 autodoc_member_order = "bysource"
-autodoc_typehints = "description"
-autodoc_typehints_description_target = "documented"
+autodoc_typehints = "none"  # docstrings have them, with shapes
 autodoc_class_signature = "mixed"
 autodoc_preserve_defaults = True
 autosummary_generate = False
+napoleon_google_docstring = False
+napoleon_use_ivar = True  # attributes as a list
+napoleon_use_rtype = False
 add_module_names = False
 toc_object_entries_show_parents = "hide"
 python_use_unqualified_type_names = True
@@ -85,8 +91,11 @@ html_logo = "look/logo.svg"
 html_favicon = "look/logo.svg"
 html_static_path = ["look"]
 html_css_files = ["guide.css"]
+html_js_files = ["search.js"]
 html_copy_source = False
 html_show_sourcelink = False
+_ADDRESSES = dict(row.split(", ", 1) for row in metadata("bihdist").get_all("Project-URL") or ())
+html_context = {"repository": _ADDRESSES.get("Repository", "")}
 html_show_search_summary = False  # pages cannot be fetched by scripts from file://
 html_use_index = True
 html_theme_options = {
@@ -96,19 +105,25 @@ html_theme_options = {
     "navbar_end": ["theme-switcher"],
     "navbar_persistent": ["search-button"],
     "secondary_sidebar_items": {"reference/**": ["page-toc"], "explanation/*": ["page-toc"]},
+    "header_links_before_dropdown": 7,
     "show_nav_level": 1,
     "navigation_depth": 3,
     "collapse_navigation": True,
     "show_toc_level": 2,
-    "footer_start": ["copyright"],
+    "footer_start": ["guide-footer"],
     "footer_end": [],
     "article_header_start": ["breadcrumbs"],
-    "pygments_light_style": "tango",
-    "pygments_dark_style": "github-dark",
+    "pygments_light_style": "a11y-light",
+    "pygments_dark_style": "a11y-dark",
     "back_to_top_button": False,
 }
-html_sidebars = {"**": ["sidebar-nav-bs"], "index": [], "search": [], "genindex": []}
+html_sidebars = {"**": ["guide-nav"], "index": [], "search": [], "genindex": []}
 copybutton_prompt_text = r">>> |\.\.\. |\$ "
 copybutton_prompt_is_regexp = True
 copybutton_exclude = ".linenos, .gp, .go"
 copybutton_selector = "div:not(.printed) > div.highlight > pre"
+
+
+def setup(app):
+    """Commands are shown as they are: numbers among their words mean nothing to a shell."""
+    app.add_lexer("sh", _TextLexer)

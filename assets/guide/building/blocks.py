@@ -6,6 +6,7 @@
 What a block prints and the pictures it saves are its outcome.  Sphinx shows it, the tests only want it to be there.
 """
 
+import ast
 import io
 import os
 import re
@@ -67,6 +68,16 @@ def blocks_of(text: str) -> list[Block]:
         content = "\n".join(body).strip("\n")
         found.append(Block(opening["kind"], content, line, opening["argument"].strip(), options))
     return found
+
+
+def imported_modules(page: Path) -> set[str]:
+    """Return the top-level modules that a page's Python blocks, or a Python example, import."""
+    text = page.read_text(encoding="utf-8")
+    code = [text] if page.suffix == ".py" else [block.text for block in blocks_of(text) if block.kind == "python"]
+    nodes = [node for each in code for node in ast.walk(ast.parse(each))]
+    names = [alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names]
+    names += [node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) and not node.level]
+    return {name.partition(".")[0] for name in names}
 
 
 def run_page(page: Path, folder: Path) -> list[Outcome]:

@@ -9,14 +9,14 @@ stands in [The viewer](viewer.md#mouse).
 
 
 def key_page() -> dict[str, str]:
-    """The text of the page, by its path in the guide."""
+    """Return the text of the page, by its path in the guide."""
     from app.qt import acts
-    from app.qt.actions import acts_of_tools
+    from app.qt.actions import actions_of_tools
 
     groups = {
-        "File": acts.FILE, "Edit": acts.EDIT, "View": acts.VIEW, "Panels": acts.PANELS, "Tools": acts.INSTRUMENTS,
-        "Sources": acts.TOOLS, "In the tools": acts_of_tools(), "Where a panel has the keys": acts.TURNS,
-        "Help": acts.HELP,
+        "File": acts.FILE, "Edit": acts.EDIT, "View": (*acts.VIEW, *acts.SETTINGS), "Panels": acts.PANELS,
+        "Tools": acts.INSTRUMENTS, "Sources": acts.TOOLS, "In the tools": actions_of_tools(),
+        "Where a panel has the keys": acts.TURNS, "Help": acts.HELP,
     }  # fmt: skip
     parts = []
     for title, group in groups.items():

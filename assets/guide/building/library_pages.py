@@ -17,8 +17,9 @@ def library_pages() -> dict[str, str]:
     rows = [f"| [{title}]({word}.md) | {about} |" for word, (title, about, _) in TOPICS.items()]
     tree = "\n".join(TOPICS)
     pages["reference/api/index.md"] = (
-        "# Names of the library\n\n`import bihdist`: every public name, by topic. [The Python library](../library.md) "
-        f"tells how they are used together.\n\n| Topic | |\n| --- | --- |\n{chr(10).join(rows)}\n\n"
+        "# Every name of the Python library\n\n`import bihdist`: every public name, by topic. "
+        f"[The Python library](../library.md) tells how they are used together.\n\n"
+        f"| Topic | |\n| --- | --- |\n{chr(10).join(rows)}\n\n"
         f"```{{toctree}}\n:hidden:\n\n{tree}\n```\n"
     )
     return pages

@@ -1,10 +1,13 @@
-"""Every command's options, from the parsers."""
+"""Every command's options, and which commands share one, from the parsers."""
 
 import argparse
 
 from app.main import parser_of_all
 
-INTRODUCTION = """# Options of all commands
+SHARED = """## Options that several commands have
+
+"""
+INTRODUCTION = """# Every command and its options
 
 What `bihdist COMMAND --help` prints. [The command line](command-line.md) tells what the commands are for, by example.
 
@@ -12,10 +15,33 @@ What `bihdist COMMAND --help` prints. [The command line](command-line.md) tells 
 
 
 def option_pages() -> dict[str, str]:
-    """The text of the page, by its path in the guide."""
-    (commands,) = (each for each in parser_of_all()._actions if isinstance(each, argparse._SubParsersAction))
-    parts = [_command(word, parser) for word, parser in commands.choices.items()]
-    return {"reference/options.md": INTRODUCTION + "\n".join(parts)}
+    """Return the text of the page, by its path in the guide."""
+    parts = [_command(word, parser) for word, parser in commands().items()]
+    return {"reference/options.md": INTRODUCTION + "\n".join([*parts, SHARED + option_table()])}
+
+
+def commands() -> dict[str, argparse.ArgumentParser]:
+    """Return the parser of each command, by its word."""
+    (action,) = (each for each in parser_of_all()._actions if isinstance(each, argparse._SubParsersAction))
+    return dict(action.choices)
+
+
+def options_of(parser: argparse.ArgumentParser) -> list[str]:
+    """Return the options of a parser by their long names, in its order."""
+    actions = [each for each in parser._actions if each.option_strings and each.dest != "help"]
+    return [next(name for name in each.option_strings if name.startswith("--")) for each in actions]
+
+
+def option_table() -> str:
+    """Return a table of the options that several commands have, a row each."""
+    options = {word: options_of(parser) for word, parser in commands().items()}
+    holders: dict[str, list[str]] = {}
+    for word, names in options.items():
+        for name in names:
+            holders.setdefault(name, []).append(word)
+    shared = sorted((name for name, words in holders.items() if len(words) > 1), key=lambda name: -len(holders[name]))
+    rows = [f"| `{name}` | {' | '.join('•' if w in holders[name] else ' ' for w in options)} |" for name in shared]
+    return "\n".join([f"| | {' | '.join(options)} |", f"| --- |{' :-: |' * len(options)}", *rows, ""])
 
 
 def _command(word: str, parser: argparse.ArgumentParser) -> str:

@@ -5,9 +5,10 @@ import json
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from importlib.util import find_spec
 from pathlib import Path
 
-from .blocks import Outcome, blocks_of
+from .blocks import Outcome, blocks_of, imported_modules
 
 ROOT = Path(__file__).parents[3]
 PROCESSES = 2
@@ -20,6 +21,10 @@ def folder_of(page: Path, source: Path) -> Path:
 
 def run_pages(source: Path) -> list[str]:
     """Run the blocks of all pages in a folder of pages; what failed, in words."""
+    examples = [*source.rglob("*.md"), *(source / "gallery").rglob("*.py")]
+    missing = {name for path in examples for name in imported_modules(path) if find_spec(name) is None}
+    if missing:
+        return [f"Examples import {', '.join(sorted(missing))}: add it to the extra `guide` in pyproject.toml."]
     files = [path for name in ("app", "bihdist_core") for path in (ROOT / name).rglob("*.py")]
     program, pages = max(path.stat().st_mtime for path in files), []
     for page in sorted(source.rglob("*.md")):

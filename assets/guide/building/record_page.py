@@ -3,24 +3,25 @@
 import re
 import sys
 from dataclasses import MISSING, Field, fields, is_dataclass
+from inspect import getdoc
 from typing import Any, get_args, get_origin, get_type_hints
 
-from app.document.beside import Beside
-from app.document.camera import Camera
-from app.document.document import Document, FieldArray, MeshFile, Panel, Point, Zoom
+from numpydoc.docscrape import NumpyDocString
+
+from app.document.camera import Camera, SecondMeshView
+from app.document.document import Document, FieldArray, Inset, MeshFile, Panel, Point
 from app.document.form import ALWAYS, BEFORE
 from app.document.looks import Colours, Isolines, Shading
 from app.document.page import Page
 from app.document.repairs import Repairs
 from app.document.tools import part_types
 from bihdist_core.applications.changes import Perturbation
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.sources.source import Source
 
-from .docstrings import FACT, OTHERS
 from .option_pages import markdown
 
-INTRODUCTION = """# Records of recipes and sessions
+INTRODUCTION = """# Every key of recipes and sessions
 
 The keys of each record, their types, and what holds where a key is left out. [Recipes and sessions](documents.md) tells
 how they fit together.
@@ -28,8 +29,8 @@ how they fit together.
 """
 RECORDS = {
     "document": Document, "surfaces": MeshFile, "repairs": Repairs, "points": Point, "panels": Panel,
-    "isolines": Isolines, "camera": Camera, "zooms": Zoom, "fields": FieldArray, "colours": Colours,
-    "shading": Shading, "beside": Beside, "page": Page,
+    "isolines": Isolines, "camera": Camera, "insets": Inset, "fields": FieldArray, "colours": Colours,
+    "shading": Shading, "second_views": SecondMeshView, "page": Page,
 }  # fmt: skip
 IN_FILES = {(Document, "up"): BEFORE["up"], (Isolines, "round"): False}
 """What is read where a file does not say it, which older programs wrote, is not what a new document has."""
@@ -40,38 +41,34 @@ TOGETHER = "Keys of tools beside those of the document"
 def record_page() -> dict[str, str]:
     """The text of the page, by its path in the guide."""
     parts = [INTRODUCTION]
-    parts += [f"## `{key}`\n\n{_table(kind, fields(kind))}" for key, kind in RECORDS.items()]
-    parts += [f"## `{kind.key}`\n\n{_table(kind, fields(kind))}" for kind in part_types() if kind.key]
-    beside = [_table(kind, fields(kind)) for kind in part_types() if not kind.key]
+    parts += [f"## `{key}`\n\n{_table(kind)}" for key, kind in RECORDS.items()]
+    parts += [f"## `{kind.key}`\n\n{_table(kind)}" for kind in part_types() if kind.key]
+    beside = [_table(kind) for kind in part_types() if not kind.key]
     return {"reference/records.md": "\n".join([*parts, f"## {TOGETHER}\n", *beside])}
 
 
-def _table(kind: type, of: tuple[Field[Any], ...]) -> str:
+def _table(kind: type) -> str:
     meanings, types = _meanings(kind), get_type_hints(kind)
     rows = [
         f"| `{each.name}` | {_words(types[each.name])} | {_default(kind, each)} | {meanings.get(each.name, '')} |"
-        for each in of
+        for each in fields(kind)
         if not (kind is Document and each.name == "parts")
     ]
     return "\n".join(["| Key | Type | If left out | |", "| --- | --- | --- | --- |", *rows, ""])
 
 
 def _meanings(kind: type) -> dict[str, str]:
-    """What the docstring of a record says of its keys."""
-    text = " ".join((kind.__doc__ or "").split())
-    facts = list(FACT.finditer(text))
-    found = {}
-    for fact, end in zip(facts, [*(each.start() for each in facts[1:]), len(text)][: len(facts)], strict=True):
-        for name in (fact["names"] or "").split(", "):
-            found[name] = _meaning(OTHERS.split(text[fact.end() : end].strip())[0].rstrip(";"), kind)
-    return found
+    """Return what the sections of a record's docstring say of its keys."""
+    sections = NumpyDocString(getdoc(kind) or "")
+    rows = [*sections["Parameters"], *sections["Attributes"]]
+    return {name: _meaning(" ".join(row.desc), kind) for row in rows for name in row.name.split(", ")}
 
 
 def _meaning(text: str, kind: type) -> str:
     """In words for who writes JSON: no null of Python, and the choices instead of the name of their list."""
     here = vars(sys.modules[kind.__module__])
     text = re.sub(r"\b[A-Z]{3,}\b", lambda name: _choices(here.get(name[0], name[0])), text)
-    text = re.sub(r" ?\(`[a-z_.]+`\)", "", text).replace("None", "null").partition(" ParameterError")[0]
+    text = re.sub(r" ?\(`[a-z_.]+`\)", "", text).replace("None", "null")
     return "`".join(piece if odd % 2 else markdown(piece) for odd, piece in enumerate(text.split("`")))
 
 

@@ -1,23 +1,60 @@
-"""What the guide's search knows: the title, the headings and the text of each built page."""
+"""What the guide's search knows: keywords, the title, the headings and the text of each built page, and synonyms."""
 
 import json
+import re
 from html.parser import HTMLParser
 from pathlib import Path
 
+from app.document.synonyms import COLOUR_MAPS, OPTION_ALIASES, OPTION_HINTS
+
 LEFT_OUT = {"genindex.html", "search.html"}
 BLOCKS = {"br", "p", "li", "td", "th", "dt", "dd", "pre", "h1", "h2", "h3", "h4", "div", "section", "tr"}
+KEYWORDS = re.compile(r'<meta content="([^"]*)" name="keywords"')
+SYNONYMS = {
+    "animation": "movie",
+    "bibtex": "cite",
+    "cluster": "SLURM",
+    "colourmap": "colour map",
+    "contour": "isoline",
+    "crash": "troubleshooting",
+    "cuda": "GPU",
+    "disconnected": "components",
+    "docker": "container",
+    "faq": "questions",
+    "headless": "display",
+    "jet": "colour map",
+    "mac": "macOS",
+    "quad": "polygons",
+    "rainbow": "colour map",
+    "ram": "memory",
+    "screenshot": "figure",
+    "tetrahedral": "tetrahedra",
+    "torch": "PyTorch",
+    "video": "movie",
+    "website": "page",
+}
+"""The guide's words for those of other fields; names of other programs' options and colour maps are the program's."""
 
 
 def write_search_index(pages: Path) -> None:
-    """Write `search-index.js`, which the page of the search loads as a script: so it works without a server."""
+    """Write `search-index.js`, which pages load as a script, so that the search works without a server."""
     found = []
     for path in sorted(pages.rglob("*.html")):
         name = path.relative_to(pages).as_posix()
         if name not in LEFT_OUT and not name.startswith("_"):
-            sections = sections_of(path.read_text(encoding="utf-8"))
-            found.append({"page": name, "sections": [list(section) for section in sections]})
-    text = json.dumps(found, ensure_ascii=False, separators=(",", ":"))
-    (pages / "search-index.js").write_text(f"window.GUIDE = {text};\n", encoding="utf-8")
+            html = path.read_text(encoding="utf-8")
+            keywords = " ".join(KEYWORDS.findall(html))
+            found.append({"page": name, "keywords": keywords, "sections": sections_of(html)})
+    data = {"GUIDE": found, "SYNONYMS": synonyms()}
+    lines = [f"window.{name} = {json.dumps(each, ensure_ascii=False)};\n" for name, each in data.items()]
+    (pages / "search-index.js").write_text("".join(lines), encoding="utf-8")
+
+
+def synonyms() -> dict[str, str]:
+    """Return the guide's words for those of others; an option's hint may end with a value."""
+    options = {word: hint.partition(" ")[0] for word, hint in (OPTION_ALIASES | OPTION_HINTS).items()}
+    words = {word: hint for word, hint in options.items() if "-" not in word and len(hint) > 1}
+    return words | dict.fromkeys(COLOUR_MAPS, "colour map") | SYNONYMS
 
 
 def sections_of(html: str) -> list[tuple[str, str, str]]:

@@ -1,5 +1,6 @@
 """The directives {shell}, {python} and {file}: the code, and what running it has printed and drawn."""
 
+from os.path import relpath
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -13,6 +14,21 @@ from .blocks import Outcome
 from .page_runs import folder_of, outcomes_of
 
 LANGUAGES = {"shell": "sh", "python": "python", "file": "text"}
+LIVE_PAGE = """<iframe src="{src}" title="{title}" loading="lazy" allow="clipboard-write"></iframe>
+<script>
+  (frame => {{
+    const root = document.documentElement, page = frame.getAttribute("src");
+    new MutationObserver(() => {{
+      const themed = `${{page}}?theme=${{root.dataset.theme}}`;
+      if (frame.getAttribute("src") !== themed) frame.src = themed;
+    }}).observe(root, {{ attributeFilter: ["data-theme"] }});
+    addEventListener("message", ({{ source, data }}) => {{
+      const isReady = source === frame.contentWindow && data?.bihdist?.event === "ready";
+      if (isReady) frame.parentElement.classList.add("is-live");
+    }});
+  }})(document.currentScript.previousElementSibling);
+</script>"""
+"""A page that computes, after its still picture, which is seen until the page reports that it is ready."""
 
 
 class ShownBlock(SphinxDirective):
@@ -26,6 +42,7 @@ class ShownBlock(SphinxDirective):
         "hide-text": directives.flag,  # what is printed, not the pictures
         "hide-code": directives.flag,
         "alt": directives.unchanged,
+        "live": directives.unchanged,  # pages/NAME.html, which the block wrote: embedded over its picture
         "status": directives.nonnegative_int,
     }
 
@@ -41,9 +58,14 @@ class ShownBlock(SphinxDirective):
             shown.append(nodes.literal_block(printed, printed, language="text", classes=["printed"]))
         source = Path(self.env.srcdir)
         folder = folder_of(Path(self.env.doc2path(self.env.docname)), source).relative_to(source)
-        alt = self.options.get("alt", " ".join(code.replace("\\\n", " ").split()))
-        shown += [nodes.image(uri=f"/{(folder / name).as_posix()}", alt=alt) for name in outcome.pictures]
-        return self._placed(shown)
+        title = self.state.document.next_node(nodes.title)
+        alt = self.options.get("alt") or (title.astext() if title else "")
+        pictures = [nodes.image(uri=f"/{(folder / name).as_posix()}", alt=alt) for name in outcome.pictures]
+        if page := self.options.get("live"):
+            src = relpath(source / folder / page, Path(self.env.doc2path(self.env.docname)).parent)
+            live = nodes.raw("", LIVE_PAGE.format(src=Path(src).as_posix(), title=alt), format="html")
+            pictures = [nodes.container("", *pictures, live, classes=["live-page"])]
+        return self._placed([*shown, *pictures])
 
     def _code(self, code: str) -> nodes.Node:
         literal = nodes.literal_block(code, code, language=LANGUAGES[self.name])
@@ -59,8 +81,8 @@ class ShownBlock(SphinxDirective):
     def _placed(self, shown: list[nodes.Node]) -> list[nodes.Node]:
         """Images are read as any others: Sphinx copies their files."""
         for node in shown:
-            if isinstance(node, nodes.image):
-                self.set_source_info(node)
+            for image in node.findall(nodes.image):
+                self.set_source_info(image)
         return shown
 
 

@@ -1,5 +1,10 @@
 """The public names of the library by topic, each of which is a page of the reference."""
 
+import bihdist_core
+from bihdist_core.distances.distance_types import BUILT_IN
+
+DISTANCES = [name for each in BUILT_IN if (name := str(each.make).rpartition(":")[2]) in bihdist_core.__all__]
+
 TOPICS: dict[str, tuple[str, str, list[str]]] = {
     "meshes": (
         "Meshes and files",
@@ -10,8 +15,7 @@ TOPICS: dict[str, tuple[str, str, list[str]]] = {
     "distances": (
         "Distances",
         "What all distances answer, and each of them.",
-        ["Distance", "BiharmonicDistance", "CommuteTimeDistance", "DiffusionDistance", "GeodesicDistance",
-         "TruncatedBiharmonicDistance", "PowerDistance", "difference", "Embedding"],
+        ["Distance", *DISTANCES, "difference", "Embedding"],
     ),
     "sources": (
         "Sources",
@@ -54,7 +58,8 @@ TOPICS: dict[str, tuple[str, str, list[str]]] = {
     "pictures": (
         "Figures, web pages and the window",
         "What draws, and what opens the window.",
-        ["figure", "figure_again", "page", "widget", "show"],
+        ["figure", "figure_again", "LookOptions", "ViewOptions", "IsolineOptions", "MarkOptions", "LayoutOptions",
+         "page", "widget", "show"],
     ),
     "errors": (
         "Errors",

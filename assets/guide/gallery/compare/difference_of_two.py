@@ -1,23 +1,26 @@
 """
-The difference of two distances
-===============================
+Difference of two distances
+===========================
 
-Two names with a minus between them are a panel of their own: each distance is divided by its maximum first, and the
-difference is in percentage points, with a colour map of its own and a mark where it is largest. To the other fingers it
-is farther by the biharmonic distance than by the geodesic one, since nothing but the palm joins them.
+Two names with a minus between them make a panel of their own: each distance is first divided by its maximum, and the
+difference is shown in percentage points, with its own colour map and a mark where it is largest. The other fingers are
+farther away in biharmonic than in geodesic distance, because only the palm connects them.
 """
 
 import bihdist
 
 distances = ["biharmonic", "geodesic", "biharmonic - geodesic"]
-picture = bihdist.figure("hand", distances, source=6835, size="1000x480")
+picture = bihdist.figure("hand", distances, source=6835, layout={"size": "1000x480"})
 picture.save("difference_of_two.png")
 
 # %%
-# Where both have one unit, ``raw`` compares the values themselves.
+# If both distances have the same unit, ``raw`` compares the values themselves.
 
-picture = bihdist.figure("hand", ["raw biharmonic - geodesic"], source=6835, size="420x480")
-print(f"{picture.answers[0].field.min():.3f} to {picture.answers[0].field.max():.3f} {picture.answers[0].unit}")
+picture = bihdist.figure(
+    "hand", ["raw biharmonic - geodesic"], source=6835, layout={"size": "420x480"}
+)
+answer = picture.answers[0]
+print(f"{answer.field.min():.3f} to {answer.field.max():.3f} {answer.unit}")
 
 # %%
 # The same from the command line:

@@ -2,19 +2,26 @@
 How many eigenpairs are enough?
 ===============================
 
-The biharmonic distance is a sum over all eigenpairs of the Laplacian. Other programs stop after the first *k*; here the
-distance is exact, so the loss can be measured. With few eigenpairs the isolines around the source are wide and uneven.
+The biharmonic distance is a sum over all eigenpairs of the Laplacian. Other programs stop after the first *k*; here
+the distance is exact, so the truncation error can be measured. With few eigenpairs, the isolines around the source are
+wide and uneven.
 """
 
 import bihdist
 import matplotlib.pyplot as plt
 
 distances = ["truncated(k=5)", "truncated(k=20)", "truncated(k=100)", "biharmonic"]
-picture = bihdist.figure("animal", distances, source=5339, views="front", size="1200x380")
+picture = bihdist.figure(
+    "animal",
+    distances,
+    source=5339,
+    view={"cpos": "front"},
+    layout={"size": "1200x380"},
+)
 picture.save("truncated_sums.png")
 
 # %%
-# :func:`bihdist.truncation_loss` gives the loss for each *k* up to 100, as a fraction of the largest distance.
+# :func:`bihdist.truncation_loss` gives the error for each *k* up to 100, as a fraction of the largest distance.
 
 loss = bihdist.truncation_loss(bihdist.sample("animal"), 5339, most=100)
 figure, axes = plt.subplots(figsize=(7, 3), layout="constrained")
@@ -30,7 +37,7 @@ figure.savefig("truncated_sums-loss.png")
 #
 # .. code-block:: sh
 #
-#    bihdist figure animal --sources 5339 --view front --size 1200x380 \
+#    bihdist figure animal --sources 5339 --cpos front --size 1200x380 \
 #        -o truncated_sums.png \
 #        --distance 'truncated(k=5),truncated(k=20),truncated(k=100),biharmonic'
 #    bihdist statistics animal --sources 5339 --truncation --k 100

@@ -1,15 +1,19 @@
 """
-Insets: places enlarged
-=======================
+Insets that enlarge details
+===========================
 
-``zooms`` enlarges the surroundings of a vertex beside the shape: here the tip of an arm and the source, each with
-its factor and its number of isolines.
+``insets`` enlarges the surroundings of a vertex next to the shape: here the tip of an arm and the source, each with
+its own magnification and number of isolines.
 """
 
 import bihdist
 
 picture = bihdist.figure(
-    "octopus", ["biharmonic"], source=8301, zooms=[(8306, 4, 100), (8301, 3, 60)], views="high", size="900x520"
+    "octopus",
+    ["biharmonic"],
+    source=8301,
+    view={"insets": [(8306, 4, 100), (8301, 3, 60)], "cpos": "high"},
+    layout={"size": "900x520"},
 )
 picture.save("insets.png")
 
@@ -19,4 +23,4 @@ picture.save("insets.png")
 # .. code-block:: sh
 #
 #    bihdist figure octopus --sources 8301 --distance biharmonic \
-#        --zoom 8306:4:100,8301:3:60 --view high --size 900x520 -o insets.png
+#        --insets 8306:4:100,8301:3:60 --cpos high --size 900x520 -o insets.png

@@ -1,10 +1,10 @@
 """
-Everything as far as one point
-==============================
+Isoline through a point
+=======================
 
-``isoline_through`` draws one more isoline, through a vertex of your choice: all that is exactly as far from the source
-as that vertex. From the top of the head, the fingertips are as far as the thighs by the geodesic distance, the knees by
-the biharmonic distance and the shins by the diffusion distance.
+``isolines={"through": …}`` draws one more isoline, through a vertex of your choice: all points exactly as far from the
+source as that vertex. From the top of the head, the fingertips are as far as the thighs in geodesic distance, as far
+as the knees in biharmonic distance, and as far as the shins in diffusion distance.
 """
 
 import bihdist
@@ -13,10 +13,9 @@ picture = bihdist.figure(
     "figure",
     ["biharmonic", "geodesic", "diffusion"],
     source=8102,
-    isoline_through=[8207],
-    isolines=8,
-    colours="uniform",
-    size="1000x560",
+    isolines={"through": [8207], "count": 8},
+    look={"cmap": "uniform"},
+    layout={"size": "1000x560"},
 )
 picture.save("isoline_through_a_point.png")
 
@@ -27,5 +26,5 @@ picture.save("isoline_through_a_point.png")
 #
 #    bihdist figure figure --sources 8102 \
 #        --distance biharmonic,geodesic,diffusion --isoline-through 8207 \
-#        --isolines 8 --colours uniform --size 1000x560 \
+#        --isolines 8 --cmap uniform --size 1000x560 \
 #        -o isoline_through_a_point.png

@@ -2,21 +2,26 @@
 Isolines at given values
 ========================
 
-Isolines are at about twenty round values unless you say otherwise: ``isolines`` for how many, ``isoline_spacing`` for
-their step, ``isoline_values`` for where they are. Here the values stand on the lines, and there is one colour between
-two lines.
+By default, isolines are drawn at about twenty round values. ``isolines`` accepts a different number, or a dict with
+their ``spacing`` or their ``values``. Here the isolines are labelled with their values, and the space between two
+isolines has a single colour.
 """
 
 import bihdist
 
 values = [0.25, 0.5, 1, 1.5, 2, 2.5, 3, 3.4]
 picture = bihdist.figure(
-    "domain", ["biharmonic"], source=323, isoline_values=values, isoline_labels=True, bands=True, size="760x560"
+    "domain",
+    ["biharmonic"],
+    source=323,
+    isolines={"values": values, "labels": True},
+    look={"bands": True},
+    layout={"size": "760x560"},
 )
 picture.save("isolines_at_values.png")
 
 # %%
-# The curves are there as polylines, too.
+# The curves are also available as polylines.
 
 field = picture.answers[0].field
 for curve in bihdist.isolines(bihdist.sample("domain"), field, [0.5, 3]):

@@ -1,15 +1,21 @@
 """
-What a wrong handle changes
-===========================
+Effect of a false handle
+========================
 
-A scan often joins what only touches. A thin tube between two fingertips is a shortcut for the geodesic distance, which
-falls at once all along the finger. The biharmonic distance is carried by all ways together, and a thin tube carries
-little.
+Scans often join parts that only touch. A thin tube between two fingertips is a shortcut for the geodesic distance,
+which drops all along the finger. The biharmonic distance depends on all ways together, and a thin tube carries little
+of it.
 """
 
 import bihdist
 
-picture = bihdist.figure("hand", ["biharmonic", "geodesic"], source=6835, perturb="handle=6835:6945", size="900x1000")
+picture = bihdist.figure(
+    "hand",
+    ["biharmonic", "geodesic"],
+    source=6835,
+    perturb="handle=6835:6945",
+    layout={"size": "900x1000"},
+)
 picture.save("handle.png")
 
 # %%

@@ -1,15 +1,21 @@
 """
-What holes change
-=================
+Effect of holes
+===============
 
-Twelve round holes are cut into the hand. Shortest paths go around each of them, so that the geodesic distance changes
-behind the holes alone. The biharmonic distance depends on the whole surface, and changes a little everywhere: the
-panels on the right say by how much.
+Twelve round holes are cut into the hand. Shortest paths go around each of them, so the geodesic distance changes only
+behind the holes. The biharmonic distance depends on the whole surface and changes a little everywhere: the panels on
+the right show by how much.
 """
 
 import bihdist
 
-picture = bihdist.figure("hand", ["biharmonic", "geodesic"], source=6835, perturb="holes=12,seed=3", size="900x1000")
+picture = bihdist.figure(
+    "hand",
+    ["biharmonic", "geodesic"],
+    source=6835,
+    perturb="holes=12,seed=3",
+    layout={"size": "900x1000"},
+)
 picture.save("holes.png")
 
 # %%

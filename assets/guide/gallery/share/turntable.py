@@ -1,14 +1,20 @@
 """
-A movie of a shape that turns
-=============================
+Movie of a turning shape
+========================
 
-What a figure shows can turn: ``save_movie`` writes a GIF, or an MP4 with the extra ``movie``. On the command line
-the source may wander as well, through the vertices of ``--path``.
+Any figure can turn: ``save_movie`` writes a GIF, or an MP4 with the extra ``movie``. On the command line, the source
+can also move, through the vertices given by ``--path``.
 """
 
 import bihdist
 
-picture = bihdist.figure("elephant", ["biharmonic"], source=1866, isolines=12, title="none", size="320x260")
+picture = bihdist.figure(
+    "elephant",
+    ["biharmonic"],
+    source=1866,
+    isolines=12,
+    layout={"title": "none", "size": "320x260"},
+)
 picture.save("turntable.png")
 picture.save_movie("turntable-movie.gif", frames=20, fps=8)
 

@@ -1,10 +1,10 @@
 """
-A figure for a two-column paper
-===============================
+Figure for a two-column paper
+=============================
 
-``double`` is the width of a page with two columns, 178 mm, and ``column`` that of one, 85 mm; isolines and text are
-vectors in PDF and SVG. Names stand as captions at the colour bars, values on every fifth isoline, empty margins are
-cropped, and ``tex=True`` writes a LaTeX snippet with a caption that says what is shown.
+``double`` is the width of a page with two columns, 178 mm, and ``column`` the width of one column, 85 mm; isolines and
+text are vectors in PDF and SVG. Names are captions at the colour bars, every fifth isoline is labelled with its value,
+empty margins are cropped, and ``tex=True`` writes a LaTeX snippet with a caption that describes the figure.
 """
 
 from pathlib import Path
@@ -15,11 +15,8 @@ picture = bihdist.figure(
     "figure",
     ["biharmonic", "geodesic", "biharmonic - geodesic"],
     source=8207,
-    bold_isolines=5,
-    isoline_labels=True,
-    title="caption",
-    crop=True,
-    size="178mm@150dpi",
+    isolines={"bold": 5, "labels": True},
+    layout={"title": "caption", "crop": True, "size": "178mm@150dpi"},
 )
 picture.save("two_column_paper.png")
 picture.save("two_column_paper.pdf", tex=True)

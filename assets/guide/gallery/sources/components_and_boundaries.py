@@ -3,12 +3,15 @@ Several components and many holes
 =================================
 
 The hare is what four scanners saw of it: seven components and twenty boundary loops. There is no distance between
-components, so what the source cannot reach is grey; nothing has to be repaired before, and vertex ids stay.
+components, so the parts that the source cannot reach are grey; no repair is needed beforehand, and vertex ids stay the
+same.
 """
 
 import bihdist
 
-picture = bihdist.figure("hare", ["biharmonic", "geodesic"], source=7991, size="800x560")
+picture = bihdist.figure(
+    "hare", ["biharmonic", "geodesic"], source=7991, layout={"size": "800x560"}
+)
 picture.save("components_and_boundaries.png")
 
 # %%

@@ -2,18 +2,20 @@
 The nearest of several vertices
 ===============================
 
-A :class:`bihdist.SourceSet` is one source made of several vertices: the distance is from the nearest of them. Written
-as words they are joined by a plus. Here they are the five fingertips.
+A :class:`bihdist.SourceSet` is one source made of several vertices: the distance is measured from the nearest of them.
+On the command line, the vertices are joined by a plus. Here they are the five fingertips.
 """
 
 import bihdist
 
 tips = bihdist.SourceSet((6945, 6835, 6772, 5885, 4506))
-picture = bihdist.figure("hand", ["biharmonic", "geodesic"], source=tips, size="800x520")
+picture = bihdist.figure(
+    "hand", ["biharmonic", "geodesic"], source=tips, layout={"size": "800x520"}
+)
 picture.save("several_vertices.png")
 
 # %%
-# The tips need not be looked for by hand: :func:`bihdist.tips` finds the ends of limbs, and one at the open wrist.
+# You need not look for the tips by hand: :func:`bihdist.tips` finds the ends of limbs, and one at the open wrist.
 
 print(bihdist.tips(bihdist.sample("hand")))
 
