@@ -5,18 +5,19 @@ ARGS ?=
 PICTURE = bihdist-comparison.png
 PYTHON_HERE = $(if $(filter Windows_NT,$(OS)),.venv/Scripts/python,.venv/bin/python)
 
-.PHONY: help run test check quick bench stress guide wheels
+.PHONY: help run test nightly check quick bench stress guide wheels
 .NOTPARALLEL:
 
 help:
-	@echo 'make run     install what is missing, then open the viewer (without a display: draw a picture)'
-	@echo 'make test    the checks and all tests, the window included'
-	@echo 'make check   ruff, mypy, codespell, the import rules, and the kernel by each C compiler'
-	@echo 'make quick   the checks, and the tests that say most in the least time'
-	@echo 'make bench   the speed of the solver beside potpourri3d'
-	@echo 'make guide   the guide as pages, with its examples run: app/guide/index.html'
-	@echo 'make stress  attacks on the program, for hours; goes on where it was interrupted'
-	@echo 'make wheels  the files of a release, for all platforms, in dist'
+	@echo 'make run     install missing packages, then open the viewer (without a display, draw a picture)'
+	@echo 'make test    run the checks and the tests, including the window'
+	@echo 'make nightly run the long tests: browsers, wheels, compilers, the guide, the experiments of the paper'
+	@echo 'make check   run ruff, mypy, codespell, import rules, docstrings, and build the kernel with each C compiler'
+	@echo 'make quick   run the checks, and a minute of tests'
+	@echo 'make bench   compare the speed of the solver with potpourri3d'
+	@echo 'make guide   run the examples of the guide and build its pages: app/guide/index.html'
+	@echo 'make stress  attack the program for hours; resumes where it was interrupted'
+	@echo 'make wheels  build the files of a release, for all platforms, in dist'
 
 NO_DISPLAY = $(if $(filter Linux,$(shell uname -s)),$(if $(DISPLAY)$(WAYLAND_DISPLAY),,yes))
 NO_WINDOW = $(filter field pairs profile isolines statistics samples regions interpolate correspond evaluate perturb \
@@ -41,11 +42,11 @@ check:
 	@.ci/set-up dev
 	$(checks)
 	$(PYTHON_HERE) bihdist_core/kernel/build.py --check
-	$(PYTHON_HERE) -m pytest tests/packaging/test_import_rules.py
+	$(PYTHON_HERE) -m pytest tests/packaging/test_import_rules.py tests/packaging/test_docstrings.py
 
 QUICK = $(addprefix tests/packaging/test_,import_rules.py words.py) \
     $(addprefix tests/app/test_,document.py history.py one_line.py) \
-    $(addprefix tests/core/test_,components.py distances.py factor.py isolines.py laplacian.py mesh_io.py operators.py \
+    $(addprefix tests/core/test_,distances.py factor.py isolines.py laplacian.py mesh_io.py operators.py \
     elimination_tree.py sources.py surface.py)
 quick:
 	@.ci/set-up dev
@@ -54,17 +55,27 @@ quick:
 
 # The tests get screens of their own, so that they neither need nor disturb the user's; then all of them run in several
 # processes (see tests/conftest.py), where on one screen they would take the pointer from each other.
-IN_TURN = $(PYTHON_HERE) -m pytest $(ARGS)
-AT_ONCE = $(PYTHON_HERE) -m pytest $(or $(ARGS),-n auto --maxprocesses 4 --dist loadfile)
-test:
-	@.ci/set-up dev
-	$(checks)
+IN_TURN = $(PYTHON_HERE) -m pytest $(or $(ARGS),-m "$(MARKED)")
+AT_ONCE = $(PYTHON_HERE) -m pytest $(or $(ARGS),-m "$(MARKED)" -n auto --maxprocesses 4 --dist loadfile)
+define tests
 	@if command -v xvfb-run >/dev/null; then \
 	    set -- env -u WAYLAND_DISPLAY xvfb-run -a -s '-screen 0 1600x1000x24' $(AT_ONCE); \
 	else \
 	    set -- $(IN_TURN); \
 	fi; \
 	echo "$$*"; "$$@"
+endef
+
+test: MARKED = not nightly
+test:
+	@.ci/set-up dev
+	$(checks)
+	$(tests)
+
+nightly: MARKED = nightly
+nightly:
+	@.ci/set-up dev guide
+	$(tests)
 
 bench:
 	@.ci/set-up bench

@@ -15,6 +15,13 @@ if TYPE_CHECKING:
     import bihdist_core as _library
     from bihdist_core import *  # noqa: F403
 
+    from .figures.arguments import (
+        IsolineOptions as IsolineOptions,
+        LayoutOptions as LayoutOptions,
+        LookOptions as LookOptions,
+        MarkOptions as MarkOptions,
+        ViewOptions as ViewOptions,
+    )
     from .figures.picture import figure as figure, figure_again as figure_again
     from .qt.show import show as show
     from .samples import sample as sample
@@ -24,10 +31,14 @@ if TYPE_CHECKING:
     __version__: str
 
     # In two steps, which type checkers follow.
-    __all__ = ["figure", "figure_again", "page", "sample", "show", "widget"]
+    __all__ = ["IsolineOptions", "LayoutOptions", "LookOptions", "MarkOptions", "ViewOptions"]
+    __all__ += ["figure", "figure_again", "page", "sample", "show", "widget"]
     __all__ += _library.__all__
 
 _OWN = {
+    **dict.fromkeys(
+        ("IsolineOptions", "LayoutOptions", "LookOptions", "MarkOptions", "ViewOptions"), "figures.arguments"
+    ),
     "figure": "figures.picture",
     "figure_again": "figures.picture",
     "page": "web.page",

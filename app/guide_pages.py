@@ -1,17 +1,35 @@
-"""Where the guide is, as pages for a browser; `make guide` builds it into the program's own folder."""
+"""The guide as pages for a browser: all of it where it has been built (`make guide`), else its text."""
 
 from pathlib import Path
+
+from .version import version
 
 GUIDE = Path(__file__).resolve().parent / "guide" / "index.html"
 
 
 def guide_page() -> Path:
-    """The guide's first page; MissingInputError where it has not been built."""
-    from bihdist_core.errors import MissingInputError
+    """Return the guide's first page.
 
-    if not GUIDE.is_file():
-        raise MissingInputError(
-            f"The guide has not been built: there is no {GUIDE}. Run `make guide` in a checkout of the project, or "
-            "read its pages there in assets/guide."
-        )
-    return GUIDE
+    Returns
+    -------
+    Path
+        In the program's own folder where the guide has been built; else its text, written into the user's cache.
+
+    Raises
+    ------
+    OutputError
+        If the text cannot be written there.
+    """
+    if GUIDE.is_file():
+        return GUIDE
+    from platformdirs import user_cache_path
+
+    from bihdist_core.errors import OutputError
+
+    from .plain_guide import write_plain_guide
+
+    folder = user_cache_path("bihdist") / f"guide-{version()}"
+    try:
+        return write_plain_guide(folder)
+    except OSError as error:
+        raise OutputError(f"The guide cannot be written into {folder}: {error.strerror}.") from error

@@ -1,6 +1,6 @@
-"""The command line.  `bihdist MESH` opens the viewer; all commands but `view` need no window.
+"""The command line. `bihdist MESH` opens the viewer; only the command `view` needs a window.
 
-What is heavy (numpy, VTK, Qt) is imported by the command that needs it, when it runs.
+Each command imports NumPy, VTK or Qt when it runs, and only if it needs them.
 """
 
 import argparse
@@ -29,41 +29,55 @@ COMMANDS = {
         for module in (batch, figure, movie, page, info, paper, desktop, guide)
     },
 }
-"""By word: each has its `WORDS` (what it does), `add_options(parser)` and `run(options)`, which returns a `Result`;
-TEXT: the format in which it writes to standard output, for `-o -`."""
+"""The commands by name. Each module has its description `WORDS`, its `EXAMPLES`, `add_options(parser)`, `run(options)`,
+which returns a `Result`, and `TEXT`, its format on standard output, if it takes `-o -`."""
 
-DRAWING = {"matplotlib", "PIL", "pyvista", "pyvistaqt", "qtpy", "vtkmodules"}
-"""What is not there where the program was installed for batches alone."""
+HEADINGS = {
+    "look": ("view", "figure", "movie", "page"),
+    "numbers": ("field", "pairs", "isolines", "profile", "statistics", "samples", "regions", "interpolate", "info"),
+    "compare": ("correspond", "evaluate", "perturb", "paper"),
+    "many meshes": ("batch",),
+}
+"""The commands under the headings of `bihdist --help`; others come after them."""
+
+NOT_FOR_BATCHES = {
+    *("matplotlib", "PIL", "pyvista", "pyvistaqt", "qtpy", "vtkmodules"),
+    *("markdown_it", "mdit_py_plugins", "platformdirs"),
+}
+"""Modules that are missing where only the dependencies of batches are installed."""
 
 FILES = re.compile(r"FILE|OUT|DIR|MAP|\.json|\.png")
-"""Options whose values have such words are completed by names of files, as all that has no option."""
+"""Shells complete the values of options with such metavars by file names, as they do positional arguments."""
 
 NEGATIVE = re.compile(r"-[xyz]|-[\d.][-+.\deE]*,[-+.,\deE]*")
-"""The value of an option, though it begins like one: `--up -z`, `--camera -1,0,…`.  argparse knows single numbers."""
+"""Values that look like options: `--viewup -z`, `--camera -1,0,…`. argparse recognizes single numbers only."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; returns the exit status: 0, 1 for a figure with a failed panel or a page
-    with a part that could not be done, 2 for what the user can mend, 130 when interrupted, 143 by SIGTERM."""
+    """Run the command line and return its exit status.
+
+    0 is success, 1 a figure with a failed panel or a data set with a failed part, 2 an error that the user can correct,
+    130 an interruption, and 143 SIGTERM.
+    """
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     from bihdist_core.errors import BihdistError
 
     options: argparse.Namespace | None = None
     try:
-        # Before anything has begun, SIGTERM needs no answer but the system's.
+        # Until a command runs, SIGTERM keeps its default action.
         options = parser_of_all().parse_args(_with_values(_with_command(arguments)))
         with termination_raised():
             return _run(options)
     except BihdistError as error:
         return _failed(options, str(error), 2)
     except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] not in DRAWING:
+        if (error.name or "").partition(".")[0] not in NOT_FOR_BATCHES:
             raise
-        return _failed(options, f"this draws, and {error.name} is not installed: `pip install bihdist` brings it.", 2)
+        return _failed(options, f"this needs {error.name}, which is not installed: `pip install bihdist` brings it.", 2)
     except MemoryError:
         return _failed(options, "there is not enough memory for this.", 2)
     except BrokenPipeError:
-        # Whoever read the output has seen enough; Python would complain again when it closes the pipe.
+        # The reader has closed the pipe; Python would report that again when it flushes.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except KeyboardInterrupt as error:
@@ -86,7 +100,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _failed(options: argparse.Namespace | None, sentence: str, status: int) -> int:
-    """options: nothing while they are not known."""
+    """Report an error, also as JSON if that was asked for, and return the status."""
     tell_failure(sentence)
     if options is not None and options.json:
         print(as_json(options.command, status, {"error": sentence}))
@@ -94,17 +108,24 @@ def _failed(options: argparse.Namespace | None, sentence: str, status: int) -> i
 
 
 def _with_command(arguments: list[str]) -> list[str]:
-    """The arguments with `view` where no command is named; MeshError for a first word that means nothing."""
+    """Return the arguments with the command `view` if they name none; raise MeshError if the first is not a mesh.
+
+    `version`, `help` and `help COMMAND` become the options of these names.
+    """
+    if arguments[:1] == ["version"]:
+        return ["--version"]
+    if arguments[:1] == ["help"]:
+        return _with_command([*arguments[1:2], "--help"])
     if arguments and (arguments[0] in COMMANDS or arguments[0].startswith("-")):
         return arguments
     if arguments:
-        # Before the options, which may be those of the command that was meant.
+        # Checked before the options, which may be those of a misspelt command.
         check_mesh(arguments[0], COMMANDS)
     return ["view", *arguments]
 
 
 def _with_values(arguments: list[str]) -> list[str]:
-    """The arguments with negative values joined to their options by `=`, without which argparse refuses them."""
+    """Return the arguments with negative values joined to their options by `=`, as argparse requires."""
     joined: list[str] = []
     for word in arguments:
         last = joined[-1] if joined else ""
@@ -116,22 +137,30 @@ def _with_values(arguments: list[str]) -> list[str]:
 
 
 def parser_of_all() -> argparse.ArgumentParser:
-    """The parser of the whole command line, with one for each command in it."""
+    """Return the parser of the command line, with a subparser for each command."""
     parser = Parser(
         prog="bihdist",
-        description="Biharmonic distance on triangle meshes, beside geodesic and diffusion distances.",
+        headings=HEADINGS,
+        description="Biharmonic distance on triangle meshes, side by side with geodesic and diffusion distances.",
         epilog="`bihdist MESH` is short for `bihdist view MESH`. A mesh is the name of a sample, or a file: "
         f"{', '.join(MESH_FORMATS)}, each also with .gz, or FreeSurfer's such as lh.pial.",
     )
-    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
-    shells = ("bash", "zsh", "tcsh")
+    parser.add_argument("-V", "--version", action=_Version, nargs=0, help="print the version and exit")
+    parser.add_argument("--cite", action=_Cite, nargs=0, help="print BibTeX entries for the paper and the program")
+    shells = ("bash", "zsh")
     parser.add_argument("--completion", action=_Completion, choices=shells, help="print a shell's completion and exit")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for word, module in COMMANDS.items():
-        words = module.WORDS
-        command = commands.add_parser(word, help=words, description=f"{words[0].upper()}{words[1:]}.")
+        words, examples = module.WORDS, "\n".join(f"  {line}" for line in getattr(module, "EXAMPLES", ()))
+        command = commands.add_parser(
+            word,
+            help=words,
+            description=f"{words[0].upper()}{words[1:]}.",
+            epilog=examples and f"examples:\n{examples}",
+        )
         module.add_options(command)
         add_telling(command)
+        command.shorten_usage()
     return parser
 
 
@@ -149,7 +178,7 @@ class _Completion(argparse.Action):
 
 
 def _actions(parser: argparse.ArgumentParser) -> Iterator[argparse.Action]:
-    """Those of all commands."""
+    """Yield the actions of a parser and of its subparsers."""
     for action in parser._actions:
         if isinstance(action, argparse._SubParsersAction):
             for each in action.choices.values():
@@ -161,4 +190,12 @@ def _actions(parser: argparse.ArgumentParser) -> Iterator[argparse.Action]:
 class _Version(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         print(f"bihdist {version()}")
+        parser.exit()
+
+
+class _Cite(argparse.Action):
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from .citation import bibtex
+
+        print(bibtex())
         parser.exit()

@@ -1,6 +1,4 @@
-"""The program from its first moment to its last: Ctrl-C while it is loaded, and standard streams that are closed or
-full, end in a sentence.
-"""
+"""The entry point, which turns Ctrl-C during loading, and closed or full standard streams, into one-line messages."""
 
 import errno
 import os
@@ -20,7 +18,7 @@ UNWRITTEN = [getattr(errno, name, None) for name in ("ENOSPC", "EBADF", "EIO", "
 
 
 def run() -> int:
-    """The command line; returns its exit status."""
+    """Run the command line and return its exit status."""
     try:
         with _ended_by_interruption():
             _open_streams()
@@ -30,17 +28,17 @@ def run() -> int:
         finally:
             sys.stdout.flush()
     except KeyboardInterrupt:
-        # Before the command line has begun, or after its end.
+        # Before the command line starts, or after it ends.
         _say("interrupted.")
         return INTERRUPTED
     except OSError as error:
-        # Of files our errors tell, or they have a name.
+        # Errors of files have a name; this one is of a stream.
         if error.errno not in UNWRITTEN or error.filename:
             raise
-        # Python would try again at its end.
+        # Python would flush again at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         if error.errno == errno.EPIPE:
-            return 0  # whoever read it has seen enough
+            return 0  # the reader has closed the pipe
         reason = "it is closed" if error.errno == errno.EBADF else error.strerror
         _say(f"standard output could not be written: {reason}.")
         return WRONG
@@ -48,7 +46,7 @@ def run() -> int:
 
 @contextmanager
 def _ended_by_interruption() -> "Iterator[None]":
-    """While modules are loaded nothing has begun, and an exception anywhere in them would be a page of words."""
+    """End the process on Ctrl-C while modules are imported, where an exception would print a traceback."""
     if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
         yield
         return
@@ -70,12 +68,12 @@ def _say(sentence: str) -> None:
 
 
 def _open_streams() -> None:
-    """Streams that are closed get something to stand for them, or the next files that are opened would be they."""
+    """Open the null device in place of closed standard streams, whose numbers the next open files would get."""
     for number, name in enumerate(("stdin", "stdout", "stderr")):
         try:
             os.fstat(number)
         except OSError:
-            # What is written to a standard output that only reads is refused, as it should be.
+            # Writing to this read-only standard output fails, as it should.
             there = os.open(os.devnull, os.O_WRONLY if name == "stderr" else os.O_RDONLY)
             if there != number:
                 os.dup2(there, number)

@@ -16,23 +16,23 @@ SAMPLES = next((_ROOT / name for name in ("bihdist_assets", "assets") if (_ROOT 
 
 
 def sample_names() -> list[str]:
-    """The names of the sample meshes, sorted."""
+    """Return the names of the sample meshes, sorted."""
     return sorted(path.stem for path in SAMPLES.glob("*.ply"))
 
 
 def sample_title(name: str) -> str:
-    """ "Figure pose 2" of figure_pose2."""
+    """Return the title of a sample: "Figure pose 2" for figure_pose2."""
     words = re.sub(r"(?<=[a-z])(?=[0-9])", " ", name.replace("_", " "))
     return words[:1].upper() + words[1:]
 
 
 def thumbnail(name: str) -> Path:
-    """A small picture of a sample."""
+    """Return the path of the thumbnail of a sample."""
     return SAMPLES / "thumbnails" / f"{name}.png"
 
 
 def mesh_path(mesh: str) -> str:
-    """The path of a mesh file; a bare word that is no file may be the name of a sample."""
+    """Return the path of a mesh file, or of the sample of that name if there is no such file."""
     sample = SAMPLES / f"{mesh}.ply"
     if not os.path.exists(mesh) and os.path.basename(mesh) == mesh and os.path.isfile(sample):
         return str(sample)
@@ -40,10 +40,25 @@ def mesh_path(mesh: str) -> str:
 
 
 def sample(name: str) -> Surface:
-    """One of the meshes that come with the program, by the name that commands and `figure` take: "hand", "beast".
+    """Read a sample mesh.
 
-    Raises MissingFileError, with all names, for another.
+    Parameters
+    ----------
+    name : str
+        Name of the sample, such as ``"hand"`` or ``"beast"``.
 
+    Returns
+    -------
+    Surface
+        The mesh.
+
+    Raises
+    ------
+    MissingFileError
+        If there is no sample of that name; the message lists all names.
+
+    Examples
+    --------
     >>> import bihdist
     >>> bihdist.sample("hand")
     Surface(hand.ply: 7,569 vertices, 15,082 faces)
@@ -51,5 +66,5 @@ def sample(name: str) -> Surface:
     from bihdist_core import MissingFileError, read_surface
 
     if name not in sample_names():
-        raise MissingFileError(f"There is no sample {name!r}; there are {', '.join(sample_names())}.")
+        raise MissingFileError(f"There is no sample {name!r}; choose from {', '.join(sample_names())}.")
     return read_surface(SAMPLES / f"{name}.ply")

@@ -1,8 +1,11 @@
 """Which version this is, and whether what is installed is all of it."""
 
+import shlex
+import sys
 import warnings
 from functools import cache
 from importlib import metadata
+from importlib.machinery import PathFinder
 
 from bihdist_core.version import VERSION
 
@@ -13,6 +16,14 @@ DISTRIBUTIONS = ("bihdist", "bihdist-core")
 def version() -> str:
     """The version of what is imported, installed or not."""
     return VERSION
+
+
+def install_command(package: str) -> str:
+    """Return the line for a shell that installs a package for the Python that runs this."""
+    python = shlex.quote(sys.executable) if sys.platform != "win32" else f'"{sys.executable}"'
+    if PathFinder.find_spec("pip") is None:  # not importlib.util: setuptools' hook on "pip" warns of distutils
+        return f"uv pip install --python {python} {package}"
+    return f"{python} -m pip install {package}"
 
 
 @cache

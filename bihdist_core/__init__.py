@@ -1,7 +1,7 @@
 """Biharmonic distance on triangle meshes (Lipman, Rustamov, Funkhouser), beside the distances it is compared with.
 
 Arrays in, arrays out; no picture is drawn here.  From the bottom up, each using only what stands before it: `errors`,
-`progress`, `file_content`, `whole_file`; `solver/`, linear algebra; `surface`; `sources/`, what distances start from;
+`progress`, `file_content`, `file_output`; `solver/`, linear algebra; `surface`; `sources/`, what distances start from;
 `formats/`, files; `degenerate_faces`, `operators`, `laplacian`; `distances/`, one each; `analysis/`, what is measured
 of them; `applications/`, what is done with them; `experiments/`, the paper's figures and tables, which have no name
 here.

@@ -14,23 +14,19 @@ from .analysis.diagnostics import (
 from .analysis.field_scatter import FieldScatter, field_scatter
 from .analysis.field_statistics import Agreement, FieldStatistics, field_agreement, field_statistics, rank_correlation
 from .analysis.geodesic_paths import GeodesicPaths
-from .analysis.isoline_output import write_isolines
-from .analysis.isoline_tracing import Isoline, isolines
+from .analysis.isoline_tracing import Isoline, isolines, write_isolines
 from .analysis.neighbours import nearest
-from .analysis.other_extrema import OtherExtrema, other_extrema
 from .analysis.parcels import Parcels, parcel_means
-from .analysis.persistence import Extrema, extrema
+from .analysis.persistence import Extrema, OtherExtrema, extrema, other_extrema
 from .analysis.places import Places
 from .analysis.plane_sections import plane_section
-from .analysis.profile_output import write_profile
 from .analysis.quality import FieldQuality, apparent_source, difference_quality, field_quality
 from .analysis.region_boundaries import Boundary, region_boundaries, write_boundaries
-from .analysis.region_mesh import RegionMesh, region_mesh
-from .analysis.region_output import write_labels, write_region_mesh
+from .analysis.region_mesh import RegionMesh, region_mesh, write_labels, write_region_mesh
 from .analysis.regions import Regions, voronoi_regions
 from .analysis.sampling import farthest_points, write_samples
 from .analysis.selecting import Brush, cut_out, write_selection
-from .analysis.surface_paths import SurfacePath
+from .analysis.surface_paths import SurfacePath, write_profile
 from .analysis.triangle_samples import triangle_sample, triangle_samples
 from .analysis.truncation import TruncationLoss, truncation_loss
 from .applications.correspondence import Correspondence, correspondence_prediction
@@ -60,8 +56,8 @@ from .errors import (
     VertexError,
 )
 from .formats.mesh_io import read_surface
-from .formats.mesh_output import write_mesh
 from .formats.pins import Pins, read_pins, write_pins
+from .formats.surface_output import write_mesh
 from .formats.vertex_maps import read_map, write_map
 from .formats.vertex_values import read_vertex_values
 from .laplacian import Laplacian, eigenpairs

@@ -1,79 +1,93 @@
-"""A script that works in a process of its own: what it imports may hold the interpreter lock, or crash.
+"""A module that serves in a process of its own: what it imports may hold the interpreter lock, or crash.
 
-It is a plain script with pipes: unlike multiprocessing's "spawn" it never imports the user's main program again, so
-scripts need no `if __name__ == "__main__"`.  It can be killed at any time.
+The process runs a plain script with pipes: unlike multiprocessing's "spawn" it never imports the user's main program
+again, so scripts need no `if __name__ == "__main__"`.  It can be killed at any time.
 """
 
 import io
 import os
+import pickle
 import subprocess
 import sys
 import threading
 import weakref
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from queue import SimpleQueue
-from typing import BinaryIO, cast
+from typing import BinaryIO, TypeAlias, cast
 
 import numpy as np
 
-LIMITS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS", "LP_NUM_THREADS")
+from .progress import Progress, silent
 
-DIED = "the process that computes it died"
-"""Why there is no answer, where the process does not say it."""
+THREAD_VARIABLES = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS", "LP_NUM_THREADS")
 
-SERVED = Path(__file__).with_name("_served_child.py")
-"""The script that calls `serve(requests, answers)` of a module of ours, whose name `framed` is what it reads first."""
+DIED_REASON = "the process that computes it died"
+"""The reason for a missing answer where the process gave none."""
+
+SERVER_SCRIPT = Path(__file__).with_name("_served_child.py")
+"""The script that calls `serve(requests, answers)` of the module whose name it reads first."""
+
+Piece: TypeAlias = bytes | memoryview
+Pieces: TypeAlias = Sequence[Piece]
+"""Bytes that are not put together, which would hold up other threads."""
 
 ANSWER, WRONG, REPORT = 0, 1, 2
 """What a process sends: an answer, what is wrong instead of one, and before either any number of reports."""
 
 
-def framed(content: bytes | memoryview) -> bytes:
-    """A number of bytes as int64, and these; `unframed` reads them."""
-    return len(content).to_bytes(8, sys.byteorder) + content
+def _framed(pieces: Pieces) -> list[Piece]:
+    """Put the number of bytes before them, as int64."""
+    return [sum(memoryview(piece).nbytes for piece in pieces).to_bytes(8, sys.byteorder), *pieces]
 
 
-def unframed(requests: BinaryIO) -> bytes:
-    """What was `framed`; nothing if the other side has ended."""
+def read_request(requests: BinaryIO) -> bytes:
+    """Read a request in the process; nothing if the other side has ended."""
     count = int.from_bytes(requests.read(8), sys.byteorder)
     content = requests.read(count)
     return content if len(content) == count else b""
 
 
-def send(answers: BinaryIO, status: int, pieces: Sequence[bytes | memoryview]) -> None:
-    """What a process answers, from any of its threads but one at a time."""
-    count = sum(memoryview(piece).nbytes for piece in pieces)
-    answers.write(status.to_bytes(8, sys.byteorder) + count.to_bytes(8, sys.byteorder))
-    for piece in pieces:
+def send(answers: BinaryIO, status: int, pieces: Pieces) -> None:
+    """Write an answer of the process, from any of its threads but one at a time."""
+    for piece in (status.to_bytes(8, sys.byteorder), *_framed(pieces)):
         answers.write(piece)
     answers.flush()
 
 
+def send_report(answers: BinaryIO, fraction: float, text: str) -> None:
+    """Write how far the process is."""
+    send(answers, REPORT, [pickle.dumps((fraction, text))])
+
+
 class ChildProcess:
-    """A script in a process of its own, and the pipes to and from it.
+    """A process in which a module serves, and the pipes to and from it.
 
-    The script is started with the parent's import path as arguments, reads `first` and then requests, and answers each
-    with two int64, `ANSWER` (or `WRONG`) and a number of bytes, and as many bytes: the answer, or a text in UTF-8 that
-    says what is wrong; a `REPORT` before it is no answer.  Nobody asks before the last answer has come; the process
-    ends with this object.
+    Its `serve(requests, answers)` takes each request by `read_request`, may `send_report`, and sends an `ANSWER`, or
+    as `WRONG` a text in UTF-8 that says what is wrong. Nobody asks before the last answer has come; the process ends
+    with this object.
 
-    threads: how many its BLAS and software OpenGL may use, as many as they like if None.
+    Parameters
+    ----------
+    module : str
+        The full name of the module.
+    threads : int or None
+        How many threads its BLAS and software OpenGL may use, as many as they like if None.
     """
 
-    def __init__(self, script: Path, first: bytes, threads: int | None = 1) -> None:
+    def __init__(self, module: str, threads: int | None = 1) -> None:
         # Sent with the first request, by its thread: a pipe holds 64 kB and the process reads once it has started.
-        self._unsent = first
+        self._unsent = _framed([module.encode()])
         self.process = subprocess.Popen(
-            [sys.executable, str(script), *(p or os.getcwd() for p in sys.path if isinstance(p, str))],
+            [sys.executable, str(SERVER_SCRIPT), *(p or os.getcwd() for p in sys.path if isinstance(p, str))],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             # Unbuffered files have no lock that a thread could still hold when the interpreter exits.
             bufsize=0,
             # BLAS threads cost start-up time and memory.
-            env={**os.environ, **({} if threads is None else dict.fromkeys(LIMITS, str(threads)))},
+            env={**os.environ, **({} if threads is None else dict.fromkeys(THREAD_VARIABLES, str(threads)))},
             # No console window flashes up on Windows.
             creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
         )
@@ -82,17 +96,14 @@ class ChildProcess:
         self._starting = threading.Lock()
         self.end = weakref.finalize(self, _end, self.process, self._readers, self._starting)
 
-    def ask(
-        self, request: bytes | Sequence[bytes | memoryview], report: Callable[[memoryview], object] = lambda told: None
-    ) -> "SimpleQueue[memoryview | str]":
-        """A queue that will hold the answer, or a text that says why there is none.
+    def ask(self, request: Pieces, report: Progress = silent) -> "SimpleQueue[memoryview | str]":
+        """Send a request and return a queue that will hold the answer, or a text that says why there is none.
 
-        request: in one piece or in several, which are not put together: that would hold up other threads.
-        report: takes each report, on a thread of its own.
+        `report` is called with each report, on a thread of its own.
         """
         answers: SimpleQueue[memoryview | str] = SimpleQueue()
-        message = [self._unsent, *([request] if isinstance(request, bytes) else request)]
-        self._unsent = b""
+        message = [*self._unsent, *_framed(request)]
+        self._unsent = []
         # A thread per request, as pipes cannot be waited for with a time limit on Windows; a daemon, as it must not
         # keep the interpreter alive.  It holds the process, not this object, which may be collected meanwhile.
         reader = threading.Thread(target=_converse, args=(self.process, message, answers, report), daemon=True)
@@ -108,10 +119,7 @@ class ChildProcess:
 
 
 def _converse(
-    process: subprocess.Popen[bytes],
-    message: Sequence[bytes | memoryview],
-    answers: "SimpleQueue[memoryview | str]",
-    report: Callable[[memoryview], object],
+    process: subprocess.Popen[bytes], message: Pieces, answers: "SimpleQueue[memoryview | str]", report: Progress
 ) -> None:
     requests, replies = cast(io.FileIO, process.stdin), cast(io.FileIO, process.stdout)
     try:
@@ -124,10 +132,10 @@ def _converse(
             content = _read(replies, count)
             if status != REPORT:
                 break
-            report(content)
+            report(*pickle.loads(content))
         answers.put(bytes(content).decode() if status == WRONG else content)
     except (OSError, ValueError, EOFError):
-        answers.put(DIED)
+        answers.put(DIED_REASON)
 
 
 def _read(pipe: io.FileIO, count: int) -> memoryview:

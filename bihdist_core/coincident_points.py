@@ -7,7 +7,8 @@ from .kernel.library import NO_ROOM, library
 
 
 def merged(points: FloatArray) -> tuple[FloatArray, IntArray]:
-    """(n, 3) the different points in order of first appearance, and (k,) where each of the (k, 3) points is there."""
+    """Return the different points (n, 3) in order of first appearance, and (k,) the number of each point (k, 3)
+    there."""
     kernel = library()
     if kernel is None:
         return _merged_by_sorting(points)
@@ -33,14 +34,14 @@ def _merged_by_sorting(points: FloatArray) -> tuple[FloatArray, IntArray]:
 
 
 def least_apart(points: FloatArray) -> float:
-    """How far the two nearest of the (k, 3) points are from each other; infinite where there are not two."""
+    """Return the least distance between two of the points (k, 3); infinite for fewer than two."""
     from scipy.spatial import cKDTree  # not at the top: files are read without it
 
     return float(cKDTree(points).query(points, [2])[0].min(initial=np.inf))
 
 
 def merged_within(points: FloatArray, tolerance: float) -> tuple[IntArray, IntArray]:
-    """(n,) which of the (k, 3) points are kept, ascending, and (k,) the place among them of what stands for each.
+    """Return (n,) which of the points (k, 3) are kept, ascending, and (k,) which of these stands for each.
 
     In their order, each point stands for all within the tolerance behind it for which no other does yet: no point moves
     farther than the tolerance, and those that are kept are farther apart.

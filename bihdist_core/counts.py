@@ -2,5 +2,5 @@
 
 
 def counted(count: int, one: str, many: str = "") -> str:
-    """ "1 face", "12,345 faces"."""
+    """Return "1 face", "12,345 faces"."""
     return f"{count:,} {one if count == 1 else many or one + 's'}"

@@ -7,11 +7,11 @@ the energy of a face under the stiffness matrix is
 
 a spring that holds the value at the apex i to that at its foot, and a link from end to end.  A spring of 1e10 leaves
 few digits to its neighbours, and one of a face of no area is infinite.  So no spring is stronger than that of a face
-whose height is the share `FLAT` of its longest side; links and areas stay true.  A spring that is strong in any case
-moves distances in proportion to h / l only: those on the exact surface, of whatever flatness, are met to some `FLAT` of
-the maximum, even if every face has a flat one beside it; where many hang in a chain their shares add up, and the
-accuracy says so.  (Lengthening all three sides by a share e of the longest, the
-intrinsic mollification of Sharp and Crane 2020, makes a flat obtuse face as high as the root of e.)
+whose height is the share `FLAT_RATIO` of its longest side; links and areas stay true.  A spring that is strong in any
+case moves distances in proportion to h / l only: those on the exact surface, of whatever flatness, are met to some
+`FLAT_RATIO` of the maximum, even if every face has a flat one beside it; where many hang in a chain their shares add
+up, and the accuracy says so.  (Lengthening all three sides by a share e of the longest, the intrinsic mollification of
+Sharp and Crane 2020, makes a flat obtuse face as high as the root of e.)
 
 What hangs on faces of no area alone, too few to hold it, is infinitely far away.  By convention such loose faces, and
 those with three points in one place, have equal sides.
@@ -22,7 +22,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from .arrays import BoolArray, FloatArray, IntArray
-from .surface import FLAT, Surface, connected, dots
+from .surface import FLAT_RATIO, Surface, connected, dots
 
 NOTHING = 1e-12
 """A height of so small a share of the longest side is the rounding of coordinates."""
@@ -32,9 +32,24 @@ NOTHING = 1e-12
 class DegenerateFaces:
     """The degenerate faces of a surface, all (k,).
 
-    faces: their numbers; corners (3, k): which of its corners are i, a, b; foot: the share s; share: the true height
-    over the longest side; length: of that; spring, link: their strengths, without unit; loose: whether that is by
-    convention.
+    Attributes
+    ----------
+    surface : Surface
+        The surface.
+    faces : (k,) ndarray
+        The numbers of the faces.
+    corners : (3, k) ndarray
+        Which of its corners are i, a and b.
+    foot : (k,) ndarray
+        The fraction s.
+    share : (k,) ndarray
+        The true height over the longest side.
+    length : (k,) ndarray
+        The length of the longest side.
+    spring, link : (k,) ndarray
+        The strengths of spring and link, without a unit.
+    loose : (k,) ndarray
+        Whether these are by convention.
     """
 
     surface: Surface
@@ -49,7 +64,7 @@ class DegenerateFaces:
 
     @classmethod
     def of(cls, surface: Surface) -> "DegenerateFaces":
-        """All of them."""
+        """Find all degenerate faces of a surface."""
         faces = surface.degenerate_faces
         x = surface.vertices[surface.faces[faces]].transpose(1, 2, 0)
         side = [x[(k + 2) % 3] - x[(k + 1) % 3] for k in range(3)]
@@ -70,20 +85,20 @@ class DegenerateFaces:
             np.where(point, 0.5, feet.min(axis=0)),
             share,
             np.sqrt(square),
-            0.5 / np.where(loose, high, FLAT),
+            0.5 / np.where(loose, high, FLAT_RATIO),
             0.5 * np.where(loose, high, share),
             loose,
         )
 
-    def some(self, index: IntArray) -> "DegenerateFaces":
-        """Those at some places (j,)."""
+    def select(self, index: IntArray) -> "DegenerateFaces":
+        """Return some of them, by their numbers (j,)."""
         columns = {f.name: getattr(self, f.name)[..., index] for f in fields(self) if f.name != "surface"}
         return DegenerateFaces(self.surface, **columns)
 
     @property
     def lack(self) -> FloatArray:
-        """(k,) what the springs lack, to first order in the share by which they give way more than exact ones."""
-        return np.where(self.loose, 0, self.spring * (1 - self.share / FLAT))
+        """The lack (k,) of the springs, to first order in the share by which they give way more than exact ones."""
+        return np.where(self.loose, 0, self.spring * (1 - self.share / FLAT_RATIO))
 
     @property
     def vertices(self) -> tuple[IntArray, IntArray, IntArray]:
@@ -92,17 +107,18 @@ class DegenerateFaces:
         return i, a, b
 
     def weights(self) -> FloatArray:
-        """(3, k) what they add to the weights of the sides opposite to their corners."""
+        """Return (3, k) their part of the weights of the sides opposite to their corners."""
         to_b = self.spring * self.foot
         return self._by_corner(self.link - to_b * (1 - self.foot), to_b, self.spring - to_b)
 
     def sides(self, true: bool = False) -> list[FloatArray]:
-        """Three (3, k) vectors along the sides, of each face in a plane of its own: as high as faces with such springs.
+        """Return three (3, k) vectors along the sides, of each face in a plane of its own, as high as its spring makes
+        it.
 
-        true: with their true heights instead.
+        With `true` they have their true heights instead.
         """
         # A point gets a side for others to be measured by.
-        length = np.where(self.length > 0, self.length, FLAT * (self.surface.mean_edge_length or 1.0))
+        length = np.where(self.length > 0, self.length, FLAT_RATIO * (self.surface.mean_edge_length or 1.0))
         height, zero = length * (2 * self.link if true else 0.5 / self.spring), np.zeros(len(length))
         # i, a and b in the plane; which way round, no product of sides tells.
         at = self._by_corner(
@@ -113,25 +129,34 @@ class DegenerateFaces:
         return [at[(k + 2) % 3] - at[(k + 1) % 3] for k in range(3)]
 
     def _by_corner(self, *values: FloatArray) -> FloatArray:
-        """(3, ..., k) values of i, a and b in the order of the faces' corners."""
+        """Return (3, ..., k) values of i, a and b in the order of the faces' corners."""
         order = np.argsort(self.corners, axis=0)
         return np.stack([np.choose(which, values) for which in order])
 
     def stretch(self, u: FloatArray) -> FloatArray:
-        """(k, c) by how much the values u (n, c) at the apexes differ from those at their feet."""
+        """Return (k, c) by how much the values u (n, c) at the apexes differ from those at their feet."""
         i, a, b = self.vertices
         return u[i] - (1 - self.foot[:, None]) * u[a] - self.foot[:, None] * u[b]
 
+    def pull(self, force: FloatArray) -> FloatArray:
+        """Return (n, c) loads by which forces (k, c) at the apexes are met at their feet: the transpose of
+        `stretch`."""
+        loads = np.zeros((len(self.surface.vertices), force.shape[1]))
+        for vertices, share in zip(self.vertices, (np.ones_like(self.foot), self.foot - 1, -self.foot), strict=True):
+            np.add.at(loads, vertices, share[:, None] * force)
+        return loads
+
     def missing_springs(self) -> tuple[FloatArray, FloatArray]:
-        """(n, k) columns g and (k,) slack: the exact stiffness matrix is L + the sum of g g^T / slack."""
+        """Return (n, k) columns g and (k,) slack: the exact stiffness matrix is L + the sum of g g^T / slack."""
         g, column = np.zeros((len(self.surface.vertices), len(self.faces))), np.arange(len(self.faces))
         for vertices, value in zip(self.vertices, (np.ones(len(column)), self.foot - 1, -self.foot), strict=True):
             g[vertices, column] = value
-        return g, 2 * self.share * FLAT / (FLAT - self.share)
+        return g, 2 * self.share * FLAT_RATIO / (FLAT_RATIO - self.share)
 
 
 def _hanging(surface: Surface, faces: IntArray) -> BoolArray:
-    """(k,) whether degenerate faces are too few to hold the vertices that they alone have: a spring holds one."""
+    """Return (k,) whether degenerate faces are too few to hold the vertices that they alone have: a spring holds
+    one."""
     f = surface.faces[faces]
     free = ~surface.in_proper_face[f]
     hanging = np.zeros(len(faces), bool)

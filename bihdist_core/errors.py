@@ -6,6 +6,8 @@ from .sentences import one_line
 class BihdistError(Exception):
     """Anything this library refuses or fails to do; the message is one sentence a user can act on.
 
+    Examples
+    --------
     >>> import bihdist
     >>> try:
     ...     bihdist.read_surface("missing.off")
@@ -55,6 +57,8 @@ class Cancelled(BihdistError):
 
     No failure: whoever catches BihdistError to report failures and stops work by it catches this one first.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> def stop(fraction, text):
     ...     raise bihdist.Cancelled
@@ -71,7 +75,7 @@ class PlainSolverWarning(RuntimeWarning):
 
 
 def unreadable(what: str, error: Exception) -> ParameterError:
-    """The error for a file that was not read, such as "The pins in a.csv", with the reason."""
+    """Return the error for a file that was not read, such as "The pins in a.csv", with the reason."""
     reason = getattr(error, "strerror", None) or error
     if isinstance(error, UnicodeDecodeError):
         reason = "it is not a text file"

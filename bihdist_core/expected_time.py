@@ -27,25 +27,20 @@ _slowness = 1.0
 
 
 def expected_seconds(kind: str, work: float, cores: int = 1) -> float:
-    """For so many units of a kind of work, done by so many cores."""
+    """Return the seconds that units of a kind of work are expected to take on so many cores."""
     return SECONDS[kind] * work / cores * _slowness
 
 
 class Expected:
     """A piece of long work, while it is done; `done`, to be set where that is another amount, tells of the machine.
 
-    progress: whose texts say how long all of it is expected to take where that is long.
+    The texts of `progress` say how long all of it is expected to take, where that is long.
     """
 
     def __init__(self, kind: str, work: float, cores: int, progress: Progress | None) -> None:
         self.done = work
         self._seconds_each, self._begun = SECONDS[kind] / cores, time.monotonic()
-        self._duration = duration_words(expected_seconds(kind, work, cores))
-        self._report = part(progress, 0, 1)
-        self.progress = self._with_duration if self._duration and self._report is not silent else self._report
-
-    def _with_duration(self, fraction: float, text: str) -> None:
-        self._report(fraction, f"{text.partition(':')[0]}: {self._duration}")
+        self.progress = _with_duration(part(progress, 0, 1), duration_words(expected_seconds(kind, work, cores)))
 
     def __enter__(self) -> "Expected":
         return self
@@ -57,8 +52,16 @@ class Expected:
             _slowness = took / usual
 
 
+def _with_duration(report: Progress, duration: str) -> Progress:
+    """Return the progress, with a duration after the first words of each text; the same where there is nothing to
+    add."""
+    if not duration or report is silent:
+        return report
+    return lambda fraction, text: report(fraction, f"{text.partition(':')[0]}: {duration}")
+
+
 def duration_words(seconds: float) -> str:
-    """ "about 40 s", "about 3 min" or "about 2 h", as exactly as can be guessed; "" of what is short."""
+    """Return "about 40 s", "about 3 min" or "about 2 h", as exactly as can be guessed; "" for short work."""
     if seconds < LONG_S:
         return ""
     if seconds < 95:
@@ -67,6 +70,6 @@ def duration_words(seconds: float) -> str:
 
 
 def duration_in(text: str) -> str:
-    """The duration in what the progress of `Expected` says, "" of what any other says."""
+    """Return the duration in a text of the progress of `Expected`; "" for other texts."""
     detail = text.partition(": ")[2]
     return detail if detail.startswith("about ") else ""

@@ -1,4 +1,4 @@
-"""What stands in files that anybody may have written: regular files of bounded size, as bytes, text or JSON.
+"""Contents of files that anybody may have written: regular files of bounded size, as bytes, text or JSON.
 
 `what` begins the sentence of an error, "The WHAT PATH cannot be read": "recipe", "map in".
 """
@@ -14,12 +14,12 @@ from .errors import ParameterError, unreadable
 MOST_BYTES = 1 << 30
 """Of a text: ten million numbers, each on a line, take a tenth of that."""
 MOST_JSON_BYTES = 1 << 27
-DEEPEST = 64
+MOST_NESTED = 64
 """Lists and records within each other; ours have less than ten."""
 
 
 def open_regular(path: str | os.PathLike[str], what: str) -> BinaryIO:
-    """A file that is open for reading; ParameterError if it cannot be, and for folders, pipes and devices."""
+    """Return a file that is open for reading; ParameterError if it cannot be, and for folders, pipes and devices."""
     try:
         # Before it is opened: a pipe would be waited for.
         kind = os.stat(path).st_mode
@@ -34,7 +34,8 @@ def open_regular(path: str | os.PathLike[str], what: str) -> BinaryIO:
 
 
 def file_text(path: str | os.PathLike[str], what: str, most: int = MOST_BYTES) -> str:
-    """The text of a file in UTF-8, with or without a mark of that; ParameterError if it has none, or too much."""
+    """Return the text of a file in UTF-8, with or without a mark of that; ParameterError if it has none, or too
+    much."""
     with open_regular(path, what) as file:
         try:
             size = os.fstat(file.fileno()).st_size
@@ -47,7 +48,7 @@ def file_text(path: str | os.PathLike[str], what: str, most: int = MOST_BYTES) -
 
 
 def file_json(path: str | os.PathLike[str], what: str, kind: str) -> Any:
-    """The value in a JSON file; kind: "PATH is not KIND", where it is none: "a recipe"."""
+    """Return the value in a JSON file; an error says that the path "is not" of this `kind`, such as "a recipe"."""
     text = file_text(path, what, MOST_JSON_BYTES)
     try:
         return json_value(text)
@@ -56,7 +57,8 @@ def file_json(path: str | os.PathLike[str], what: str, kind: str) -> Any:
 
 
 def json_value(text: str) -> Any:
-    """The value of a text in JSON; ParameterError, "it is not JSON" or "it is nested too deep", where there is none."""
+    """Return the value of a text in JSON; ParameterError, "it is not JSON" or "it is nested too deep", where there is
+    none."""
     try:
         value = json.loads(text)
     except json.JSONDecodeError as error:
@@ -66,7 +68,7 @@ def json_value(text: str) -> Any:
     except RecursionError:
         raise ParameterError(TOO_DEEP) from None
     inside = [value]
-    for _ in range(DEEPEST):
+    for _ in range(MOST_NESTED):
         children = (
             each.values() if isinstance(each, dict) else each for each in inside if isinstance(each, dict | list)
         )
@@ -76,4 +78,4 @@ def json_value(text: str) -> Any:
     raise ParameterError(TOO_DEEP)
 
 
-TOO_DEEP = f"its lists and records are nested more than {DEEPEST} deep."
+TOO_DEEP = f"its lists and objects are nested more than {MOST_NESTED} deep."

@@ -23,8 +23,9 @@ from .arrays import FloatArray, IntArray
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError, SolverError
 from .expected_time import Expected, expected_seconds
-from .locked_cached_property import locked_cached_property
 from .machine_memory import check_memory
+from .memo import locked_cached_property
+from .mesh_arrays import check_size
 from .mesh_like import MeshLike, Rows
 from .operators import AREAS, operators
 from .progress import Progress, part, turn
@@ -37,21 +38,85 @@ from .solver.worker_threads import WORKERS
 from .surface import Surface
 
 Computed = tuple[EliminationTree | None, Factor | None, Spectrum | None]
-"""What a component has computed so far: its tree, its factor, its eigenpairs."""
+"""The results of a component that are kept: its tree, its factor, its eigenpairs."""
 
-REMEDY = "take fewer of them, simplify the mesh (bihdist perturb --simplify N), or use a larger machine or a cluster."
-"""Where there is no room for eigenpairs."""
+EIGENPAIR_ADVICE = (
+    "take fewer of them, simplify the mesh (bihdist perturb --simplify N), or use a larger machine or a cluster."
+)
+"""The message where eigenpairs need more memory than there is."""
+
+
+class SurfaceOperators:
+    """The stiffness matrix and the vertex areas of a surface, assembled once for its Laplacian and each component.
+
+    Components hold this and not the Laplacian: an object that refers back to its owner is not freed, with its factor,
+    before the garbage collector runs.
+    """
+
+    def __init__(self, surface: Surface, areas_kind: str) -> None:
+        self.surface = surface
+        self.areas_kind = areas_kind
+
+    def __reduce__(self) -> tuple[type[SurfaceOperators], tuple[Surface, str]]:
+        return SurfaceOperators, (self.surface, self.areas_kind)
+
+    @locked_cached_property
+    def _assembled(self) -> tuple[sp.csr_matrix, FloatArray]:
+        stiffness, areas = operators(self.surface, self.areas_kind)
+        for array in (stiffness.data, stiffness.indices, stiffness.indptr, areas):
+            array.flags.writeable = False
+        return stiffness, areas
+
+    @property
+    def stiffness(self) -> sp.csr_matrix:
+        """The cotangent stiffness matrix (n, n), read-only; no unit."""
+        return self._assembled[0]
+
+    @property
+    def areas(self) -> FloatArray:
+        """The vertex areas (n,), read-only; unit length squared."""
+        return self._assembled[1]
+
+    @locked_cached_property
+    def eigenpair_counts(self) -> IntArray:
+        """The number of eigenpairs of each component (c,) besides the constant, one less than vertices with an area."""
+        label = self.surface.component_of_vertex[self.areas > 0]
+        return np.bincount(label[label >= 0], minlength=self.surface.n_components) - 1
 
 
 class Laplacian:
-    """Operators of a surface (paper, Eq. 7): `stiffness` (n, n), `areas` (n,), and its connected `components`.
+    """The Laplacian of a surface (paper, Eq. 7): its stiffness matrix, vertex areas and connected components.
 
-    surface: a Surface or what `Surface.of` takes.  areas: "voronoi" (mixed Voronoi) or "barycentric"; anything else is
-    a ParameterError.  Distances share a Laplacian by being given it; nothing is cached elsewhere.
+    Parameters
+    ----------
+    surface : MeshLike
+        A surface or any other mesh that `Surface.of` takes.
+    areas : {"voronoi", "barycentric"}
+        The vertex areas; ``"voronoi"`` are mixed Voronoi areas.
 
-    pickles_factors: whether factors and eigenpairs are part of its pickles, and of those of its distances.  Without,
-    which is usual, only the surface is, and they are computed again where they are needed.
+    Attributes
+    ----------
+    surface : Surface
+        The mesh.
+    components : tuple of Component
+        The connected components, the one with most vertices first.
+    pickles_factors : bool
+        Whether pickles of it, and of its distances, hold factors and eigenpairs.  By default they hold the surface
+        alone, and the rest is computed again where it is needed.
 
+    Raises
+    ------
+    MeshError
+        If the surface is larger than 1e50 or smaller than 1e-50.
+    ParameterError
+        For other areas.
+
+    Notes
+    -----
+    Distances share factors and eigenpairs by being given the same Laplacian; nothing is cached elsewhere.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> laplacian = bihdist.Laplacian(pyvista.Icosphere(nsub=3))
     >>> biharmonic = bihdist.BiharmonicDistance(laplacian)
@@ -71,8 +136,10 @@ class Laplacian:
         if areas not in AREAS:
             raise ParameterError(f"There are no {areas!r} vertex areas; choose one of {', '.join(AREAS)}.")
         self.surface = Surface.of(surface)
+        check_size(self.surface.vertices, self.surface.faces, self.surface.name)
         self.areas_kind = areas
-        self.components = tuple(Component(self, k) for k in range(self.surface.n_components))
+        self._operators = SurfaceOperators(self.surface, areas)
+        self.components = tuple(Component(self._operators, k) for k in range(self.surface.n_components))
 
     def __repr__(self) -> str:
         return f"Laplacian({self.surface!r}, {self.areas_kind} areas)"
@@ -81,29 +148,26 @@ class Laplacian:
         computed = tuple(component._computed for component in self.components) if self.pickles_factors else None
         return _unpickled, (self.surface, self.areas_kind, computed)
 
-    @locked_cached_property
-    def _operators(self) -> tuple[sp.csr_matrix, FloatArray]:
-        stiffness, areas = operators(self.surface, self.areas_kind)
-        for array in (stiffness.data, stiffness.indices, stiffness.indptr, areas):
-            array.flags.writeable = False
-        return stiffness, areas
-
     @property
     def stiffness(self) -> sp.csr_matrix:
-        """(n, n) cotangent stiffness matrix, positive semi-definite, read-only; no unit.
+        """The cotangent stiffness matrix (n, n), positive semi-definite, read-only; no unit.
 
+        Examples
+        --------
         >>> import bihdist
         >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
         >>> # rows have sum 0
         >>> bihdist.Laplacian(square).stiffness.toarray().round(9).tolist()
         [[1.0, -0.5, 0.0, -0.5], [-0.5, 1.0, -0.5, 0.0], [0.0, -0.5, 1.0, -0.5], [-0.5, 0.0, -0.5, 1.0]]
         """
-        return self._operators[0]
+        return self._operators.stiffness
 
     @property
     def areas(self) -> FloatArray:
-        """(n,) vertex areas, read-only; unit length squared.
+        """The vertex areas (n,), read-only; unit length squared.
 
+        Examples
+        --------
         >>> import bihdist
         >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
         >>> bihdist.Laplacian(square).areas.tolist()
@@ -111,23 +175,38 @@ class Laplacian:
         >>> bihdist.Laplacian(square, areas="barycentric").areas.round(3).tolist()
         [0.333, 0.167, 0.333, 0.167]
         """
-        return self._operators[1]
+        return self._operators.areas
 
-    @locked_cached_property
+    @property
     def eigenpair_counts(self) -> IntArray:
-        """(c,) how many eigenpairs each component has besides the constant: as vertices with an area, less one.
+        """The number of eigenpairs of each component (c,) besides the constant, one less than vertices with an area.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> sphere = pyvista.Icosphere(nsub=2)  # 162 vertices
         >>> bihdist.Laplacian(sphere).eigenpair_counts.tolist()
         [161]
         """
-        label = self.surface.component_of_vertex[self.areas > 0]
-        return np.bincount(label[label >= 0], minlength=len(self.components)) - 1
+        return self._operators.eigenpair_counts
 
     def check_eigenpairs(self, k: int, most: int) -> None:
-        """ParameterError, which says what is possible, unless there are k eigenpairs among `most`.
+        """Check that there are k eigenpairs besides the constant.
 
+        Parameters
+        ----------
+        k : int
+            The number that is wanted.
+        most : int
+            The number there is.
+
+        Raises
+        ------
+        ParameterError
+            If there are not; the message says what is possible.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> laplacian = bihdist.Laplacian(pyvista.Icosphere(nsub=1))
         >>> try:
@@ -143,8 +222,25 @@ class Laplacian:
             )
 
     def component_of(self, vertex: int) -> Component:
-        """The component a vertex belongs to; VertexError if there is none.
+        """Return the component that a vertex belongs to.
 
+        Parameters
+        ----------
+        vertex : int
+            A vertex id.
+
+        Returns
+        -------
+        Component
+            One of `components`.
+
+        Raises
+        ------
+        VertexError
+            If the vertex is not on the surface, or belongs to no face.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> both = pyvista.Icosphere(nsub=1) + pyvista.Icosphere(nsub=2, center=(3, 0, 0))
         >>> laplacian = bihdist.Laplacian(both)
@@ -163,8 +259,8 @@ class Component:
 
     pin = 0
 
-    def __init__(self, laplacian: Laplacian, index: int) -> None:
-        self.laplacian = laplacian
+    def __init__(self, whole: SurfaceOperators, index: int) -> None:
+        self._whole = whole
         self.index = index
         # Two locks, so that a click is answered from the factor while eigenpairs are being computed.
         self._factor_lock = threading.RLock()
@@ -173,8 +269,8 @@ class Component:
         self._factor: Factor | None = None
         self._spectrum: Spectrum | None = None
 
-    def __reduce__(self) -> tuple[Callable[..., Component], tuple[Laplacian, int]]:
-        return _component, (self.laplacian, self.index)
+    def __reduce__(self) -> tuple[type[Component], tuple[SurfaceOperators, int]]:
+        return Component, (self._whole, self.index)
 
     @property
     def _computed(self) -> Computed:
@@ -187,7 +283,9 @@ class Component:
 
     @locked_cached_property
     def _cut(self) -> tuple[Surface, IntArray]:
-        return self.laplacian.surface.component(self.index)
+        surface, ids = self._whole.surface.component(self.index)
+        check_size(surface.vertices, surface.faces, surface.name)
+        return surface, ids
 
     @property
     def surface(self) -> Surface:
@@ -196,17 +294,17 @@ class Component:
 
     @property
     def vertices(self) -> IntArray:
-        """(m,) ids in the whole surface, ascending."""
+        """The vertices' ids (m,) in the whole surface, ascending."""
         return self._cut[1]
 
     def local(self, vertices: IntArray) -> IntArray:
-        """Local numbers of ids that belong to this component."""
+        """Return local numbers of ids that belong to this component."""
         return np.searchsorted(self.vertices, vertices)
 
     @locked_cached_property
     def stiffness(self) -> sp.csr_matrix:
-        """(m, m) stiffness matrix."""
-        whole = self.laplacian.stiffness
+        """The stiffness matrix (m, m)."""
+        whole = self._whole.stiffness
         return whole if len(self.vertices) == whole.shape[0] else whole[self.vertices][:, self.vertices]
 
     @locked_cached_property
@@ -216,19 +314,19 @@ class Component:
 
     @locked_cached_property
     def areas(self) -> FloatArray:
-        """(m,) vertex areas, unit length squared."""
-        return self.laplacian.areas[self.vertices]
+        """The vertex areas (m,), unit length squared."""
+        return self._whole.areas[self.vertices]
 
     # ------------------------------------------------------------------ the factor
     def tree(self, progress: Progress | None = None) -> EliminationTree:
-        """The elimination order, which serves every matrix with the pattern of the stiffness matrix."""
+        """Return the elimination order, which serves every matrix with the pattern of the stiffness matrix."""
         with turn(self._factor_lock, progress, "waiting for the factor"):
             if self._tree is None:
                 self._tree = EliminationTree(self.stiffness, self.surface.vertices, progress=progress)
             return self._tree
 
     def factor(self, progress: Progress | None = None, diagonals: bool = False) -> Factor:
-        """The factor of the pinned stiffness matrix; with the diagonals of G and G A G if asked for.
+        """Return the factor of the pinned stiffness matrix; with the diagonals of G and G A G if asked for.
 
         The pinned vertex stays in the matrix as an equation of its own, x_p = 0, and gets no area: then the
         entries of G and G A G elsewhere are the ones wanted.
@@ -263,13 +361,13 @@ class Component:
 
     # ------------------------------------------------------------------ Green's functions
     def green_diagonal(self, progress: Progress | None = None) -> FloatArray:
-        """(m,) G_jj; no unit."""
+        """Return (m,) G_jj; no unit."""
         diagonal = self.factor(progress, diagonals=True).diagonal.copy()
         diagonal[self.pin] = 0
         return diagonal
 
     def biharmonic_diagonal(self, progress: Progress | None = None) -> FloatArray:
-        """(m,) C_jj; unit length squared."""
+        """Return (m,) C_jj; unit length squared."""
         self.factor(progress, diagonals=True)
         return self._biharmonic_diagonal
 
@@ -280,7 +378,7 @@ class Component:
 
     @locked_cached_property
     def biharmonic_eccentricity(self) -> FloatArray:
-        """(m,) the root of the mean, by area, of the squared biharmonic distances to all points; unit length.
+        """The root (m,) of the mean, by area, of the squared biharmonic distances to all points; unit length.
 
         It is largest at the tips of a shape.  With y = C A 1, the mean of C_ii + C_jj - 2 C_ij over j.
         """
@@ -293,14 +391,14 @@ class Component:
 
     @locked_cached_property
     def u(self) -> FloatArray:
-        """(m,) u = G A 1, the column by which C = G A G - u u^T / sum(A) is without a mean; unit length squared."""
+        """The column u = G A 1 (m,), by which C = G A G - u u^T / sum(A) is without a mean; unit length squared."""
         return self.solve(self.areas)
 
     # ------------------------------------------------------------------ the spectrum
     @property
     def most_eigenpairs(self) -> int:
-        """How many there are besides the constant (`Laplacian.eigenpair_counts`)."""
-        return int(self.laplacian.eigenpair_counts[self.index])
+        """The number of eigenpairs besides the constant (`Laplacian.eigenpair_counts`)."""
+        return int(self._whole.eigenpair_counts[self.index])
 
     def check_room_for(self, count: int) -> None:
         """Before long work: NotEnoughMemory where so many eigenpairs have no room, with the factor if there is none."""
@@ -308,10 +406,11 @@ class Component:
         if have is None or len(have.eigenvalues) < count:
             size = usual_bytes(n) if factor is None else factor.nbytes
             needed = eigenpair_bytes(n, min(count, self.most_eigenpairs), size) + (size if factor is None else 0)
-            check_memory(needed, f"Finding {count:,} eigenpairs of {n:,} vertices", REMEDY)
+            check_memory(needed, f"Finding {count:,} eigenpairs of {n:,} vertices", EIGENPAIR_ADVICE)
 
     def share_of_factor(self, count: int) -> float:
-        """Which share of the time that the factor, with its diagonals, and so many eigenpairs take is the factor's."""
+        """Return which share of the time that the factor, with its diagonals, and so many eigenpairs take is the
+        factor's."""
         n = len(self.areas)
         if self._factor is not None and self._factor.has_diagonals:
             return 0.0
@@ -350,10 +449,6 @@ def _unpickled(surface: Surface, areas: str, computed: tuple[Computed, ...] | No
     return laplacian
 
 
-def _component(laplacian: Laplacian, index: int) -> Component:
-    return laplacian.components[index]
-
-
 def _spectrum(
     factor: Factor,
     pin: int,
@@ -363,7 +458,7 @@ def _spectrum(
     start: Spectrum | None,
     progress: Progress,
 ) -> Spectrum:
-    """The first `count` eigenpairs of a component, by the factor of its pinned stiffness matrix."""
+    """Return the first `count` eigenpairs of a component, by the factor of its pinned stiffness matrix."""
     return smallest_eigenpairs(
         stiffness, areas, lambda b: _solved(factor, pin, b), count, start=start, progress=progress
     )
@@ -378,11 +473,31 @@ def _solved(factor: Factor, pin: int, b: FloatArray, progress: Progress | None =
 
 
 def eigenpairs(laplacian: Laplacian | MeshLike, count: int, progress: Progress | None = None) -> Spectrum:
-    """The first `count` eigenpairs L phi = lambda A phi, phi^T A phi = 1, the constant of each component not counted.
+    """Compute the first eigenpairs L phi = lambda A phi, phi^T A phi = 1, without the constant of each component.
 
-    Returns eigenvalues (count,), ascending, unit 1 / length squared, and eigenvectors (n, count), 0 at
-    unreferenced vertices.  Raises ParameterError if there are not that many.
+    Parameters
+    ----------
+    laplacian : Laplacian or MeshLike
+        The surface, or its Laplacian.
+    count : int
+        The number of eigenpairs.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
 
+    Returns
+    -------
+    eigenvalues : (count,) float64 ndarray
+        Ascending; unit 1 / length squared.
+    eigenvectors : (n, count) float64 ndarray
+        One per column, 0 at vertices that belong to no face; unit 1 / length.
+
+    Raises
+    ------
+    ParameterError
+        If there are not that many.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> spectrum = bihdist.eigenpairs(pyvista.Icosphere(nsub=3), 8)
     >>> # of the unit sphere: 2 three times, then 6 five times
@@ -408,12 +523,13 @@ def eigenpairs(laplacian: Laplacian | MeshLike, count: int, progress: Progress |
 
 
 def as_laplacian(laplacian: Laplacian | MeshLike | Rows, faces: npt.ArrayLike | None = None) -> Laplacian:
-    """A mesh of any kind that `Surface.of` takes stands for its Laplacian with the default vertex areas."""
+    """Return a Laplacian, or that of a mesh of any kind with the default vertex areas."""
     return laplacian if isinstance(laplacian, Laplacian) else Laplacian(Surface.of(laplacian, faces))
 
 
 def _pinned(matrix: sp.csr_matrix, pin: int) -> sp.csr_matrix:
-    """The symmetric matrix with row and column `pin` replaced by the identity's; it shares the pattern's arrays."""
+    """Return the symmetric matrix with row and column `pin` replaced by the identity's; it shares the pattern's
+    arrays."""
     start, index, value = matrix.indptr, matrix.indices, matrix.data.copy()
     value[index == pin] = 0
     row = slice(start[pin], start[pin + 1])

@@ -9,16 +9,13 @@ from .arrays import AnyArray, FloatArray, IntArray
 from .errors import MeshError
 from .kernel.library import DONE, library
 
+LARGEST, SMALLEST = 1e50, 1e-50
+"""Sixth powers of longer and of shorter lengths, which some distances are made of, are beyond what a float holds."""
+
 
 def checked_vertices(vertices: npt.ArrayLike, name: str) -> FloatArray:
-    """(n, 3) a copy of vertices in float64; MeshError, which begins with a name, for what is none."""
-    try:
-        x = np.array(vertices)
-        if x.dtype.kind not in "iufO":
-            raise TypeError(f"their type is {x.dtype}")
-        x = x.astype(np.float64, copy=False)
-    except (TypeError, ValueError) as error:
-        raise MeshError(f"{name}: the vertices are not an array of numbers ({error}).") from None
+    """Return vertices (n, 3) as a float64 copy; MeshError, which begins with `name`, for what is not."""
+    _, x = _converted(vertices, np.float64, f"{name}: the vertices are not an array of numbers")
     if x.ndim != 2 or x.shape[1] != 3:
         raise MeshError(f"{name}: vertices must have shape (n, 3), not {x.shape}.")
     is_finite = np.isfinite(x)
@@ -29,18 +26,14 @@ def checked_vertices(vertices: npt.ArrayLike, name: str) -> FloatArray:
 
 
 def checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[IntArray, list[str]]:
-    """(m, 3) the faces of n vertices that can be used, and what was dropped, in words; MeshError for what is none."""
-    try:
-        f = np.array(faces)
-        if f.dtype.kind not in "iufO":
-            raise TypeError(f"their type is {f.dtype}")
-        whole = np.ascontiguousarray(f, np.int64)
-    except (TypeError, ValueError) as error:
-        raise MeshError(f"{name}: the faces are not an array of vertex ids ({error}).") from None
+    """Return the faces (m, 3) of n vertices that can be used, and what was dropped, in words; MeshError for bad
+    ones."""
+    f, whole = _converted(faces, np.int64, f"{name}: the faces are not an array of vertex ids")
     if f.size == 0:
         raise MeshError(f"{name} has no faces; a surface needs at least one triangle.")
     if f.ndim != 2 or f.shape[1] != 3:
         raise MeshError(f"{name}: faces must have shape (m, 3), not {f.shape}.")
+    whole = np.ascontiguousarray(whole)
     if f.dtype.kind in "iu" and _are_proper(whole, n):
         return whole, []
     bad = np.flatnonzero(((whole < 0) | (whole >= n) | (whole != f)).any(axis=1))
@@ -62,14 +55,40 @@ def checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[IntArray, li
     return whole[unique], repairs
 
 
+def check_size(vertices: FloatArray, faces: IntArray, name: str) -> None:
+    """Check that a surface is neither too large nor too small to compute with; MeshError, which begins with `name`."""
+    # All is small only where the first face is.
+    if np.ptp(vertices[faces[0]], axis=0).max() < SMALLEST:
+        extent = float(np.ptp(vertices[faces], axis=(0, 1)).max())
+        if 0 < extent < SMALLEST:
+            raise MeshError(f"{name} measures {extent:g}; below {SMALLEST:g} areas have no numbers, so scale it up.")
+    if max(float(vertices.max()), -float(vertices.min())) > LARGEST:
+        k, axis = np.argwhere(np.abs(vertices) > LARGEST)[0]
+        raise MeshError(
+            f"{name}: vertex {k} has the coordinate {vertices[k, axis]:g}; beyond {LARGEST:g} areas have no numbers, "
+            "so scale it down."
+        )
+
+
+def _converted(values: npt.ArrayLike, dtype: npt.DTypeLike, refusal: str) -> tuple[AnyArray, AnyArray]:
+    """Return a copy of an array of numbers, as it is and as another type; MeshError, with the reason, for others."""
+    try:
+        array = np.array(values)
+        if array.dtype.kind not in "iufO":
+            raise TypeError(f"their type is {array.dtype}")
+        return array, array.astype(dtype, copy=False)
+    except (TypeError, ValueError) as error:
+        raise MeshError(f"{refusal} ({error}).") from None
+
+
 def _are_proper(faces: IntArray, n: int) -> bool:
-    """Whether the kernel finds nothing wrong with the (m, 3) faces of n vertices."""
+    """Return whether the kernel finds nothing wrong with the (m, 3) faces of n vertices."""
     kernel, slots = library(), 2 << len(faces).bit_length()
     return kernel is not None and kernel.bih_check_faces(n, len(faces), faces, slots, np.empty(slots, np.int32)) == DONE
 
 
 def _without_repeats(faces: IntArray, some: IntArray) -> IntArray:
-    """Of the faces with the numbers `some` (k,) the first of each three vertices."""
+    """Return the numbers `some` (k,) of faces without those that repeat the three vertices of another."""
     # Repeated faces are rare.  Random numbers for the vertices, added up, tell in no time that there are none.
     random = np.random.default_rng(0).integers(1 << 62, size=int(faces.max()) + 1)
     sums = random[faces[some]].sum(axis=1)

@@ -1,4 +1,4 @@
-"""What `Surface.of` takes, as types: paths, arrays, and objects of other libraries by the attributes that are read."""
+"""Types that `Surface.of` takes: paths, arrays, and objects of other libraries by the attributes that are read."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ class VerticesAndFaces(Protocol):
 
     @property
     def vertices(self) -> Any:
-        """(n, 3) coordinates."""
+        """The coordinates (n, 3)."""
 
     @property
     def faces(self) -> Any:
-        """(m, 3) vertex ids."""
+        """The faces' vertex ids (m, 3)."""
 
 
 class VerticesAndTriangles(Protocol):
@@ -29,11 +29,11 @@ class VerticesAndTriangles(Protocol):
 
     @property
     def vertices(self) -> Any:
-        """(n, 3) coordinates."""
+        """The coordinates (n, 3)."""
 
     @property
     def triangles(self) -> Any:
-        """(m, 3) vertex ids."""
+        """The triangles' vertex ids (m, 3)."""
 
 
 class CoordinatesAndFaces(Protocol):
@@ -41,11 +41,11 @@ class CoordinatesAndFaces(Protocol):
 
     @property
     def coordinates(self) -> Any:
-        """(n, 3) coordinates."""
+        """The coordinates (n, 3)."""
 
     @property
     def faces(self) -> Any:
-        """(m, 3) vertex ids."""
+        """The faces' vertex ids (m, 3)."""
 
 
 class PointsAndPolygons(Protocol):
@@ -53,11 +53,11 @@ class PointsAndPolygons(Protocol):
 
     @property
     def points(self) -> Any:
-        """(n, 3) coordinates."""
+        """The coordinates (n, 3)."""
 
     @property
     def regular_faces(self) -> Any:
-        """(m, k) point ids, where all faces have as many corners."""
+        """The faces' point ids (m, k), where all faces have as many corners."""
 
 
 class PointsAndCells(Protocol):
@@ -65,7 +65,7 @@ class PointsAndCells(Protocol):
 
     @property
     def points(self) -> Any:
-        """(n, 3) coordinates."""
+        """The coordinates (n, 3)."""
 
     @property
     def cells_dict(self) -> Any:

@@ -16,7 +16,7 @@ from .arrays import FloatArray
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError
 from .kernel.library import library
-from .surface import FLAT, Surface
+from .surface import FLAT_RATIO, Surface
 
 AREAS = ("voronoi", "barycentric")
 
@@ -25,13 +25,13 @@ Corners = tuple[FloatArray, FloatArray, FloatArray]
 
 
 def operators(surface: Surface, areas: str = "voronoi") -> tuple[sp.csr_matrix, FloatArray]:
-    """`stiffness` (n, n) and `vertex_areas` (n,), for which the faces are measured once."""
+    """Return `stiffness` (n, n) and `vertex_areas` (n,), for which the faces are measured once."""
     corners = _corners(surface)
     return _assembled(surface, _weights(surface, corners)), _areas(surface, areas, corners)
 
 
 def stiffness(surface: Surface) -> sp.csr_matrix:
-    """(n, n) cotangent stiffness matrix; the rows of unreferenced vertices are empty."""
+    """Return (n, n) cotangent stiffness matrix; the rows of unreferenced vertices are empty."""
     return _assembled(surface, face_weights(surface))
 
 
@@ -53,7 +53,7 @@ def _assembled(surface: Surface, weights: FloatArray) -> sp.csr_matrix:
 
 
 def face_weights(surface: Surface) -> FloatArray:
-    """(3, m) half the cotangent of each corner: what a face adds to the weight of the side opposite to it."""
+    """Return (3, m) half the cotangent of each corner: what a face adds to the weight of the side opposite to it."""
     return _weights(surface, _corners(surface))
 
 
@@ -65,8 +65,8 @@ def _weights(surface: Surface, corners: Corners) -> FloatArray:
 
 
 def vertex_areas(surface: Surface, kind: str = "voronoi") -> FloatArray:
-    """(n,) areas, unit length squared, that sum to the surface's area; 0 for vertices that have no face, or next to no
-    area, unless their whole component has none.
+    """Return (n,) areas, unit length squared, that sum to the surface's area; 0 for vertices that have no face, or next
+    to no area, unless their whole component has none.
 
     "voronoi": mixed Voronoi areas (Meyer et al. 2002), as the paper's text; "barycentric": a third of each face's
     area to each of its vertices, as its authors' program.  Raises ParameterError for any other word.
@@ -96,12 +96,12 @@ def _areas(surface: Surface, kind: str, corners: Corners) -> FloatArray:
     if not len(flat):
         return np.bincount(surface.faces.T.ravel(), share.ravel(), n).astype(float, copy=False)
     share = share.copy()
-    share[:, flat] *= surface.face_heights[flat] / FLAT
+    share[:, flat] *= surface.face_heights[flat] / FLAT_RATIO
     areas = np.bincount(surface.faces.T.ravel(), share.ravel(), n).astype(float, copy=False)
     # A vertex that has degenerate faces only may be a tip of much area.  Next to none is taken for none: what is
     # divided by such an area would be lost.  But a component needs some.
     proper, component = surface.in_proper_face, surface.component_of_vertex
-    small = FLAT * (np.median(areas[proper]) if proper.any() else surface.mean_edge_length**2 or 1.0)
+    small = FLAT_RATIO * (np.median(areas[proper]) if proper.any() else surface.mean_edge_length**2 or 1.0)
     faint = (component >= 0) & ~proper & (areas < small)
     areas[faint] = 0
     bare = faint & (np.bincount(component + 1, areas)[component + 1] == 0)
@@ -110,8 +110,7 @@ def _areas(surface: Surface, kind: str, corners: Corners) -> FloatArray:
 
 
 def face_sides(surface: Surface, true: bool = False) -> list[FloatArray]:
-    """Of each face three vectors along its sides, (3, m) each, as `Surface.sides`; degenerate faces as in
-    `DegenerateFaces.sides`.
+    """Return three vectors along the sides of each face, (3, m) each, degenerate ones as in `DegenerateFaces.sides`.
 
     Those of a degenerate face lie in a plane of their own: what is made of them must not depend on where that is.
     """
@@ -138,13 +137,13 @@ def _corners(surface: Surface) -> Corners:
 
 
 def _cotangents(side: list[FloatArray], area: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """(3, m) cotangents of corners and (3, m) squared lengths of the sides opposite to them."""
+    """Return (3, m) cotangents of corners and (3, m) squared lengths of the sides opposite to them."""
     products = [-_inner(side[(k + 1) % 3], side[(k + 2) % 3]) for k in range(3)]
     with np.errstate(divide="ignore", invalid="ignore"):  # of degenerate faces, which are overwritten
         return np.stack(products) / (2 * area), np.stack([_inner(s, s) for s in side])
 
 
 def _inner(a: FloatArray, b: FloatArray) -> FloatArray:
-    """(m,) inner products of columns, (2, m) or (3, m)."""
+    """Return (m,) inner products of columns, (2, m) or (3, m)."""
     product: FloatArray = sum(x * y for x, y in zip(a, b, strict=True))
     return product

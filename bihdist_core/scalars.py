@@ -7,7 +7,7 @@ from .errors import ParameterError
 
 
 def whole_number(value: Any, what: str) -> int:
-    """A whole number as Python's, also from NumPy; ParameterError for anything else."""
+    """Return a whole number as Python's, also from NumPy; ParameterError for anything else."""
     try:
         if isinstance(value, bool):
             raise TypeError
@@ -17,7 +17,8 @@ def whole_number(value: Any, what: str) -> int:
 
 
 def real_number(value: Any, what: str) -> float:
-    """A number as Python's float, also from NumPy; ParameterError for anything else, such as a text or an array."""
+    """Return a number as Python's float, also from NumPy; ParameterError for anything else, such as a text or an
+    array."""
     # Of NumPy's scalars and arrays without axes.
     kind = getattr(getattr(value, "dtype", None), "kind", "f")
     try:

@@ -13,32 +13,50 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .arrays import BoolArray, FloatArray, IntArray
+from .arrays import BoolArray, FloatArray, IntArray, array_of, real_numbers
 from .coincident_points import merged_within
 from .counts import counted
 from .errors import MeshError, ParameterError, VertexError
 from .kernel.library import library
 from .mesh_arrays import checked_faces, checked_vertices
 from .mesh_like import MeshLike, Rows
-from .number_arrays import array_of, real_numbers
 
 Coordinates = FloatArray | list[FloatArray]
 """(3, m): vectors, each coordinate for itself."""
 
-FLAT = 1e-7
+FLAT_RATIO = 1e-7
 """A face whose height is less than this share of its longest side is flat (see `degenerate_faces`)."""
 
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """A triangle mesh: `vertices` (n, 3) float64 and `faces` (m, 3) int64 vertex ids, both read-only copies.
+    """A triangle mesh, checked once and never changed.
 
+    Parameters
+    ----------
+    vertices : (n, 3) array_like
+        Coordinates; kept as a read-only float64 copy.
+    faces : (m, 3) array_like of int
+        Vertex ids; kept as a read-only int64 copy.
+    name : str
+        For messages.
+    repairs : sequence of str
+        What was repaired while a file was read, in words.
+    facts : sequence of str
+        How a file was read where that is no repair, such as polygons that were divided into triangles.
+
+    Raises
+    ------
+    MeshError
+        For wrong shapes, a coordinate that is not finite, a vertex id out of range, or no faces.
+
+    Notes
+    -----
     Vertex ids are the caller's and never change.  Faces that name a vertex twice and repeated faces (same three
-    vertices) are dropped; `repairs` says so in words, after whatever a file reader already did.  facts: sentences on
-    how a file was read that are no repairs, such as polygons that were divided into triangles.
+    vertices) are dropped, which `repairs` says.
 
-    Raises MeshError for wrong shapes, a coordinate that is not finite, a vertex id out of range, or no faces.
-
+    Examples
+    --------
     >>> import bihdist
     >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
     >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
@@ -62,16 +80,36 @@ class Surface:
 
     @classmethod
     def of(cls, mesh: MeshLike | Rows, faces: npt.ArrayLike | None = None, *, name: str | None = None) -> Surface:
-        """The surface of a mesh of any kind; a Surface is itself.
+        """Return the surface of a mesh of any kind; a Surface is itself.
 
-        mesh: a path, as of `read_surface`; vertices (n, 3), with the faces (m, 3) beside them or both as a pair; or an
-        object of PyVista (PolyData), trimesh (Trimesh), meshio (Mesh), Open3D (TriangleMesh), nibabel (GiftiImage) or
-        nilearn.  Polygons are divided into triangles, which `facts` says; vertex ids stay.  Wherever a surface is asked
-        for, these do, too.
+        Parameters
+        ----------
+        mesh : MeshLike
+            A path, as of `read_surface`; vertices (n, 3), alone or in a pair with their faces; or an object of PyVista
+            (PolyData), trimesh (Trimesh), meshio (Mesh), Open3D (TriangleMesh), nibabel (GiftiImage) or nilearn.
+        faces : (m, 3) array_like of int, optional
+            The faces, if `mesh` is vertices.
+        name : str, optional
+            For messages.
 
-        Raises MeshError as `read_surface` and `Surface` do and where an object has no faces, ParameterError for an
-        object of another kind.
+        Returns
+        -------
+        Surface
+            With the vertex ids of the mesh; polygons are divided into triangles, which `facts` says.
 
+        Raises
+        ------
+        MeshError
+            As `read_surface` and `Surface` raise it, and for an object without faces.
+        ParameterError
+            For an object of another kind.
+
+        Notes
+        -----
+        Wherever a surface is asked for, these meshes are taken, too.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> bihdist.Surface.of(pyvista.Plane(i_resolution=2, j_resolution=2)).facts
         ('4 quads divided into 8 triangles',)
@@ -84,10 +122,25 @@ class Surface:
         return surface_of(mesh, faces, name)
 
     def to_pyvista(self, fields: Mapping[str, npt.ArrayLike] | None = None) -> Any:
-        """A `pyvista.PolyData` with vertex k as point k; fields: arrays (n,) or (n, k) that become its point data.
+        """Return a `pyvista.PolyData` with vertex k as point k.
 
-        ImportError where PyVista is not installed.
+        Parameters
+        ----------
+        fields : mapping of str, optional
+            Arrays (n,) or (n, k) by name, which become point data.
 
+        Returns
+        -------
+        pyvista.PolyData
+            The mesh.
+
+        Raises
+        ------
+        ImportError
+            If PyVista is not installed.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> surface = bihdist.Surface.of(pyvista.Icosphere(nsub=2))
         >>> field = bihdist.BiharmonicDistance(surface).from_source(0)
@@ -101,8 +154,20 @@ class Surface:
         return mesh
 
     def to_trimesh(self) -> Any:
-        """A `trimesh.Trimesh` with the same vertices and faces; ImportError where trimesh is not installed.
+        """Return a `trimesh.Trimesh` with the same vertices and faces.
 
+        Returns
+        -------
+        trimesh.Trimesh
+            The mesh.
+
+        Raises
+        ------
+        ImportError
+            If trimesh is not installed.
+
+        Examples
+        --------
         >>> import bihdist
         >>> triangle = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
         >>> float(triangle.to_trimesh().area)
@@ -122,8 +187,25 @@ class Surface:
         return f"Surface({self.name}: {len(self.vertices):,} vertices, {len(self.faces):,} faces)"
 
     def check_vertex(self, vertex: int) -> int:
-        """The id as an int, from any whole number; VertexError if there is no such vertex or it belongs to no face.
+        """Check a vertex id.
 
+        Parameters
+        ----------
+        vertex : int
+            Any whole number.
+
+        Returns
+        -------
+        int
+            The id.
+
+        Raises
+        ------
+        VertexError
+            If there is no such vertex, or it belongs to no face.
+
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
         >>> triangle = bihdist.Surface(corners, [[0, 1, 2]], "triangle")
@@ -155,8 +237,25 @@ class Surface:
         return int(used[int(apart.argmin())])
 
     def check_vertices(self, vertices: npt.ArrayLike | Sequence[object]) -> IntArray:
-        """(k,) int64 ids, each checked as by `check_vertex`.
+        """Check vertex ids.
 
+        Parameters
+        ----------
+        vertices : (k,) array_like of int
+            Vertex ids.
+
+        Returns
+        -------
+        (k,) int64 ndarray
+            The ids.
+
+        Raises
+        ------
+        VertexError
+            For the first id that is no vertex, or that belongs to no face.
+
+        Examples
+        --------
         >>> import bihdist
         >>> triangle = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
         >>> triangle.check_vertices([2, 0]).tolist()
@@ -175,8 +274,25 @@ class Surface:
         return np.array([self.check_vertex(v) for v in ids], np.int64)
 
     def check_field(self, field: npt.ArrayLike) -> FloatArray:
-        """(n,) float64 values at the vertices; ParameterError for another shape, and for what is no real number.
+        """Check the values of a field.
 
+        Parameters
+        ----------
+        field : (n,) array_like
+            A number for each vertex.
+
+        Returns
+        -------
+        (n,) float64 ndarray
+            The values.
+
+        Raises
+        ------
+        ParameterError
+            For another shape, or values that are not real numbers.
+
+        Examples
+        --------
         >>> import bihdist
         >>> triangle = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
         >>> triangle.check_field([1, 2, 3]).dtype
@@ -197,10 +313,12 @@ class Surface:
     # ------------------------------------------------------------------ connectivity
     @cached_property
     def component_of_vertex(self) -> IntArray:
-        """(n,) component of each vertex, the one with most vertices first (0); -1 for a vertex of no face.
+        """The component of each vertex (n,), the one with most vertices first (0); -1 for a vertex of no face.
 
         Vertices that share a face are connected, also through a single vertex.
 
+        Examples
+        --------
         >>> import bihdist
         >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
         >>> others = [[5, 0, 0], [6, 0, 0], [5, 1, 0], [9, 9, 9]]
@@ -221,8 +339,10 @@ class Surface:
 
     @property
     def n_vertices(self) -> int:
-        """How many vertices there are, those of no face among them.
+        """The number of vertices, with those of no face.
 
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [9, 9, 9]]
         >>> surface = bihdist.Surface(corners, [[0, 1, 2]])
@@ -233,8 +353,10 @@ class Surface:
 
     @property
     def n_faces(self) -> int:
-        """How many faces there are.
+        """The number of faces.
 
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
         >>> # the second is the first, turned over
@@ -245,8 +367,10 @@ class Surface:
 
     @cached_property
     def n_components(self) -> int:
-        """How many connected components the surface has.
+        """The number of connected components.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> sphere = pyvista.Icosphere(nsub=1)
         >>> bihdist.Surface.of(sphere + sphere.translate((3, 0, 0))).n_components
@@ -256,8 +380,10 @@ class Surface:
 
     @property
     def largest_component_size(self) -> int:
-        """How many vertices the component 0 has.
+        """The number of vertices of component 0.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> both = pyvista.Icosphere(nsub=1) + pyvista.Icosphere(nsub=2, center=(3, 0, 0))
         >>> surface = bihdist.Surface.of(both)
@@ -268,8 +394,10 @@ class Surface:
 
     @property
     def unreferenced_count(self) -> int:
-        """How many vertices belong to no face.
+        """The number of vertices that belong to no face.
 
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [9, 9, 9]]
         >>> surface = bihdist.Surface(corners, [[0, 1, 2]])
@@ -281,8 +409,22 @@ class Surface:
         return int((self.component_of_vertex < 0).sum())
 
     def component(self, index: int) -> tuple[Surface, IntArray]:
-        """One component as a surface of its own, and (k,) the ids its vertices have here, ascending.
+        """Return one connected component as a surface of its own.
 
+        Parameters
+        ----------
+        index : int
+            The number of the component, 0 for the one with most vertices.
+
+        Returns
+        -------
+        surface : Surface
+            The component.
+        ids : (k,) int64 ndarray
+            The ids that its vertices have here, ascending.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> both = pyvista.Icosphere(nsub=1) + pyvista.Icosphere(nsub=2, center=(3, 0, 0))
         >>> smaller, ids = bihdist.Surface.of(both).component(1)
@@ -298,14 +440,34 @@ class Surface:
         return Surface(self.vertices[ids], new[faces], self.name), ids
 
     def merged(self, tolerance: float = 0.0) -> tuple[Surface, IntArray]:
-        """The surface with vertices in one place made one, and (n,) the id there of each vertex here.
+        """Merge vertices that are in one place.
 
-        tolerance: unit length; vertices so near to each other, or nearer, are one, at the place of that with the least
-        id.  No vertex moves farther, and those that are left are farther apart.  They keep their order; faces that lose
-        a corner, or become another's, are dropped, which `repairs` says, and `facts` how many vertices were merged.
+        Parameters
+        ----------
+        tolerance : float
+            Vertices so near to each other, or nearer, are merged; unit length.
 
-        ParameterError for a tolerance below 0 or not finite, MeshError where no face is left.
+        Returns
+        -------
+        surface : Surface
+            The surface with one vertex for each place, that with the least id.  `repairs` says which faces lost a
+            corner or became another's and were dropped, `facts` how many vertices were merged.
+        ids : (n,) int64 ndarray
+            The id there of each vertex here.
 
+        Raises
+        ------
+        ParameterError
+            For a tolerance below 0 or not finite.
+        MeshError
+            If no face is left.
+
+        Notes
+        -----
+        No vertex moves farther than the tolerance, those that are left are farther apart, and they keep their order.
+
+        Examples
+        --------
         >>> import bihdist
         >>> one, other = [[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]
         >>> torn = bihdist.Surface(one + other, [[0, 1, 2], [3, 4, 5]])
@@ -324,14 +486,30 @@ class Surface:
         return Surface(self.vertices[kept], faces, self.name, self.repairs, (*self.facts, fact)), ids
 
     def without(self, vertices: npt.ArrayLike) -> Surface:
-        """The surface with vertices cut out: the faces that touch them are gone, and all ids stay as they are.
+        """Cut vertices out: the faces that touch them are gone, and all ids stay as they are.
 
-        vertices: (k,) ids, or (n,) booleans, True for those that go.  They are still there, like others that are left
-        without a face, and have no distance (NaN); `repairs` says how much is gone.
+        Parameters
+        ----------
+        vertices : (k,) array_like of int, or (n,) array_like of bool
+            Ids, or True for the vertices that go.
 
-        VertexError for ids off the mesh, ParameterError for what is neither ids nor booleans, MeshError where no face
-        is left.
+        Returns
+        -------
+        Surface
+            The vertices cut out are still there, like others that are left without a face, and have no distance (NaN);
+            `repairs` says how much is gone.
 
+        Raises
+        ------
+        VertexError
+            For ids that are not on the surface.
+        ParameterError
+            For what is neither ids nor booleans.
+        MeshError
+            If no face is left.
+
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
         >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
@@ -351,7 +529,7 @@ class Surface:
         return Surface(self.vertices, self.faces[left], self.name, (*self.repairs, cut), self.facts)
 
     def _chosen(self, vertices: npt.ArrayLike) -> BoolArray:
-        """(n,) whether a vertex is among ids (k,), or those of booleans (n,), be it of a face or not."""
+        """Return (n,) whether a vertex is among ids (k,), or those of booleans (n,), be it of a face or not."""
         n, found = len(self.vertices), array_of(vertices, "Vertices")
         is_ids = found.ndim == 1 and (found.dtype.kind in "iu" or not found.size)
         if found.shape != (n,) if found.dtype.kind == "b" else not is_ids:
@@ -369,7 +547,7 @@ class Surface:
 
     @cached_property
     def _sides(self) -> tuple[IntArray, IntArray]:
-        """(e, 2) edges, ascending, and (3m,) the edge of each face's sides 01, 12, 20 (all 01 first)."""
+        """The edges (e, 2), ascending, and the edge of each face's sides 01, 12, 20 (3m,), all 01 first."""
         f, n = self.faces, len(self.vertices)
         if lib := library():
             edges, of_side = np.empty((f.size, 2), np.int64), np.empty(f.size, np.int64)
@@ -387,8 +565,10 @@ class Surface:
 
     @property
     def edges(self) -> IntArray:
-        """(e, 2) vertex ids, smaller first, each edge once.
+        """The vertex ids (e, 2) of the edges, smaller first, each edge once.
 
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
         >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
@@ -399,8 +579,10 @@ class Surface:
 
     @property
     def edge_of_side(self) -> IntArray:
-        """(3m,) the edge of each face's sides 01, 12, 20: all 01 first, then all 12, then all 20.
+        """The edge of each face's sides 01, 12, 20 (3m,), all 01 first, then all 12, then all 20.
 
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
         >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
@@ -413,8 +595,10 @@ class Surface:
 
     @cached_property
     def faces_per_edge(self) -> IntArray:
-        """(e,) how many faces meet at each edge: 1 on a boundary, more than 2 where not manifold.
+        """The number of faces that meet at each edge (e,), 1 on a boundary, more than 2 where not manifold.
 
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
         >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
@@ -425,8 +609,10 @@ class Surface:
 
     @property
     def boundary_edges(self) -> IntArray:
-        """(b, 2) edges with one face.
+        """The edges (b, 2) with one face.
 
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
         >>> square = bihdist.Surface(corners, [[0, 1, 2], [0, 2, 3]])
@@ -438,8 +624,10 @@ class Surface:
 
     @cached_property
     def boundary_loop_count(self) -> int:
-        """How many connected pieces the boundary has.
+        """The number of connected pieces of the boundary.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> tube = pyvista.Cylinder(resolution=12, capping=False).clean()
         >>> bihdist.Surface.of(tube).boundary_loop_count
@@ -454,8 +642,10 @@ class Surface:
 
     @property
     def nonmanifold_edge_count(self) -> int:
-        """How many edges have more than two faces.
+        """The number of edges with more than two faces.
 
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [-1, 0, 0]]
         >>> bihdist.Surface(corners, [[0, 1, 2], [0, 1, 3], [0, 1, 4]]).nonmanifold_edge_count
@@ -465,8 +655,10 @@ class Surface:
 
     @property
     def nonmanifold_vertex_count(self) -> int:
-        """How many vertices have faces that fall apart into several fans.
+        """The number of vertices whose faces fall apart into several fans.
 
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 1, 0], [1, -1, 0], [-1, 1, 0], [-1, -1, 0]]
         >>> bow_tie = bihdist.Surface(corners, [[0, 2, 1], [0, 3, 4]])
@@ -477,8 +669,10 @@ class Surface:
 
     @cached_property
     def nonmanifold_vertices(self) -> IntArray:
-        """(k,) the vertices whose faces fall apart into several fans.
+        """The vertices (k,) whose faces fall apart into several fans.
 
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 1, 0], [1, -1, 0], [-1, 1, 0], [-1, -1, 0]]
         >>> bow_tie = bihdist.Surface(corners, [[0, 2, 1], [0, 3, 4]])
@@ -507,8 +701,10 @@ class Surface:
 
     @property
     def is_manifold(self) -> bool:
-        """Whether no edge has more than two faces, and the faces of each vertex are one fan.
+        """True if no edge has more than two faces, and the faces of each vertex are one fan.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> bihdist.Surface.of(pyvista.Icosphere(nsub=1)).is_manifold
         True
@@ -523,6 +719,8 @@ class Surface:
     def genus(self) -> int | None:
         """Handles of all components together; None where the mesh is not manifold or not orientable.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=2))
         >>> sphere.genus, bihdist.with_handle(sphere, 0, 200).genus
@@ -534,10 +732,16 @@ class Surface:
 
     # ------------------------------------------------------------------ measures
     def sides(self) -> list[FloatArray]:
-        """Of each face the three sides as vectors, side k opposite to corner k: (3, m) each, coordinates first.
+        """Return the sides of each face as vectors.
 
-        Each step on them then runs over contiguous memory, which is several times faster.
+        Returns
+        -------
+        list of (3, m) float64 ndarray
+            Side k is opposite to corner k, with coordinates first: each step then runs over contiguous memory, which is
+            several times faster.
 
+        Examples
+        --------
         >>> import bihdist
         >>> triangle = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
         >>> first, second, third = triangle.sides()
@@ -550,7 +754,7 @@ class Surface:
 
     @cached_property
     def _face_measures(self) -> tuple[FloatArray, FloatArray]:
-        """(m,) areas and (m,) squares of the longest edges."""
+        """The areas (m,) and the squares of the longest edges (m,)."""
         if lib := library():
             areas, longest = np.empty((2, len(self.faces)))
             lib.bih_measures(len(self.faces), self.vertices, self.faces, areas, longest)
@@ -562,8 +766,10 @@ class Surface:
 
     @property
     def face_areas(self) -> FloatArray:
-        """(m,) areas of the faces, unit length squared.
+        """The areas (m,) of the faces, unit length squared.
 
+        Examples
+        --------
         >>> import bihdist
         >>> bihdist.Surface([[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[0, 1, 2]]).face_areas.tolist()
         [6.0]
@@ -574,6 +780,8 @@ class Surface:
     def area(self) -> float:
         """The area of all faces together, unit length squared.
 
+        Examples
+        --------
         >>> import bihdist, math, pyvista
         >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=3))
         >>> # a little less than the sphere it approximates
@@ -584,8 +792,10 @@ class Surface:
 
     @property
     def bounds(self) -> FloatArray:
-        """(2, 3) the least and the greatest coordinates of vertices that belong to a face.
+        """The least and the greatest coordinates (2, 3) of vertices that belong to a face.
 
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [3, 0, 0], [0, 4, 0], [9, 9, 9]]  # the last is of no face
         >>> bihdist.Surface(corners, [[0, 1, 2]]).bounds.tolist()
@@ -596,8 +806,10 @@ class Surface:
 
     @cached_property
     def face_heights(self) -> FloatArray:
-        """(m,) each face's height over its longest side, as a share of that side; 0 for three points in one place.
+        """The faces' heights (m,) over their longest sides, as a share of these; 0 for three points in one place.
 
+        Examples
+        --------
         >>> import bihdist
         >>> sliver = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0.5, 0.001, 0]], [[0, 1, 2]])
         >>> sliver.face_heights.tolist()
@@ -608,19 +820,23 @@ class Surface:
 
     @cached_property
     def degenerate_faces(self) -> IntArray:
-        """(k,) faces of (nearly) no area: height less than the fraction `FLAT` of the longest side.
+        """The faces (k,) of (nearly) no area, with a height less than the fraction `FLAT_RATIO` of the longest side.
 
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0]]
         >>> bihdist.Surface(corners, [[0, 1, 3], [0, 1, 2]]).degenerate_faces.tolist()
         [1]
         """
-        return np.flatnonzero(self.face_heights < FLAT)
+        return np.flatnonzero(self.face_heights < FLAT_RATIO)
 
     @cached_property
     def in_proper_face(self) -> BoolArray:
-        """(n,) whether a vertex belongs to a face that is not degenerate.
+        """Whether each vertex (n,) belongs to a face that is not degenerate.
 
+        Examples
+        --------
         >>> import bihdist
         >>> corners = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0]]
         >>> bihdist.Surface(corners, [[0, 1, 3], [0, 1, 2]]).in_proper_face.tolist()
@@ -634,6 +850,8 @@ class Surface:
     def mean_edge_length(self) -> float:
         """Mean length of the edges, unit length.
 
+        Examples
+        --------
         >>> import bihdist
         >>> bihdist.Surface([[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[0, 1, 2]]).mean_edge_length
         4.0
@@ -645,16 +863,27 @@ class Surface:
 
 
 def dots(a: Coordinates, b: Coordinates) -> FloatArray:
-    """(m,) inner products of (3, m) columns; faster than einsum along the short axis."""
+    """Return (m,) inner products of (3, m) columns; faster than einsum along the short axis."""
     product = a[0] * b[0]
     product += a[1] * b[1]
     product += a[2] * b[2]
     return product
 
 
+def vertex_normals(surface: Surface) -> FloatArray:
+    """Return (n, 3) unit normals at the vertices, by face area; 0 where there is none."""
+    a, b, c = (surface.vertices[surface.faces[:, k]] for k in range(3))
+    cross = np.cross(b - a, c - a)
+    total = np.zeros_like(surface.vertices)
+    for k in range(3):
+        np.add.at(total, surface.faces[:, k], cross)
+    normals: FloatArray = total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)
+    return normals
+
+
 def connected(edges: IntArray, n: int) -> IntArray:
-    """(n,) component, from 0 in the order of their least vertices, of each vertex of a graph with edges (2, e), or
-    with the sides of faces (3, m).
+    """Return (n,) component, from 0 in the order of their least vertices, of each vertex of a graph with edges (2, e),
+    or with the sides of faces (3, m).
 
     Without the compiled kernel each tree joins that of its least neighbour, until none has a neighbour: some ten rounds
     (Liu and Tarjan, Simple Concurrent Connected Components Algorithms, 2022).  SciPy's search is slower.

@@ -11,7 +11,7 @@ from .sentences import one_line
 LOG = logging.getLogger("bihdist")
 LOG.addHandler(logging.NullHandler())  # otherwise Python would print them
 
-SENTENCE = "Something went wrong that should not have"
+SENTENCE = "Unexpected error"
 
 
 def note_unexpected(error: BaseException) -> None:
@@ -23,6 +23,6 @@ def note_unexpected(error: BaseException) -> None:
 
 
 def unexpected_words(error: BaseException) -> str:
-    """A sentence that says so, with what Python calls the error."""
+    """Return a sentence that says so, with what Python calls the error."""
     words = str(error)
     return one_line(f"{SENTENCE}: {type(error).__name__}{f': {words}' if words else ''}")

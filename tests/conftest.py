@@ -5,6 +5,8 @@ import shutil
 import signal
 import subprocess
 import sys
+from importlib.util import find_spec
+from pathlib import Path
 
 import pytest
 
@@ -21,6 +23,32 @@ kill $!
 
 THREADS = ("LP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS")
 """Of drawing without a graphics card, and of linear algebra."""
+
+
+NIGHTLY = {
+    "app/test_paper.py": "runs experiments of the paper",
+    "app/test_paper_any_mesh.py": "runs experiments of the paper",
+    "app/test_paper_live.py": "runs experiments of the paper",
+    "app/test_paper_pictures.py": "runs experiments of the paper",
+    "bench": "times the solver and the window",
+    "browser": "drives web browsers",
+    "core/test_experiments.py": "runs experiments of the paper",
+    "guide/test_build.py": "builds the guide",
+    "guide/test_explanation.py::test_what_is_computed": "computes the numbers of pages",
+    "guide/test_gallery.py": "runs the examples of the gallery",
+    "guide/test_pages.py": "runs the examples of all pages",
+    "guide/test_search.py": "drives web browsers",
+    "guide/test_window_in_the_guide.py::test_a_picture_is_made_again": "draws a picture of the guide",
+    "packaging/test_kernel.py::test_each_compiler": "compiles the kernel with every compiler",
+    "packaging/test_kernel.py::test_sanitizers": "compiles the kernel with sanitizers",
+    "packaging/test_kernel.py::test_the_kernel_of_pages": "compiles the kernel to WebAssembly",
+    "packaging/test_release.py": "builds the files of a release",
+    "packaging/test_wheel.py": "builds and installs wheels",
+    "qt/test_random_actions.py::test_random_actions": "attacks the window at random",
+    "stress": "attacks the program at random",
+    "web/test_notebook.py": "starts a notebook kernel",
+}
+"""Folders, modules and beginnings of tests that `make test` leaves to `make nightly`, with the reason."""
 
 
 if "PYTEST_XDIST_WORKER" in os.environ:
@@ -59,19 +87,38 @@ def pytest_configure(config):
         os.environ.pop("XAUTHORITY", None)
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Mark the tests of `NIGHTLY`."""
+    beginnings = tuple(each if "::" in each else f"{each}{'::' if each.endswith('.py') else '/'}" for each in NIGHTLY)
+    for item in items:
+        path = item.path.relative_to(Path(__file__).parent).as_posix()
+        if f"{path}::{item.name}".startswith(beginnings):
+            item.add_marker("nightly")
+
+
+@pytest.fixture(autouse=True)
+def no_progress_by_time(monkeypatch):
+    """Commands say no progress because the machine is slow: neither a line every ten seconds, nor one because what a
+    test before has measured lets work seem long."""
+    monkeypatch.setattr("bihdist_core.expected_time._slowness", 1.0)
+    if find_spec("app") is not None:  # not where the core is tested alone
+        monkeypatch.setattr("app.commands.terminal.PROGRESS_INTERVAL_S", 1e6)
+
+
+def write_off(surface, path):
+    """Write a surface as an OFF file, and return its path as text."""
+    rows = ["OFF", f"{len(surface.vertices)} {len(surface.faces)} 0"]
+    rows += [" ".join(map(repr, map(float, v))) for v in surface.vertices]
+    rows += [" ".join(map(str, [3, *f])) for f in surface.faces]
+    path.write_text("\n".join(rows) + "\n")
+    return str(path)
+
+
 @pytest.fixture
 def mesh_file(tmp_path):
     """Writes a surface as an OFF file and gives its path."""
-
-    def write(surface, name="mesh.off"):
-        rows = ["OFF", f"{len(surface.vertices)} {len(surface.faces)} 0"]
-        rows += [" ".join(map(repr, map(float, v))) for v in surface.vertices]
-        rows += [" ".join(map(str, [3, *f])) for f in surface.faces]
-        path = tmp_path / name
-        path.write_text("\n".join(rows) + "\n")
-        return str(path)
-
-    return write
+    return lambda surface, name="mesh.off": write_off(surface, tmp_path / name)
 
 
 @pytest.fixture

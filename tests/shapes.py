@@ -62,6 +62,25 @@ def grid(columns: int, rows: int) -> Surface:
     return Surface(np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], 1), faces, "grid")
 
 
+def graded(n: int, ratio: float, height: float = 0.1) -> Surface:
+    """A wavy square of n x n cells, each a ratio smaller than the one before it towards one corner."""
+    at = np.append(0, ratio ** np.arange(n)[::-1])
+    x, y = (q.ravel() for q in np.meshgrid(at, at))
+    return Surface(np.stack([x, y, height * np.sin(3 * y + x)], 1), grid(n, n).faces, "graded")
+
+
+def plate(columns: int, rows: int, height: float) -> Surface:
+    """A closed box of so many cells and one cell high: its sides are thin faces where the height is small."""
+    flat = grid(columns, rows)
+    n, x = len(flat.vertices), flat.vertices / columns
+    rim = np.concatenate([flat.faces[:, [k, (k + 1) % 3]] for k in range(3)])
+    inner = {(b, a) for a, b in rim.tolist()}
+    a, b = np.array([side for side in rim.tolist() if tuple(side) not in inner]).T
+    sides = np.concatenate([np.stack([a, b, a + n], 1), np.stack([b, b + n, a + n], 1)])
+    faces = np.concatenate([flat.faces[:, ::-1], flat.faces + n, sides])
+    return Surface(np.concatenate([x, np.add(x, (0, 0, height))]), faces, "plate")
+
+
 def torus(around: int = 24, across: int = 12) -> Surface:
     """Closed, genus 1."""
     u, v = np.meshgrid(np.arange(around) * 2 * np.pi / around, np.arange(across) * 2 * np.pi / across, indexing="ij")

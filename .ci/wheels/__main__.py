@@ -11,7 +11,7 @@ from .contents import LARGEST, PLATFORMS, complaints
 
 
 def main() -> int:
-    """The exit status: 1 if something could not be built, is not as it should be, or fails its tests."""
+    """Return the exit status: 1 if something could not be built, is not as it should be, or fails its tests."""
     tags = [platform.tag for platform in PLATFORMS]
     parser = argparse.ArgumentParser(prog="make wheels", description=__doc__)
     parser.add_argument("--output", type=Path, default=ROOT / "dist", metavar="FOLDER", help="by default dist")
@@ -37,7 +37,7 @@ def main() -> int:
 
 
 def _here() -> str:
-    """The first of our platforms whose library this machine would load, by its name."""
+    """Return the first of our platforms whose library this machine would load, by its name."""
     import platform
 
     system = {"Linux": "manylinux", "Darwin": "macosx", "Windows": "win"}.get(platform.system(), "")

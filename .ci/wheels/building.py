@@ -21,11 +21,14 @@ HOOK = (
 
 
 class Failed(Exception):
-    """What could not be built, or is not as it should be."""
+    """Something could not be built, or is not as it should be."""
 
 
 def sources(folder: Path, output: Path) -> dict[str, Path]:
-    """The source distributions, in `output`; by their names (bihdist, bihdist_core), their contents, in `folder`."""
+    """Return the source distributions, in `output`.
+
+    By their names (bihdist, bihdist_core), their contents, in `folder`.
+    """
     copy = folder / "checkout"
     shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(*LEFT_OUT))
     unpacked = {}
@@ -43,7 +46,7 @@ def sources(folder: Path, output: Path) -> dict[str, Path]:
 
 
 def wheel(source: Path, tag: str, output: Path) -> Path:
-    """The wheel that a source distribution builds for a platform, in `output`; nothing is fetched for it."""
+    """Return the wheel that a source distribution builds for a platform, in `output`; nothing is fetched for it."""
     command = [sys.executable, "-m", "pip", "--disable-pip-version-check", "wheel", "--quiet", "--no-index"]
     setting = f"--config-settings=--build-option=--plat-name={tag}"
     run([*command, "--no-deps", "--no-build-isolation", setting, "--wheel-dir", str(output), str(source)])
@@ -52,7 +55,7 @@ def wheel(source: Path, tag: str, output: Path) -> Path:
 
 
 def run(command: Sequence[str], **options: object) -> str:
-    """What a command prints; Failed with its last lines if it fails."""
+    """Return what a command prints; Failed with its last lines if it fails."""
     said = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
     if said.returncode:
         raise Failed(f"{' '.join(map(os.fspath, command))}:\n" + "\n".join(said.stdout.splitlines()[-30:]))

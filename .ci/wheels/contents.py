@@ -11,7 +11,7 @@ from .libraries import Library, library
 
 @dataclass(frozen=True)
 class Platform:
-    """What the kernel has to be where a wheel's last tag is this; libraries: the names of its files."""
+    """A platform by the last tag of its wheels, with what the kernel has to be there and the names of its files."""
 
     tag: str
     format: str
@@ -51,7 +51,7 @@ NOT_INSTALLED = re.compile(
 
 
 def complaints(wheel: Path, source: Path) -> Iterator[str]:
-    """Sentences on what is wrong with a wheel that was built from a folder."""
+    """Yield sentences on what is wrong with a wheel that was built from a folder."""
     name, version, python, binary, platform = wheel.name.removesuffix(".whl").split("-")
     with zipfile.ZipFile(wheel) as archive:
         sizes = {info.filename: info.file_size for info in archive.infolist()}
@@ -80,7 +80,7 @@ def _wrong_files(names: set[str], distribution: str, source: Path) -> Iterator[s
 
 
 def package_files(folder: Path) -> Iterator[str]:
-    """Names of the files of a package that belong into any wheel."""
+    """Yield the names of the files of a package that belong into any wheel."""
     for path in folder.rglob("*"):
         name = path.relative_to(folder).as_posix()
         if path.is_file() and not NOT_INSTALLED.search(name):
@@ -94,7 +94,7 @@ def _wrong_tags(archive: zipfile.ZipFile, information: str, tags: tuple[str, str
 
 
 def _functions(path: Path) -> set[str]:
-    """Names of the functions that Python calls in the kernel, from the module that does."""
+    """Return the names of the functions that Python calls in the kernel, from the module that does."""
     text = path.read_text(encoding="utf-8").partition("_SIGNATURES")[2].partition("\n}")[0]
     return {f"bih_{name}" for name in re.findall(r'^    "(\w+)":', text, re.MULTILINE)}
 

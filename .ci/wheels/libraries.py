@@ -8,8 +8,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Library:
-    """format: ELF, Mach-O or PE.  machine: as wheels call it.  needs: the newest version of the system it asks for, of
-    glibc or macOS, (0, 0) where it asks for none.  names: the functions of the kernel that are in it."""
+    """A compiled library: its format (ELF, Mach-O or PE) and its machine, as wheels call it.
+
+    `needs` is the newest version of glibc or macOS that it asks for, (0, 0) where it asks for none; `names` are the
+    functions of the kernel that are in it.
+    """
 
     format: str
     machine: str
@@ -25,7 +28,10 @@ VERSION_MIN_MACOSX, BUILD_VERSION, CODE_SIGNATURE = 0x24, 0x32, 0x1D
 
 
 def library(content: bytes) -> Library:
-    """The library with these bytes; ValueError if they are none, or one for a machine that we have no wheels for."""
+    """Return the library with these bytes.
+
+    ValueError if they are none, or one for a machine that we have no wheels for.
+    """
     try:
         return _library(content)
     except struct.error:
@@ -58,7 +64,7 @@ def _known(machines: dict[int, str], number: int) -> str:
 
 
 def _macos(content: bytes, machine: int) -> tuple[int, int]:
-    """The oldest macOS a library runs on; ValueError for one that Apple's own processors would refuse."""
+    """Return the oldest macOS a library runs on; ValueError for one that Apple's own processors would refuse."""
     commands = dict(_load_commands(content))
     if MACH_O_MACHINES[machine] == "arm64" and CODE_SIGNATURE not in commands:
         raise ValueError("it has no signature, without which macOS on arm64 loads nothing")
@@ -72,7 +78,7 @@ def _macos(content: bytes, machine: int) -> tuple[int, int]:
 
 
 def _load_commands(content: bytes) -> Iterator[tuple[int, int]]:
-    """Each command with where it begins."""
+    """Yield each command with where it begins."""
     (count,) = struct.unpack_from("<I", content, 16)
     place = 32
     for _ in range(count):

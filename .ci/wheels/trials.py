@@ -15,20 +15,20 @@ TESTS = ("pytest", "pytest-xdist", "hypothesis")
 QUICK = tuple(
     f"tests/core/test_{name}.py"
     for name in (
-        "components", "distances", "elimination_tree", "exact_geodesic", "factor", "heat_geodesic", "isolines",
+        "distances", "elimination_tree", "exact_geodesic", "factor", "heat_geodesic", "isolines",
         "kernels", "laplacian", "mesh_io", "operators", "sources", "spectrum", "surface", "worker_threads",
     )
 )  # fmt: skip
 """The tests of the core that say most in the least time."""
 
 WHERE = "import bihdist_core.kernel.library as found; print(found.__file__); print(found.description())"
-OF_THE_PROGRAM = re.compile(r"^(from|import) (app|bihdist)\b", re.MULTILINE)
-"""In tests that need more than the library."""
+NEEDS_PROGRAM = re.compile(r"^(from|import) (app|bihdist|bihdist_core\.experiments)\b", re.MULTILINE)
+"""Found in tests that need more than the light library."""
 
 
 @dataclass(frozen=True)
 class Trial:
-    """What became of a wheel in an environment; versions: of Python, NumPy and SciPy."""
+    """The outcome of a wheel in an environment; `versions` are those of Python, NumPy and SciPy."""
 
     python: str
     requirement: str
@@ -40,7 +40,7 @@ class Trial:
     passed: bool
 
     def row(self) -> str:
-        """The line of a table."""
+        """Return the line of a table."""
         cells = (self.versions, self.resolution, self.requirement, self.kernel, f"{self.seconds:.1f} s", self.tests)
         return f"| {' | '.join(cells)} |"
 
@@ -82,7 +82,7 @@ def tried(wheel: Path, python: str, resolution: str, source: Path, folder: Path,
 
 
 def laid_out(source: Path, away: Path) -> Path:
-    """A folder with the tests of a source distribution and what they read, and without its packages."""
+    """Return a folder with the tests of a source distribution and what they read, and without its packages."""
     shutil.rmtree(away, ignore_errors=True)
     away.mkdir()
     for name in ("tests", "assets"):
@@ -92,16 +92,16 @@ def laid_out(source: Path, away: Path) -> Path:
 
 
 def of_the_library(folder: Path, tests: Iterable[str]) -> Iterable[str]:
-    """Names of files of tests, without those that need the program."""
+    """Yield the names of test files that need the light library alone."""
     for name in tests:
         path = folder / name
         for file in sorted(path.rglob("test_*.py")) if path.is_dir() else [path]:
-            if not OF_THE_PROGRAM.search(file.read_text(encoding="utf-8")):
+            if not NEEDS_PROGRAM.search(file.read_text(encoding="utf-8")):
                 yield file.relative_to(folder).as_posix()
 
 
 def _pytest(command: list[str], folder: Path, more: dict[str, str]) -> tuple[str, bool]:
-    """How tests ended in their own words, and whether all passed."""
+    """Return how tests ended in their own words, and whether all passed."""
     try:
         return run(command, cwd=folder, env={**os.environ, **more}).splitlines()[-1].strip("= "), True
     except Failed as error:

@@ -10,19 +10,22 @@ from ..figures.error_figure import ErrorFigure, save_error_figure
 from .maps import WITH_PARTNERS
 from .results import read_arrays
 from .storage import Folder
-from .task import Row
+from .task import ResultRow
 from .work_order import ALL
 
 ENDINGS = ("pdf", "svg", "png", "csv")
 NAME = "evaluate"
 
 
-def write_curves(folder: Folder, rows: Sequence[Row]) -> tuple[list[str], list[Row]]:
-    """The curves of all maps that were evaluated, as figures and as a table: the names of the files, and a line on all
-    of the maps for the summary.  Nothing if there is no map, or none with a vertex whose place is known."""
+def write_curves(folder: Folder, rows: Sequence[ResultRow]) -> tuple[list[str], list[ResultRow]]:
+    """Write the error curves of all maps as figures and as a table.
+
+    Returns the names of the files, and a row on all maps for the summary; nothing if no map has a vertex with a
+    known truth.
+    """
     curves, with_partners = {}, {}
     for row in sorted((row for row in rows if row.work == "evaluate"), key=lambda row: row.name):
-        arrays = read_arrays(folder, row.facts["file"])
+        arrays = read_arrays(folder, row.metadata["file"])
         if (curve := _curve(arrays.get("errors", arrays.get("")))) is not None:
             curves[row.name] = curve
         if (curve := _curve(arrays.get(WITH_PARTNERS))) is not None:
@@ -38,11 +41,11 @@ def write_curves(folder: Folder, rows: Sequence[Row]) -> tuple[list[str], list[R
         with folder.writing(file) as path:
             save_error_figure(ErrorFigure(curves, means=means), path)
     overall = next(iter(means.values()))
-    facts = {
+    metadata = {
         "file": files[0], "shape": [len(curves)], "unit": "no unit",
         "mean": overall.mean, "median": overall.median, "area_under_curve": overall.area,
     }  # fmt: skip
-    return files, [Row(ALL, "evaluate", "", False, facts)]
+    return files, [ResultRow(ALL, "evaluate", "", False, metadata)]
 
 
 def _curve(errors: FloatArray | None) -> ErrorCurve | None:

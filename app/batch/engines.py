@@ -1,4 +1,4 @@
-"""Where tasks run: in processes here, or on a Dask cluster.  Both are asked in the same way."""
+"""The engines that run tasks: processes on this computer, or a Dask cluster."""
 
 import concurrent.futures
 import logging
@@ -20,41 +20,41 @@ from typing import Any, Protocol
 from bihdist_core.errors import ParameterError, PlainSolverWarning
 from bihdist_core.machine_memory import available
 
-from ..version import version
-from .execution import do
+from ..version import install_command, version
+from .execution import run_task
 from .memory import share
-from .task import Report, Task, gone, refused
+from .task import Report, Task, failed_report, refused_report
 
-SPARE = 0.9
-"""Of the memory that is free at the beginning, what tasks may take."""
-TRIES = 2
-"""How often a task is begun again that may have ended its process, before it is given up."""
+USABLE_MEMORY = 0.9
+"""The fraction of the memory free at the beginning that tasks may take."""
+MAX_TRIES = 2
+"""Attempts at a task whose process ended, before it is given up."""
 
 
 class Engine(Protocol):
     def submit(self, task: Task) -> None:
-        """Have a task done, once there is room."""
+        """Run a task once there is room."""
 
     def reports(self) -> Iterator[Report]:
-        """The reports of all tasks, as they end; more may be submitted meanwhile."""
+        """Yield the reports of all tasks as they end; more may be submitted meanwhile."""
 
     def close(self) -> None:
         """End what is under way."""
 
 
 class Processes:
-    """Processes on this computer, each doing one task at a time.
+    """Processes on this computer, each running one task at a time.
 
-    A process that ends by itself (killed for its memory, or by a fault in a library) takes all others of its pool
-    along.  What was under way is begun again, task by task, so that it is known which of them it was.
+    A process that ends by itself, killed for its memory or by a fault in a library, takes all others of its pool
+    along. Their tasks are run again one at a time, so that it is known which of them it was.
 
-    Each may take its share of the memory.  A task that needs more comes back, and begins when there is room for it.
+    Each may take its share of the memory. A task that needs more comes back, and starts when there is room for it.
     """
 
     def __init__(self, workers: int, memory: int | None = None) -> None:
-        """memory: bytes for all of them, most of what is free if None."""
+        """Let `workers` processes share so many bytes of memory, most of what is free if None."""
         self._workers = workers
-        self._memory = memory or int(SPARE * available())
+        self._memory = memory or int(USABLE_MEMORY * available())
         self._waiting: deque[Task] = deque()
         self._alone: deque[Task] = deque()
         self._under_way: dict[concurrent.futures.Future[Report], Task] = {}
@@ -66,7 +66,7 @@ class Processes:
         self._waiting.append(task)
 
     def reports(self) -> Iterator[Report]:
-        """Reports as tasks end, in any order; what a process took with it when it was lost is done again."""
+        """Yield reports as tasks end, in any order; tasks lost with a process are run again."""
         while self._waiting or self._alone or self._under_way:
             try:
                 self._fill()
@@ -107,12 +107,12 @@ class Processes:
         return task.needs or self._memory // self._workers
 
     def _start(self, task: Task) -> None:
-        """BrokenProcessPool if a process has ended since the last report."""
+        """Start a task; BrokenProcessPool if a process has ended since the last report."""
         assert self._pool is not None
         with _no_program():
-            self._under_way[self._pool.submit(do, task)] = task
+            self._under_way[self._pool.submit(run_task, task)] = task
 
-    def _report(self, future: "concurrent.futures.Future[Report]") -> Iterator[Report]:
+    def _report(self, future: concurrent.futures.Future[Report]) -> Iterator[Report]:
         try:
             report = future.result()
         except BrokenProcessPool:
@@ -124,7 +124,7 @@ class Processes:
         elif report.needs <= self._memory:
             self._waiting.appendleft(replace(task, needs=report.needs))
         else:
-            yield refused(report, self._memory)
+            yield refused_report(report, self._memory)
 
     def _broken(self) -> Iterator[Report]:
         suspects, self._under_way = list(self._under_way.values()), {}
@@ -134,8 +134,8 @@ class Processes:
         was_alone = len(suspects) == 1
         for task in suspects:
             self._tries[task] += was_alone
-            if self._tries[task] >= TRIES:
-                yield gone(task, "The process that did it ended twice; it may need more memory than there is.")
+            if self._tries[task] >= MAX_TRIES:
+                yield failed_report(task, "Its process ended twice; perhaps there was too little memory.")
             else:
                 self._alone.append(task)
 
@@ -150,8 +150,10 @@ class Processes:
 
 @contextmanager
 def _no_program() -> Iterator[None]:
-    """Processes that begin meanwhile import what their tasks need, and not the program that runs, which "spawn" would
-    run again in each of them: scripts need no `if __name__ == "__main__"`."""
+    """Let processes that start now import what their tasks need only, and not the program that runs.
+
+    The method "spawn" would run it again in each of them; scripts need no `if __name__ == "__main__"`.
+    """
     program = sys.modules["__main__"]
     sys.modules["__main__"] = ModuleType("__main__")
     try:
@@ -161,8 +163,7 @@ def _no_program() -> Iterator[None]:
 
 
 def _begin(memory: int) -> None:
-    """In a new process: its share of the memory, one thread for BLAS, and an end with the process that has begun it,
-    however that ends."""
+    """Set up a new process: its share of the memory, one BLAS thread, and an end when its parent ends."""
     # A terminal's Ctrl-C reaches all processes; the one that has begun this one ends it.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     share(memory)
@@ -180,15 +181,15 @@ def _begin(memory: int) -> None:
     threading.Thread(target=leave, daemon=True).start()
 
 
-WAIT = 60.0
+SCHEDULER_WAIT_S = 60.0
 """Seconds in which a scheduler that has just been started writes its file."""
 
 
 def _wait_for(file: str, say: Callable[[str], None]) -> None:
-    """ParameterError if the file does not appear; Dask would wait for ever."""
-    end = time.monotonic() + WAIT
+    """Wait for a scheduler's file; ParameterError if it does not appear."""
+    end = time.monotonic() + SCHEDULER_WAIT_S
     if not os.path.exists(file):
-        say(f"Waiting for the scheduler's file {file}, at most {WAIT:.0f} seconds.")
+        say(f"Waiting for the scheduler's file {file}, at most {SCHEDULER_WAIT_S:.0f} seconds.")
     while not os.path.exists(file):
         if time.monotonic() > end:
             raise ParameterError(f"No scheduler has written {file}; start it with --scheduler-file {file}.")
@@ -196,17 +197,18 @@ def _wait_for(file: str, say: Callable[[str], None]) -> None:
 
 
 class Cluster:
-    """A Dask cluster: whatever `distributed.Client` reaches.  Scheduling, retries and memory are Dask's."""
+    """A Dask cluster that `distributed.Client` reaches; scheduling, retries and memory are Dask's."""
 
     def __init__(self, where: str, say: Callable[[str], None]) -> None:
-        """where: an address (tcp://…), or the scheduler's file (….json).  say: gets a sentence if that is waited for.
+        """Connect to an address (tcp://…) or a scheduler's file (….json), which is waited for after a sentence by
+        `say`.
 
-        ParameterError if it cannot be reached, or has not this version, and if Dask is missing.
+        Raises ParameterError if it cannot be reached or has another version, and if Dask is missing.
         """
         try:
             from distributed import Client, as_completed
         except ImportError:
-            raise ParameterError("--dask needs the packages of Dask: pip install 'bihdist[dask]'.") from None
+            raise ParameterError(f"--dask needs the package distributed: {install_command('distributed')}") from None
         # It would print where it was for each connection that is closed.
         logging.getLogger("distributed.batched").setLevel(logging.WARNING)
         if where.endswith(".json"):
@@ -247,16 +249,16 @@ class Cluster:
     def _begin(self, task: Task, key: str) -> None:
         # While it seeks a scheduler that is gone, the client takes tasks and says nothing more of them.
         if self._client.status != "running":
-            raise ConnectionError("the scheduler is gone")
+            raise ConnectionError("the scheduler has stopped")
         large = [address for address, limit in self._limits().items() if limit >= task.needs] if task.needs else None
         # Where none of those workers is left, others take it and send it back.
         future = self._client.submit(
-            do, task, key=key, pure=False, workers=large or None, allow_other_workers=bool(large)
+            run_task, task, key=key, pure=False, workers=large or None, allow_other_workers=bool(large)
         )
         self._ended.add(future)
 
     def reports(self) -> Iterator[Report]:
-        """Reports as tasks end, in any order; a lost worker's tasks are done again."""
+        """Yield reports as tasks end, in any order; tasks of a lost worker are run again."""
         while self._under_way:
             report = None
             if not self._lost:
@@ -267,26 +269,26 @@ class Cluster:
                     self._lose(error)
             if self._lost:
                 _, task = self._under_way.popitem()
-                report = gone(task, self._lost)
+                report = failed_report(task, self._lost)
             if report is not None:
                 yield report
 
     def _ended_next(self) -> Report | None:
-        """The report of the next task that ends, None if it begins again where there is more memory.
+        """Return the report of the next task that ends, None if it is run again where there is more memory.
 
-        Raises what Dask does if the cluster is lost; then the task is still under way.
+        Raises Dask's errors if the cluster is lost; then the task is still under way.
         """
         future = next(self._ended)
         task = self._under_way[future.key]
         # None for a task that was cancelled, whose result raises that.
         error = future.exception()
         if error is not None:
-            report = gone(task, f"The cluster gave it up: {_in_words(error)}")
+            report = failed_report(task, f"The cluster gave up on it: {_in_words(error)}")
         else:
             report = future.result()
             most = max(self._limits().values(), default=0) if report.needs else 0
             if report.needs > most:
-                report = refused(report, most)
+                report = refused_report(report, most)
         del self._under_way[future.key]
         if report.needs:
             self.submit(replace(task, needs=report.needs))
@@ -296,20 +298,20 @@ class Cluster:
     def _lose(self, error: Exception) -> None:
         # Of a task that is cancelled only the reason, which all of them have.
         reason = getattr(error, "reason", "") or _in_words(error)
-        self._lost = f"The cluster was lost: {reason}. The same command goes on from there."
+        self._lost = f"The connection to the cluster was lost: {reason}. Run the same command to resume."
         # It would print where it was when it is closed while it seeks its scheduler.
         logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
 
     def _limits(self) -> dict[str, int]:
-        """The memory of each worker; that of one without a limit is what there is, and more than anything needs."""
+        """Return the memory of each worker; without a limit it is more than anything needs."""
         workers = self._client.scheduler_info(n_workers=-1)["workers"]
         return {address: int(about["memory_limit"] or 1 << 62) for address, about in workers.items()}
 
     def close(self) -> None:
-        """Leave the cluster, which goes on without."""
+        """Disconnect from the cluster, which keeps running."""
         self._client.close()
 
 
 def _in_words(error: BaseException) -> str:
-    """In one line."""
+    """Return an error in one line."""
     return f"{type(error).__name__}: {' '.join(str(error).split())}"

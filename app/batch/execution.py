@@ -1,9 +1,8 @@
-"""Doing a task, anywhere.
+"""Running a task, in any process.
 
-Whatever goes wrong with one result ends no other: it becomes a failure with its reason.
-
-What is there already is not done again.  A task of a large mesh comes back with parts, blocks of columns that several
-processes may do; when all are there, the last task puts them together.
+An error in one result does not end the others: it becomes a failure with its reason. Results that are there are not
+computed again. The task of a large mesh returns parts, blocks of columns that several processes may compute; the
+last task joins them.
 """
 
 import csv
@@ -23,71 +22,67 @@ from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.errors import BihdistError, OutputError
 from bihdist_core.formats.array_file import array_in, put_array
+from bihdist_core.machine_memory import release_freed
 from bihdist_core.solver.blas import one_blas_thread
 from bihdist_core.solver.worker_threads import without_workers
 
 from ..document.sources import FILE
 from ..session.repaired_surface import ids_table
-from .layouts import NORMALISED, laid_out
-from .maps import evaluated
-from .matlab_ids import for_matlab
-from .memory import PART_BYTES, allowed, needed
-from .results import Blocks, facts_of, write_facts, write_result
-from .storage import Folder
-from .task import Failure, Part, Report, Row, Task, done_before
-from .work_kinds import KINDS, MAXIMA
-from .works import (
+from .jobs import (
     WORK,
-    Made,
-    Mesh,
-    facts_of_fields,
+    BatchMesh,
+    Computed,
     fields,
+    fields_computed,
     neighbours,
-    neighbours_made,
-    pairs_made,
-    parcels_made,
+    neighbours_computed,
+    pairs_computed,
+    parcels_computed,
 )
+from .maps import evaluate_map
+from .memory import PART_BYTES, allowed, needed
+from .results import NORMALISED, ArrayBlocks, for_matlab, laid_out, write_metadata, write_result
+from .storage import Folder
+from .task import Failure, Report, ResultRow, Task, TaskPart, existing_report, existing_row, failed_report
+from .work_order import KINDS, MAXIMA
 
-MASKED = "vertices with 0 do not count; distances still cross them, as they do not cross what is cut"
-"""What a result's JSON says of a mask."""
+MASKED = "vertices with 0 are left out of results; distances still cross them"
+"""The remark on a mask in the metadata."""
 PARTS = ".parts"
-"""The folder of parts, until they are put together."""
+"""The folder of parts until they are joined."""
 SECONDS = "seconds"
 """The ending of the file beside a part with the time that it took."""
 PART_COLUMNS = 8192
 """Columns of a part of the means between parcels, or of neighbours, which keep little of them."""
 
 
-def do(task: Task) -> Report:
-    """Do what is missing of a task; never raises for what is wrong with its mesh or its results."""
+def run_task(task: Task) -> Report:
+    """Compute what is missing of a task; never raises for errors of its mesh or its results."""
     with one_blas_thread(), without_workers():
         if task.part is None:
-            return _do_mesh(task)
+            return _run_mesh(task)
         part = task.part
         if task.needs > allowed(is_expected=True):
             return Report(task, needs=task.needs)
         try:
             # Asked again of what has been put together, as clusters do that have lost a worker, its parts are gone.
-            name = task.result_name(part.work, part.distance)
-            facts = facts_of(Folder(task.out), name, task.key(part.work, part.distance), task.wanted.verify)
-            if facts is not None:
-                row = Row(task.name, part.work, part.distance, True, facts)
+            row = existing_row(task, part.work, part.distance, is_new=True)
+            if row is not None:
                 return Report(task, (row,) if part.is_whole else ())
-            return (_join if part.is_whole else _do_part)(task, part)
+            return (_join if part.is_whole else _run_part)(task, part)
         except Exception as error:
-            return Report(task, failures=(Failure(task.name, part.work, part.distance, failure_in_words(error)),))
+            return failed_report(task, failure_in_words(error))
 
 
-def _do_mesh(task: Task) -> Report:
-    there = done_before(task)
+def _run_mesh(task: Task) -> Report:
+    there = existing_report(task)
     if there is not None:
         return there
     wanted, folder = task.wanted, Folder(task.out)
     try:
         mesh = mesh_of(task)
     except Exception as error:
-        reason = failure_in_words(error)
-        return Report(task, failures=tuple(Failure(task.name, *each, reason) for each in wanted.results()))
+        return failed_report(task, failure_in_words(error))
     if mesh.new_ids is not None:
         folder.write(_ids_name(task), ids_table(mesh.new_ids).encode())
     needs = needed(_vertices(task, mesh), wanted, _sources_from_file(mesh))
@@ -95,37 +90,37 @@ def _do_mesh(task: Task) -> Report:
         return Report(task, needs=needs)
     rows, failures, more = [], [], []
     for work, distance in wanted.results():
-        name, key = task.result_name(work, distance), task.key(work, distance)
-        facts = facts_of(folder, name, key, wanted.verify)
-        if facts is not None:
-            rows.append(Row(task.name, work, distance, False, facts))
+        row = existing_row(task, work, distance)
+        if row is not None:
+            rows.append(row)
             continue
         try:
             # Before anything is computed.
+            name = task.result_name(work, distance)
             folder.check_free(f"{name}.json")
             folder.check_free(f"{name}.{wanted.arrays}", is_folder=wanted.arrays == "zarr")
             if parts := _parts(task, mesh, work, distance):
                 more += [replace(task, part=part, needs=needs) for part in parts]
                 continue
-            rows.append(Row(task.name, work, distance, True, _made(task, mesh, work, distance)))
+            rows.append(ResultRow(task.name, work, distance, True, _compute(task, mesh, work, distance)))
         except Exception as error:
             failures.append(Failure(task.name, work, distance, failure_in_words(error)))
     return Report(task, tuple(rows), tuple(failures), tuple(more))
 
 
 def _ids_name(task: Task) -> str:
-    """The file with the new ids of merged vertices."""
+    """Return the name of the file with the new ids of merged vertices."""
     return f"{task.name}.ids.csv"
 
 
-def _vertices(task: Task, mesh: Mesh) -> int:
-    """Of the mesh, or of the one that a map leads to if that is larger, by the sizes of their files."""
+def _vertices(task: Task, mesh: BatchMesh) -> int:
+    """Return the number of vertices of the mesh, or of the mesh that a map leads to if its file is larger."""
     more = 1.0 if task.map is None else os.path.getsize(task.map.other) / max(1, os.path.getsize(task.mesh))
     return int(len(mesh.surface.vertices) * max(1.0, more))
 
 
-def _sources_from_file(mesh: Mesh) -> int:
-    """How many there are; 0 if the sources are others, or a file of them is none, which is said where they are read."""
+def _sources_from_file(mesh: BatchMesh) -> int:
+    """Count the sources in a file; 0 for other sources, and for a file that cannot be read."""
     if mesh.wanted.sources.rule != FILE:
         return 0
     try:
@@ -134,63 +129,63 @@ def _sources_from_file(mesh: Mesh) -> int:
         return 0
 
 
-def _made(task: Task, mesh: Mesh, work: str, distance: str) -> dict[str, Any]:
+def _compute(task: Task, mesh: BatchMesh, work: str, distance: str) -> dict[str, Any]:
     begin = time.monotonic()
     if work == "figure":
-        from .figures import figure_made
+        from .figures import draw_figure
 
         folder, name = Folder(task.out), task.result_name(work, distance)
-        facts = {**figure_made(task.mesh, mesh, folder, f"{name}.png"), **_facts_of_mesh(task, mesh, work)}
-        return write_facts(folder, name, task.key(work, distance), f"{name}.png", facts, begin)
+        metadata = {**draw_figure(task.mesh, mesh, folder, f"{name}.png"), **_mesh_metadata(task, mesh, work)}
+        return write_metadata(folder, name, task.key(work, distance), f"{name}.png", metadata, begin)
     if task.map is not None:
-        made = evaluated(mesh, task.map)
+        made = evaluate_map(mesh, task.map)
     elif work == MAXIMA:
-        from .figures import maxima_made
+        from .figures import compute_maxima
 
-        made = maxima_made(task.mesh, mesh)
+        made = compute_maxima(task.mesh, mesh)
     else:
         made = WORK[work](mesh, distance)
-    return _written(task, mesh, work, distance, made, begin)
+    return _write(task, mesh, work, distance, made, begin)
 
 
-def _written(task: Task, mesh: Mesh, work: str, distance: str, made: Made, begin: float) -> dict[str, Any]:
+def _write(task: Task, mesh: BatchMesh, work: str, distance: str, made: Computed, begin: float) -> dict[str, Any]:
     which = Folder(task.out), task.result_name(work, distance), task.key(work, distance)
-    facts = {**made.facts, **_facts_of_mesh(task, mesh, work)}
-    if facts.get("accuracy_text") and work != "fps" and task.wanted.dtype == "float32":
-        facts["accuracy_text"] += ", written in single precision: within 6e-8 of each value"
-    if "names" in made.facts:
-        facts["parcels"] = f"{which[1]}.parcels.csv"
-        which[0].write(facts["parcels"], _parcel_table(made.facts))
+    metadata = {**made.metadata, **_mesh_metadata(task, mesh, work)}
+    if metadata.get("accuracy_text") and work != "fps" and task.wanted.dtype == "float32":
+        metadata["accuracy_text"] += ", written in single precision: within 6e-8 of each value"
+    if "names" in made.metadata:
+        metadata["parcels"] = f"{which[1]}.parcels.csv"
+        which[0].write(metadata["parcels"], _parcel_table(made.metadata))
     layout = task.wanted.layout if work == "pairs" else ""
     if not layout:
         format = task.wanted.arrays if work != MAXIMA else "npy"
         # Files of several arrays say themselves what rows and columns are.
-        arrays = {**made.arrays, **(_numbers(made.facts) if format in ("npz", "mat") else {})}
+        arrays = {**made.arrays, **(_numbers(made.metadata) if format in ("npz", "mat") else {})}
         if format == "mat":
             arrays, of_ids = for_matlab(arrays, task.wanted.one_based)
-            facts |= of_ids
-        if format in ("npz", "mat") and "names" in made.facts:
+            metadata |= of_ids
+        if format in ("npz", "mat") and "names" in made.metadata:
             # Of objects MATLAB makes a cell array.
-            arrays["names"] = np.array(made.facts["names"], object if format == "mat" else str)
-        return write_result(*which, arrays, facts, begin, format)
+            arrays["names"] = np.array(made.metadata["names"], object if format == "mat" else str)
+        return write_result(*which, arrays, metadata, begin, format)
     if layout == "dist" and not task.wanted.normalise:
-        facts["note"] = NORMALISED
-    arrays = dict(laid_out(layout, made.arrays["dist"], made.facts["sqrt_area"]))
-    return write_result(*which, arrays, facts, begin, "mat", f"{layout}/{task.name}.mat")
+        metadata["note"] = NORMALISED
+    arrays = dict(laid_out(layout, made.arrays["dist"], made.metadata["sqrt_area"]))
+    return write_result(*which, arrays, metadata, begin, "mat", f"{layout}/{task.name}.mat")
 
 
-def _parcel_table(facts: dict[str, Any]) -> bytes:
-    """What the rows of a matrix between parcels are: the label, its name, and of how many vertices."""
+def _parcel_table(metadata: dict[str, Any]) -> bytes:
+    """Return the table of the rows of a matrix between parcels: label, name and number of vertices."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(("label", "name", "vertices"))
-    writer.writerows(zip(facts["labels"], facts["names"], facts["counts"], strict=True))
+    writer.writerows(zip(metadata["labels"], metadata["names"], metadata["counts"], strict=True))
     return text.getvalue().encode()
 
 
-def _numbers(facts: dict[str, Any]) -> dict[str, FloatArray]:
-    """The vertices that are sources, and the labels of parcels, counted from 0."""
-    given = {name: facts.get(name) for name in ("sources", "labels")}
+def _numbers(metadata: dict[str, Any]) -> dict[str, FloatArray]:
+    """Return the vertices that are sources and the labels of parcels."""
+    given = {name: metadata.get(name) for name in ("sources", "labels")}
     return {
         name: np.array(numbers)
         for name, numbers in given.items()
@@ -198,7 +193,7 @@ def _numbers(facts: dict[str, Any]) -> dict[str, FloatArray]:
     }
 
 
-def _facts_of_mesh(task: Task, mesh: Mesh, work: str) -> dict[str, Any]:
+def _mesh_metadata(task: Task, mesh: BatchMesh, work: str) -> dict[str, Any]:
     surface, notes = mesh.surface, surface_notes(mesh.surface)
     own, others = task.read(work)
     scaled: dict[str, Any] = {}
@@ -226,8 +221,8 @@ def _facts_of_mesh(task: Task, mesh: Mesh, work: str) -> dict[str, Any]:
 
 
 # ---------------------------------------------------------------------- large meshes
-def _parts(task: Task, mesh: Mesh, work: str, distance: str) -> list[Part]:
-    """The parts of a result, none if it is done at once."""
+def _parts(task: Task, mesh: BatchMesh, work: str, distance: str) -> list[TaskPart]:
+    """Return the parts of a result, none if it is computed at once."""
     n, wanted = len(mesh.surface.vertices), task.wanted
     if work == "pairs" and wanted.labels:
         total = len(labelled(mesh.surface, mesh.labels, mesh.mask))
@@ -241,20 +236,20 @@ def _parts(task: Task, mesh: Mesh, work: str, distance: str) -> list[Part]:
         return []
     if total <= step:
         return []
-    return [Part(work, distance, begin, min(begin + step, total), total) for begin in range(0, total, step)]
+    return [TaskPart(work, distance, begin, min(begin + step, total), total) for begin in range(0, total, step)]
 
 
-def _part_name(task: Task, part: Part, ending: str = "npy") -> str:
+def _part_name(task: Task, part: TaskPart, ending: str = "npy") -> str:
     return f"{_parts_folder(task, part)}/{part.begin}-{part.end}.{ending}"
 
 
-def _parts_folder(task: Task, part: Part) -> str:
-    """Of this mesh alone: others may have the same content, and are done at the same time."""
+def _parts_folder(task: Task, part: TaskPart) -> str:
+    """Return the folder of the parts of this mesh alone, as another may have the same content."""
     which = f"{task.name} {task.key(part.work, part.distance)}"
     return f"{PARTS}/{hashlib.sha256(which.encode()).hexdigest()[:32]}"
 
 
-def _do_part(task: Task, part: Part) -> Report:
+def _run_part(task: Task, part: TaskPart) -> Report:
     folder, name = Folder(task.out), _part_name(task, part)
     if folder.size(name) is None:
         mesh, begin = mesh_of(task), time.monotonic()
@@ -278,44 +273,35 @@ def _do_part(task: Task, part: Part) -> Report:
     return Report(task)
 
 
-def _join(task: Task, part: Part) -> Report:
-    """The result of which all parts are there."""
+def _join(task: Task, part: TaskPart) -> Report:
+    """Join the parts of a result."""
     folder, mesh = Folder(task.out), mesh_of(task)
     parts = _parts(task, mesh, part.work, part.distance)
-    begin = time.monotonic() - sum(_seconds(folder, task, each) for each in parts)
+    begin = time.monotonic() - sum(float(folder.read(_part_name(task, each, SECONDS)) or 0) for each in parts)
     if part.work == "pairs" and task.wanted.labels:
         names, of_each = np.unique(mesh.labels[labelled(mesh.surface, mesh.labels, mesh.mask)], return_counts=True)
         sums = sum(_read_part(folder, task, each) for each in parts)
         found = ParcelSums(names, of_each, np.asarray(sums), of_each).parcels
-        made = parcels_made(mesh, mesh.distance(part.distance), found)
+        made = parcels_computed(mesh, part.distance, found)
     elif part.work == "nearest":
         indices, values = np.concatenate([_read_part(folder, task, each) for each in parts], axis=1)
-        distance, sources = mesh.distance(part.distance), mesh.sources(part.distance)
-        made = neighbours_made(mesh, distance, sources, indices.astype(int), values)
+        made = neighbours_computed(mesh, part.distance, indices.astype(int), values)
     else:
-        distance, sources = mesh.distance(part.distance), mesh.sources(part.distance)
-        rows = len(mesh.surface.vertices) if part.work == "fields" else part.total
-        axis = 1 if part.work == "fields" else 0
-        is_both = part.work == "pairs" and not distance.is_symmetric
+        are_fields = part.work == "fields"
+        is_both = not are_fields and not mesh.distance(part.distance).is_symmetric
 
         def each() -> Iterator[FloatArray]:
             return _both_ways(folder, task, parts) if is_both else (_read_part(folder, task, p) for p in parts)
 
-        blocks = Blocks((rows, part.total), np.dtype(task.wanted.dtype), axis, each)
-        if part.work == "fields":
-            made = Made({"fields": blocks}, facts_of_fields(distance, sources, task.wanted.sources.rule))
-        else:
-            made = Made(*pairs_made(mesh, distance, sources, blocks))
-    facts = _written(task, mesh, part.work, part.distance, made, begin)
+        shape = (len(mesh.surface.vertices) if are_fields else part.total, part.total)
+        blocks = ArrayBlocks(shape, np.dtype(task.wanted.dtype), int(are_fields), each)
+        made = (fields_computed if are_fields else pairs_computed)(mesh, part.distance, blocks)
+    metadata = _write(task, mesh, part.work, part.distance, made, begin)
     folder.remove(_parts_folder(task, part))
-    return Report(task, (Row(task.name, part.work, part.distance, True, facts),))
+    return Report(task, (ResultRow(task.name, part.work, part.distance, True, metadata),))
 
 
-def _seconds(folder: Folder, task: Task, part: Part) -> float:
-    return float(folder.read(_part_name(task, part, SECONDS)) or 0)
-
-
-def _read_part(folder: Folder, task: Task, part: Part) -> FloatArray:
+def _read_part(folder: Folder, task: Task, part: TaskPart) -> FloatArray:
     name = _part_name(task, part)
     try:
         if folder.local is not None and (folder.local / name).exists():
@@ -327,11 +313,11 @@ def _read_part(folder: Folder, task: Task, part: Part) -> FloatArray:
             return array_in(io.BytesIO(content), len(content))
     except Exception:  # of whatever reads what is damaged
         folder.remove(name)
-    raise OutputError(f"A part of the result is gone or damaged, {name}; the same command makes it again.")
+    raise OutputError(f"Part of the result, {name}, is missing or damaged; run the same command to compute it again.")
 
 
-def _both_ways(folder: Folder, task: Task, parts: list[Part]) -> Iterator[FloatArray]:
-    """Rows of a matrix of pairs of which each part has those from its sources: the means of both ways, and 0."""
+def _both_ways(folder: Folder, task: Task, parts: list[TaskPart]) -> Iterator[FloatArray]:
+    """Yield the rows of a symmetric matrix of pairs: the means of the distances both ways, and 0 on the diagonal."""
     for part in parts:
         rows = np.array(_read_part(folder, task, part))
         back = [np.array(_read_part(folder, task, each)[:, part.begin : part.end]) for each in parts]
@@ -340,14 +326,15 @@ def _both_ways(folder: Folder, task: Task, parts: list[Part]) -> Iterator[FloatA
         yield rows
 
 
-_last: tuple[tuple[Any, ...], Mesh] | None = None
+_last: tuple[tuple[Any, ...], BatchMesh] | None = None
 
 
-def mesh_of(task: Task) -> Mesh:
-    """The mesh of a task; parts of one mesh that the same process does share it, with its factor."""
+def mesh_of(task: Task) -> BatchMesh:
+    """Return the mesh of a task; parts of one mesh in the same process share it, with its factor."""
     global _last
     which, last = (task.mesh, task.checksums, task.wanted), _last  # which other threads may replace
     if last is None or last[0] != which:
         last = _last = None  # its memory is needed
-        last = _last = (which, Mesh(task.mesh, task.name, task.wanted))
+        release_freed()
+        last = _last = (which, BatchMesh(task.mesh, task.name, task.wanted))
     return last[1]

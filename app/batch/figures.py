@@ -18,22 +18,22 @@ from ..document.repairs import Repairs
 from ..figures.contact_sheet import as_jpeg, thumbnail
 from ..figures.draw import save_figure
 from ..figures.export import Surfaces, check_drawable, compute, figure_of, open_document
-from ..scene.camera import Margins, aimed, frame
+from ..scene.camera import aimed, frame
 from ..session.array_store import ArrayStore
+from .jobs import BatchMesh, Computed
 from .storage import Folder
 from .work_order import SIZE, thumbnail_name
-from .works import Made, Mesh
 
 
-def recipe_for(path: str, mesh: Mesh) -> Recipe:
-    """The recipe of all meshes on one of them."""
+def recipe_for(path: str, mesh: BatchMesh) -> Recipe:
+    """Return the recipe with one of the meshes."""
     recipe = recipe_from_text(mesh.wanted.recipe)
     repairs = Repairs(cut=mesh.wanted.file_for(mesh.wanted.cut, mesh.name), merge=mesh.wanted.merge)
     surface = replace(recipe.document.surfaces[0], path=path, sha256="", repairs=repairs)
     return replace(recipe, document=replace(recipe.document, surfaces=(surface,)))
 
 
-def _computed(path: str, mesh: Mesh) -> tuple[Recipe, Document, Surfaces, list[Any]]:
+def _computed(path: str, mesh: BatchMesh) -> tuple[Recipe, Document, Surfaces, list[Any]]:
     recipe = recipe_for(path, mesh)
     document, surfaces = open_document(recipe, ArrayStore())
     recipe = replace(recipe, document=document)
@@ -43,33 +43,35 @@ def _computed(path: str, mesh: Mesh) -> tuple[Recipe, Document, Surfaces, list[A
 
 # ---------------------------------------------------------------------- ranges
 def length_power(unit: str) -> float:
-    """The p of a unit that is mesh units^p, as `Distance.unit` writes it; 0 for what does not scale with a mesh."""
+    """Return the p of a unit mesh units^p, as `Distance.unit` writes it; 0 for units that do not scale with a mesh."""
     if unit == "1 / mesh units":
         return -1.0
     word, _, power = unit.partition("^")
     return 0.0 if word != "mesh units" else float(power or 1)
 
 
-def maxima_made(path: str, mesh: Mesh) -> Made:
-    """(p,) the largest value of each panel, 0 where it failed; and what a panel's unit is on this mesh, in mesh units:
-    the root of its area to the unit's power."""
+def compute_maxima(path: str, mesh: BatchMesh) -> Computed:
+    """Compute the largest value (p,) of each panel, 0 where it failed, and the scale of its unit on this mesh.
+
+    The scale is the root of the area to the power of the unit.
+    """
     *_, answers = _computed(path, mesh)
     maxima = [float(answer.maximum) for answer in answers]
     root = float(np.sqrt(mesh.surface.face_areas.sum()))
     scales = [root ** length_power(answer.unit) for answer in answers]
-    return Made({"maxima": np.array(maxima)}, {"maxima": maxima, "scales": scales})
+    return Computed({"maxima": np.array(maxima)}, {"maxima": maxima, "scales": scales})
 
 
-def shared_ends(facts: Sequence[dict[str, Any]], range: str) -> tuple[float, ...]:
-    """Where the panels end: at the largest value of all meshes, over each mesh's scale with SIZE."""
-    if not facts:
+def shared_maxima(metadata: Sequence[dict[str, Any]], range: str) -> tuple[float, ...]:
+    """Return the maxima of the panels on all meshes, over each mesh's scale with SIZE."""
+    if not metadata:
         return ()
-    maxima, scales = (np.array([each[name] for each in facts]) for name in ("maxima", "scales"))
+    maxima, scales = (np.array([each[name] for each in metadata]) for name in ("maxima", "scales"))
     return tuple(np.max(maxima / scales if range == SIZE else maxima, axis=0).tolist())
 
 
-def _ended(document: Document, mesh: Mesh, answers: Sequence[Any]) -> Document:
-    """With the ends that all meshes share; those that the recipe names stay."""
+def _ended(document: Document, mesh: BatchMesh, answers: Sequence[Any]) -> Document:
+    """Return the document with the shared ends of colours; those of the recipe stay."""
     wanted = mesh.wanted
     if not wanted.maxima:
         return document
@@ -84,7 +86,7 @@ def _ended(document: Document, mesh: Mesh, answers: Sequence[Any]) -> Document:
 
 
 def end_in_words(end: float, unit: str, range: str, is_signed: bool) -> str:
-    """Where the colours of a panel end on all meshes: 0.6 √area of each mesh."""
+    """Describe the end of a panel's colours on all meshes, such as "0.6 √area of each mesh"."""
     sign, power = "±" * is_signed, length_power(unit)
     if range != SIZE or not power:
         in_unit = f" {unit}" if power or unit == PERCENTAGE_POINTS else ""
@@ -94,10 +96,10 @@ def end_in_words(end: float, unit: str, range: str, is_signed: bool) -> str:
 
 
 # ---------------------------------------------------------------------- drawing
-def figure_made(path: str, mesh: Mesh, folder: Folder, file: str) -> dict[str, Any]:
-    """Draw the recipe of a mesh into a file, and a thumbnail; what is to be said of it.
+def draw_figure(path: str, mesh: BatchMesh, folder: Folder, file: str) -> dict[str, Any]:
+    """Draw the recipe of a mesh into a file, and a thumbnail; return the metadata.
 
-    SolverError if a panel of it failed.
+    Raises SolverError if a panel failed.
     """
     recipe, document, surfaces, answers = _computed(path, mesh)
     failures = [f"{answer.label}: {answer.failure}" for answer in answers if answer.failure]
@@ -122,6 +124,7 @@ def figure_made(path: str, mesh: Mesh, folder: Folder, file: str) -> dict[str, A
             "of_set": end_in_words(end, answer.unit, mesh.wanted.range, answer.is_signed),
             "accuracy": answer.accuracy.share,
             "accuracy_text": answer.accuracy.text,
+            "accuracy_sources": answer.accuracy.sources,
         }
         for panel, answer, end in zip(document.panels, answers, ends, strict=True)
     ]
@@ -133,8 +136,8 @@ def _fitted(document: Document, surface: Surface) -> Document:
 
 
 def _fit(view: View, surface: Surface, document: Document) -> View:
-    """A standard view as it is, which fits any shape; of a camera the direction and what is up, as near as it fits."""
+    """Return a standard view as it is, and a camera of the same direction that fits the shape."""
     if not isinstance(view, Camera):
         return view
     axes, used = frame(view), surface.vertices[surface.component_of_vertex >= 0]
-    return aimed(used, 1.0, axes[:, 2], axes[:, 1], Margins(0, 0, 0), document.projection == "orthographic")
+    return aimed(used, 1.0, axes[:, 2], axes[:, 1], 0.0, document.parallel_projection)

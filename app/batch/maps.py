@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -20,21 +20,21 @@ from bihdist_core.arrays import FloatArray
 from bihdist_core.errors import ParameterError
 from bihdist_core.formats.vertex_maps import IDENTITY, MAP_FORMATS, read_map
 
-from .works import Made
-
-if TYPE_CHECKING:
-    from .works import Mesh
+from .jobs import BatchMesh, Computed
 
 WITH_PARTNERS = "errors_with_partners"
 """The errors where the symmetric partner of what is right counts as right, too."""
 BETWEEN = ("-", "__", "_to_", "_")
-"""What may stand between the names of the two meshes in that of a map."""
+"""The separators between the names of two meshes in the name of a map."""
 
 
 @dataclass(frozen=True)
 class Map:
-    """file: of the map from a mesh to another, at the path `other`.  truth: a file, or `identity`.  symmetry: a file
-    with the partner of each vertex of the other mesh, or nothing.  samples: of so many vertices, all if 0."""
+    """A map in a file from a mesh to another, at the path `other`.
+
+    `truth` is a file or `identity`, `symmetry` a file with the partner of each vertex of the other mesh, or nothing.
+    Errors are found at so many `samples`, at all vertices if 0.
+    """
 
     name: str
     mesh: str
@@ -46,7 +46,7 @@ class Map:
 
     @property
     def files(self) -> dict[str, str]:
-        """All that it depends on, besides the mesh that is mapped, by what it is."""
+        """The other files that the errors depend on, by what they are."""
         named = {"mapped_to": self.other, "map": self.file, "truth": self.truth, "symmetry": self.symmetry}
         return {what: path for what, path in named.items() if path and path != IDENTITY}
 
@@ -54,11 +54,11 @@ class Map:
 def found_maps(
     folder: str, meshes: dict[str, str], truth: str, symmetry: str, samples: int
 ) -> tuple[list[Map], dict[str, str]]:
-    """The maps in a folder, by the names of their files: those of two meshes with -, _ or _to_ between them; and by
-    name, why others are none: it says nothing or two things, or there is no truth for it.
+    """Find the maps in a folder that are named by two meshes with -, _ or _to_ between them.
 
-    truth: `identity`, or a folder of files with the same names.  symmetry: a path in which {name} is that of the mesh
-    that is mapped to.  ParameterError if there is no file of a map.
+    Returns the maps, and why other files are none. `truth` is `identity` or a folder of files with the same names;
+    `symmetry` is a path in which {name} stands for the mesh that is mapped to. Raises ParameterError without a map
+    file.
     """
     place = Path(folder)
     files = sorted(f for f in place.iterdir() if f.suffix.lower() in MAP_FORMATS) if place.is_dir() else []
@@ -89,7 +89,7 @@ def found_maps(
 
 
 def _named(file: Path, meshes: Iterable[str]) -> tuple[str, str]:
-    """The meshes that the name of a map tells."""
+    """Return the names of the two meshes in that of a map."""
     names = set(meshes)
     ways = set()
     for between in BETWEEN:
@@ -99,25 +99,25 @@ def _named(file: Path, meshes: Iterable[str]) -> tuple[str, str]:
             if one in names and other in names:
                 ways.add((one, other))
     if len(ways) != 1:
-        what = "names no two of the meshes" if not ways else "may be read in two ways"
+        what = "does not name two of the meshes" if not ways else "can be read in two ways"
         raise ParameterError(f"{file} {what}; call the map of cat to dog cat-dog{file.suffix}.")
     return ways.pop()
 
 
-def evaluated(mesh: "Mesh", given: Map) -> Made:
-    """(m,) the errors of a map over the root of the area, of all vertices or of those that are sampled."""
+def evaluate_map(mesh: BatchMesh, given: Map) -> Computed:
+    """Compute the errors (m,) of a map over the root of the area, at all vertices or at samples."""
     other = Laplacian(read_surface(given.other), mesh.wanted.areas)
     found, right = (read_map(each, mesh.surface, other.surface) for each in (given.file, given.truth))
     ids = sampled_vertices(len(found), given.samples or None)
     partners = read_map(given.symmetry, other.surface, other.surface) if given.symmetry else None
     distance = error_distance(other, len(np.unique(right[ids])))
     errors = map_errors(distance, found[ids], right[ids])
-    facts: dict[str, Any] = {**_numbers(errors)}
+    metadata: dict[str, Any] = {**_numbers(errors)}
     arrays = {"errors": errors}
     if partners is not None:
         arrays[WITH_PARTNERS] = map_errors(distance, found[ids], right[ids], partners)
-        facts |= {f"{name}_with_partners": n for name, n in _numbers(arrays[WITH_PARTNERS]).items()}
-    facts |= {
+        metadata |= {f"{name}_with_partners": n for name, n in _numbers(arrays[WITH_PARTNERS]).items()}
+    metadata |= {
         "distance": distance.identity or distance.label,
         "parameters": {"method": distance.method},
         "label": distance.label,
@@ -127,11 +127,11 @@ def evaluated(mesh: "Mesh", given: Map) -> Made:
         "vertices_mapped": "all" if len(ids) == len(found) else ids.tolist(),
         "area_under_curve_to": LIMIT,
     }
-    return Made(arrays, facts)
+    return Computed(arrays, metadata)
 
 
 def _numbers(errors: FloatArray) -> dict[str, float | None]:
-    """Of a map; None where a vertex is mapped nowhere and the number is infinite."""
+    """Return the numbers of an error curve, None for those that are infinite as a vertex has no image."""
     curve = error_curve(errors)
     numbers = {"mean": curve.mean, "median": curve.median, "area_under_curve": curve.area}
     return {name: number if np.isfinite(number) else None for name, number in numbers.items()}

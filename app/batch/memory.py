@@ -1,4 +1,4 @@
-"""How much memory a task needs, and how much there is."""
+"""The memory that tasks need and may take."""
 
 import math
 import sys
@@ -8,43 +8,43 @@ from bihdist_core.machine_memory import available
 from ..document.sources import ALL
 from .work_order import WorkOrder
 
-BASE = 2.5e8
-PER_VERTEX = 6e3
+BASE_BYTES = 2.5e8
+BYTES_PER_VERTEX = 6e3
 """Bytes for the program, and for each vertex with its share of the factor: measured at 20,000 to 200,000 vertices,
 0.2 to 0.95 GB, with some to spare."""
 PART_BYTES = 2.5e8
 """A result larger than this is done in parts of no more."""
-FIELDS, PAIRS = 3, 6
+FIELD_COPIES, PAIR_COPIES = 3, 6
 """Times the bytes of a part that are there at once while it is computed, of fields and of all pairs among sources."""
 
 
 def needed(n: int, wanted: WorkOrder, from_file: int = 0) -> int:
-    """Bytes for a mesh with n vertices and so many sources from a file, at most at a time."""
+    """Return the bytes that a mesh with n vertices and so many sources from a file takes at most."""
     counts = (wanted.sources.count, len(wanted.sources.members), from_file, 1)
     sources = n if wanted.sources.rule == ALL else max(counts)
     has_pairs = "pairs" in wanted.works and not wanted.labels
-    fields = min(n * sources * 8.0, PART_BYTES) * (PAIRS if has_pairs else FIELDS)
+    fields = min(n * sources * 8.0, PART_BYTES) * (PAIR_COPIES if has_pairs else FIELD_COPIES)
     # Formats that are written at once are joined in memory.
     of_both = max((sources if "pairs" in wanted.works else 0), (n if "fields" in wanted.works else 0))
     whole = sources * of_both * 8.0 if wanted.layout or wanted.arrays in ("npz", "mat") else 0.0
     eigen = n * wanted.eigenpairs * 8.0 * 4 if "eigen" in wanted.works else 0.0
     figure = 3e8 if "figure" in wanted.works else 0.0
-    return int(BASE + n * PER_VERTEX + max(fields, whole, eigen) + figure)
+    return int(BASE_BYTES + n * BYTES_PER_VERTEX + max(fields, whole, eigen) + figure)
 
 
 _share: int | None = None
 
 
 def share(bytes_of_each: int) -> None:
-    """Let a task of which nothing is known yet take so much in this process."""
+    """Set the bytes that an unknown task may take in this process."""
     global _share
     _share = bytes_of_each
 
 
 def allowed(is_expected: bool = False) -> float:
-    """Bytes that a task may take: the share of a thread of its Dask worker, that of this process, or all.
+    """Return the bytes that a task may take: the share of a Dask worker's thread, that of this process, or all.
 
-    is_expected: whether room was found for it; then no more than its worker has is the only bound.
+    With `is_expected`, room was found for it, and the memory of its worker is the only bound.
     """
     if "distributed" in sys.modules:
         from distributed import get_worker
@@ -60,7 +60,7 @@ def allowed(is_expected: bool = False) -> float:
 
 
 def too_big(needs: int, most: int) -> str:
-    """Why a task cannot be done."""
+    """Return the sentence on a task that needs too much memory."""
     return (
         f"It needs about {needs / 1e9:.1f} GB of memory, and there are {most / 1e9:.1f} GB; "
         "run it where there is more, or ask for less of it."

@@ -8,9 +8,9 @@ from urllib.parse import quote
 from bihdist_core.errors import OutputError, ParameterError
 
 from ..document.json_values import Reader, listed, number, record, shown, text, whole
-from ..figures.contact_sheet import Cell, as_jpeg, as_png, contact_sheet, thumbnail
+from ..figures.contact_sheet import SheetEntry, as_jpeg, as_png, contact_sheet, thumbnail
 from .storage import Folder
-from .task import Failure, Row
+from .task import Failure, ResultRow
 from .work_order import OWN, result_name, thumbnail_name
 
 SHEET, PAGE = "contact_sheet.png", "index.html"
@@ -23,13 +23,14 @@ _FIGURE: dict[str, Reader] = {
     "n_vertices": whole,
     "panels": listed(lambda panel, where: _known(panel, where, _PANEL)),
 }
-"""What is read of the JSON beside a figure."""
+"""The metadata of a figure that the page shows."""
 
 
-def write_pages(folder: Folder, rows: Sequence[Row], failures: Sequence[Failure]) -> list[str]:
-    """All figures beside each other, those that are missing with the reason in their place; what was written.
+def write_pages(folder: Folder, rows: Sequence[ResultRow], failures: Sequence[Failure]) -> list[str]:
+    """Write a contact sheet and a page of all figures, with reasons in place of those that are missing; return the
+    files.
 
-    ParameterError or OutputError where a figure, or what is said of it, is not as it was written.
+    Raises ParameterError or OutputError for a figure or metadata that are not as they were written.
     """
     drawn = {row.name: _facts(folder, row) for row in rows if row.work == "figure"}
     missing = {each.name: each.reason for each in failures if each.work == "figure"}
@@ -38,14 +39,14 @@ def write_pages(folder: Folder, rows: Sequence[Row], failures: Sequence[Failure]
     cells = []
     for name in sorted({*drawn, *missing}):
         if name in missing:
-            cells.append(Cell(name, failure=missing[name]))
+            cells.append(SheetEntry(name, failure=missing[name]))
             continue
         cell = _cell(folder, name, thumbnail_name(name))
         if cell is None:
             cell = _cell(folder, name, drawn[name]["file"])
             if cell is None or cell.picture is None:
                 place = f"{folder}/{drawn[name]['file']}"
-                raise OutputError(f"{place} is no picture; the same command with --verify draws it again.")
+                raise OutputError(f"{place} is not a picture; run the same command with --verify to draw it again.")
             folder.write(thumbnail_name(name), as_jpeg(cell.picture))
         cells.append(cell)
     words = ends_in_words(list(drawn.values()))
@@ -54,45 +55,45 @@ def write_pages(folder: Folder, rows: Sequence[Row], failures: Sequence[Failure]
     return [SHEET, PAGE]
 
 
-def _facts(folder: Folder, row: Row) -> dict[str, Any]:
-    """What is said of a figure; ParameterError, with the file and the place in it, if that is nothing of ours."""
+def _facts(folder: Folder, row: ResultRow) -> dict[str, Any]:
+    """Return the metadata of a figure; ParameterError, with the file and the place in it, if they are not ours."""
     name = result_name(row.name, "figure", "")
     try:
-        facts = _known(row.facts, "figure", _FIGURE)
-        if facts["file"] != f"{name}.png":
-            raise ParameterError(f"figure.file must be {name}.png, not {shown(facts['file'])}.")
-        return facts
+        metadata = _known(row.metadata, "figure", _FIGURE)
+        if metadata["file"] != f"{name}.png":
+            raise ParameterError(f"figure.file must be {name}.png, not {shown(metadata['file'])}.")
+        return metadata
     except ParameterError as error:
         reason = str(error).rstrip(".")
         raise ParameterError(
-            f"{folder}/{name}.json: {reason}; delete it, and the same command draws the figure again."
+            f"{folder}/{name}.json: {reason}; delete it and run the same command to draw the figure again."
         ) from None
 
 
 def _known(data: Any, where: str, readers: dict[str, Reader]) -> dict[str, Any]:
-    """The values of a record that has others, too."""
+    """Return the known values of a record that has others, too."""
     known = {name: data[name] for name in readers if name in data} if isinstance(data, dict) else data
     return record(known, where, readers)
 
 
-def _cell(folder: Folder, name: str, file: str) -> Cell | None:
-    """A file as a thumbnail; None where it is not there, or no picture."""
+def _cell(folder: Folder, name: str, file: str) -> SheetEntry | None:
+    """Return a file as a thumbnail; None if it is missing or not a picture."""
     content = folder.read(file)
     try:
-        return None if content is None else Cell(name, thumbnail(content))
+        return None if content is None else SheetEntry(name, thumbnail(content))
     except Exception:  # of whatever reads what is damaged
         return None
 
 
 def ends_in_words(drawn: Sequence[dict[str, Any]]) -> list[str]:
-    """Where the colours end, a line for each panel; drawn: what is said of each figure."""
-    facts = drawn[0]
-    if facts["range"] == OWN:
+    """Describe the colour range of each panel, a line each, from the metadata of the figures."""
+    metadata = drawn[0]
+    if metadata["range"] == OWN:
         return ["Colours end at the maximum on each mesh."]
-    return [f"{panel['shows']}: colours end at {panel['of_set']}" for panel in facts["panels"]]
+    return [f"{panel['shows']}: colours end at {panel['of_set']}" for panel in metadata["panels"]]
 
 
-def _page(cells: Sequence[Cell], drawn: dict[str, dict[str, Any]], words: Sequence[str]) -> str:
+def _page(cells: Sequence[SheetEntry], drawn: dict[str, dict[str, Any]], words: Sequence[str]) -> str:
     wide = max(cell.picture.width for cell in cells if cell.picture is not None)
     missing = sum(cell.picture is None for cell in cells)
     count = f"{len(cells):,} meshes" + (f", {missing} without a figure" if missing else "")
@@ -108,23 +109,23 @@ def _page(cells: Sequence[Cell], drawn: dict[str, dict[str, Any]], words: Sequen
     return text
 
 
-def _figure(cell: Cell, drawn: dict[str, dict[str, Any]]) -> str:
+def _figure(cell: SheetEntry, drawn: dict[str, dict[str, Any]]) -> str:
     name = html.escape(cell.name)
     if cell.picture is None:
         return (
             f'<figure><p class="missing">{html.escape(cell.failure)}</p><figcaption><b>{name}</b></figcaption></figure>'
         )
-    facts = drawn[cell.name]
+    metadata = drawn[cell.name]
     parts = [
-        f"{panel['shows'] if len(facts['panels']) > 1 else ''} max {panel['maximum']:.4g} {panel['unit']}".strip()
-        for panel in facts["panels"]
+        f"{panel['shows'] if len(metadata['panels']) > 1 else ''} max {panel['maximum']:.4g} {panel['unit']}".strip()
+        for panel in metadata["panels"]
     ]
-    file, beside = quote(facts["file"]), quote(f"{result_name(cell.name, 'figure', '')}.json")
+    file, beside = quote(metadata["file"]), quote(f"{result_name(cell.name, 'figure', '')}.json")
     wide, high = cell.picture.size
     return (
         f'<figure><a href="{file}"><img src="{quote(thumbnail_name(cell.name))}" alt="{name}" loading="lazy" '
         f'width="{wide}" height="{high}"></a><figcaption><b>{name}</b> <a href="{beside}">JSON</a><br>'
-        f"{facts['n_vertices']:,} vertices · {html.escape(' · '.join(parts))}</figcaption></figure>"
+        f"{metadata['n_vertices']:,} vertices · {html.escape(' · '.join(parts))}</figcaption></figure>"
     )
 
 

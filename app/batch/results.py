@@ -19,18 +19,19 @@ from bihdist_core.arrays import AnyArray
 from bihdist_core.errors import OutputError, ParameterError
 from bihdist_core.file_content import MOST_JSON_BYTES, json_value
 from bihdist_core.formats.array_file import array_in, put_array
-from bihdist_core.formats.gifti_output import write_gifti_values
+from bihdist_core.formats.gifti import write_gifti_values
 
 from ..document.json_values import Reader, listed, number, or_none, text, whole
+from ..version import install_command
 from .storage import Folder
 from .work_order import ARRAYS, GIFTI
 
-CHUNK = 1024
+ZARR_CHUNK = 1024
 """Rows and columns of a chunk of a Zarr array, which is read and written by chunks."""
 
 
 @dataclass(frozen=True, eq=False)
-class Blocks:
+class ArrayBlocks:
     """An array that comes in blocks along an axis, each when it is asked for."""
 
     shape: tuple[int, ...]
@@ -39,7 +40,7 @@ class Blocks:
     each: Callable[[], Iterator[AnyArray]]
 
     def into(self, target: Any) -> None:
-        """Fill what takes slices."""
+        """Fill a target that takes slices."""
         begin = 0
         for block in self.each():
             end = begin + block.shape[self.axis]
@@ -47,41 +48,41 @@ class Blocks:
             begin = end
 
     def whole(self) -> AnyArray:
-        """The array with all blocks in memory."""
+        """Return the array with all blocks in memory."""
         array = np.empty(self.shape, self.dtype)
         self.into(array)
         return array
 
 
-Array = AnyArray | Blocks
+Array = AnyArray | ArrayBlocks
 
 
-def facts_of(folder: Folder, name: str, key: str, verify: bool = False) -> dict[str, Any] | None:
-    """What is said of a result that is there, complete; None if it is not, or is of other work.
+def existing_metadata(folder: Folder, name: str, key: str, verify: bool = False) -> dict[str, Any] | None:
+    """Return the metadata of a result that is complete, None if it is missing or of other work.
 
-    verify: whether its bytes are read, to be those that were written.
+    With `verify`, its bytes must have their checksum.
     """
-    facts = facts_in(folder, name)
-    if facts is None or facts.get("key") != key or not is_complete(folder, facts):
+    metadata = metadata_in(folder, name)
+    if metadata is None or metadata.get("key") != key or not is_complete(folder, metadata):
         return None
-    return facts if not verify or facts.get("sha256") == folder.sha256(facts["file"]) else None
+    return metadata if not verify or metadata.get("sha256") == folder.sha256(metadata["file"]) else None
 
 
-def facts_in(folder: Folder, name: str) -> dict[str, Any] | None:
-    """What a JSON says, be its file complete or not; None if there is none, or no JSON of ours."""
+def metadata_in(folder: Folder, name: str) -> dict[str, Any] | None:
+    """Return the metadata in a JSON file, None if there are none of ours."""
     if (folder.size(f"{name}.json") or 0) > MOST_JSON_BYTES:
         return None
     try:
-        facts = json_value((folder.read(f"{name}.json") or b"null").decode())
+        metadata = json_value((folder.read(f"{name}.json") or b"null").decode())
     except ValueError:  # ParameterError, too
         return None
-    return facts if isinstance(facts, dict) else None
+    return metadata if isinstance(metadata, dict) else None
 
 
-def is_complete(folder: Folder, facts: Mapping[str, Any]) -> bool:
-    """Whether the file of a result is there with all its bytes, and what is said of it is as it is written here."""
-    file = facts.get("file")
-    return isinstance(file, str) and folder.size(file) == facts.get("bytes", -1) and _are_of_their_kinds(facts)
+def is_complete(folder: Folder, metadata: Mapping[str, Any]) -> bool:
+    """Return whether the file of a result has all its bytes, and its metadata are valid."""
+    file = metadata.get("file")
+    return isinstance(file, str) and folder.size(file) == metadata.get("bytes", -1) and _are_of_their_kinds(metadata)
 
 
 _NUMBERS = ("accuracy", "mean", "median", "area_under_curve", "seconds")
@@ -92,13 +93,13 @@ _KINDS: dict[str, Reader] = {
     "scales": listed(number),
     **{name: or_none(number) for name in _NUMBERS},
 }
-"""Of facts that stand in tables, or that others are made of."""
+"""The values of metadata that stand in tables, or that others are made of."""
 
 
-def _are_of_their_kinds(facts: Mapping[str, Any]) -> bool:
+def _are_of_their_kinds(metadata: Mapping[str, Any]) -> bool:
     try:
-        for name in facts.keys() & _KINDS.keys():
-            _KINDS[name](facts[name], name)
+        for name in metadata.keys() & _KINDS.keys():
+            _KINDS[name](metadata[name], name)
     except ParameterError:
         return False
     return True
@@ -109,16 +110,15 @@ def write_result(
     name: str,
     key: str,
     arrays: Mapping[str, Array],
-    facts: Mapping[str, Any],
+    metadata: Mapping[str, Any],
     begin: float,
     format: str = "npy",
     file: str = "",
 ) -> dict[str, Any]:
-    """Arrays by name, the first of which is the result, and what is to be said of them; what was written.
+    """Write arrays by name, the first of which is the result, and their metadata; return the metadata.
 
-    begin: as of `write_facts`.  file: where the arrays go, if not beside the JSON.
-
-    Raises OutputError if it cannot be written; then no JSON says that it is there.
+    `begin` is that of `write_metadata`; the arrays go to `file`, if not beside the JSON. Raises OutputError if they
+    cannot be written; then no JSON says that they are there.
     """
     format = format if format != "npy" or len(arrays) == 1 else "npz"
     file = file or f"{name}.{format}"
@@ -126,41 +126,43 @@ def write_result(
     folder.check_free(file, is_folder=format == "zarr")
     _forget(folder, name, file)
     if format == "zarr":
-        write_zarr(folder, file, arrays, facts)
+        write_zarr(folder, file, arrays, metadata)
     else:
         with folder.writing(file) as path:
             _write(path, format, arrays)
     first = next(iter(arrays.values()))
-    return write_facts(folder, name, key, file, {"shape": list(first.shape), "dtype": str(first.dtype), **facts}, begin)
+    return write_metadata(
+        folder, name, key, file, {"shape": list(first.shape), "dtype": str(first.dtype), **metadata}, begin
+    )
 
 
 def _forget(folder: Folder, name: str, file: str) -> None:
-    """What was there of other work: its JSON, and its file if that has another name."""
-    before = (facts_in(folder, name) or {}).get("file")
+    """Remove the metadata of other work, and its file if that has another name."""
+    before = (metadata_in(folder, name) or {}).get("file")
     folder.remove(f"{name}.json")
     if before != file and before in [f"{name}.{format}" for format in ARRAYS]:
         folder.remove(before)
 
 
-def write_facts(
-    folder: Folder, name: str, key: str, file: str, facts: Mapping[str, Any], begin: float
+def write_metadata(
+    folder: Folder, name: str, key: str, file: str, metadata: Mapping[str, Any], begin: float
 ) -> dict[str, Any]:
-    """The JSON beside a file that is complete.
+    """Write the metadata of a file that is complete, and return them.
 
-    begin: the `time.monotonic()` from which its seconds count; of what was put together, earlier by those of its parts.
+    Seconds count from `begin` of `time.monotonic()`; a joined result begins earlier by those of its parts.
     """
     seconds = round(time.monotonic() - begin, 3)
     there = {"file": file, "bytes": folder.size(file), "sha256": folder.sha256(file)}
-    facts_in_file = {**there, **facts, "seconds": seconds, "key": key}
-    text = json.dumps(facts_in_file, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    written = {**there, **metadata, "seconds": seconds, "key": key}
+    text = json.dumps(written, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
     folder.write(f"{name}.json", text.encode())
-    return facts_in_file
+    return written
 
 
 def _write(path: Path, format: str, arrays: Mapping[str, Array]) -> None:
     if format == "npy":
         (array,) = arrays.values()
-        if isinstance(array, Blocks):
+        if isinstance(array, ArrayBlocks):
             # Larger than memory, it may be.
             there = np.lib.format.open_memmap(path, "w+", array.dtype, array.shape)
             if hasattr(os, "posix_fallocate"):
@@ -187,14 +189,14 @@ def _write(path: Path, format: str, arrays: Mapping[str, Array]) -> None:
 
 
 def _whole(arrays: Mapping[str, Array]) -> dict[str, AnyArray]:
-    """Blocks that have two names are put together once."""
-    blocks = {id(array): array for array in arrays.values() if isinstance(array, Blocks)}
+    """Return the arrays in memory; blocks that have two names are put together once."""
+    blocks = {id(array): array for array in arrays.values() if isinstance(array, ArrayBlocks)}
     wholes = {key: array.whole() for key, array in blocks.items()}
-    return {name: wholes[id(array)] if isinstance(array, Blocks) else array for name, array in arrays.items()}
+    return {name: wholes[id(array)] if isinstance(array, ArrayBlocks) else array for name, array in arrays.items()}
 
 
 def read_arrays(folder: Folder, file: str) -> dict[str, AnyArray]:
-    """The arrays of a file that `write_result` has written, by name; a single one of .npy has none, ""."""
+    """Return the arrays of a file by `write_result`, by name; the only one of .npy has the name ""."""
     if file.endswith(".zarr"):
         import zarr
 
@@ -206,7 +208,9 @@ def read_arrays(folder: Folder, file: str) -> dict[str, AnyArray]:
     try:
         return _arrays_in(content, file)
     except Exception:  # of whatever reads what is damaged
-        raise OutputError(f"{folder}/{file} is damaged; the same command with --verify makes it again.") from None
+        raise OutputError(
+            f"{folder}/{file} is damaged; run the same command with --verify to compute it again."
+        ) from None
 
 
 def _arrays_in(content: bytes, file: str) -> dict[str, AnyArray]:
@@ -221,35 +225,74 @@ def _arrays_in(content: bytes, file: str) -> dict[str, AnyArray]:
 
 
 def check_format(format: str) -> None:
-    """ParameterError for a format that is none, or whose package is missing, which is named."""
+    """Raise ParameterError for an unknown format, or for one whose package is missing."""
     if format not in ARRAYS:
         raise ParameterError(f"There is no format {format!r}; arrays are written as {', '.join(ARRAYS)}.")
     if format == "zarr":
         try:
             import zarr  # noqa: F401
         except ImportError:
-            raise ParameterError("Zarr arrays need the package zarr: pip install 'bihdist[zarr]'.") from None
+            raise ParameterError(f"Zarr arrays need the package zarr: {install_command('zarr')}") from None
 
 
-def write_zarr(folder: Folder, file: str, arrays: Mapping[str, Array], facts: Mapping[str, Any]) -> None:
-    """A Zarr group of arrays, what is said of them in its attributes."""
+def write_zarr(folder: Folder, file: str, arrays: Mapping[str, Array], metadata: Mapping[str, Any]) -> None:
+    """Write a Zarr group of arrays, with the metadata as its attributes."""
     import zarr
 
     with folder.writing_folder(file) as begun:
-        group = zarr.open_group(zarr_store(folder, begun), mode="w", attributes=dict(facts))
+        group = zarr.open_group(zarr_store(folder, begun), mode="w", attributes=dict(metadata))
         for each, array in arrays.items():
-            chunks = tuple(min(CHUNK, max(length, 1)) for length in array.shape)
+            chunks = tuple(min(ZARR_CHUNK, max(length, 1)) for length in array.shape)
             there = group.create_array(each, shape=array.shape, dtype=array.dtype, chunks=chunks)
-            if isinstance(array, Blocks):
+            if isinstance(array, ArrayBlocks):
                 array.into(there)
             else:
                 there[...] = array
 
 
 def zarr_store(folder: Folder, file: str) -> Any:
-    """Where Zarr keeps the arrays of a file."""
+    """Return the store of a file for Zarr."""
     if folder.local is not None:
         return str(folder.local / file)
     from zarr.storage import FsspecStore
 
     return FsspecStore.from_url(f"{folder.address}/{file}")
+
+
+# ---------------------------------------------------------------------- MATLAB
+# The layout "dist" is `dist`, as ULRSSM and its successors read it; their metrics do not normalise, and expect an area
+# of 1. The layout "geodist" has the distances as `Gamma` (GeomFmaps, DUO-FM) and `geodist` (AttentiveFMaps), and the
+# root of the area as `SQRarea` and, sparse as MATLAB has it, `sqrt_area`, by which they divide.
+NORMALISED = "metrics that do not normalise, such as ULRSSM's, expect an area of 1: --normalise area"
+
+
+def laid_out(layout: str, distances: Array, root: float) -> Mapping[str, Any]:
+    """Return the arrays of a layout by name; `root` is that of the area."""
+    if layout == "dist":
+        return {"dist": distances}
+    from scipy.sparse import csc_matrix
+
+    one = np.array([[root]])
+    # Each reader has a name of its own for the distances, and takes no other.
+    return {"geodist": distances, "Gamma": distances, "sqrt_area": csc_matrix(one), "SQRarea": one}
+
+
+IDS = ("sources", "vertices", "indices")
+"""Arrays whose entries are vertex ids."""
+COUNT_FROM = "ids_count_from"
+"""The variable of a .mat file with the id that a mesh's first vertex has in it."""
+
+
+def for_matlab(arrays: Mapping[str, Array], one_based: bool) -> tuple[dict[str, Array], dict[str, Any]]:
+    """Return arrays with ids that count from 0 or 1, a variable that says so, and the metadata about it.
+
+    An id of -1 for a missing vertex becomes 0 if ids count from 1.
+    """
+    first = int(one_based)
+    ids = {name: array + first for name, array in arrays.items() if name in IDS and not isinstance(array, ArrayBlocks)}
+    if not ids:
+        return dict(arrays), {}
+    metadata: dict[str, Any] = {f"mat_{COUNT_FROM}": first}
+    if "indices" in ids:
+        metadata["indices"] = f"{first - 1} where there is none"
+    return {**arrays, **ids, COUNT_FROM: np.array(first)}, metadata

@@ -13,13 +13,13 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from bihdist_core.errors import OutputError, ParameterError
+from bihdist_core.file_output import TEMPORARY_NAME, atomic_write, is_stale, lock, temporary_name
 from bihdist_core.sentences import shortened
-from bihdist_core.whole_file import HALF_WRITTEN, half_written, held, is_left, whole_file
 
 
 @dataclass(frozen=True)
 class Folder:
-    """A folder by its path or address; files in it are whole or absent.  Files are named from it, with `/`.
+    """A folder by its path or address, whose files are whole or absent; files are named from it, with `/`.
 
     Only its address travels to other processes.
     """
@@ -31,7 +31,7 @@ class Folder:
 
     @cached_property
     def local(self) -> Path | None:
-        """Where it is on this computer, None if it is elsewhere."""
+        """The path on this computer, None if the folder is elsewhere."""
         return None if "://" in self.address else Path(self.address)
 
     @cached_property
@@ -46,7 +46,7 @@ class Folder:
             raise ParameterError(f"{self.address} cannot be reached: {error}.") from None
 
     def make(self) -> None:
-        """OutputError if it cannot be made or is no folder."""
+        """Create the folder; OutputError if that is impossible."""
         try:
             if self.local is not None:
                 self.local.mkdir(parents=True, exist_ok=True)
@@ -57,7 +57,7 @@ class Folder:
             raise OutputError(f"The folder {self.address} cannot be made: {error.strerror or error}.") from error
 
     def size(self, name: str) -> int | None:
-        """Bytes of a file, or of all in a folder; None if there is none."""
+        """Return the bytes of a file or of all files in a folder, None if there is none."""
         if self.local is not None:
             here = self.local / name
             # os.path, for which a name that is too long is one that is not there.
@@ -71,7 +71,7 @@ class Folder:
         return int(system.du(path)) if system.isdir(path) else int(system.size(path))
 
     def read(self, name: str) -> bytes | None:
-        """A file, None if there is none."""
+        """Return the content of a file, None if there is none."""
         try:
             if self.local is not None:
                 here = self.local / name
@@ -83,7 +83,7 @@ class Folder:
             return None
 
     def sha256(self, name: str) -> str:
-        """The checksum of a file, or of all in a folder with their names."""
+        """Return the checksum of a file, or of all files in a folder with their names."""
         digest = hashlib.sha256()
         for each, file in self._files(name):
             digest.update(each.encode())
@@ -93,7 +93,7 @@ class Folder:
         return digest.hexdigest()
 
     def _files(self, name: str) -> Iterator[tuple[str, BinaryIO]]:
-        """A file without a name, or those in a folder with theirs, in order; each open, to be closed."""
+        """Yield a file without a name, or those in a folder with theirs, in order; each is open, to be closed."""
         if self.local is not None:
             here = self.local / name
             if not here.is_dir():
@@ -108,7 +108,7 @@ class Folder:
             yield each.partition(f"{root}/{name}")[2].lstrip("/"), system.open(each, "rb")
 
     def check_free(self, name: str, is_folder: bool = False) -> None:
-        """OutputError where a file, or a folder, cannot have this name, and where what has it is not of its kind."""
+        """Raise OutputError if a file or folder cannot have this name, or something of another kind has it."""
         if self.local is None:
             return
         path = self.local / name
@@ -121,15 +121,15 @@ class Folder:
             raise OutputError(f"{shortened(path.name, 80)} cannot be written ({reason}); rename the mesh.") from None
         if not (stat.S_ISDIR(kind) if is_folder else stat.S_ISREG(kind)):
             there = "a folder" if stat.S_ISDIR(kind) else "a file" if stat.S_ISREG(kind) else "not a regular file"
-            raise OutputError(f"{path} is {there}, and a result would have this name; move it away.")
+            raise OutputError(f"{path} is {there}, and a result would have this name; move it.")
 
     @contextmanager
     def writing(self, name: str) -> Iterator[Path]:
-        """A path on this computer that becomes the file when the block ends well.  OutputError if it cannot."""
+        """Yield a path on this computer that becomes the file when the block ends well; OutputError if it cannot."""
         if self.local is not None:
             (self.local / name).parent.mkdir(parents=True, exist_ok=True)
             # There may be many files; `sweep` looks through all of them once.
-            with whole_file(self.local / name, sweeps=False) as temporary:
+            with atomic_write(self.local / name, removes_stale=False) as temporary:
                 yield temporary
             return
         system, root = self._elsewhere
@@ -145,16 +145,17 @@ class Folder:
 
     @contextmanager
     def writing_folder(self, name: str) -> Iterator[str]:
-        """The name of a folder that becomes this one when the block ends well; elsewhere, it is this one all along."""
+        """Yield the name of a folder that becomes this one when the block ends well; elsewhere, it is this one all
+        along."""
         if self.local is None:
             self.remove(name)
             yield name
             return
-        begun = half_written(self.local / name)
+        begun = temporary_name(self.local / name)
         try:
             begun.mkdir(parents=True)
             # Inside it, for whoever writes a folder may make it anew, and lose what holds it.
-            with held(begun):
+            with lock(begun):
                 inside = begun / "whole"
                 yield str(inside.relative_to(self.local))
                 self.remove(name)
@@ -168,9 +169,9 @@ class Folder:
         """Remove what killed processes have left half written."""
         if self.local is None:
             return  # elsewhere a file is shown when all of it is there
-        with suppress(FileNotFoundError):  # another run sweeps, too
+        with suppress(FileNotFoundError):  # another run removes it, too
             for path in list(self.local.rglob(".*")):
-                if HALF_WRITTEN.fullmatch(path.name) and is_left(path):
+                if TEMPORARY_NAME.fullmatch(path.name) and is_stale(path):
                     self.remove(str(path.relative_to(self.local)))
 
     def write(self, name: str, content: bytes) -> None:
@@ -179,7 +180,7 @@ class Folder:
             path.write_bytes(content)
 
     def remove(self, name: str) -> None:
-        """A file or a folder with all that is in it, if it is there."""
+        """Remove a file, or a folder with its content, if it is there."""
         if self.local is not None:
             path = self.local / name
             if os.path.isdir(path):

@@ -1,14 +1,87 @@
-"""What is to be done with each mesh, in plain values: the same text is the same work, in any process."""
+"""The kinds of work, and what is to be computed for each mesh, in plain values: the same in any process."""
 
 import hashlib
 import json
 import re
 from dataclasses import asdict, dataclass
+from functools import cached_property
 
 from bihdist_core.errors import ParameterError
 
 from ..document.sources import FARTHEST, HIGHEST, Sources
-from .work_kinds import KINDS, MAXIMA, WORKS
+
+MAXIMA = "maxima"
+"""A work that is done before figures that share their range: the largest value of each panel."""
+FILES = frozenset({"cut", "labels", "mask", "sources"})
+"""Fields that name what is read beside a mesh."""
+
+
+@dataclass(frozen=True)
+class WorkKind:
+    """A kind of work of `--do`, with its meaning for the command's help.
+
+    Results depend on these `fields` of a `WorkOrder` and, with `by_distance`, on the distance. The `options` of the
+    command have an effect, too. `function` is the one of `jobs`, "" if another module has it.
+    """
+
+    word: str
+    meaning: str
+    fields: frozenset[str]
+    by_distance: bool = False
+    options: frozenset[str] = frozenset()
+    function: str = ""
+
+    @cached_property
+    def reads(self) -> frozenset[str]:
+        """The files that it reads beside the mesh."""
+        return FILES & self.fields
+
+
+def _kind(
+    word: str, meaning: str, fields: str, by_distance: bool = False, options: str = "", function: str = ""
+) -> WorkKind:
+    return WorkKind(word, meaning, frozenset(fields.split()), by_distance, frozenset(options.split()), function)
+
+
+OF_IDS = "areas cut merge sources arrays one_based mask normalise"
+OF_SOURCES = f"{OF_IDS} dtype"
+
+KINDS = {
+    kind.word: kind
+    for kind in (
+        _kind("fields", "distances of all vertices from the sources", OF_SOURCES, by_distance=True, function="fields"),
+        _kind("pairs", "among the sources", f"{OF_SOURCES} labels layout", by_distance=True, function="pairs"),
+        _kind("nearest", "their nearest vertices", f"{OF_SOURCES} nearest", by_distance=True, function="neighbours"),
+        _kind("eigen", "eigenpairs", "areas cut merge eigenpairs dtype arrays normalise", function="eigen"),
+        _kind("fps", "farthest points", OF_IDS, by_distance=True, function="fps"),
+        _kind("figure", "a picture", "recipe range maxima cut merge", options="sources distance areas clim"),
+        _kind("evaluate", "errors of maps", "areas samples arrays", options="maps truth symmetry"),
+        _kind(MAXIMA, "", "recipe cut merge"),
+    )
+}
+
+WORKS = tuple(word for word in KINDS if word != MAXIMA)
+"""The kinds of work that can be asked for."""
+
+OPTIONS = {"format": "arrays"}
+"""Options of the command that say a field of a `WorkOrder` by another name."""
+COUNTS = {"nearest": "nearest", "eigen": "eigenpairs"}
+"""Works that `--k` counts for, and the field that it says."""
+
+
+def works_of(option: str) -> tuple[str, ...]:
+    """Return the kinds of work on which an option of the command has an effect."""
+    if option == "k":
+        return tuple(work for work in WORKS if work in COUNTS or KINDS[work].by_distance or work == "figure")
+    field = OPTIONS.get(option, option)
+    return tuple(
+        word
+        for word in WORKS
+        if field in KINDS[word].fields
+        or option in KINDS[word].options
+        or (option == "distance" and KINDS[word].by_distance)
+    )
+
 
 SIZE, SHARED, OWN = RANGES = ("size", "shared", "own")
 """Where colours of figures end: at one value over the root of each mesh's area, to the power that a distance has; at
@@ -25,12 +98,17 @@ ALL = "(all maps)"
 
 @dataclass(frozen=True)
 class WorkOrder:
-    """works: of WORKS, in their order; distances: specs in words; nearest: as many neighbours; samples: of a map, that
-    many vertices or all; cut, merge: see `Repairs`; labels, mask, cut and the sources' file: a path in which {name}
-    stands for the mesh's.  one_based: whether vertex ids in .mat files count from 1.  layout: of LAYOUTS, for pairs.
-    normalise: "area" for distances and eigenpairs of the mesh scaled to area 1.  recipe: the text of that which figures
-    are drawn from; range: of RANGES; maxima: where those of panels end, if they are not their own.  verify: whether
-    what is there counts as there only if its bytes are those that were written."""
+    """The kinds of work and their options.
+
+    `works` are of WORKS, in their order; `distances` specs in words; `nearest` the number of neighbours; `samples`
+    those of a map, 0 for all vertices. `cut` and `merge` are those of `Repairs`. In the paths `labels`, `mask`,
+    `cut` and of the sources' file, {name} stands for the mesh's.
+
+    With `one_based`, vertex ids in .mat files count from 1. `layout` is one of LAYOUTS for pairs; `normalise` is
+    "area" for distances and eigenpairs of the mesh scaled to area 1. `recipe` is the text of the one that figures
+    are drawn from, `range` one of RANGES, and `maxima` the ends of panels that share them. With `verify`, results
+    that are there must have their checksums.
+    """
 
     works: tuple[str, ...]
     distances: tuple[str, ...] = ("biharmonic",)
@@ -55,10 +133,10 @@ class WorkOrder:
 
     def __post_init__(self) -> None:
         if not self.works:
-            raise ParameterError(f"Nothing is to be done; name some of {', '.join(WORKS)}.")
+            raise ParameterError(f"There is nothing to do; name some of {', '.join(WORKS)}.")
         for work in self.works:
             if work not in KINDS:
-                raise ParameterError(f"There is no work {work!r}; it is one of {', '.join(WORKS)}.")
+                raise ParameterError(f"There is no task {work!r}; it is one of {', '.join(WORKS)}.")
         if "pairs" in self.works and not (self.labels or self.sources.several):
             raise ParameterError(
                 "Pairs are among several sources: name them, such as --sources farthest:400 or --sources all; or "
@@ -72,12 +150,12 @@ class WorkOrder:
             raise ParameterError("Farthest points need a number of them: --sources farthest:400.")
 
     def results(self) -> list[tuple[str, str]]:
-        """Each work with the distance it is done with, "" for none."""
+        """Return each kind of work with the distance it is done with, "" for none."""
         chosen = [kind for kind in KINDS.values() if kind.word in self.works]
         return [(kind.word, each) for kind in chosen for each in (self.distances if kind.by_distance else ("",))]
 
     def key(self, work: str, distance: str, checksums: str, version: str) -> str:
-        """What tells this result from others: of a mesh and other files (by their checksums), options and version."""
+        """Return the key of a result: of a mesh and other files (by their checksums), options and version."""
         says = asdict(self)
         # What stands in files is in their checksums, wherever they are.
         says["sources"]["file"] = ""
@@ -88,28 +166,27 @@ class WorkOrder:
 
     @property
     def files(self) -> dict[str, str]:
-        """What is read beside the mesh, by what it is."""
+        """The files that are read beside the mesh, by what they are."""
         sources = "" if self.sources.text else self.sources.file
         named = {"sources": sources, "cut": self.cut, "labels": self.labels, "mask": self.mask}
         return {what: path for what, path in named.items() if path}
 
     def file_for(self, pattern: str, name: str) -> str:
-        """The file that a pattern means for a mesh."""
+        """Return the file that a pattern means for a mesh."""
         return pattern.replace("{name}", name)
 
 
 def slug(distance: str) -> str:
-    """A spec's words in letters that files may have: diffusion(t=1/4) is diffusion_t_1_4."""
+    """Return a spec in characters for file names: diffusion(t=1/4) becomes diffusion_t_1_4."""
     return re.sub(r"[^0-9A-Za-z.-]+", "_", distance).strip("_")
 
 
 def thumbnail_name(mesh: str) -> str:
-    """The file with a thumbnail of a mesh's figure."""
+    """Return the file name of the thumbnail of a mesh's figure."""
     return f"thumbnails/{mesh}.jpg"
 
 
 def result_name(mesh: str, work: str, distance: str, layout: str = "") -> str:
-    """The beginning of the names of a result's files; of its JSON alone where the pairs have a layout, whose files
-    have the same name for all distances."""
+    """Return the beginning of the file names of a result; of its JSON alone if the pairs have a layout."""
     name = ".".join(part for part in (mesh, work, layout if work == "pairs" and layout else slug(distance)) if part)
     return f".{MAXIMA}/{name}" if work == MAXIMA else name

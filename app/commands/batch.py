@@ -5,13 +5,19 @@ import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from bihdist_core.counts import counted
+from bihdist_core.distances.distance_types import Spec
+from bihdist_core.errors import ParameterError
 
-from ..batch.work_kinds import COUNTS, KINDS, WORKS, works_of
-from ..batch.work_order import ARRAYS, GIFTI
+from ..batch.work_order import ARRAYS, COUNTS, GIFTI, KINDS, WORKS, WorkOrder, works_of
+from ..document.document import comparison
+from ..document.lists import standard_input
+from ..document.page import Recipe
+from ..document.repairs import NO_REPAIRS
 from ..document.sources import HIGHEST, Sources
 from ..version import version
 from .options import (
@@ -34,12 +40,12 @@ from .terminal import is_quiet, task_lines, tell, tell_failure
 from .termination import status_of, words_of
 
 if TYPE_CHECKING:
-    from ..batch.drive import Meshes, Outcome, Tell
     from ..batch.engines import Engine
     from ..batch.maps import Map
+    from ..batch.mesh_files import MeshFiles
+    from ..batch.scheduler import Outcome, Tell
     from ..batch.storage import Folder
-    from ..batch.task import Failure, Report, Row
-    from ..batch.work_order import WorkOrder
+    from ..batch.task import Failure, Report, ResultRow
 
 EIGENPAIRS = 100
 """So many, unless `--k` says otherwise."""
@@ -50,14 +56,19 @@ OF_RECIPE = ("distance", "areas", *PARAMETERS)
 DRAWN = {"figure": "vtkmodules", "evaluate": "matplotlib"}
 """Works whose results are drawn, and the module they need, which is not there where batches are all that runs."""
 
-WORDS = "the same work on many meshes: fields, pairs, neighbours, eigenpairs, farthest points, figures, into a folder"
+WORDS = "do the same work on many meshes, into a folder"
+EXAMPLES = (
+    "bihdist batch meshes --do fields --sources farthest:10 -o results",
+    "bihdist batch hand beast --do pairs,nearest --sources farthest:50 --k 5 -o results",
+    "bihdist batch hand beast --do figure -o pictures",
+)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `batch` to its parser."""
     parser.add_argument("meshes", metavar="MESH", nargs="*", help="mesh files, names of samples, or folders of meshes")
     parser.add_argument(
-        "--list", metavar="FILE", help="meshes besides, a path or a sample on each line; - for standard input"
+        "--list", metavar="FILE", help="more meshes, a path or a sample on each line; - for standard input"
     )
     parser.add_argument(
         "--do",
@@ -67,7 +78,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help=f"some of {', '.join(WORKS)}, with commas: {'; '.join(KINDS[word].meaning for word in WORKS)}",
     )
     add_sources(parser, "where distances start on each mesh, whose name stands for {name} in @FILE")
-    add_output(parser, "a folder, or s3://... and what else fsspec knows", metavar="DIR")
+    add_output(parser, "a folder, or an address that fsspec knows, such as s3://...", metavar="DIR")
     add_distance(
         parser,
         "for fields, pairs, nearest, fps and figure (default: biharmonic)",
@@ -93,20 +104,26 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="for pairs: .mat files in a folder as benchmarks of shape matching read them: dist for ULRSSM and others "
         "that divide by nothing and want --normalise area; geodist for GeomFmaps, DUO-FM and AttentiveFMaps",
     )
-    parser.add_argument("--recipe", metavar="FILE.json", help="for figure: drawn of each mesh, from its highest vertex")
     parser.add_argument(
-        "--range",
+        "--recipe", metavar="FILE.json", help="for figure: what is drawn of each mesh, from its highest vertex"
+    )
+    parser.add_argument(
+        "--clim",
         choices=("size", "shared", "own"),
         help="for figure: colours end at one value by the size of each mesh, the root of its area (default); at one "
         "value in mesh units; at each mesh's own maximum",
     )
     parser.add_argument("--maps", metavar="DIR", help="for evaluate: maps called cat-dog.npy, from cat to dog")
-    parser.add_argument("--truth", metavar="MAP", help="for evaluate: `identity`, or a folder of maps so called")
     parser.add_argument(
-        "--symmetry", metavar="MAP", help="for evaluate: partners of vertices that count as right, too; {name}: of whom"
+        "--truth", metavar="MAP", help="for evaluate: `identity`, or a folder of maps of the same names"
     )
-    parser.add_argument("--samples", type=count, metavar="N", help="for evaluate: of so many vertices (default: all)")
-    verified = "results that are there count only if their bytes have the checksum of their JSON"
+    parser.add_argument(
+        "--symmetry",
+        metavar="MAP",
+        help="for evaluate: symmetric partners, which also count as right; {name} stands for the mesh",
+    )
+    parser.add_argument("--samples", type=count, metavar="N", help="for evaluate: errors of N vertices (default: all)")
+    verified = "check the results that are there against the checksums in their JSON"
     parser.add_argument("--verify", action="store_true", help=verified)
     add_workers(parser)
     parser.add_argument("--dask", metavar="WHERE", help="a Dask cluster: tcp://HOST:PORT or its scheduler's FILE.json")
@@ -114,10 +131,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> Result:
     """Do the chosen work for all meshes and write the tables; the exit status is 1 if some of it failed."""
-    from ..batch.drive import Outcome, do_all, write_tables
     from ..batch.execution import PARTS
     from ..batch.results import check_format
+    from ..batch.scheduler import Outcome, run_batch
     from ..batch.storage import Folder
+    from ..batch.tables import write_tables
     from ..batch.task import Failure
 
     wanted = _wanted(options)
@@ -135,27 +153,27 @@ def run(options: argparse.Namespace) -> Result:
     engine, outcome = _engine(options), Outcome(failures=failures)
     names = [*meshes, *found.missing]
     try:
-        do_all(meshes, maps, wanted, address, version(), engine, _progress, outcome)
+        run_batch(meshes, maps, wanted, address, version(), engine, _progress, outcome)
     except KeyboardInterrupt as error:
         done = counted(len(outcome.rows), "result")
-        tell_failure(f"{words_of(error)}; {done} in {place}. The same command goes on from there.")
+        tell_failure(f"{words_of(error)}; {done} in {place}. Run the same command to resume.")
         return Result(_facts(folder, outcome, len(names)), status_of(error))
     finally:
         # Whatever happened, and before the pages, which may fail: the tables say what is there.
         try:
             engine.close()
         finally:
-            write_tables(folder, outcome, names, evaluated)
+            write_tables(folder, outcome.rows, outcome.failures, names, evaluated)
     folder.sweep()
     left = folder.size(PARTS)
     if left:
         where = f"{place}/{PARTS}"
-        tell(f"{where} has {left / 1e6:.1f} MB of unfinished work; the same command goes on from there, or delete it.")
+        tell(f"{where} has {left / 1e6:.1f} MB of unfinished work; run the same command to resume, or delete it.")
     else:
         folder.remove(PARTS)
     pages, lines = _pages(folder, outcome)
     if lines:
-        write_tables(folder, outcome, names, evaluated, lines)
+        write_tables(folder, [*outcome.rows, *lines], outcome.failures, names, evaluated)
     new = sum(row.is_new for row in outcome.rows)
     kept = len(outcome.rows) - new
     there = f", {kept} of them there before" if kept else ""
@@ -170,18 +188,16 @@ def run(options: argparse.Namespace) -> Result:
 
 
 def _check_drawing(works: Sequence[str]) -> None:
-    """ParameterError, before hours of work, where what draws its results is not installed."""
-    from bihdist_core.errors import ParameterError
-
+    """Raise ParameterError, before hours of work, if a package that draws results is not installed."""
     for work in works:
         if work in DRAWN and find_spec(DRAWN[work]) is None:
             raise ParameterError(
-                f"--do {work} draws, and {DRAWN[work]} is not installed: `pip install bihdist` brings it."
+                f"--do {work} needs {DRAWN[work]}, which is not installed: `pip install bihdist` brings it."
             )
 
 
 def _facts(folder: "Folder", outcome: "Outcome", n_meshes: int, pages: Sequence[str] = ()) -> Facts:
-    """What is there, what is missing, and the tables and pages about all of it."""
+    """Return the results, the failures, and the tables and pages about them."""
     tables = ["summary.csv", *(["failures.csv"] if outcome.failures else [])]
     return {
         "output": str(folder),
@@ -189,8 +205,8 @@ def _facts(folder: "Folder", outcome: "Outcome", n_meshes: int, pages: Sequence[
         "outputs": [f"{folder}/{name}" for name in (*tables, *pages)],
         "results": [
             {
-                "mesh": row.name, "work": row.work, "distance": row.distance, "file": row.facts["file"],
-                "seconds": row.facts.get("seconds"), "is_new": row.is_new,
+                "mesh": row.name, "work": row.work, "distance": row.distance, "file": row.metadata["file"],
+                "seconds": row.metadata.get("seconds"), "is_new": row.is_new,
             }
             for row in outcome.rows
         ],
@@ -201,27 +217,26 @@ def _facts(folder: "Folder", outcome: "Outcome", n_meshes: int, pages: Sequence[
     }  # fmt: skip
 
 
-def _meshes(options: argparse.Namespace) -> "Meshes":
-    from ..batch.drive import found_meshes
-    from ..document.lists import standard_input
+def _meshes(options: argparse.Namespace) -> "MeshFiles":
+    from ..batch.mesh_files import find_mesh_files
 
     if options.list != "-":
-        return found_meshes(options.meshes, options.list or "")
-    return found_meshes(options.meshes, "standard input", standard_input("meshes"))
+        return find_mesh_files(options.meshes, options.list or "")
+    return find_mesh_files(options.meshes, "standard input", standard_input("meshes"))
 
 
 def _reasons(outcome: "Outcome") -> list[str]:
-    """A line for each mesh and reason, with all that is missing for it."""
+    """Return a line for each mesh and reason, with all that is missing for it."""
     found: dict[tuple[str, str], list[str]] = {}
     for each in outcome.failures:
         found.setdefault((each.name, each.reason), []).append(f"{each.work} {each.distance}".strip())
     return [f"{name}: {', '.join(works)}: {reason}" for (name, reason), works in found.items()]
 
 
-def _pages(folder: "Folder", outcome: "Outcome") -> "tuple[list[str], list[Row]]":
-    """What shows all results at once: the names of its files, and lines for the summary."""
+def _pages(folder: "Folder", outcome: "Outcome") -> "tuple[list[str], list[ResultRow]]":
+    """Write the pages on all results; return the names of their files, and rows for the summary."""
     pages: list[str] = []
-    lines: list[Row] = []
+    lines: list[ResultRow] = []
     works = {row.work for row in outcome.rows}
     if "figure" in works:
         from ..batch.pages import write_pages
@@ -235,9 +250,7 @@ def _pages(folder: "Folder", outcome: "Outcome") -> "tuple[list[str], list[Row]]
     return pages, lines
 
 
-def _maps(options: argparse.Namespace, meshes: "dict[str, str]") -> "tuple[list[Map], list[Failure]]":
-    from bihdist_core.errors import ParameterError
-
+def _maps(options: argparse.Namespace, meshes: dict[str, str]) -> "tuple[list[Map], list[Failure]]":
     from ..batch.maps import found_maps
     from ..batch.task import Failure
 
@@ -250,9 +263,7 @@ def _maps(options: argparse.Namespace, meshes: "dict[str, str]") -> "tuple[list[
     return maps, [Failure(name, "evaluate", "", reason) for name, reason in reasons.items()]
 
 
-def _wanted(options: argparse.Namespace) -> "WorkOrder":
-    from ..batch.work_order import WorkOrder
-
+def _wanted(options: argparse.Namespace) -> WorkOrder:
     _check_together(options)
     words = list(dict.fromkeys(options.distance or ["biharmonic"]))
     eigenpairs, neighbours = _counts(options, words)
@@ -276,27 +287,23 @@ def _wanted(options: argparse.Namespace) -> "WorkOrder":
         labels=os.path.abspath(options.labels) if options.labels else "",
         mask=os.path.abspath(options.mask) if options.mask else "",
         recipe=recipe,
-        range=options.range or "size",
+        range=options.clim or "size",
         verify=options.verify,
     )
 
 
 def _counts(options: argparse.Namespace, words: list[str]) -> tuple[int, int]:
-    """How many eigenpairs and neighbours `--k` says; ParameterError where it may be either."""
-    from bihdist_core.errors import ParameterError
-
+    """Read the numbers of eigenpairs and of neighbours from `--k`; ParameterError if it may be either."""
     counted = [work for work in COUNTS if work in options.do]
     if len(counted) > 1 and options.k is not None:
-        raise ParameterError(f"--k {options.k} may be that of nearest or of eigen; do each by a command.")
+        raise ParameterError(f"--k {options.k} could count for nearest or for eigen; run them as two commands.")
     if "nearest" in counted:
         return EIGENPAIRS, neighbour_count(options, words)
     return (eigenpair_count(options, words, EIGENPAIRS) if counted else EIGENPAIRS), NEIGHBOURS
 
 
 def _check_together(options: argparse.Namespace) -> None:
-    """ParameterError for options that would be left without effect."""
-    from bihdist_core.errors import ParameterError
-
+    """Raise ParameterError for options without an effect."""
     asked = {*options.do}
     if not asked or not asked <= {*WORKS}:
         return  # a work that there is not is refused before its options
@@ -306,9 +313,9 @@ def _check_together(options: argparse.Namespace) -> None:
             continue
         counts = asked.intersection(works)
         if not counts:
-            raise ParameterError(f"--{name.replace('_', '-')} goes with --do {_either(works)}.")
+            raise ParameterError(f"--{name.replace('_', '-')} needs --do {_either(works)}.")
         if options.recipe and name in OF_RECIPE and counts == {"figure"}:
-            raise ParameterError(f"--{name} has no effect on figures of a recipe, which says it; leave it out.")
+            raise ParameterError(f"--{name} has no effect on figures drawn from a recipe; leave it out.")
         if options.labels and name == "sources" and counts == {"pairs"}:
             raise ParameterError(f"--{name} has no effect on the means between parcels; leave it out.")
     if options.one_based and options.layout:
@@ -333,16 +340,8 @@ def _either(words: tuple[str, ...]) -> str:
 
 
 def _recipe(options: argparse.Namespace, distances: tuple[str, ...]) -> str:
-    """That of all figures, from the highest vertex of each mesh if no source is named."""
-    from dataclasses import replace
-
-    from bihdist_core.distances.kinds import Spec
-    from bihdist_core.errors import ParameterError
-
-    from ..document.document import comparison
+    """Return the text of the recipe of all figures, from the highest vertex if no source is named."""
     from ..document.file import read_recipe, recipe_text
-    from ..document.page import Recipe
-    from ..document.repairs import NO_REPAIRS
 
     if options.recipe:
         recipe = read_recipe(options.recipe)
@@ -362,8 +361,6 @@ def _recipe(options: argparse.Namespace, distances: tuple[str, ...]) -> str:
 
 
 def _sources(options: argparse.Namespace) -> Sources:
-    from dataclasses import replace
-
     asked = options.sources or HIGHEST
     return replace(asked, file=os.path.abspath(asked.file)) if asked.file and not asked.text else asked
 
@@ -381,7 +378,8 @@ def _engine(options: argparse.Namespace) -> "Engine":
 
 @contextmanager
 def _progress(total: int) -> "Iterator[Tell]":
-    """A bar with rate and time left on a terminal, a line for each task elsewhere; nothing where that is asked for."""
+    """Show a bar with rate and time left on a terminal, a line for each task elsewhere, nothing if that is asked
+    for."""
     if is_quiet():
         yield lambda report, done, of: None
         return

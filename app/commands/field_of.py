@@ -4,86 +4,70 @@ import argparse
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from bihdist_core.errors import ParameterError
+from bihdist_core.progress import Progress
+from bihdist_core.sources.source import Source
+
 from ..document.quantities import Quantity
 from .mesh import read_laplacian
 from .mesh_sources import sources_on
 from .options import quantities
 from .result import Facts, accuracy_facts
-from .terminal import accuracy
+from .terminal import tell_accuracy
 
 if TYPE_CHECKING:
     from bihdist_core import Laplacian, Surface
     from bihdist_core.arrays import FloatArray
-    from bihdist_core.distances.accuracy import ErrorEstimate
-    from bihdist_core.progress import Progress
-    from bihdist_core.sources.source import Source
+    from bihdist_core.distances.answers import Answer
 
 
 @dataclass(frozen=True, eq=False)
-class FieldOf:
-    """field: (n,) from one source, or (n, k) from as many as there are, NaN where there is none; estimate: how accurate
-    it is, in words, and error_estimate, of a difference that of both."""
+class CommandField:
+    """A quantity from the sources of a command: its answer, whose field is (n,) from one source or (n, k) from k, and
+    how accurate it is, as it is printed behind a label."""
 
     laplacian: "Laplacian"
-    sources: "list[Source]"
+    sources: list[Source]
     shows: Quantity
-    field: "FloatArray"
-    label: str
-    unit: str
-    estimate: str
-    error_estimate: "ErrorEstimate"
+    answer: "Answer"
+    accuracy: str
 
     @property
     def facts(self) -> Facts:
-        """What is said of it beside its values."""
-        about = {"distance": str(self.shows), "label": self.label, "unit": self.unit}
-        return {**about, **accuracy_facts(self.error_estimate)}
+        """The facts about the field, without its values."""
+        about = {"distance": str(self.shows), "label": self.answer.label, "unit": self.answer.unit}
+        return {**about, **accuracy_facts(self.answer.accuracy)}
 
     @property
     def word(self) -> str:
-        """Its name in letters, digits and `_`."""
+        """The name of the field in letters, digits and `_`."""
         return "_minus_".join(spec.word for spec in self.shows.specs)
 
     @property
-    def is_signed(self) -> bool:
-        """Whether it has values on both sides of 0."""
-        return self.shows.is_difference
-
-    @property
     def surface(self) -> "Surface":
-        """The surface that the field is on."""
+        """The surface of the field."""
         return self.laplacian.surface
 
     @property
-    def scale(self) -> float:
-        """What fractions of a maximum are multiplied by to be in its unit."""
-        from bihdist_core.distances.difference import scale_of
-
-        return scale_of(self.unit)
-
-    @property
-    def top(self) -> float:
-        """The maximum of its size."""
-        import numpy as np
-
-        return float(np.nanmax(np.abs(self.field)))
+    def field(self) -> "FloatArray":
+        """The values, NaN where there is none."""
+        assert self.answer.field is not None
+        return self.answer.field
 
 
 def field_of(
     options: argparse.Namespace,
     words: str,
-    progress: "Progress | None",
-    before: FieldOf | None = None,
+    progress: Progress | None,
+    before: CommandField | None = None,
     several: bool = False,
-) -> FieldOf:
-    """What `words` say, from the sources that the options name, with the options beside them.
+) -> CommandField:
+    """Return the field that `words` name, from the sources and with the parameters of the options.
 
-    before: another field of the same mesh from the same sources.  several: whether there may be several of them, a
-    column each; ParameterError for several where there may not.
+    `before` is another field of the same mesh from the same sources.  Raises ParameterError for several sources unless
+    `several` allows them.
     """
-    from bihdist_core.distances.accuracy import ErrorEstimate
-    from bihdist_core.distances.answers import Distances
-    from bihdist_core.distances.difference import difference_in_unit
+    from bihdist_core.distances.answers import Answer, Distances, difference_of
     from bihdist_core.sources.pieces import pieces_of
 
     (chosen,) = quantities(options, [words])
@@ -95,16 +79,17 @@ def field_of(
         found = sources_on(options, laplacian.surface, lambda: distances.get(chosen.specs[0], progress), progress)
         sources = found.sources if several else [found.one()]
     pieces = [pieces_of(each, laplacian.surface) for each in sources]
-    known = [distances.get(spec, progress) for spec in chosen.specs]
-    if several:
-        fields = [distance.from_sources(sources, progress) for distance in known]
-    else:
-        fields = [distance.from_source(sources[0], progress) for distance in known]
-    unit, field = known[0].unit, fields[0]
+    answers, accuracies = [], []
+    for spec in chosen.specs:
+        distance = distances.get(spec, progress)
+        field = distance.from_sources(sources, progress) if several else distance.from_source(sources[0], progress)
+        estimate = distance.error_estimate(pieces=pieces)
+        label = " or ".join(dict.fromkeys(distance.label_from(each) for each in pieces))
+        answers.append(Answer(label=label, unit=distance.unit, field=field, error_estimate=estimate, is_distance=True))
+        accuracies.append(tell_accuracy(distance, estimate))
+    answer = answers[0]
     if chosen.is_difference:
-        field, unit = difference_in_unit(fields[0], fields[1], (known[0].unit, known[1].unit), not chosen.in_percent)
-    labels = [" or ".join(dict.fromkeys(distance.label_from(each) for each in pieces)) for distance in known]
-    estimate = "".join(dict.fromkeys(accuracy(distance) for distance in known))
-    estimates = [distance.error_estimate() for distance in known]
-    combined = estimates[0] if len(estimates) == 1 else ErrorEstimate.of_difference(estimates[0], estimates[1])
-    return FieldOf(laplacian, sources, chosen, field, " − ".join(labels), unit, estimate, combined)
+        answer = difference_of(answers[0], answers[1], raw=not chosen.in_percent)
+    if answer.failure:
+        raise ParameterError(answer.failure)
+    return CommandField(laplacian, sources, chosen, answer, "".join(dict.fromkeys(accuracies)))

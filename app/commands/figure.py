@@ -3,26 +3,47 @@
 import argparse
 from pathlib import Path
 
+from bihdist_core.errors import OutputError
+from bihdist_core.formats.mesh_names import mesh_name
 from bihdist_core.sources.words import short_words_of
 
+from ..document.document import starting_points
 from ..version import version
 from .figure_options import add_figure_options, chosen_recipe
 from .mesh import write_ids_of
 from .result import Result, panel_facts
-from .terminal import judged, progress_line, tell, tell_repairs
+from .terminal import progress_line, report_answers, tell, tell_repairs
 
-WORDS = "the window's comparison as a picture, without a window"
+WORDS = "draw the window's comparison as a picture, without a window"
+EXAMPLES = (
+    "bihdist figure hand --sources 12",
+    "bihdist figure hand --distance biharmonic --isolines 30 --size 85mm -o hand.pdf",
+    "bihdist figure --recipe hand.json --cmap uniform -o again.png",
+)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `figure` to its parser."""
-    add_figure_options(parser, "a .png, .pdf, .svg or .eps file")
+    files = "a .png, .pdf, .svg or .eps file (default: the mesh's name with .png)"
+    add_figure_options(parser, files, needs_output=False)
     parser.add_argument("--tex", action="store_true", help="a LaTeX snippet beside it, with a caption")
+
+
+def _usual_output(mesh: str) -> str:
+    """Return the usual file of a figure; OutputError if there is a file of that name without a recipe."""
+    from ..document.file import is_recipe
+    from ..session.recipe_file import recipe_paths
+
+    path = f"{mesh_name(mesh)}.png"
+    if Path(path).exists() and not any(each.exists() and is_recipe(each) for each in recipe_paths(path)):
+        raise OutputError(
+            f"There is a file {path} already, without a recipe beside it; name the figure's file with -o."
+        )
+    return path
 
 
 def run(options: argparse.Namespace) -> Result:
     """Draw the figure and write its recipe; the exit status is 1 if a panel failed."""
-    from ..document.document import starting_points
     from ..figures.draw import described
     from ..figures.export import export
     from ..figures.tex import tex_path
@@ -30,6 +51,7 @@ def run(options: argparse.Namespace) -> Result:
     from ..session.recipe_file import written_recipe
 
     recipe = chosen_recipe(options)
+    options.output = options.output or _usual_output(recipe.document.surfaces[0].path)
     remarks: list[str] = []
     with progress_line() as progress:
         figure, recipe, answers = export(recipe, options.output, version(), progress, remarks.append, options.tex)
@@ -44,7 +66,8 @@ def run(options: argparse.Namespace) -> Result:
     shown = {panel.surface: drawn.surface for panel, drawn in zip(recipe.document.panels, figure.panels, strict=True)}
     starts = list(dict.fromkeys(source_at(point.at, shown[point.surface]) for point in points))
     what = ", source vertex " if all(isinstance(each, int) for each in starts) else ", source "
-    print(f"{options.output}: {described(figure)}{what if starts else ''}{', '.join(map(short_words_of, starts))}")
+    from_where = f"{what}{', '.join(map(short_words_of, starts))}" if starts else ""
+    print(f"{options.output}: {described(figure, options.output)}{from_where}")
     ids_files = write_ids_of(recipe.document, options.output)
     document, snippet = recipe.document, str(tex_path(Path(options.output)))
     facts = {
@@ -58,4 +81,4 @@ def run(options: argparse.Namespace) -> Result:
         "sources": [each if isinstance(each, int) else short_words_of(each) for each in starts],
         "panels": [panel_facts(p.shows, answer) for p, answer in zip(document.panels, answers, strict=True)],
     }
-    return Result(facts, judged(answers, surface.name))
+    return Result(facts, report_answers(answers, surface.name))

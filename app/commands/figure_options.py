@@ -5,14 +5,25 @@ same way: no option is ignored.
 """
 
 import argparse
+from collections.abc import Mapping
 from dataclasses import replace
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bihdist_core.counts import counted
+from bihdist_core.distances.distance_types import Spec
+from bihdist_core.errors import ParameterError
+from bihdist_core.sources.source import Source
 
+from ..document.document import Document, MeshFile, Panel, Point, comparison, free_names
+from ..document.edits import put_point, show_in
+from ..document.page import Recipe
+from ..document.quantities import Quantity, from_point
+from ..document.second_mesh_edits import open_second_mesh
+from ..document.synonyms import COLOUR_MAPS
 from ..figures.options import made_from, rows, with_options, with_rows
 from ..figures.repair_options import REPAIRS
+from .mesh import check_mesh
 from .mesh_sources import sources_of_document, sources_of_two
 from .options import (
     MESH,
@@ -28,20 +39,13 @@ from .options import (
 )
 from .terminal import progress_line, tell
 
-if TYPE_CHECKING:
-    from bihdist_core.sources.source import Source
 
-    from ..document.document import Document, Point
-    from ..document.page import Recipe
-    from ..document.quantities import Quantity
-
-
-def add_figure_options(parser: argparse.ArgumentParser, files: str) -> None:
-    """All but what only one of the two has.  None stands for what is not given."""
+def add_figure_options(parser: argparse.ArgumentParser, files: str, needs_output: bool = True) -> None:
+    """Add the options that both commands have; the value of one that is not given is None."""
     parser.add_argument("mesh", metavar="MESH", nargs="?", help=MESH)
     parser.add_argument("beside", metavar="BESIDE", nargs="?", help="a second mesh B, to stand beside the first, A")
     add_sources(parser, "where distances start, a row of panels each, or with two meshes one of each")
-    add_output(parser, files)
+    add_output(parser, files, required=needs_output)
     add_distance(parser, PANELS, is_field=True)
     add_recipe(parser, "draw this again; all other options change it")
     add_rows(parser, *rows())
@@ -55,19 +59,13 @@ def add_recipe(parser: argparse.ArgumentParser, what: str) -> None:
     )
 
 
-def chosen_recipe(options: argparse.Namespace) -> "Recipe":
-    """The recipe the options make; ParameterError for one that makes no sense here."""
-    from bihdist_core import ParameterError
-
+def chosen_recipe(options: argparse.Namespace) -> Recipe:
+    """Make the recipe that the options describe; ParameterError if it makes no sense here."""
     if options.recipe is None:
         if options.other_mesh is not None:
-            raise ParameterError("--mesh goes with --recipe; without one, the mesh is named by itself.")
+            raise ParameterError("--mesh goes with --recipe; without a recipe, name the mesh by itself.")
         if options.mesh is None:
             raise ParameterError("There is nothing to draw; name a mesh, or a recipe with --recipe.")
-        from ..document.document import comparison
-        from ..document.page import Recipe
-        from .mesh import check_mesh
-
         check_mesh(options.mesh)
         return _changed(Recipe(comparison(options.mesh)), options)
     if options.mesh is not None:
@@ -77,7 +75,7 @@ def chosen_recipe(options: argparse.Namespace) -> "Recipe":
     return _changed(read_recipe(options.recipe), options)
 
 
-def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
+def _changed(recipe: Recipe, options: argparse.Namespace) -> Recipe:
     values = given(options, *rows())
     document, made = made_from(recipe.document)
     if options.other_mesh is not None:
@@ -91,49 +89,51 @@ def _changed(recipe: "Recipe", options: argparse.Namespace) -> "Recipe":
         recipe = replace(recipe, page=replace(recipe.page, columns=columns))
     recipe = with_rows(replace(recipe, document=document), made, rows())
 
-    def with_second(document: "Document") -> "Document":
+    def with_second(document: Document) -> Document:
         return _with_beside(document, options.beside, second)
 
     with progress_line() as progress:
         recipe = with_options(recipe, values, with_second, tell, progress)
+    tell_other_colours(values)
     _tell_if_unseen(recipe.page.style, values)
     return recipe
 
 
-def _with_beside(document: "Document", path: str | None, at: "Source | None") -> "Document":
-    from ..document.beside_edits import open_beside
-    from ..document.document import MeshFile
-    from .mesh import check_mesh
-
+def _with_beside(document: Document, path: str | None, at: Source | None) -> Document:
     if path is None:
         return document
     check_mesh(path)
-    return open_beside(document, MeshFile("", path), at)
+    return open_second_mesh(document, MeshFile("", path), at)
+
+
+def tell_other_colours(values: Mapping[str, Any]) -> None:
+    """Tell which colour map stands for a named one of another program."""
+    from ..scene.colour_maps import MAPS
+
+    name = str(values.get("cmap") or "")
+    if word := COLOUR_MAPS.get(name.lower().removesuffix("_r")):
+        tell(f"{name} is drawn with the colour map {word} ({MAPS[word].hint}).")
 
 
 def _tell_if_unseen(style: str, values: dict[str, Any]) -> None:
-    """A sentence on colours that are named for a style that has none."""
+    """Tell that colours are named for a style that has none."""
     from ..scene.style import STYLES
 
-    named = [f"--{name}" for name in ("colours", "reversed", "bands") if values.get(name)]
+    named = [f"--{name.replace('_', '-')}" for name in ("cmap", "flip_scalars", "bands") if values.get(name)]
     if named and style in STYLES and not STYLES[style].coloured:
         tell(f"The style {style} has no colours; {', '.join(named)} cannot be seen in it.")
 
 
-def _with_other_mesh(document: "Document", path: str) -> "Document":
-    """The same points of another mesh, which may be any file."""
-    from bihdist_core import ParameterError
-
-    from .mesh import check_mesh
-
+def _with_other_mesh(document: Document, path: str) -> Document:
+    """Show another mesh, which may be any file, with the same points."""
     if len(document.surfaces) != 1:
         raise ParameterError(f"--mesh replaces one mesh, and this recipe has {len(document.surfaces)}.")
     check_mesh(path)
     return replace(document, surfaces=(replace(document.surfaces[0], path=path, sha256=""),))
 
 
-def _sources(document: "Document", options: argparse.Namespace) -> "list[Source]":
-    """Those that the options name on the first mesh, none if they name none."""
+def _sources(document: Document, options: argparse.Namespace) -> list[Source]:
+    """Return the sources that the options name on the first mesh, none if they name none."""
     if options.sources is None:
         return []
     words = options.distance
@@ -144,16 +144,8 @@ def _sources(document: "Document", options: argparse.Namespace) -> "list[Source]
         return sources_of_document(options.sources, mesh.path, shown, areas, mesh.repairs, progress)
 
 
-def _with_panels(
-    document: "Document", options: argparse.Namespace, asked: "list[Source]"
-) -> "tuple[Document, int | None]":
-    """Other distances, parameters or sources; and how many panels a row then has, if they stand in rows."""
-    from bihdist_core import ParameterError
-
-    from ..document.document import Panel, Point, free_names
-    from ..document.edits import put_point, show_in
-    from ..document.quantities import from_point
-
+def _with_panels(document: Document, options: argparse.Namespace, asked: list[Source]) -> tuple[Document, int | None]:
+    """Change distances, parameters or sources; also return the number of panels in a row, if they stand in rows."""
     shown = dict.fromkeys(name for panel in document.panels for name in panel.shows.points)
     starts = list(dict.fromkeys(map(_place, map(document.point, shown))))
     if options.distance or (asked and len(asked) != len(starts)):
@@ -188,18 +180,16 @@ def _with_panels(
     return document, None
 
 
-def _place(point: "Point") -> "tuple[Source | None, str]":
-    """Where a point is: vertex ids are of one mesh."""
+def _place(point: Point) -> tuple[Source | None, str]:
+    """Return the source of a point, and the mesh that it is on."""
     return point.at, point.surface
 
 
-def _respecified(shows: "Quantity", options: argparse.Namespace) -> "Quantity":
-    """The quantity with those parameters that the options name and its distances have."""
-    from bihdist_core.distances.kinds import Spec
-
+def _respecified(shows: Quantity, options: argparse.Namespace) -> Quantity:
+    """Change the parameters of a quantity that the options name and its distances have."""
     given = given_parameters(options)
 
     def respecified(spec: Spec) -> Spec:
-        return spec.changed(**{p.name: given[p.name] for p in spec.kind.parameters if p.name in given})
+        return spec.changed(**{p.name: given[p.name] for p in spec.distance_type.parameters if p.name in given})
 
     return shows.with_parts(tuple(p.with_spec(respecified(p.specs[0])) if p.is_distance else p for p in shows.parts))

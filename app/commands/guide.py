@@ -6,6 +6,10 @@ from ..guide_pages import guide_page
 from .result import Result
 
 WORDS = "open the guide in a browser"
+EXAMPLES = (
+    "bihdist guide",
+    "bihdist guide --where",
+)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -14,7 +18,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> Result:
-    """Open the guide, or print where it is; OutputError where no browser can be started."""
+    """Open the guide, or print where it is; raise OutputError if no browser can be started."""
     import webbrowser
 
     from bihdist_core.errors import OutputError

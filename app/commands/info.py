@@ -3,6 +3,9 @@
 import argparse
 from typing import TYPE_CHECKING, Any
 
+from bihdist_core.distances.distance_types import BUILT_IN, Spec
+from bihdist_core.errors import ParameterError, SolverError
+
 from ..document.document import AREAS
 from .mesh import each_mesh, found_mesh
 from .options import add_areas, repairs_of
@@ -13,7 +16,7 @@ if TYPE_CHECKING:
     from bihdist_core import Surface
 
 MOST_LOOPS = 4
-"""So many boundary loops are described."""
+"""The number of boundary loops that are described."""
 COUNTS = {
     "n_vertices": "vertices",
     "n_faces": "faces",
@@ -27,7 +30,12 @@ COUNTS = {
 """Attributes of a surface, and the words for them."""
 SENTENCES = ("facts", "repairs", "warnings")
 
-WORDS = "what a mesh file holds and what would be repaired"
+WORDS = "describe a mesh file, and what would be repaired"
+EXAMPLES = (
+    "bihdist info hand",
+    "bihdist info scan.ply --accuracy",
+    "bihdist info --solver",
+)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -42,7 +50,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> Result:
     """Print what is known of each mesh; the exit status is 2 if one of several could not be read."""
-    from bihdist_core.errors import ParameterError
     from bihdist_core.kernel.library import description
 
     solver = {"solver": description()} if options.solver else {}
@@ -96,7 +103,7 @@ def _print_rows(rows: dict[str, Any]) -> None:
 
 
 def _loops(surface: "Surface") -> str:
-    """How many, and the length of the first few, which is what their numbers go by."""
+    """Describe the boundary loops: their number, and the lengths of the first few."""
     import numpy as np
 
     from bihdist_core import BoundaryLoop
@@ -112,20 +119,19 @@ def _loops(surface: "Surface") -> str:
 
 
 def _accuracies(surface: "Surface", areas: str) -> list[Facts]:
-    """For each exact distance how accurate it is on all components, or why it is not given."""
-    from bihdist_core import Laplacian, SolverError
+    """Return the accuracy of each exact distance on all components, or why it is not given."""
+    from bihdist_core import Laplacian
     from bihdist_core.distances.answers import Distances
-    from bihdist_core.distances.kinds import Spec
 
     found = []
     with progress_line() as progress:
         distances = Distances(Laplacian(surface, areas))
-        for word in ("biharmonic", "commute-time"):
+        for word in (each.word for each in BUILT_IN if each.is_complete):
             try:
                 distance = distances.get(Spec.of(word), progress)
                 accuracy(distance, everywhere=True)  # warns
                 found.append({**distance_facts(distance, word, everywhere=True), "failure": ""})
             except SolverError as error:
-                nothing = {"accuracy": None, "accuracy_text": "", "failure": str(error)}
+                nothing = {"accuracy": None, "accuracy_text": "", "accuracy_sources": None, "failure": str(error)}
                 found.append({"distance": word, "label": f"{word}, exact", "unit": "", **nothing})
     return found

@@ -2,14 +2,18 @@
 
 import argparse
 import os
+import re
 from collections.abc import Callable, Iterable, Sequence
-from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
+from bihdist_core.errors import BihdistError, MeshError, MissingFileError, OutputError, ParameterError
+from bihdist_core.formats.mesh_names import mesh_name
 from bihdist_core.sentences import shortened
 
-from ..document.document import AREAS
+from ..batch.work_order import ARRAYS
+from ..document.document import AREAS, Document
 from ..document.repairs import NAME, NO_REPAIRS, Repairs
+from ..document.synonyms import COMMAND_HINTS, near
 from ..samples import mesh_path, sample_names
 from .options import repairs_of
 from .result import Facts, Result
@@ -19,41 +23,45 @@ if TYPE_CHECKING:
     from bihdist_core import Laplacian
     from bihdist_core.arrays import IntArray
 
-    from ..document.document import Document
 
-LONGEST = 200
+_SOURCES = re.compile(r"([0-9]+|f[0-9]+:[^/]*|loop:[0-9]+)([,+ ][^/]*)?")
+"""Words that name a vertex or another source, and hardly a file."""
+MAX_NAME_CHARS = 200
 """Letters of a name that are repeated."""
 
 
 def found_mesh(word: str) -> str:
-    """The path of the mesh that a word names; MeshError where there is none."""
+    """Return the path of the mesh that a word names; MeshError if there is none."""
     check_mesh(word)
     return mesh_path(word)
 
 
 def check_mesh(word: str, commands: Iterable[str] = ()) -> None:
-    """MeshError where there is neither such a file nor such a sample, with what may have been meant.
+    """Raise MeshError if there is neither such a file nor such a sample, with what may have been meant.
 
-    commands: words that would have been possible in its place, too.
+    `commands` are words that would have been possible in its place, too.
     """
     if os.path.exists(mesh_path(word)):
         return
-    from bihdist_core.errors import MeshError, MissingFileError
 
-    shown = shortened(word, LONGEST)
+    shown = shortened(word, MAX_NAME_CHARS)
     if word.lower().endswith(".json"):
         raise MissingFileError(f"There is no file {shown}.")
-    commands = tuple(commands)
-    near = get_close_matches(word.lower(), dict.fromkeys((*commands, *sample_names())), 1)
-    meant = f"; did you mean {near[0]}?" if near else "."
+    if _SOURCES.fullmatch(word):
+        raise MeshError(f"There is no file {shown}; did you mean --sources {shown}?")
+    commands, word = tuple(commands), word.lower()
+    meant = (COMMAND_HINTS.get(word) if commands else None) or near(word, (*commands, *sample_names()))
     what = "command or file" if commands and os.path.basename(word) == word and "." not in word else "file"
-    raise MeshError(f"There is no {what} {shown}{meant} The samples are {', '.join(sample_names())}.")
+    if meant in commands:
+        raise MeshError(f"There is no {what} {shown}; did you mean {meant}? See `bihdist --help`.")
+    hint = f"; did you mean {meant}?" if meant else "."
+    raise MeshError(f"There is no {what} {shown}{hint} The samples are {', '.join(sample_names())}.")
 
 
 def read_laplacian(options: argparse.Namespace) -> "Laplacian":
-    """That of the mesh that was named, with the areas and the repairs that were asked for.
+    """Return the Laplacian of the named mesh, with the vertex areas and repairs of the options.
 
-    Where these number vertices anew, the file with the numbers is written beside the output.
+    If these renumber vertices, the file with the new ids is written beside the output.
     """
     return laplacian_of(options.mesh, options.areas, repairs_of(options, options.mesh), ids_beside(options))
 
@@ -61,7 +69,7 @@ def read_laplacian(options: argparse.Namespace) -> "Laplacian":
 def laplacian_of(
     mesh: str, areas: str | None = None, repairs: Repairs = NO_REPAIRS, ids_file: str | None = None
 ) -> "Laplacian":
-    """Read a mesh and say what was repaired.  ids_file: where new ids of vertices are written, if anywhere."""
+    """Read a mesh and report what was repaired; new ids of vertices are written to `ids_file`, if one is given."""
     from bihdist_core import Laplacian, read_surface
 
     from ..session.repaired_surface import repaired
@@ -74,15 +82,15 @@ def laplacian_of(
 
 
 def outputs_of(options: argparse.Namespace) -> list[str]:
-    """The files that a command with one output has written."""
+    """Return the files that a command with one output has written."""
     ids_file = ids_beside(options)
     return [options.output, *([ids_file] if ids_file else [])]
 
 
 def ids_beside(options: argparse.Namespace, letter: str = "") -> str | None:
-    """Where the new ids of merged vertices stand, beside the output; None without --merge, or an output's file.
+    """Return the path of the new ids of merged vertices beside the output, None without --merge or an output file.
 
-    letter: of one of two meshes.
+    `letter` is that of one of two meshes.
     """
     if options.merge is None or not getattr(options, "output", None) or hasattr(options, "is_standard_output"):
         return None
@@ -93,7 +101,7 @@ def _ids_file(output: str, letter: str = "") -> str:
     return ".".join(filter(None, (os.path.splitext(output)[0], letter, "ids.csv")))
 
 
-def write_ids_of(document: "Document", output: str) -> list[str]:
+def write_ids_of(document: Document, output: str) -> list[str]:
     """Write the new ids of merged vertices of a document's meshes beside an output; the files, one for each mesh."""
     from ..session.loaded_mesh import open_mesh
 
@@ -115,6 +123,22 @@ def _write_ids(path: str, ids: "IntArray", name: str) -> None:
     tell(f"{path}: the new id of each vertex of {name}.")
 
 
+def check_array_output(path: str, formats: Sequence[str], work: str) -> str:
+    """Return the extension of an output path, in lower case; OutputError if it is not one of `formats`.
+
+    The error names `work` of `bihdist batch`, which writes these arrays in more formats.
+    """
+    from bihdist_core.file_output import check_output
+
+    extension = os.path.splitext(path)[1].lower()
+    if extension not in formats and extension[1:] in ARRAYS:
+        raise OutputError(
+            f"{path}: {extension} files are written by `bihdist batch --do {work} --format {extension[1:]} -o FOLDER`; "
+            f"here the formats are {', '.join(formats)}."
+        )
+    return check_output(path, formats)
+
+
 def add_meshes(parser: argparse.ArgumentParser) -> None:
     """Add the argument of several meshes."""
     parser.add_argument("meshes", nargs="+", metavar="MESH", help="mesh files, or the names of samples")
@@ -123,13 +147,13 @@ def add_meshes(parser: argparse.ArgumentParser) -> None:
 def into_each(options: argparse.Namespace, do: Callable[[argparse.Namespace], Facts]) -> Result:
     """Do something with each mesh, into an output of its own.
 
-    do: gets the options with `mesh` and `output`, says what it has done and returns it.  ParameterError if several
-    meshes had one output.
+    `do` gets the options with `mesh` and `output`, tells what it has done and returns it. Raises ParameterError if
+    several meshes had one output.
     """
-    from bihdist_core.errors import ParameterError
-    from bihdist_core.formats.mesh_names import mesh_name
 
     if len(options.meshes) > 1 and NAME not in options.output:
+        for mesh in options.meshes:
+            check_mesh(mesh)
         raise ParameterError(
             f"Several meshes have an output each; write -o {NAME}{os.path.splitext(options.output)[1]}."
         )
@@ -155,7 +179,6 @@ def each_mesh(meshes: Sequence[str], do: Callable[[str], Facts]) -> Result:
 
     The exit status is 2 if one of several failed, which costs no other; what is wrong with a single one is raised.
     """
-    from bihdist_core.errors import BihdistError
 
     done, failures = [], []
     for mesh in meshes:

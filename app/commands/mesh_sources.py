@@ -5,21 +5,21 @@ import os
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.errors import ParameterError
+from bihdist_core.progress import Progress
+from bihdist_core.sources.source import Source
 from bihdist_core.sources.words import short_words_of
 
 from ..document.document import COMPARISON
 from ..document.quantities import Quantity
 from ..document.repairs import Repairs
-from ..document.sources import HIGHEST, LISTED, Sources
+from ..document.sources import HIGHEST, LISTED, POSITION, Sources
 from .mesh import found_mesh
 from .terminal import tell, tell_moved
 
 if TYPE_CHECKING:
     from bihdist_core import Distance, Surface
-    from bihdist_core.progress import Progress
-    from bihdist_core.sources.source import Source
 
     from ..session.chosen_sources import Chosen
 
@@ -28,11 +28,11 @@ def sources_on(
     options: argparse.Namespace,
     surface: "Surface",
     distance: "Callable[[], Distance]",
-    progress: "Progress | None" = None,
+    progress: Progress | None = None,
 ) -> "Chosen":
-    """What `--sources` names on the surface of the command's mesh, the highest vertex where nothing is said.
+    """Return the sources of `--sources` on the surface of the command's mesh, the highest vertex by default.
 
-    distance: makes the one by which points are farthest.
+    `distance` returns the one by which points are farthest.
     """
     return sources_of_mesh(options.sources or HIGHEST, options.mesh, surface, distance, progress)
 
@@ -42,29 +42,30 @@ def sources_of_mesh(
     mesh: str,
     surface: "Surface",
     distance: "Callable[[], Distance]",
-    progress: "Progress | None" = None,
+    progress: Progress | None = None,
 ) -> "Chosen":
-    """What is asked for on the surface of a mesh; how far the points of a file had to be moved is said."""
+    """Return the sources on the surface of a mesh, and tell how far the points of a file had to be moved."""
     from ..session.chosen_sources import chosen_sources
 
     name = os.path.splitext(os.path.basename(mesh))[0]
     found = chosen_sources(asked, surface, distance, name, progress=progress)
     if found.pins is not None:
-        tell_moved(found.path, "pin", found.pins.moved, found.pins.ids.tolist(), surface)
+        noun = "position" if asked.file.startswith(POSITION) else "pin"
+        tell_moved(found.path, noun, found.pins.moved, found.pins.ids.tolist(), surface)
     return found
 
 
 def sources_of_document(
     asked: Sources | None,
     mesh: str,
-    shows: "Sequence[Spec | Quantity]",
+    shows: Sequence[Spec | Quantity],
     areas: str | None,
     repairs: Repairs,
-    progress: "Progress | None" = None,
-) -> "list[Source]":
-    """What is asked for on the mesh of a document that is still to be opened; none where nothing is.
+    progress: Progress | None = None,
+) -> list[Source]:
+    """Return the sources on the mesh of a document that is still to be opened, [] if none are named.
 
-    shows: of which the first distance says which points are farthest; areas, repairs: how the mesh is taken.
+    Points are farthest by the first distance of `shows`; `areas` and `repairs` say how the mesh is taken.
     """
     if asked is None or asked.rule == LISTED:
         # Whoever opens the document looks where they are.
@@ -80,11 +81,10 @@ def sources_of_document(
     return sources_of_mesh(asked, mesh, surface, lambda: distances.get(spec, progress), progress).sources
 
 
-def sources_of_two(asked: Sources | None, found: "list[Source]", other: str) -> "tuple[list[Source], Source | None]":
-    """What was found on the first mesh, as one source for it and one for the second; None is the highest vertex.
+def sources_of_two(asked: Sources | None, found: list[Source], other: str) -> tuple[list[Source], Source | None]:
+    """Return the sources on the first mesh as one for it and one for the second, None for the highest vertex.
 
-    other: the second mesh.  ParameterError for more than two, and for a second one that a rule or a file names: it is
-    of the first mesh.
+    Raises ParameterError for more than two, and for a second one by a rule or a file, which are of the first mesh.
     """
     if len(found) > 2 or (asked is not None and asked.rule != LISTED and len(found) > 1):
         raise ParameterError(
@@ -99,14 +99,14 @@ def sources_of_two(asked: Sources | None, found: "list[Source]", other: str) -> 
     return found[:1], found[1] if len(found) > 1 else None
 
 
-def first_spec(shows: "Sequence[Spec | Quantity]") -> Spec:
-    """The first distance among what is shown, the usual one where there is none."""
+def first_spec(shows: Sequence[Spec | Quantity]) -> Spec:
+    """Return the first distance of what is shown, or the usual one."""
     specs = (spec for each in shows for spec in ((each,) if isinstance(each, Spec) else each.specs))
     return next(specs, COMPARISON[0])
 
 
-def one_source(sources: "list[Source]") -> "Source | None":
-    """The only one, None where there is none; ParameterError for several."""
+def one_source(sources: list[Source]) -> Source | None:
+    """Return the only source, None if there is none; ParameterError for several."""
     from ..session.chosen_sources import Chosen
 
     return Chosen(sources).one() if sources else None

@@ -3,13 +3,20 @@
 import argparse
 import os
 
+from bihdist_core.errors import ParameterError
+
 from .figure_options import add_figure_options, chosen_recipe
 from .mesh import write_ids_of
 from .options import add_workers
 from .result import Result, panel_facts
-from .terminal import judged, progress_line
+from .terminal import progress_line, report_answers
 
-WORDS = "a figure that turns, or whose source wanders, as MP4 or GIF"
+WORDS = "draw a figure that turns, or whose source moves, as MP4 or GIF"
+EXAMPLES = (
+    "bihdist movie hand -o turn.gif --frames 40",
+    "bihdist movie hand --path 12,900 --distance biharmonic -o walk.gif",
+    "bihdist movie --recipe hand.json -o turn.gif --fps 10",
+)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -23,17 +30,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         type=_path,
         default=(),
         metavar="V,…",
-        help="the source goes through these, instead of --sources",
+        help="the source moves through these, instead of --sources",
     )
-    parser.add_argument("--frames", type=int, default=120, metavar="N", help="how many pictures (default: 120)")
-    parser.add_argument("--fps", type=float, default=25.0, metavar="N", help="how many of them a second (default: 25)")
+    parser.add_argument("--frames", type=int, default=120, metavar="N", help="number of frames (default: 120)")
+    parser.add_argument("--fps", type=float, default=25.0, metavar="N", help="frames per second (default: 25)")
     add_workers(parser)
 
 
 def run(options: argparse.Namespace) -> Result:
     """Draw the movie and write its recipe; the exit status is 1 if a panel failed."""
-    from bihdist_core import ParameterError
-
     from ..figures.movie import Movie, check_movie, write_movie
     from ..figures.raster import check_offscreen
 
@@ -43,7 +48,7 @@ def run(options: argparse.Namespace) -> Result:
         (options.path and options.sources, "--sources beside --path, whose first vertex is the source"),
         (options.transparent, "--transparent"),
         (options.crop, "--crop"),
-        (len(options.views or ()) > 1, "more than one view"),
+        (len(options.cpos or ()) > 1, "more than one view"),
     ):
         if given:
             raise ParameterError(f"A movie takes no {name.removeprefix('no ')}.")
@@ -61,7 +66,7 @@ def run(options: argparse.Namespace) -> Result:
         "seconds": movie.frames / movie.fps,
         "panels": [panel_facts(p.shows, answer) for p, answer in zip(document.panels, answers, strict=True)],
     }
-    return Result(facts, judged(answers, os.path.basename(document.surfaces[0].path)))
+    return Result(facts, report_answers(answers, os.path.basename(document.surfaces[0].path)))
 
 
 def _path(text: str) -> tuple[int, ...]:

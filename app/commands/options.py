@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from typing import Any
 
-from bihdist_core.distances.kinds import OURS, Spec, kinds
+from bihdist_core.distances.distance_types import BUILT_IN, Spec, distance_types
 from bihdist_core.errors import ParameterError
 
 from ..document.document import COMPARISON, Document
@@ -24,15 +24,18 @@ PLACES = (
     ", with places in faces (f311:0.2,0.5), boundary loops (loop:0), curves (curve.json) and the nearest of several "
     "(12+40+7) among them"
 )
-RULES = "farthest:K[:START], random:K[:SEED] or all; @FILE, or - for standard input"
+RULES = (
+    "xyz:X,Y,Z, the vertex nearest to a position; farthest:K[:START], random:K[:SEED] or all; @FILE, or - for standard "
+    "input"
+)
 HIGHEST = "(default: the highest vertex)"
 NEIGHBOURS = 10
 """So many, unless `--k` says otherwise."""
 DTYPES = ("float64", "float32")
-"""Of arrays that are written, the usual one first."""
+"""The types of numbers in written arrays, the default first."""
 MESH = "mesh file, or the name of a sample"
-PARAMETERS = {p.name: p for kind in OURS for p in kind.parameters}
-"""By name: the parameters of our distances, each of which is an option."""
+PARAMETERS = {p.name: p for kind in BUILT_IN for p in kind.parameters}
+"""The parameters of the built-in distances by name, each of which is an option."""
 
 
 def add_mesh(parser: argparse.ArgumentParser) -> None:
@@ -53,7 +56,7 @@ def add_sources(
     required: bool = False,
     are_vertices: bool = False,
 ) -> None:
-    """Add `--sources`, whose value is a `Sources`, or None; what: starts there, in words."""
+    """Add `--sources`, whose value is a `Sources` or None; `what` says in words what starts there."""
     text = f"{what}: 12,40{'' if are_vertices else PLACES}; {RULES}{f' {default}' if default else ''}"
     parser.add_argument("--sources", metavar="SOURCES", type=sources, required=required, help=text)
 
@@ -85,13 +88,13 @@ def add_workers(parser: argparse.ArgumentParser) -> None:
 
 
 def add_distance(parser: argparse.ArgumentParser, several: str = "", k: str = "", is_field: bool = False) -> None:
-    """`--distance`, and an option for each parameter of ours, which holds where the distance does not say otherwise.
+    """Add `--distance`, and an option for each parameter of the built-in ones, which holds unless one says its own.
 
-    several: what several are, with commas; without it there is one, biharmonic if none is named.  k: what else the
-    command counts by `--k`.  is_field: whether it may be the difference of two.
+    `several` says what several with commas are; without it there is one, biharmonic if none is named. `k` says what
+    else the command counts by `--k`. With `is_field` it may be the difference of two.
     """
     two = ", or two like 'biharmonic - geodesic'" if is_field else ""
-    words = f"{', '.join(kinds())}; with parameters like 'diffusion(t=1/4)'{two}"
+    words = f"{', '.join(distance_types())}; with parameters like 'diffusion(t=1/4)'{two}"
     if several:
         parser.add_argument(
             "--distance",
@@ -103,7 +106,7 @@ def add_distance(parser: argparse.ArgumentParser, several: str = "", k: str = ""
         text = f"{words} (default: biharmonic)"
         parser.add_argument("--distance", metavar="NAME", default="biharmonic", help=text)
     for name, parameter in PARAMETERS.items():
-        of = ", ".join(kind.word for kind in OURS if parameter in kind.parameters)
+        of = ", ".join(kind.word for kind in BUILT_IN if parameter in kind.parameters)
         also = f"{k}; or " if k and name == "k" else ""
         parser.add_argument(
             f"--{name}",
@@ -113,22 +116,22 @@ def add_distance(parser: argparse.ArgumentParser, several: str = "", k: str = ""
 
 
 def eigenpair_count(options: argparse.Namespace, texts: Sequence[str], usual: int) -> int:
-    """How many eigenpairs the command itself takes by `--k`; so do distances that say no number."""
+    """Read the command's own number of eigenpairs from `--k`, also that of distances without a number."""
     count = _k(options, usual)
     if not any(map(_counts_eigenpairs, texts)):
         options.k = None
     return count
 
 
-def neighbour_count(options: argparse.Namespace, texts: Sequence[str], usual: int = NEIGHBOURS) -> int:
-    """How many neighbours `--k` says, which no distance then has; ParameterError where it may mean eigenpairs."""
+def neighbour_count(options: argparse.Namespace, texts: Sequence[str]) -> int:
+    """Read the number of neighbours from `--k`, and clear it; ParameterError where it may count eigenpairs."""
     unclear = [text for text in texts if _counts_eigenpairs(text)]
     if options.k is not None and unclear:
         raise ParameterError(
             f"--k {options.k} counts the nearest vertices; say how many eigenpairs {unclear[0]} has in its words, such "
             "as truncated(k=200)."
         )
-    count, options.k = _k(options, usual), None
+    count, options.k = _k(options, NEIGHBOURS), None
     return count
 
 
@@ -137,8 +140,8 @@ def _k(options: argparse.Namespace, usual: int) -> int:
 
 
 def _counts_eigenpairs(text: str) -> bool:
-    """Whether a distance in words is a sum of eigenpairs and does not say of how many."""
-    sums = [spec for spec in quantity(text).specs if any(each.name == "k" for each in spec.kind.parameters)]
+    """Return True for the words of a distance that sums eigenpairs and does not say how many."""
+    sums = [spec for spec in quantity(text).specs if any(each.name == "k" for each in spec.distance_type.parameters)]
     return len(sums) > text.replace(" ", "").count("k=")
 
 
@@ -149,29 +152,44 @@ def add_chart(parser: argparse.ArgumentParser) -> None:
         *PAGE_ROWS,
         size="of a chart: such as 85mm; or column (85 mm), double (178 mm)",
         style="of a chart: paper, uniform, lines or dark (default: paper)",
-        font="of all words of a chart (default: DejaVu Sans)",
-        text="size of the text of a chart (default: 8)",
+        font_family="of all text of a chart (default: DejaVu Sans)",
+        font_size="of the text of a chart (default: 8)",
     )
 
 
 def chart_page(options: argparse.Namespace) -> Page:
-    """The page of a chart."""
+    """Return the page of a chart that the options describe."""
     return with_rows(Recipe(Document()), given(options, *PAGE_ROWS), PAGE_ROWS).page
 
 
-def add_rows(parser: argparse.ArgumentParser, *rows: Row | Option, **meanings: str) -> None:
-    """Options of the table of figures' options.  None stands for what is not given.
+SECTIONS = {
+    "look": "colours and shading", "isolines": "isolines", "view": "view", "layout": "page", "marks": "marks",
+    "areas": "mesh", "cut": "mesh", "merge": "mesh",
+    **dict.fromkeys(("maps", "predict", "pairs", "perturb"), "two meshes"),
+}  # fmt: skip
+"""The sections of the help, by options and by their groups."""
 
-    meanings: of some, by name, instead of their own.
+
+def add_rows(parser: argparse.ArgumentParser, *rows: Row | Option, **meanings: str) -> None:
+    """Add options of the table of figures' options; the value of one that is not given is None.
+
+    `meanings` replace those of some, by name.
     """
     for option in _options(rows):
+        section = _section(parser, SECTIONS.get(option.name, SECTIONS.get(option.group, "")))
         how: dict[str, Any] = {"dest": option.name, "help": meanings.get(option.name, option.meaning)}
         if option.is_switch:
-            parser.add_argument(option.word, action=argparse.BooleanOptionalAction, default=None, **how)
+            section.add_argument(option.word, action=argparse.BooleanOptionalAction, default=None, **how)
             continue
         how |= {"nargs": "?", "const": option.bare} if option.bare is not None else {}
         how |= {"metavar": option.metavar, "choices": option.choices, "type": as_argument(option.from_text)}
-        parser.add_argument(option.word, **how)
+        section.add_argument(option.word, **how)
+
+
+def _section(parser: argparse.ArgumentParser, title: str) -> argparse._ActionsContainer:
+    """Return the section of the help with a title, made when it is first asked for; "" is the usual one."""
+    known = {group.title: group for group in parser._action_groups}
+    return (known.get(title) or parser.add_argument_group(title)) if title else parser
 
 
 def _options(rows: Iterable[Row | Option]) -> Iterator[Option]:
@@ -180,13 +198,13 @@ def _options(rows: Iterable[Row | Option]) -> Iterator[Option]:
 
 
 def given(options: argparse.Namespace, *known: Row | Option) -> dict[str, Any]:
-    """The values of those options that are given, by the names of their arguments."""
+    """Return the values of the options that are given, by the names of their arguments."""
     found = {option.name: getattr(options, option.name) for option in _options(known)}
     return {name: value for name, value in found.items() if value is not None}
 
 
 def as_argument(read: Callable[[str], Any]) -> Callable[[str], Any]:
-    """A reader of texts as argparse takes it; what is wrong is the same sentence."""
+    """Make a reader of texts for argparse, which reports its errors in the same words."""
     if read in (int, float, str):
         return read
 
@@ -202,7 +220,7 @@ def as_argument(read: Callable[[str], Any]) -> Callable[[str], Any]:
 
 
 sources, pair, pairs = as_argument(sources_from_words), as_argument(pair_from_words), as_argument(pairs_from_words)
-"""What `--sources` says, a pair of vertex ids, and what `--pairs` says."""
+"""Readers of `--sources`, of a pair of vertex ids, and of `--pairs`."""
 
 
 def add_areas(parser: argparse.ArgumentParser) -> None:
@@ -221,12 +239,12 @@ def add_cut(parser: argparse.ArgumentParser) -> None:
 
 
 def repairs_of(options: argparse.Namespace, mesh: str) -> Repairs:
-    """What the options do to a mesh on reading."""
+    """Return the repairs of a mesh that the options name."""
     return Repairs(cut=options.cut or "", merge=getattr(options, "merge", None)).of(mesh)
 
 
 def specs(options: argparse.Namespace, texts: Sequence[str]) -> list[Spec]:
-    """The distances that texts mean with the options beside them; ParameterError for an option that none has."""
+    """Read distances from texts and the parameters beside them; ParameterError for one that none of them has."""
     for text in texts:
         if " - " in text:
             raise ParameterError(f"{text!r} is a field, and has no value between two vertices; name a distance.")
@@ -236,39 +254,39 @@ def specs(options: argparse.Namespace, texts: Sequence[str]) -> list[Spec]:
 
 
 def quantities(options: argparse.Namespace, texts: Sequence[str], fields: Sequence[str] = ()) -> list[Quantity]:
-    """What texts mean with the options beside them: distances, differences, and a recipe's own fields."""
+    """Read distances, differences and a recipe's own fields from texts and the parameters beside them."""
     found = [quantity(text, fields=fields, **given_parameters(options)) for text in texts]
     check_parameters(options, [spec for shows in found for spec in shows.specs])
     return found
 
 
 def given_parameters(options: argparse.Namespace) -> dict[str, Any]:
-    """The parameters that have been named, by option."""
+    """Return the parameters that are given as options."""
     given = {name: getattr(options, name) for name in PARAMETERS}
     return {name: PARAMETERS[name].parsed(text) for name, text in given.items() if text is not None}
 
 
 def check_parameters(options: argparse.Namespace, specs: Sequence[Spec]) -> None:
-    """ParameterError for a parameter that none of the distances has: it would be ignored."""
-    known = {parameter.name for each in specs for parameter in each.kind.parameters}
+    """Raise ParameterError for a parameter that none of the distances has, as it would be ignored."""
+    known = {parameter.name for each in specs for parameter in each.distance_type.parameters}
     for name in given_parameters(options):
         if name not in known:
             shown = ", ".join(dict.fromkeys(each.word for each in specs))
-            raise ParameterError(f"--{name} {getattr(options, name)} is no parameter of {shown}.")
+            raise ParameterError(f"--{name} {getattr(options, name)} is not a parameter of {shown}.")
 
 
 def count(text: str) -> int:
-    """How many of something, from a text; argparse.ArgumentTypeError for another text."""
+    """Read a whole number from 1; argparse.ArgumentTypeError for another text."""
     return int(_checked(text, int, lambda value: value >= 1, "a whole number from 1"))
 
 
 def positive(text: str) -> float:
-    """A positive finite number from a text; argparse.ArgumentTypeError for another text."""
+    """Read a positive finite number; argparse.ArgumentTypeError for another text."""
     return _checked(text, float, lambda value: 0 < value < math.inf, "a positive number")
 
 
 def share(text: str) -> float:
-    """A fraction from 0 to 1 from a text; argparse.ArgumentTypeError for another text."""
+    """Read a fraction from 0 to 1; argparse.ArgumentTypeError for another text."""
     return _checked(text, float, lambda value: 0 <= value <= 1, "a fraction from 0 to 1")
 
 

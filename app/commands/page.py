@@ -1,7 +1,13 @@
 """`bihdist page`: an HTML file in which distances are computed anew wherever one clicks."""
 
 import argparse
+import os
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
+from urllib.parse import quote
+
+from bihdist_core.counts import counted
+from bihdist_core.formats.mesh_names import mesh_name
 
 from ..web.options import USUAL, other_names, page_rows
 from .figure_options import add_recipe, chosen_recipe
@@ -12,7 +18,12 @@ from .terminal import progress_line, tell
 if TYPE_CHECKING:
     from ..web.export import Page
 
-WORDS = "a web page that computes distances by itself, from wherever one clicks"
+WORDS = "write a web page that computes distances from wherever its reader clicks"
+EXAMPLES = (
+    "bihdist page hand",
+    "bihdist page figure --sources 12 --distance biharmonic,geodesic -o figure.html",
+    "bihdist page --recipe hand.json --credit 'Scan: the anatomy lab'",
+)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -33,26 +44,33 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--eigenpairs",
-        type=count,
-        default=0,
+        type=lambda text: 0 if text == "0" else count(text),
         metavar="N",
-        help="allow up to N eigenpairs in the file, which truncated and diffusion distance need (default: none)",
+        help="allow up to N eigenpairs in the file for each truncated or diffusion distance of a panel, and none for "
+        "those that readers can choose (default: as many as take 1 MB)",
     )
+    parser.add_argument("--credit", default="", metavar="TEXT", help="a credit line for the mesh, shown on the page")
 
 
 def run(options: argparse.Namespace) -> Result:
     """Write the page, and print what it holds."""
-    from bihdist_core.formats.mesh_names import mesh_name
-
     from ..web.contents import Contents
     from ..web.export import size_words, write_page
+    from ..web.html_file import embed_code
 
     if options.distance is None and options.recipe is None:
         options.distance = list(USUAL)
     recipe = chosen_recipe(options)
     path = options.output or f"{mesh_name(recipe.document.surfaces[0].path)}.html"
     with progress_line() as progress:
-        page, size = write_page(recipe, path, precision=options.bits, eigenpairs=options.eigenpairs, progress=progress)
+        page, size = write_page(
+            recipe,
+            path,
+            precision=options.bits,
+            eigenpairs=options.eigenpairs,
+            progress=progress,
+            credit=options.credit,
+        )
     for note in page.scene["notes"]:
         tell(note)
     contents = Contents.of(recipe.document)
@@ -60,13 +78,25 @@ def run(options: argparse.Namespace) -> Result:
     kept = "single precision" if options.bits == "float32" else f"{options.bits} bits of each coordinate"
     print(f"{path}: {size_words(size)}, opened by any browser, without a network")
     print(f"{mesh['name']}: {mesh['vertices']:,} vertices with {kept}; {'; '.join(page.labels)}; from {source}")
-    print(f"distances equal those on the original mesh within {_differences(page)}")
+    compared = mesh["sources"]
+    if contents.fields:
+        words = f"from {counted(compared, 'source')} distances equal those on the original mesh within"
+        print(f"{words} {_differences(page, map(str, contents.fields.values()))}; from others they may differ more")
+    if contents.own:
+        print(f"fields equal those given within {_differences(page, (own.word for own in contents.own))}")
+    print(f"to embed it: {embed_code(quote(os.path.basename(path)), page.scene['title'])}")
     distances = [
-        {"distance": str(spec), "difference": page.differs[str(spec)], "n_eigenpairs": page.eigenpairs.get(name, 0)}
+        {
+            "distance": str(spec),
+            "difference": page.differs[str(spec)],
+            "difference_sources": compared,
+            "n_eigenpairs": page.eigenpairs.get(name, 0),
+        }
         for name, spec in contents.fields.items()
     ]
     distances += [
-        {"distance": own.word, "difference": page.differs[own.word], "n_eigenpairs": 0} for own in contents.own
+        {"distance": own.word, "difference": page.differs[own.word], "difference_sources": None, "n_eigenpairs": 0}
+        for own in contents.own
     ]
     facts: Facts = {
         "meshes": [{"mesh": each.path} for each in recipe.document.surfaces],
@@ -82,6 +112,7 @@ def run(options: argparse.Namespace) -> Result:
     return Result(facts)
 
 
-def _differences(page: "Page") -> str:
-    each = [f"{name} {share:.1e}" for name, share in page.differs.items()]
-    return f"{max(page.differs.values()):.1e} of the maximum" + (f" ({', '.join(each)})" if len(each) > 1 else "")
+def _differences(page: "Page", names: Iterable[str]) -> str:
+    shares = {name: page.differs[name] for name in names}
+    each = [f"{name} {share:.1e}" for name, share in shares.items()]
+    return f"{max(shares.values()):.1e} of the maximum" + (f" ({', '.join(each)})" if len(each) > 1 else "")

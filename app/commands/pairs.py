@@ -4,12 +4,13 @@ import argparse
 from typing import TYPE_CHECKING
 
 from bihdist_core.counts import counted
+from bihdist_core.distances.distance_types import Spec
+from bihdist_core.errors import OutputError, ParameterError
 
 from ..document.repairs import NAME
 from ..document.sources import ALL, Sources
 from ..version import version
-from .array_output import check_array_output
-from .mesh import add_meshes, found_mesh, into_each, read_laplacian
+from .mesh import add_meshes, check_array_output, found_mesh, into_each, read_laplacian
 from .mesh_sources import sources_of_mesh, sources_on
 from .options import (
     DTYPES,
@@ -29,9 +30,13 @@ from .terminal import accuracy, progress_line, tell, tell_failure
 
 if TYPE_CHECKING:
     from bihdist_core.analysis.all_pairs import Begun
-    from bihdist_core.distances.kinds import Spec
 
-WORDS = "distances between chosen vertices, or to those that are nearest"
+WORDS = "compute distances between chosen vertices, or to their nearest ones"
+EXAMPLES = (
+    "bihdist pairs hand --sources 12,40,99 -o pairs.csv",
+    "bihdist pairs hand --sources 12,40 --nearest --k 10 -o nearest.csv",
+    "bihdist pairs domain --sources all -o all.npy",
+)
 TEXT = ".csv"
 
 
@@ -57,15 +62,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--fresh",
         action="store_true",
-        help="for --sources all, which goes on where it was interrupted, from a hidden .part file beside the output: "
-        "discard that, and begin anew",
+        help="for --sources all: start again, and discard the hidden .part file beside the output from which an "
+        "interrupted run resumes",
     )
 
 
 def run(options: argparse.Namespace) -> Result:
     """Write the distances between pairs of vertices; the exit status is 1 if a mesh failed."""
-    from bihdist_core.errors import ParameterError
-
     if options.sources is None and options.pairs is None and not options.nearest:
         raise ParameterError("Which pairs? Name those among --sources, such as 12,40,99 or all, or some by --pairs.")
     if options.pairs is not None and (options.sources is not None or options.nearest):
@@ -75,8 +78,7 @@ def run(options: argparse.Namespace) -> Result:
 
 
 def _one(options: argparse.Namespace) -> Facts:
-    from bihdist_core.analysis.neighbours_output import NEIGHBOUR_FORMATS
-    from bihdist_core.errors import ParameterError
+    from bihdist_core.analysis.neighbours import NEIGHBOUR_FORMATS
     from bihdist_core.formats.field_output import ARRAY_FORMATS
 
     words = list(dict.fromkeys(options.distance or ["biharmonic"]))
@@ -102,12 +104,11 @@ def _one(options: argparse.Namespace) -> Facts:
     return _write_pairs(options, chosen, is_matrix)
 
 
-def _write_pairs(options: argparse.Namespace, chosen: "list[Spec]", is_matrix: bool) -> Facts:
-    """All pairs among sources, as a matrix or as rows, or those that are named, as rows."""
+def _write_pairs(options: argparse.Namespace, chosen: list[Spec], is_matrix: bool) -> Facts:
+    """Write all pairs among sources as a matrix or as rows, or named pairs as rows."""
     import numpy as np
 
     from bihdist_core.distances.answers import Distances
-    from bihdist_core.errors import ParameterError
     from bihdist_core.formats.field_output import write_array
     from bihdist_core.formats.vertex_maps import read_pairs
 
@@ -144,12 +145,12 @@ def _write_pairs(options: argparse.Namespace, chosen: "list[Spec]", is_matrix: b
     return {"n_pairs": len(pairs), "distances": used}
 
 
-def _write_nearest(options: argparse.Namespace, spec: "Spec", count: int) -> Facts:
-    """The nearest vertices of some, or of all."""
+def _write_nearest(options: argparse.Namespace, spec: Spec, count: int) -> Facts:
+    """Write the nearest vertices of some vertices or of all."""
     import numpy as np
 
     from bihdist_core import nearest
-    from bihdist_core.analysis.neighbours_output import write_nearest
+    from bihdist_core.analysis.neighbours import write_nearest
     from bihdist_core.distances.answers import Distances
 
     from ..document.file import checksum
@@ -174,11 +175,10 @@ def _write_nearest(options: argparse.Namespace, spec: "Spec", count: int) -> Fac
     return {"n_pairs": there, "distances": [distance_facts(distance, spec)]}
 
 
-def _write_all(options: argparse.Namespace, spec: "Spec") -> Facts:
-    """The pairs of all vertices, and what is said of the part of them that is there already, or is left."""
+def _write_all(options: argparse.Namespace, spec: Spec) -> Facts:
+    """Write the pairs of all vertices, and tell what is there of an earlier run, or is kept of this one."""
     from bihdist_core.analysis.all_pairs import begun, check_block, left_by_others, write_all_pairs
     from bihdist_core.distances.answers import Distances
-    from bihdist_core.errors import OutputError
 
     memory = 1e6 * (options.memory or 500)
     with progress_line() as progress:
@@ -191,15 +191,16 @@ def _write_all(options: argparse.Namespace, spec: "Spec") -> Facts:
     if known and options.fresh:
         tell(f"Discarding {_described(known)}.")
     elif known:
-        tell(f"Going on from {_described(known)}; --fresh begins anew.")
+        tell(f"Resuming from {_described(known)}; --fresh starts again.")
     for path in left_by_others(distance, options.output, dtype):
-        tell(f"{path} ({_size(path.stat().st_size)}) is left of a run with another mesh or other options; it may go.")
+        size = _size(path.stat().st_size)
+        tell(f"{path} ({size}) is left over from another mesh or other options; it may be deleted.")
     try:
         with progress_line() as progress:
             write_all_pairs(distance, options.output, dtype, memory, progress, options.fresh)
     except (KeyboardInterrupt, OutputError, MemoryError):
         if left := begun(distance, options.output, dtype):
-            tell_failure(f"What is done is kept: {_described(left)}. The same command goes on from there.")
+            tell_failure(f"Finished rows are kept: {_described(left)}. Run the same command to resume.")
         raise
     count = len(laplacian.surface.vertices)
     print(f"{options.output}: {distance.label}, all pairs of {count:,} vertices{estimate}")

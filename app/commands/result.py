@@ -1,4 +1,4 @@
-"""What a command hands back: its result as plain values, which `--json` prints, and its exit status."""
+"""The result of a command: plain values, which `--json` prints, and the exit status."""
 
 import json
 import math
@@ -18,8 +18,11 @@ Facts = dict[str, Any]
 
 @dataclass(frozen=True)
 class Result:
-    """facts: by names in snake_case, those of the library's attributes where it has them; arrays and numbers of NumPy's
-    may be among them.  ends_process: whether the process is to end at once when this has been printed."""
+    """Facts by names in snake_case, those of the library's attributes where it has them; NumPy arrays may be among
+    them.
+
+    With `ends_process` the process ends at once when they have been printed.
+    """
 
     facts: Facts = field(default_factory=dict)
     status: int = 0
@@ -27,13 +30,13 @@ class Result:
 
 
 def as_json(command: str, status: int, facts: Mapping[str, Any]) -> str:
-    """One object, in ASCII, so that any standard output takes it."""
+    """Return one JSON object in ASCII, which any standard output takes."""
     about = {"command": command, "version": version(), "exit_status": status}
     return json.dumps({**about, **_plain(facts)}, indent=2, allow_nan=False)
 
 
 def _plain(value: Any) -> Any:
-    """What JSON knows: null for what is not finite."""
+    """Return a value for JSON, with null for numbers that are not finite."""
     if isinstance(value, Mapping):
         return {str(name): _plain(each) for name, each in value.items()}
     if isinstance(value, list | tuple):
@@ -44,21 +47,21 @@ def _plain(value: Any) -> Any:
 
 
 def distance_facts(distance: "Distance", spec: object, everywhere: bool = False) -> Facts:
-    """What is said of a distance that something was computed by.
+    """Return the facts about a distance that was asked for as `spec`.
 
-    spec: as it was asked for.  everywhere: its accuracy on all components, also those not asked about.
+    With `everywhere` its accuracy is that on all components, also on those not asked about.
     """
     estimate = distance.error_estimate(range(distance.surface.n_components) if everywhere else None)
     return {"distance": str(spec), "label": distance.label, "unit": distance.unit, **accuracy_facts(estimate)}
 
 
 def accuracy_facts(estimate: "ErrorEstimate") -> Facts:
-    """The accuracy as a fraction of the maximum, None where it is not known, and in words."""
-    return {"accuracy": estimate.share, "accuracy_text": estimate.text}
+    """Return the accuracy as a fraction of the maximum, in words, and from how many vertices it was measured."""
+    return {"accuracy": estimate.share, "accuracy_text": estimate.text, "accuracy_sources": estimate.sources}
 
 
 def panel_facts(shows: object, answer: "Answer") -> Facts:
-    """What is said of a field that is drawn: the failure in words, or nothing."""
+    """Return the facts about a field that is drawn, with its failure in words, or ""."""
     return {
         "distance": str(shows),
         "label": answer.label,
@@ -70,5 +73,5 @@ def panel_facts(shows: object, answer: "Answer") -> Facts:
 
 
 def facts_of(record: Any, *names: str) -> Facts:
-    """Some attributes of a result of the library's, or all fields of one that is a dataclass."""
+    """Return some attributes of a result of the library, or all fields of a dataclass."""
     return {name: getattr(record, name) for name in names} if names else asdict(record)

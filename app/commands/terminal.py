@@ -1,4 +1,4 @@
-"""What a command says beside its result: progress, what was repaired, how accurate it is, what failed."""
+"""The messages of a command beside its result: progress, repairs, accuracy and failures."""
 
 import argparse
 import io
@@ -13,24 +13,25 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from bihdist_core.counts import counted
-from bihdist_core.errors import PlainSolverWarning
+from bihdist_core.errors import BihdistError, OutputError, PlainSolverWarning
 from bihdist_core.expected_time import duration_in
+from bihdist_core.progress import Progress
 
 from ..session.time_left import TimeLeft
 
 if TYPE_CHECKING:
     from bihdist_core import Distance, Surface
     from bihdist_core.arrays import FloatArray
+    from bihdist_core.distances.accuracy import ErrorEstimate
     from bihdist_core.distances.answers import Answer
-    from bihdist_core.progress import Progress
 
-EVERY = 10.0
+PROGRESS_INTERVAL_S = 10.0
 """Seconds from one line of progress to the next where there is no terminal."""
 
 
 @dataclass
 class _Telling:
-    """What is said beside the result of the command that runs: a process has one standard error."""
+    """The messages of the command that runs, as a process has one standard error."""
 
     quiet: bool = False
     clock: Callable[[], float] = time.monotonic
@@ -42,31 +43,31 @@ class _Telling:
         self.last = self.clock()
 
     def note(self, text: str, before: str = "bihdist: ") -> None:
-        """A sentence that is kept, and said unless nothing is to be said."""
+        """Keep a sentence, and tell it unless quiet."""
         self.notes.append(text)
         if not self.quiet:
             print(f"{before}{text}", file=sys.stderr)
 
     def line(self, text: str) -> None:
-        """A line of progress."""
+        """Tell a line of progress."""
         self.last = self.clock()
         print(f"bihdist: {text}", file=sys.stderr, flush=True)
 
     def line_if_due(self, words: Callable[[], str]) -> None:
-        """A line of progress if there has been none for long."""
+        """Tell a line of progress if there has been none for long."""
         with self.turn:
-            if self.clock() - self.last >= EVERY:
+            if self.clock() - self.last >= PROGRESS_INTERVAL_S:
                 self.line(words())
 
     @contextmanager
     def watched(self, words: Callable[[], str]) -> Iterator[None]:
-        """Meanwhile a line of progress is said where there has been none for long."""
+        """Tell a line of progress whenever there has been none for long, while the block runs."""
         ended = threading.Event()
 
         def watch() -> None:
             # A standard error that is closed ends the command where the work itself reports.
             with suppress(OSError):
-                while not ended.wait(EVERY / 10):
+                while not ended.wait(PROGRESS_INTERVAL_S / 10):
                     self.line_if_due(words)
 
         watching = threading.Thread(target=watch, name="progress", daemon=True)
@@ -78,9 +79,8 @@ class _Telling:
             watching.join()
 
     @contextmanager
-    def progress(self) -> "Iterator[Progress]":
-        """Progress, as a line of its own now and then, also where a step reports nothing for long, and at once where
-        work is expected to be long."""
+    def progress(self) -> Iterator[Progress]:
+        """Tell progress as a line now and then, also while a step reports nothing, and at once for long work."""
         left, announced, words = TimeLeft(), set[str](), "under way"
 
         def report(fraction: float, text: str) -> None:
@@ -101,12 +101,12 @@ _telling = _Telling()
 def add_telling(parser: argparse.ArgumentParser) -> None:
     """Add the options that all commands have."""
     parser.add_argument("--json", action="store_true", help="print the result as one JSON object, and nothing else")
-    parser.add_argument("--quiet", action="store_true", help="say what fails, but no notes and no progress")
+    parser.add_argument("--quiet", action="store_true", help="print errors only, no notes and no progress")
 
 
 @contextmanager
 def telling(quiet: bool = False, clock: Callable[[], float] = time.monotonic) -> Iterator[list[str]]:
-    """While a command runs: whether notes and progress are left out; all notes, said or not."""
+    """Tell notes and progress while a command runs, or keep them quiet; yields all notes."""
     global _telling
     before, _telling = _telling, _Telling(quiet, clock)
     shown = warnings.showwarning
@@ -126,13 +126,13 @@ def telling(quiet: bool = False, clock: Callable[[], float] = time.monotonic) ->
 
 
 def is_quiet() -> bool:
-    """Whether neither notes nor progress are said."""
+    """Return whether neither notes nor progress are told."""
     return _telling.quiet
 
 
 @contextmanager
-def progress_line() -> "Iterator[Progress | None]":
-    """A line of progress on a terminal, a new line every ten seconds elsewhere."""
+def progress_line() -> Iterator[Progress | None]:
+    """Show a line of progress on a terminal, and a new line every ten seconds elsewhere."""
     if _telling.quiet:
         yield None
         return
@@ -157,14 +157,14 @@ def progress_line() -> "Iterator[Progress | None]":
 
 
 def with_time_left(fraction: float, text: str, left: TimeLeft, now: float) -> str:
-    """Such as "12% Factoring the matrix, about 30 s left"."""
+    """Return words such as "12% Factoring the matrix, about 30 s left"."""
     head = text.partition(":")[0] if duration_in(text) else text
     return ", ".join(filter(None, (f"{fraction:.0%} {head}", left.words(fraction, text, now))))
 
 
 @contextmanager
 def task_lines(words: Callable[[], str]) -> Iterator[Callable[[str], None]]:
-    """Where there is no terminal: says a line for each task that is done, and `words` where none ends for long."""
+    """Without a terminal, tell a line for each task that is done, and `words` if none ends for long."""
     telling = _telling
     with telling.watched(words):
         yield telling.line
@@ -172,24 +172,23 @@ def task_lines(words: Callable[[], str]) -> Iterator[Callable[[str], None]]:
 
 @contextmanager
 def standard_output(options: argparse.Namespace, text: str) -> Iterator[None]:
-    """Where the output is `-`, the file goes to standard output, and what is said to standard error; with `--json`
-    nothing is said there but the JSON.
+    """Write the file of the output `-` to standard output, and messages to standard error.
 
-    text: the extension of the format, nothing if the command has none that is text: then OutputError.
+    With `--json` only the JSON is printed, and with `--quiet` nothing where a file is written. `text` is the extension
+    of the format; OutputError if the command has no text format.
     """
-    if getattr(options, "output", None) != "-":
-        with redirect_stdout(io.StringIO()) if options.json else nullcontext():
+    output = getattr(options, "output", None)
+    if output != "-":
+        with redirect_stdout(io.StringIO()) if options.json or (options.quiet and output) else nullcontext():
             yield
         return
     import shutil
     import tempfile
 
-    from bihdist_core.errors import BihdistError, OutputError
-
     if not text:
         raise OutputError(f"`bihdist {options.command}` writes no text; name a file instead of -.")
     if options.json:
-        raise OutputError("Standard output has either the file or the JSON; name a file instead of -.")
+        raise OutputError("Standard output takes either the file or the JSON; name a file instead of -.")
     with tempfile.TemporaryDirectory() as folder:
         path, printed = os.path.join(folder, f"output{text}"), io.StringIO()
         options.output, options.is_standard_output = path, True
@@ -206,17 +205,17 @@ def standard_output(options: argparse.Namespace, text: str) -> Iterator[None]:
 
 
 def tell(text: str) -> None:
-    """A sentence beside the result."""
+    """Tell a sentence beside the result."""
     _telling.note(text)
 
 
 def tell_failure(text: str) -> None:
-    """A sentence on what could not be done, which is always said."""
+    """Tell a sentence on what could not be done, even if quiet."""
     print(f"bihdist: {text}", file=sys.stderr)
 
 
 def warn(text: str) -> None:
-    """A warning beside the result."""
+    """Tell a warning beside the result."""
     _telling.note(f"warning: {text}")
 
 
@@ -230,18 +229,24 @@ def tell_repairs(surface: "Surface") -> None:
 
 
 def accuracy(distance: "Distance", everywhere: bool = False) -> str:
-    """What to add to the words on an answer: how accurate it is, with a warning where that is poor.
+    """Word the accuracy of an answer, and warn if it is poor.
 
-    everywhere: on all components, also those not asked about.
+    With `everywhere` it is that on all components, also on those not asked about.
     """
-    error_estimate = distance.error_estimate(range(distance.surface.n_components) if everywhere else None)
+    return tell_accuracy(
+        distance, distance.error_estimate(range(distance.surface.n_components) if everywhere else None)
+    )
+
+
+def tell_accuracy(distance: "Distance", error_estimate: "ErrorEstimate") -> str:
+    """Word an error estimate to follow an answer, and warn if it is poor."""
     if error_estimate.is_poor:
         warn(f"{distance.label} on {distance.surface.name} is only {error_estimate.text}.")
     return f", {error_estimate.text}" if error_estimate.text else ""
 
 
-def judged(answers: "Iterable[Answer]", name: str) -> int:
-    """Warn of answers that are poor, name those that failed; the exit status: 1 if there is one."""
+def report_answers(answers: "Iterable[Answer]", name: str) -> int:
+    """Warn of answers that are poor, and name those that failed; return the exit status, 1 if there is a failure."""
     answers = list(answers)
     failures = dict.fromkeys(f"{answer.label}: {answer.failure}" for answer in answers if answer.failure)
     for failure in failures:
@@ -251,7 +256,7 @@ def judged(answers: "Iterable[Answer]", name: str) -> int:
     return 1 if failures else 0
 
 
-def tell_moved(path: str, noun: str, moved: "FloatArray", names: "Sequence[object]", surface: "Surface") -> None:
+def tell_moved(path: str, noun: str, moved: "FloatArray", names: Sequence[object], surface: "Surface") -> None:
     """Say how far the points of a file (k,) had to be moved to vertices, if any were."""
     import numpy as np
 

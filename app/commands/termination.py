@@ -1,4 +1,4 @@
-"""What ends a command from outside: Ctrl-C, and SIGTERM, which clusters send at the end of a job's time."""
+"""The signals that end a command: Ctrl-C, and SIGTERM, which clusters send at the end of a job's time."""
 
 import math
 import signal
@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-GRACE = 10.0
+GRACE_S = 10.0
 """Seconds in which what was ended writes down what it has, and is not ended again."""
 
 
@@ -16,20 +16,20 @@ class Terminated(KeyboardInterrupt):
 
 
 def status_of(error: KeyboardInterrupt) -> int:
-    """The exit status, as shells have it: 128 and the signal's number."""
+    """Return the exit status of shells, 128 and the signal's number."""
     return 128 + (signal.SIGTERM if isinstance(error, Terminated) else signal.SIGINT)
 
 
 def words_of(error: KeyboardInterrupt) -> str:
-    """What has ended a command."""
+    """Say how a command was ended."""
     return "ended by SIGTERM" if isinstance(error, Terminated) else "interrupted"
 
 
 @contextmanager
 def termination_raised(clock: Callable[[], float] = time.monotonic) -> Iterator[None]:
-    """SIGTERM raises Terminated on the main thread, and another one soon after, while that is dealt with, nothing.
+    """Let SIGTERM raise Terminated on the main thread, and ignore another one soon after, while that is handled.
 
-    Where somebody else listens for it already, it is theirs.
+    A handler that is there already stays.
     """
     is_free = signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
     if not is_free or threading.current_thread() is not threading.main_thread():
@@ -41,7 +41,7 @@ def termination_raised(clock: Callable[[], float] = time.monotonic) -> Iterator[
     def end(number: int, frame: object) -> None:
         nonlocal last
         now = clock()
-        if now - last >= GRACE:
+        if now - last >= GRACE_S:
             last = now
             raise Terminated
 

@@ -4,8 +4,12 @@ import argparse
 import signal
 import threading
 
+from bihdist_core.errors import ParameterError
+
+from ..document.document import COMPARISON, Document, MeshFile, comparison
 from ..document.option import Row
 from ..document.page import Recipe
+from ..document.second_mesh_edits import open_second_mesh
 from ..figures.look_options import COLOURS
 from ..figures.options import VERTEX_AREAS, tool_rows, with_rows
 from ..figures.repair_options import MERGE, REPAIRS
@@ -16,6 +20,11 @@ from .options import PANELS, add_distance, add_rows, add_sources, given, given_p
 from .result import Result
 
 WORDS = "open the viewer"
+EXAMPLES = (
+    "bihdist hand",
+    "bihdist view beast --sources 12 --distance biharmonic,geodesic",
+    "bihdist view figure figure_pose2",
+)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -28,14 +37,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--save-session", metavar="OUT.json", help="save the session once the window is complete")
     add_distance(parser, PANELS, is_field=True)
     parser.add_argument("--theme", choices=("light", "dark", "desktop"), default="", help="of the window, this time")
-    up = up_meaning("as it was chosen for this mesh before, or guessed")
-    add_rows(parser, *_rows(), up=up, merge=f"{MERGE}; File > Save table of ids… writes their new ids")
+    viewup = up_meaning("as it was chosen for this mesh before, or guessed")
+    add_rows(parser, *_rows(), viewup=viewup, merge=f"{MERGE}; File > Save vertex id table… writes their new ids")
 
 
 def _rows() -> list[Row]:
-    """Of the options of figures those of tools, as far as they are not about the page, and some more."""
+    """Return the options of figures that are tools', as far as they are not about the page, and some more."""
     of_pages = [row for row in tool_rows() if row.is_late or any(part.startswith("Page.") for part in row.parts)]
-    return [VERTEX_AREAS, REPAIRS, COLOURS, UP, *(row for row in tool_rows() if row not in of_pages)]
+    return [VERTEX_AREAS, REPAIRS, *COLOURS, UP, *(row for row in tool_rows() if row not in of_pages)]
 
 
 def run(options: argparse.Namespace) -> Result:
@@ -44,21 +53,18 @@ def run(options: argparse.Namespace) -> Result:
         # SIGTERM ends a window at once.  Qt's loop would not let Python see it, and what it raises while modules are
         # loaded may be caught by any of them.
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    from ..document.beside_edits import open_beside
-    from ..document.document import COMPARISON, Document, MeshFile, comparison
 
     # Not in the window, where a script would wait for ever.
     is_choice = options.mesh is None and not (options.screenshot or options.save_session)
     path = "" if is_choice else found_mesh(options.mesh or "figure")
-    from bihdist_core import ParameterError
-    from bihdist_core.whole_file import check_outputs
+    from bihdist_core.file_output import check_outputs
 
     check_outputs((options.screenshot, (".png",)), (options.save_session, (".json",)))
     shown: Document | str = path
     if path.lower().endswith(".json"):
         _refuse_options(options)
         if options.beside is not None:
-            raise ParameterError(f"A session says which meshes it has; leave out {options.beside}.")
+            raise ParameterError(f"A session names its meshes itself; leave out {options.beside}.")
     else:
         chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
         sources = sources_of_document(options.sources, path, chosen, options.areas, repairs_of(options, path))
@@ -68,7 +74,7 @@ def run(options: argparse.Namespace) -> Result:
         shown = comparison(path, tuple(chosen), (one_source(sources),))
         shown = with_rows(Recipe(shown), given(options, *_rows()), _rows()).document
         if options.beside is not None:
-            shown = open_beside(shown, MeshFile("", found_mesh(options.beside)), second)
+            shown = open_second_mesh(shown, MeshFile("", found_mesh(options.beside)), second)
         shown = with_rows(Recipe(shown), given(options, REPAIRS), (REPAIRS,)).document
     if is_choice and options.sources is not None:
         raise ParameterError("Sources need a mesh; name one.")
@@ -90,9 +96,7 @@ def run(options: argparse.Namespace) -> Result:
 
 
 def _refuse_options(options: argparse.Namespace) -> None:
-    """ParameterError for what a session says itself."""
-    from bihdist_core import ParameterError
-
+    """Raise ParameterError for options that a session file contains."""
     named = {f"--{name}": getattr(options, name) for name in ("sources", "distance")}
     named |= {f"--{name}": value for name, value in given_parameters(options).items()}
     values = given(options, *_rows())

@@ -1,1 +1,1 @@
-"""What is shown, as plain data: the document, its edits, its history, its files.  Neither Qt nor VTK."""
+"""The document that is shown, as plain data, with its edits, its history and its files.  Neither Qt nor VTK."""

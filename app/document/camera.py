@@ -3,11 +3,13 @@
 import math
 from dataclasses import dataclass
 
-from bihdist_core.analysis.view_directions import FIRST_VIEWS
+from bihdist_core.analysis.view_directions import OBLIQUE_VIEWS
 from bihdist_core.errors import ParameterError
 
-VIEWS = ("auto", *FIRST_VIEWS, "front", "back", "left", "right", "top", "bottom", "source", "relief")
-"""Standard views; `auto` is that of FIRST_VIEWS which shows most of the shape, as long as it is to be chosen.
+from .looks import UPS, one_of
+
+VIEWS = ("auto", *OBLIQUE_VIEWS, "front", "back", "left", "right", "top", "bottom", "source", "relief")
+"""Standard views; `auto` is the first view that shows most of the shape, as long as it is to be chosen.
 
 `source` looks at the first source from outside, `relief` is for height fields over x and y.
 """
@@ -23,10 +25,19 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Camera:
-    """Where a camera is, what it looks at, and which way is up.
+    """The place of a camera and the direction in which it looks; ParameterError for numbers that make no camera.
 
-    extent: how far it sees at least, to each side and up and down, at distance 1: what lies inside is seen in a
-    picture of any shape.  ParameterError for numbers that make no camera.
+    Attributes
+    ----------
+    position
+        The point where the camera is.
+    focal_point
+        The point that it looks at.
+    up
+        The direction that is up in the picture.
+    extent
+        How far it sees at least, to each side and up and down, at distance 1: what lies inside is seen in a picture of
+        any shape.
     """
 
     position: Vector
@@ -41,7 +52,7 @@ class Camera:
         back = tuple(a - b for a, b in zip(self.position, self.focal_point, strict=True))
         if min(math.hypot(*back), math.hypot(*self.up)) < 1 / LARGEST or not any(_cross(self.up, back)):
             raise ParameterError(
-                "A camera needs a focal point elsewhere, and an up direction across the line of sight."
+                "A camera needs a focal point away from its position, and an up direction across the line of sight."
             )
         if not all(1 / WIDEST <= x <= WIDEST for x in self.extent):
             raise ParameterError(f"A camera's extent is from {1 / WIDEST:g} to {WIDEST:g}, not {_shown(self.extent)}.")
@@ -52,15 +63,38 @@ View = str | Camera
 
 
 def checked_view(view: View) -> View:
-    """The view; ParameterError for a name that none has."""
+    """Return the view; ParameterError for a name that none has."""
     if isinstance(view, str) and view not in VIEWS:
         raise ParameterError(f"There is no view {view!r}; choose one of {', '.join(VIEWS)}.")
     return view
 
 
+@dataclass(frozen=True)
+class SecondMeshView:
+    """The view of a surface that stands beside the first one of a document.
+
+    Attributes
+    ----------
+    surface
+        Its name in the document.
+    camera
+        Its camera, as the document has one for its first surface.
+    up
+        The axis that points up, as the document has one for its first surface.
+    """
+
+    surface: str
+    camera: View = "auto"
+    up: str = "auto"
+
+    def __post_init__(self) -> None:
+        checked_view(self.camera)
+        one_of(self.up, UPS, "direction")
+
+
 def view_alike(view: View) -> View:
-    """Of another shape, or another way up: the same standard view, but for those that depend on the shape."""
-    is_of_all = isinstance(view, str) and view not in (*FIRST_VIEWS, "source", "relief")
+    """Return the view for another shape or up axis: "auto" for views that depend on the shape."""
+    is_of_all = isinstance(view, str) and view not in (*OBLIQUE_VIEWS, "source", "relief")
     return view if is_of_all else "auto"
 
 

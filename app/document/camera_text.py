@@ -24,7 +24,7 @@ def read_camera(text: str) -> View:
 
     ParameterError for anything else.
     """
-    words = re.sub(r"^--(camera|view)[=\s]+", "", text.strip()).strip().strip("\"'")
+    words = re.sub(r"^--(camera|cpos)[=\s]+", "", text.strip()).strip().strip("\"'")
     if words.lower() in VIEWS:
         return words.lower()
     if words.startswith("{"):
@@ -35,8 +35,8 @@ def read_camera(text: str) -> View:
         numbers = []
     if len(numbers) != 11:
         raise ParameterError(
-            f"{shortened(words, SHOWN)!r} is no camera; copy one with Copy camera, or paste eleven numbers: position, "
-            "focal point, up and extent."
+            f"{shortened(words, SHOWN)!r} is not a camera; copy one with Copy camera, or paste eleven numbers: "
+            "position, focal point, up and extent."
         )
     px, py, pz, fx, fy, fz, ux, uy, uz, wide, high = numbers
     return Camera((px, py, pz), (fx, fy, fz), (ux, uy, uz), (wide, high))
@@ -46,7 +46,7 @@ def _from_json(text: str) -> View:
     try:
         data = json_value(text)
     except ParameterError:
-        raise ParameterError("What was pasted begins like JSON and is none; copy all of it.") from None
+        raise ParameterError("The pasted text starts like JSON but is incomplete; copy all of it.") from None
     for part in ("document", "camera"):
         if isinstance(data.get(part), dict):
             data = data[part]

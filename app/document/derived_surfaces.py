@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 
 from .document import Document, MeshFile, Panel
 from .quantities import DistanceFrom
@@ -13,18 +13,18 @@ COLUMNS = 3
 
 
 def changed_mesh(document: Document) -> MeshFile | None:
-    """The mesh that is made from another, if there is one."""
+    """Return the mesh that is made from another, if there is one."""
     return next((mesh for mesh in document.surfaces if mesh.change is not None), None)
 
 
 def numbered(document: Document, panels: list[Panel], numbers: dict[int, int]) -> Document:
-    """With these panels and no others, and all that names panels by their ids; numbers: the new ids by the old ones."""
+    """Return the document with these panels alone, and their ids renumbered by `numbers`, old to new, everywhere."""
     parts = tuple(part.renumbered(numbers) for part in document.parts)
     return replace(document, panels=tuple(panels), parts=parts, next_id=len(panels))
 
 
 def without_changed(document: Document) -> Document:
-    """Without meshes that are made from others, and all that is on them."""
+    """Remove meshes that are made from others, and all that is on them."""
     made = {mesh.name for mesh in document.surfaces if mesh.change is not None}
     if not made:
         return document
@@ -39,13 +39,13 @@ def without_changed(document: Document) -> Document:
         points=tuple(point for point in document.points if point.surface not in made),
         panels=tuple(panels),
         fields=tuple(field for field in document.fields if field.surface not in made),
-        beside=tuple(each for each in document.beside if each.surface not in made),
+        second_views=tuple(each for each in document.second_views if each.surface not in made),
     )
     return numbered(document, [replace(panel, id=numbers[panel.id]) for panel in panels], numbers)
 
 
 def _panels_before(document: Document) -> list[Panel]:
-    """A panel of the first surface, where all that there are show another."""
+    """Return a panel of the first surface, where all that there are show another."""
     first, panel = document.surfaces[0].name, document.panels[0]
     points = [document.point(name).image_of for name in panel.shows.points]
     points += [point.name for point in document.points if point.surface == first]
@@ -54,7 +54,7 @@ def _panels_before(document: Document) -> list[Panel]:
 
 
 def partner(document: Document, panel: Panel) -> Panel | None:
-    """The panel that shows the same distance after the change, or before it, if there is one."""
+    """Return the panel that shows the same distance after the change, or before it, if there is one."""
     if not panel.shows.is_distance:
         return None
     spec, here = panel.shows.specs[0], document.point(panel.shows.points[0])

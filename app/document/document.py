@@ -1,27 +1,25 @@
-"""What is shown, all of it, as one frozen value: the state of the window, a saved recipe, a step of the history.
+"""The document: all that is shown, as one frozen value; a state of the window, a recipe, a step of the history.
 
 A document says what is wanted and holds nothing that is computed.  It is hashable, pickles, and is written as JSON
 (`file`); the functions in `edits` lead from one to the next.
 """
 
+from base64 import b64decode
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 from bihdist_core.applications.changes import Perturbation
-from bihdist_core.distances.kinds import Spec, kinds
+from bihdist_core.distances.distance_types import Spec, distance_types
 from bihdist_core.errors import ParameterError
 from bihdist_core.scalars import whole_number
 from bihdist_core.sources.source import Source, checked_source
 
-from .beside import Beside
-from .camera import View, checked_view
-from .docks import DockPlaces
+from .camera import SecondMeshView, View, checked_view
 from .looks import (
     AS_IT_IS,
     LARGEST,
     OF_THE_STYLE,
-    PROJECTIONS,
     RANGES,
     TWENTY_STEPS,
     UPS,
@@ -52,9 +50,18 @@ LONGEST_NAME = 60
 class MeshFile:
     """A surface by where it comes from, under a name of its own in the document.
 
-    path: a file, or the name of a sample; empty for a surface in memory.  sha256: of the file's bytes, or of the arrays
-    in memory; empty as long as any content will do.  repairs: what is done to it on reading.  change: what is made of
-    that (`changing`), None for itself.
+    Attributes
+    ----------
+    name
+        Its name, which points and panels refer to.
+    path
+        A file, or the name of a sample; empty for a surface in memory.
+    sha256
+        The checksum of the file's bytes, or of the arrays in memory; empty as long as any content will do.
+    change
+        The change that the surface is made by (`app.document.changing`), after the repairs; None for no change.
+    repairs
+        The repairs that are made when it is read.
     """
 
     name: str
@@ -68,8 +75,17 @@ class MeshFile:
 class Point:
     """A named source: a vertex, a place in a face, a set, a boundary loop or a curve (`bihdist_core.sources`).
 
-    None, for a vertex of the largest component that is seen, becomes that vertex once the surface is there.
-    image_of: a point on the surface that this one is made from, whose place this always has.
+    Attributes
+    ----------
+    name
+        Its name, which panels refer to.
+    at
+        The source. None stands for a vertex of the largest component that is seen, and becomes that vertex once the
+        surface is there.
+    surface
+        The name of the surface that it is on.
+    image_of
+        The name of a point on the surface from which this point's surface is made; this point is always its image.
     """
 
     name: str
@@ -84,9 +100,16 @@ class Point:
 
 @dataclass(frozen=True)
 class FieldArray:
-    """A field of the user's own, given from Python: values at a surface's vertices, under a name.
+    """A field of the user's own, given from Python: values at a surface's vertices.
 
-    sha256: of the values, which stand beside the document (`session.array_store`).
+    Attributes
+    ----------
+    name
+        Its name.
+    sha256
+        The checksum of the values, which stand beside the document (`session.array_store`).
+    surface
+        The name of the surface.
     """
 
     name: str
@@ -95,18 +118,30 @@ class FieldArray:
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str):
-            raise ParameterError(f"A field has a text for a name, not {self.name!r}.")
+            raise ParameterError(f"The name of a field is a string, not {self.name!r}.")
         if not self.name or self.name != self.name.strip() or " - " in self.name or self.name.startswith("raw "):
-            raise ParameterError(f"{self.name!r} is no name for a field; use a word or two.")
+            raise ParameterError(f"{self.name!r} is not a name for a field; use a word or two.")
         if not self.name.isprintable() or len(self.name) > LONGEST_NAME:
             raise ParameterError(f"A field's name has up to {LONGEST_NAME} characters, all of them printable.")
-        if self.name.partition("(")[0] in kinds():
+        if self.name.partition("(")[0] in distance_types():
             raise ParameterError(f"A field needs a name of its own; {self.name!r} is a distance.")
 
 
 @dataclass(frozen=True)
 class Panel:
-    """A quantity on a surface.  id: never another panel's; maximum: the end of its colour bar, its own if None."""
+    """A quantity on a surface.
+
+    Attributes
+    ----------
+    id
+        A number that no other panel of the document has or had.
+    shows
+        The quantity that it shows.
+    surface
+        The name of the surface.
+    maximum
+        The end of the colour bar; None for the end that the document's `range` gives.
+    """
 
     id: int
     shows: Quantity
@@ -121,11 +156,19 @@ class Panel:
 
 
 @dataclass(frozen=True)
-class Zoom:
-    """An inset: the place of a vertex enlarged, in a corner of each panel.
+class Inset:
+    """An enlarged picture of the place of a vertex, in a corner of each panel.
 
-    corner: "auto" (where the least is hidden), "top left", "top right", "bottom left" or "bottom right".  isolines: so
-    many steps from 0 to the maximum, those of the panel if None.
+    Attributes
+    ----------
+    vertex
+        The vertex in the middle of it.
+    factor
+        How many times it enlarges, more than 1 and at most 100.
+    corner
+        One of "auto" (where the least is hidden), "top left", "top right", "bottom left" and "bottom right".
+    isolines
+        The number of isoline steps from 0 to the maximum; None for the isolines of the panel.
     """
 
     vertex: int
@@ -137,31 +180,95 @@ class Zoom:
         object.__setattr__(self, "vertex", whole_number(self.vertex, "A vertex id"))
         object.__setattr__(self, "factor", float(self.factor))
         if not 1 < self.factor <= 100:
-            raise ParameterError(f"A zoom enlarges by more than 1 and at most 100 times, not {self.factor:g}.")
+            raise ParameterError(f"An inset enlarges by more than 1 and at most 100 times, not {self.factor:g}.")
         one_of(self.corner, CORNERS, "corner")
         if self.isolines is not None:
             Isolines(whole_number(self.isolines, "A number of steps"))
 
 
-def isolines_in(zoom: Zoom, isolines: Isolines) -> Isolines:
-    """Those that an inset of a panel with these isolines has."""
-    return isolines if zoom.isolines is None else replace(isolines, count=zoom.isolines, spacing=None, values=())
+def isolines_in(inset: Inset, isolines: Isolines) -> Isolines:
+    """Return the isolines of an inset in a panel with these isolines."""
+    return isolines if inset.isolines is None else replace(isolines, count=inset.isolines, spacing=None, values=())
+
+
+@dataclass(frozen=True)
+class DockPlaces:
+    """The places and sizes of open docks in the window.
+
+    Attributes
+    ----------
+    width, height
+        The size of the window, in logical pixels.
+    state
+        The state of the docks as Qt saves it, in base64.
+    """
+
+    width: int
+    height: int
+    state: str
+
+    def __post_init__(self) -> None:
+        if min(self.width, self.height) < 1:
+            raise ParameterError(f"A window has a size of 1 or more, not {self.width} x {self.height}.")
+        try:
+            b64decode(self.state, validate=True)
+        except ValueError:
+            raise ParameterError(f"The places of docks are base64, not {self.state[:20]!r}.") from None
 
 
 @dataclass(frozen=True)
 class Document:
-    """See the module; ParameterError for parts that do not fit together.
+    """All that is shown, as one frozen value; ParameterError for parts that do not fit together.
 
-    areas: which vertex areas the operators have.  range: where colour bars end, one of RANGES.  height: a flat surface
-    becomes a height field whose highest point is this share of its extent.  next_id: of the panel that is added next.
-    fields: of the user's own, for panels to show.  up: the axis that points up, "auto" as long as it is to be guessed.
-    projection: one of PROJECTIONS.  axes: whether their directions are shown.  extrema: whether those of the fields
-    are marked.  docks: the words of those that are open; dock_places: where they were when this was saved, None for
-    where docks are at first.
-    snap: whether the pointer puts sources on vertices, and not anywhere in faces.
-    beside: how surfaces but the first are seen, and linked: whether turning one of them turns the others.
-    parts: of tools, those that are not as usual (`document[Pins]` has the usual one as well), in the order of their
-    names.
+    Attributes
+    ----------
+    surfaces
+        The surfaces, by their files.
+    points
+        The named sources on them.
+    panels
+        The panels, each of which shows a quantity.
+    areas
+        The vertex areas of the operators, one of AREAS.
+    isolines
+        The isolines of all panels.
+    range
+        Where colour bars end, one of RANGES.
+    camera
+        The camera of the first surface, or the name of an automatic view.
+    insets
+        Enlarged pictures in the corners of each panel.
+    warp_factor
+        A flat surface becomes a height field whose highest point is at this fraction of its extent; 0 for none.
+    next_id
+        The id of the panel that is added next.
+    fields
+        The user's own fields, which panels can show.
+    colours
+        The colours of the fields.
+    shading
+        The shading of the surfaces.
+    up
+        The axis of the first surface that points up; "auto" as long as it is to be guessed.
+    parallel_projection
+        Whether the picture has no perspective.
+    axes
+        Whether a cross of the coordinate axes is shown.
+    extrema
+        Whether the extrema of the fields are marked.
+    docks
+        The names of the docks that are open.
+    dock_places
+        Where the docks were when this was saved; None for where they are at first.
+    snap
+        Whether the pointer puts sources on vertices, and not anywhere in faces.
+    second_views
+        The views of the surfaces after the first.
+    linked
+        Whether turning one surface turns the others.
+    parts
+        The parts of tools that differ from the usual ones, in the order of their names; `document[Pins]` returns the
+        usual one, too.
     """
 
     surfaces: tuple[MeshFile, ...] = ()
@@ -171,20 +278,20 @@ class Document:
     isolines: Isolines = TWENTY_STEPS
     range: str = "own"
     camera: View = "auto"
-    zooms: tuple[Zoom, ...] = ()
-    height: float = 0.0
+    insets: tuple[Inset, ...] = ()
+    warp_factor: float = 0.0
     next_id: int = 0
     fields: tuple[FieldArray, ...] = ()
     colours: Colours = OF_THE_STYLE
     shading: Shading = AS_IT_IS
     up: str = "auto"
-    projection: str = "perspective"
+    parallel_projection: bool = False
     axes: bool = False
     extrema: bool = False
     docks: tuple[str, ...] = ()
     dock_places: DockPlaces | None = None
     snap: bool = True
-    beside: tuple[Beside, ...] = ()
+    second_views: tuple[SecondMeshView, ...] = ()
     linked: bool = True
     parts: tuple[Part, ...] = ()
 
@@ -199,7 +306,7 @@ class Document:
         kept = (part for kind, part in parts.items() if part != kind())
         object.__setattr__(self, "parts", tuple(sorted(kept, key=lambda part: type(part).__qualname__)))
         self._check_names()
-        unlike(self.docks, "dock")
+        check_unique(self.docks, "dock")
         for dock in self.docks:
             one_of(dock, tuple(docked_tools()), "dock")
         if ids and max(ids) >= self.next_id:
@@ -210,41 +317,46 @@ class Document:
             raise ParameterError(f"There are no areas {self.areas!r}; choose one of {', '.join(AREAS)}.")
         one_of(self.range, RANGES, "range")
         one_of(self.up, UPS, "direction")
-        one_of(self.projection, PROJECTIONS, "projection")
-        if not 0 <= self.height <= 10:
+        if not 0 <= self.warp_factor <= 10:
             raise ParameterError(
-                f"The height of a height field is a fraction of the surface's extent, not {self.height:g}."
+                f"The warp factor of a height field is a fraction of the surface's extent, not {self.warp_factor:g}."
             )
         checked_view(self.camera)
+        fitted = tuple(part.fitted(self) for part in self.parts)
+        object.__setattr__(self, "parts", tuple(part for part in fitted if part != type(part)()))
 
     def _check_names(self) -> None:
         """ParameterError for two of one name, and for the name of nothing."""
-        surfaces = unlike([mesh.name for mesh in self.surfaces], "surface")
-        points = unlike([point.name for point in self.points], "point")
-        fields = unlike([field.name for field in self.fields], "field")
-        unlike([panel.id for panel in self.panels], "panel")
-        unlike([each.surface for each in self.beside], "surface")
-        for placed in (self.points, self.panels, self.fields, self.beside):
-            known([each.surface for each in placed], surfaces, "surface")
-        known([point.image_of for point in self.points if point.image_of], points, "point")
-        known([name for panel in self.panels for name in panel.shows.points], points, "point")
-        known(self.isolines.through, points, "point")
-        known([part.name for panel in self.panels for part in own_fields(panel.shows)], fields, "field")
+        surfaces = check_unique([mesh.name for mesh in self.surfaces], "surface")
+        points = check_unique([point.name for point in self.points], "point")
+        fields = check_unique([field.name for field in self.fields], "field")
+        check_unique([panel.id for panel in self.panels], "panel")
+        check_unique([each.surface for each in self.second_views], "surface")
+        for placed in (self.points, self.panels, self.fields, self.second_views):
+            check_known([each.surface for each in placed], surfaces, "surface")
+        check_known([point.image_of for point in self.points if point.image_of], points, "point")
+        check_known([name for panel in self.panels for name in panel.shows.points], points, "point")
+        check_known(self.isolines.through, points, "point")
+        check_known([part.name for panel in self.panels for part in own_fields(panel.shows)], fields, "field")
         for panel in self.panels:
             panel.shows.check(self, panel.surface)
         for part in self.parts:
-            known(part.surfaces, surfaces, "surface")
-            known(part.points, points, "point")
+            check_known(part.surfaces, surfaces, "surface")
+            check_known(part.points, points, "point")
             part.check(self)
 
     def __getitem__(self, kind: type[AnyPart]) -> AnyPart:
-        """The part of this type; the usual one where nothing is said."""
+        """Return the part of this type; the usual one where nothing is said."""
         return next((part for part in self.parts if isinstance(part, kind)), None) or kind()
 
     def with_part(self, part: Part, **changes: Any) -> "Document":
-        """With this instead of the part of its type, and with other changes of the document that go with it."""
+        """Replace the part of this type, and the fields of the document that are given."""
         others = (other for other in self.parts if type(other) is not type(part))
         return replace(self, parts=(*others, part), **changes)
+
+    def with_changed(self, kind: type[Part], **changes: Any) -> "Document":
+        """Replace fields of the part of this type."""
+        return self.with_part(replace(self[kind], **changes))
 
     @property
     def held_points(self) -> frozenset[str]:
@@ -253,40 +365,40 @@ class Document:
         return frozenset(self.isolines.through).union(*(panel.shows.points for panel in self.panels), *of_parts)
 
     def mesh(self, name: str = "A") -> MeshFile:
-        """The surface of a name; ParameterError if there is none."""
+        """Return the surface of a name; ParameterError if there is none."""
         return _named(self.surfaces, name, "surface")
 
     def point(self, name: str = "source") -> Point:
-        """The point of a name; ParameterError if there is none."""
+        """Return the point of a name; ParameterError if there is none."""
         return _named(self.points, name, "point")
 
     def field(self, name: str) -> FieldArray:
-        """The field of the user's own of a name; ParameterError if there is none."""
+        """Return the field of the user's own of a name; ParameterError if there is none."""
         return _named(self.fields, name, "field")
 
     def panel(self, id: int) -> Panel:
-        """The panel of an id; ParameterError if there is none."""
+        """Return the panel of an id; ParameterError if there is none."""
         for panel in self.panels:
             if panel.id == id:
                 return panel
         raise ParameterError(f"There is no panel {id}.")
 
     def camera_of(self, surface: str) -> View:
-        """From where a surface is seen; from where the first is, if nothing else is said."""
-        return next((each.camera for each in self.beside if each.surface == surface), self.camera)
+        """Return the camera of a surface; that of the first one if it has none of its own."""
+        return next((each.camera for each in self.second_views if each.surface == surface), self.camera)
 
     def up_of(self, surface: str) -> str:
-        """Which of its axes points up; the same."""
-        return next((each.up for each in self.beside if each.surface == surface), self.up)
+        """Return which of its axes points up; the same."""
+        return next((each.up for each in self.second_views if each.surface == surface), self.up)
 
     def panels_of(self, surface: str | None = None) -> tuple[Panel, ...]:
-        """Those that show a surface, the first if none is named."""
+        """Return the panels of a surface, by default the first."""
         name = self.surfaces[0].name if surface is None and self.surfaces else surface
         return tuple(panel for panel in self.panels if panel.surface == name)
 
     @property
     def sources(self) -> tuple[Source | None, ...]:
-        """Where the panels' fields start, each place once, in order."""
+        """The sources of the panels' fields, each once, in order."""
         return tuple(dict.fromkeys(self.point(name).at for panel in self.panels for name in panel.shows.points))
 
 
@@ -297,9 +409,9 @@ def comparison(
     areas: str = "voronoi",
     fields: tuple[FieldArray, ...] = (),
 ) -> Document:
-    """A mesh with a panel for each quantity from each source: the panels of one source after another.
+    """Return a document of one mesh with a panel for each quantity from each source, source by source.
 
-    fields: of the user's own; those that no quantity names have panels of their own at the end.
+    `fields` are the user's own; those that no quantity names have panels of their own at the end.
     """
     names = free_names("source", len(sources), [])
     # What starts nowhere is the same for all sources.
@@ -318,32 +430,40 @@ def comparison(
 
 
 def starting_points(document: Document) -> tuple[Point, ...]:
-    """Those that fields start from, in the document's order."""
+    """Return the points that fields start from, in the document's order."""
     shown = {name for panel in document.panels for name in panel.shows.points}
     return tuple(point for point in document.points if point.name in shown)
 
 
+def with_new_point(document: Document, base: str, at: Source | None, surface: str) -> tuple[Document, str]:
+    """Return the document with one more point, and its name: `base`, or that with a number."""
+    (name,) = free_names(base, 1, [point.name for point in document.points])
+    return replace(document, points=(*document.points, Point(name, at, surface))), name
+
+
 def free_names(base: str, count: int, taken: list[str]) -> list[str]:
-    """So many names: "source", "source 2", ..., but for those that are taken."""
+    """Return `count` names that are not taken: "source", "source 2", ...."""
     numbered = (f"{base} {k}" if k > 1 else base for k in range(1, count + len(taken) + 1))
     return [name for name in numbered if name not in taken][:count]
 
 
 def content(document: Document) -> Document:
-    """What two documents have in common that differ in nothing but cameras, open docks and snapping."""
-    beside = tuple(Beside(mesh.name, "home", document.up_of(mesh.name)) for mesh in document.surfaces[1:])
-    return replace(document, camera="home", docks=(), dock_places=None, snap=True, beside=beside, linked=True)
+    """Return a document without its cameras, open docks and snapping, for comparison with another."""
+    second_views = tuple(SecondMeshView(mesh.name, "home", document.up_of(mesh.name)) for mesh in document.surfaces[1:])
+    return replace(
+        document, camera="home", docks=(), dock_places=None, snap=True, second_views=second_views, linked=True
+    )
 
 
-def unlike(names: Sequence[Any], what: str) -> set[Any]:
-    """The names; ParameterError if two of them are alike."""
+def check_unique(names: Sequence[Any], what: str) -> set[Any]:
+    """Return the names; ParameterError if two of them are alike."""
     for k, name in enumerate(names):
         if name in names[:k]:
             raise ParameterError(f"There are two {what}s {name!r}.")
     return set(names)
 
 
-def known(names: Iterable[str], there: set[str], what: str) -> None:
+def check_known(names: Iterable[str], there: set[str], what: str) -> None:
     """ParameterError for a name that is none of those that are there."""
     for name in names:
         if name not in there:

@@ -1,16 +1,30 @@
-"""From one document to the next: pure functions, for what `dataclasses.replace` alone does not do."""
+"""Edits of documents: pure functions, for what `dataclasses.replace` alone does not do."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from bihdist_core.distances.kinds import Spec, kinds
+from bihdist_core.distances.distance_types import Spec, distance_types
 from bihdist_core.sources.source import Source
 
-from .camera import view_alike
 from .derived_surfaces import changed_mesh, without_changed
-from .document import COMPARISON, Document, MeshFile, Panel, Point, free_names
-from .quantities import DistanceFrom, Quantity, from_point, own_fields
-from .removal import without_surfaces
+from .document import COMPARISON, Document, MeshFile, Panel, Point, free_names, with_new_point
+from .looks import Isolines
+from .quantities import Difference, DistanceFrom, Quantity, from_point, own_fields
+from .removal import without_orphans, without_surfaces
+
+KEPT_OF_CLOSED = (
+    "areas",
+    "colours",
+    "shading",
+    "parallel_projection",
+    "axes",
+    "extrema",
+    "docks",
+    "snap",
+    "linked",
+    "next_id",
+)
+"""Fields of a document that stay when its meshes are closed."""
 
 MOST_ADDED = 6
 """Up to which panels can be added; a recipe may have more."""
@@ -19,9 +33,15 @@ MOST_ADDED = 6
 def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> Document:
     """Another mesh under the same name; its own view and way up, and its points are where the first source is.
 
-    What was tied to vertices of the old one (insets, what tools have there, colour bars with an end of their own,
-    fields of the user's own with the panels that show them) is left out; one panel there always is.
+    What was tied to vertices or values of the old one (insets, what tools have there, where colour bars end, fields of
+    the user's own with the panels that show them, which isolines there are but for their number) is left out; one panel
+    there always is.
     """
+    if not document.surfaces:
+        document = put_point(replace(document, surfaces=(mesh,)), "source", source, mesh.name)
+        for spec in COMPARISON:
+            document = add_panel(document, DistanceFrom(spec), mesh.name)
+        return document
     document = without_changed(document)
     others = tuple(field for field in document.fields if field.surface != mesh.name)
     names = {field.name for field in others}
@@ -35,16 +55,24 @@ def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> 
         surfaces=surfaces if mesh in surfaces else (*surfaces, mesh),
         points=tuple(replace(p, at=source) if p.surface == mesh.name else p for p in document.points),
         panels=tuple(replace(p, maximum=None) if p.surface == mesh.name else p for p in document.panels),
-        zooms=(),
-        height=0.0,
+        isolines=_isolines_of_any(document.isolines),
+        range="own",
+        insets=(),
+        warp_factor=0.0,
         camera="auto",
         up="auto",
     )
 
 
-def stand(document: Document, up: str) -> Document:
-    """Another way up; what shows the shape is chosen anew, also for a camera of one's own, which would now be askew."""
-    return document if up == document.up else replace(document, up=up, camera=view_alike(document.camera))
+def close_meshes(document: Document) -> Document:
+    """Return the document without meshes and all that is on them; how fields and surfaces look stays."""
+    kept = {word: getattr(document, word) for word in KEPT_OF_CLOSED}
+    return Document(isolines=_isolines_of_any(document.isolines), **kept)
+
+
+def _isolines_of_any(isolines: Isolines) -> Isolines:
+    """Drop what is tied to values of a mesh."""
+    return Isolines(isolines.count, round=isolines.round)
 
 
 def put_point(document: Document, name: str, at: Source | None, surface: str = "A") -> Document:
@@ -56,7 +84,7 @@ def put_point(document: Document, name: str, at: Source | None, surface: str = "
 
 
 def source_name(document: Document, panel: int) -> str:
-    """The point that a panel's quantity starts from.
+    """Return the point that a panel's quantity starts from.
 
     Of a quantity that starts nowhere, it is that of the first panel of the same surface that has one; "" for none.
     """
@@ -66,7 +94,7 @@ def source_name(document: Document, panel: int) -> str:
 
 
 def move_source(document: Document, panel: int, at: Source) -> Document:
-    """What a click in a panel does: the point that its quantity starts from (`source_name`) goes there."""
+    """Move the point that a panel's quantity starts from (`source_name`), as a click in the panel does."""
     name = source_name(document, panel)
     return put_point(document, name, at, document.panel(panel).surface) if name else document
 
@@ -111,7 +139,7 @@ def show_in_row(document: Document, panel: int, shows: Quantity) -> Document:
 
 
 def _is_in_row(shows: Quantity) -> bool:
-    """Whether it is a distance before or after a change, or what the change does to it."""
+    """Return whether it is a distance before or after a change, or what the change does to it."""
     return shows.is_distance or shows.compares_meshes
 
 
@@ -138,7 +166,7 @@ def add_panel(document: Document, shows: Quantity, surface: str = "A") -> Docume
 
 
 def remove_panel(document: Document, panel: int) -> Document:
-    """The document without a panel."""
+    """Return the document without a panel."""
     return replace(document, panels=tuple(p for p in document.panels if p.id != document.panel(panel).id))
 
 
@@ -148,7 +176,7 @@ def end_at(document: Document, panel: int, end: float | None) -> Document:
 
 
 def with_ends(document: Document, ends: Mapping[int, float | None]) -> Document:
-    """The same for several, by the panels' ids."""
+    """Return the same for several, by the panels' ids."""
     panels = tuple(replace(p, maximum=ends[p.id]) if p.id in ends else p for p in document.panels)
     return replace(document, panels=panels, range="own")
 
@@ -160,7 +188,7 @@ def with_range(document: Document, word: str) -> Document:
 
 
 def has_ends(document: Document) -> bool:
-    """Whether a colour bar ends elsewhere than at its field's maximum."""
+    """Return whether a colour bar ends elsewhere than at its field's maximum."""
     return any(panel.maximum is not None for panel in document.panels)
 
 
@@ -171,13 +199,22 @@ def move_panel(document: Document, panel: int, place: int) -> Document:
     return replace(document, panels=tuple(others))
 
 
-def add_another(document: Document, surface: str | None = None) -> Document:
-    """One more panel of a surface, the first if None, with a distance that it does not show yet where there is one."""
+def add_another(document: Document, surface: str | None = None, is_distance: bool = False) -> Document:
+    """Add another panel of a surface, by default the first.
+
+    It shows a distance of the usual three that is not shown yet; then the difference of the first two panels, unless
+    there is a difference already or `is_distance` asks for none; then any distance that is not shown yet.
+    """
     shown = {spec.word for panel in document.panels_of(surface) for spec in panel.shows.specs}
-    words = [*(spec.word for spec in COMPARISON), *kinds()]
+    words = [*(spec.word for spec in COMPARISON), *distance_types()]
     word = next((word for word in words if word not in shown), words[0])
     surface = document.surfaces[0].name if surface is None else surface
     here = document.panels_of(surface)
+    first = [panel.shows for panel in here if panel.shows.is_distance][:2]
+    has_usual = all(spec.word in shown for spec in COMPARISON)
+    may_differ = has_usual and not is_distance and not any(panel.shows.is_difference for panel in here)
+    if may_differ and len(set(first)) == 2 and first[0].points == first[1].points:
+        return add_panel(document, Difference(first[0], first[1]), surface)
     if here and all(panel.shows.relates_surfaces and not panel.shows.is_map for panel in here):
         return add_panel(document, here[0].shows.with_spec(Spec.of(word)), surface)
     starting = [name for panel in document.panels_of(surface) for name in panel.shows.points]
@@ -185,19 +222,19 @@ def add_another(document: Document, surface: str | None = None) -> Document:
     if starting:
         name = "source" if "source" in starting else starting[0]
         return add_panel(document, DistanceFrom(Spec.of(word), name), surface)
-    (name,) = free_names("source", 1, [point.name for point in document.points])
-    return add_panel(put_point(document, name, None, surface), DistanceFrom(Spec.of(word), name), surface)
+    document, name = with_new_point(document, "source", None, surface)
+    return add_panel(document, DistanceFrom(Spec.of(word), name), surface)
 
 
 def duplicate_panel(document: Document, panel: int) -> Document:
-    """The same once more, after it."""
+    """Return the same once more, after it."""
     shown = document.panel(panel)
     more = add_panel(document, shown.shows, shown.surface)
     return move_panel(more, document.next_id, place_of(document, panel) + 1)
 
 
 def place_of(document: Document, panel: int) -> int:
-    """The place of a panel among the others."""
+    """Return the place of a panel among the others."""
     return document.panels.index(document.panel(panel))
 
 
@@ -208,5 +245,18 @@ def show_dock(document: Document, dock: str, is_open: bool = True) -> Document:
 
 
 def mark_extrema(document: Document, is_shown: bool = True) -> Document:
-    """Whether extrema away from the source have triangles, in figures too."""
+    """Return whether extrema away from the source have triangles, in figures too."""
     return replace(document, extrema=is_shown)
+
+
+def pass_through(document: Document, vertices: tuple[int, ...], surface: str = "A") -> Document:
+    """One more line through each of the vertices of a surface."""
+    names = free_names("line", len(vertices), [point.name for point in document.points])
+    points = [Point(name, vertex, surface) for name, vertex in zip(names, vertices, strict=True)]
+    through = (*document.isolines.through, *names)
+    return replace(document, points=(*document.points, *points), isolines=replace(document.isolines, through=through))
+
+
+def pass_through_none(document: Document) -> Document:
+    """Remove isolines through points, and the points that only these had."""
+    return without_orphans(document, replace(document, isolines=replace(document.isolines, through=())))

@@ -51,7 +51,7 @@ def _checksum_of_mesh(path: str | os.PathLike[str]) -> str:
 
 # ---------------------------------------------------------------------- writing
 def recipe_text(recipe: Recipe, version: str) -> str:
-    """The recipe as JSON."""
+    """Return the recipe as JSON."""
     data = {
         "format": FORMAT,
         "program": f"{PROGRAM} {version}",
@@ -63,7 +63,7 @@ def recipe_text(recipe: Recipe, version: str) -> str:
 
 
 def mesh_reference(mesh: str, file: str | os.PathLike[str]) -> str:
-    """How a file at a path names a mesh: from its own folder where it can, so that both may move together."""
+    """Return the name of a mesh in a file: from the file's folder where it can be, so that both may move together."""
     if not os.path.exists(mesh):
         return mesh  # a sample's name
     try:
@@ -73,12 +73,12 @@ def mesh_reference(mesh: str, file: str | os.PathLike[str]) -> str:
 
 
 def with_meshes_from(recipe: Recipe, file: str | os.PathLike[str]) -> Recipe:
-    """The recipe as it is written at a path."""
+    """Return the recipe as it is written at a path."""
     return replace(recipe, document=with_all_paths(recipe.document, lambda path: mesh_reference(path, file)))
 
 
 def with_all_paths(document: Document, named: Callable[[str], str]) -> Document:
-    """The same document with other paths of all files that it names."""
+    """Return the same document with other paths of all files that it names."""
     return replace(
         document,
         surfaces=tuple(with_paths(mesh, named) for mesh in document.surfaces),
@@ -88,7 +88,7 @@ def with_all_paths(document: Document, named: Callable[[str], str]) -> Document:
 
 
 def with_paths(mesh: MeshFile, named: Callable[[str], str]) -> MeshFile:
-    """The same mesh with other paths, where it has any."""
+    """Return the same mesh with other paths, where it has any."""
     mesh = replace(mesh, path=named(mesh.path)) if mesh.path else mesh
     if mesh.repairs.cut:
         mesh = replace(mesh, repairs=replace(mesh.repairs, cut=named(mesh.repairs.cut)))
@@ -128,7 +128,7 @@ def recipe_from_text(words: str) -> Recipe:
 
 
 def is_recipe(path: str | os.PathLike[str]) -> bool:
-    """Whether a file is a recipe, perhaps of another version: whether it may be replaced by one."""
+    """Return whether a file is a recipe, perhaps of another version: whether it may be replaced by one."""
     try:
         data = file_json(path, "recipe", "a recipe")
     except ParameterError:
@@ -147,7 +147,7 @@ def _recipe(data: Any) -> Recipe:
             f"this one reads formats up to {FORMAT}."
         )
     if version < FORMAT:
-        raise ParameterError(f"format {version} is not read any more; the figure has to be drawn anew.")
+        raise ParameterError(f"format {version} is no longer supported; draw the figure again.")
     parts = {
         "format": whole,
         "program": text,

@@ -9,7 +9,7 @@ from functools import singledispatch
 from typing import Any
 
 from bihdist_core.applications.changes import Perturbation, change_from_words, words_of_change
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import BoundaryLoop, Curve, Source, SourceSet, SurfacePoint
 from bihdist_core.sources.words import curve_rows, places_from
@@ -17,20 +17,48 @@ from bihdist_core.sources.words import curve_rows, places_from
 from .camera import Camera, View
 from .document import Document, MeshFile
 from .json_values import Reader, field_readers, flag, listed, numbers, placed, reader_of, record, text, whole
-from .looks import Isolines, one_of
+from .looks import Isolines, Shading, one_of
+from .page import Page
 from .quantities import Quantity, quantity_from, read_spec
 from .repairs import NO_REPAIRS, Repairs
 from .tools import part_types
 
-ALWAYS = {"surfaces", "points", "panels", "areas", "isolines", "camera", "zooms", "height", "next_id"}
+ALWAYS = {"surfaces", "points", "panels", "areas", "isolines", "camera", "insets", "warp_factor", "next_id"}
 """Parts of a document that stand in each file."""
 
 BEFORE = {"up": "y"}
 """What files mean that do not say it, where that is not as usual."""
 
+OLD_KEYS = {
+    "beside": "second_views",
+    "zooms": "insets",
+    "height": "warp_factor",
+    "projection": "parallel_projection",
+    "crease": "feature_angle",
+    "wireframe": "show_edges",
+    "font": "font_family",
+    "text": "font_size",
+}
+"""Keys of older files, of documents, their shading and pages."""
+
+OLD_VALUES: dict[str, dict[str, Any]] = {
+    "projection": {"perspective": False, "orthographic": True},
+    "range": {"shares": "fraction"},
+}
+
+
+def with_new_keys(data: Any) -> Any:
+    """Return a record of an older file with the keys and values of today; anything else as it is."""
+    if not isinstance(data, dict):
+        return data
+    values = {
+        key: OLD_VALUES[key].get(str(value), value) if key in OLD_VALUES else value for key, value in data.items()
+    }
+    return {OLD_KEYS.get(key, key): value for key, value in values.items()}
+
 
 def document_data(document: Document) -> dict[str, Any]:
-    """The document as records, lists, texts and numbers; `document_from` reads it back, equal."""
+    """Return the document as records, lists, texts and numbers; `document_from` reads it back, equal."""
     data: dict[str, Any] = {}
     for each in fields(document):
         value = getattr(document, each.name)
@@ -42,7 +70,7 @@ def document_data(document: Document) -> dict[str, Any]:
 
 
 def document_from(data: Any, where: str = "document") -> Document:
-    """The document that `document_data` has written; ParameterError, with the place, for anything else."""
+    """Return the document that `document_data` has written; ParameterError, with the place, for anything else."""
     own = field_readers(Document, READERS)
     del own["parts"]
     of_parts = {
@@ -53,7 +81,7 @@ def document_from(data: Any, where: str = "document") -> Document:
     readers: dict[str, Reader] = {**own, "tool": lambda data, _: one_of(text(data, "tool"), ("source",), "tool")}
     for more in of_parts.values():
         readers |= more
-    values = record(data, where, readers, ALWAYS)
+    values = record(with_new_keys(data), where, readers, ALWAYS)
     values.pop("tool", None)
     parts = []
     for kind, more in of_parts.items():
@@ -66,7 +94,7 @@ def document_from(data: Any, where: str = "document") -> Document:
 # ---------------------------------------------------------------------- writing
 @singledispatch
 def written(value: Any) -> Any:
-    """A value as records, lists, texts and numbers."""
+    """Return a value as records, lists, texts and numbers."""
     if isinstance(value, tuple):
         return [written(each) for each in value]
     if not is_dataclass(value):
@@ -77,7 +105,7 @@ def written(value: Any) -> Any:
 
 @written.register
 def _(spec: Spec) -> Any:
-    return spec.in_full
+    return spec.canonical
 
 
 @written.register
@@ -161,7 +189,7 @@ def read_isolines(data: Any, where: str) -> Isolines:
 
 
 def read_view(data: Any, where: str) -> View:
-    """A standard view's name or a camera."""
+    """Return a standard view's name or a camera."""
     return data if isinstance(data, str) else reader_of(Camera)(data, where)
 
 
@@ -170,6 +198,8 @@ READERS: dict[Any, Reader] = {
     Isolines: read_isolines,
     Source: _source,
     View: read_view,
+    Shading: lambda data, where: reader_of(Shading)(with_new_keys(data), where),
+    Page: lambda data, where: reader_of(Page, {View: read_view})(with_new_keys(data), where),
     Quantity: quantity_from,
     Spec: read_spec,
 }

@@ -22,9 +22,9 @@ NONE: Mapping[Any, Reader] = {}
 
 
 def record(data: Any, where: str, readers: Mapping[str, Reader], needed: set[str] | None = None) -> dict[str, Any]:
-    """The values of a record by name; those needed must be there (all, if not given), others must not."""
+    """Return the values of a record by name; those needed must be there (all, if not given), others must not."""
     if not isinstance(data, dict):
-        raise ParameterError(f"{where} must be a record in braces, not {shown(data)}.")
+        raise ParameterError(f"{where} must be an object in braces, not {shown(data)}.")
     unknown = sorted(set(data) - set(readers))
     if unknown:
         raise ParameterError(f"{where} has the unknown key {shortened(repr(unknown[0]), 60)}.")
@@ -35,7 +35,7 @@ def record(data: Any, where: str, readers: Mapping[str, Reader], needed: set[str
 
 
 def listed(read: Reader) -> Reader:
-    """A reader of lists, whose entries `read` reads."""
+    """Return a reader of lists, whose entries `read` reads."""
 
     def reader(data: Any, where: str) -> tuple[Any, ...]:
         if not isinstance(data, list):
@@ -46,7 +46,7 @@ def listed(read: Reader) -> Reader:
 
 
 def numbers(count: int) -> Reader:
-    """A reader of lists of so many finite numbers."""
+    """Return a reader of lists of so many finite numbers."""
 
     def reader(data: Any, where: str) -> tuple[Any, ...]:
         values: tuple[float, ...] = listed(number)(data, where)
@@ -58,12 +58,12 @@ def numbers(count: int) -> Reader:
 
 
 def or_none(read: Reader) -> Reader:
-    """A reader of null, and of what `read` reads."""
+    """Return a reader of null, and of what `read` reads."""
     return lambda data, where: None if data is None else read(data, where)
 
 
 def placed(make: Callable[..., Made], where: str, **values: Any) -> Made:
-    """What is made of values; what is wrong with them gets their place."""
+    """Make an object of values; errors in them name their place."""
     try:
         return make(**values)
     except ParameterError as error:
@@ -71,7 +71,7 @@ def placed(make: Callable[..., Made], where: str, **values: Any) -> Made:
 
 
 def text(data: Any, where: str) -> str:
-    """A text; ParameterError, with the place, for anything else."""
+    """Return a text; ParameterError, with the place, for anything else."""
     if not isinstance(data, str):
         raise ParameterError(f"{where} must be a text, not {shown(data)}.")
     return data
@@ -85,14 +85,14 @@ def flag(data: Any, where: str) -> bool:
 
 
 def whole(data: Any, where: str) -> int:
-    """A whole number from 0 to 2**63 - 1; ParameterError, with the place, for anything else."""
+    """Return a whole number from 0 to 2**63 - 1; ParameterError, with the place, for anything else."""
     if not isinstance(data, int) or isinstance(data, bool) or not 0 <= data < 2**63:
         raise ParameterError(f"{where} must be a whole number of at least 0, not {shown(data)}.")
     return data
 
 
 def number(data: Any, where: str) -> float:
-    """A finite number; ParameterError, with the place, for anything else."""
+    """Return a finite number; ParameterError, with the place, for anything else."""
     # A whole number of many digits is no float.
     fits = isinstance(data, float) or (isinstance(data, int) and abs(data) < 10**300)
     if isinstance(data, bool) or not fits or not math.isfinite(data):
@@ -101,9 +101,9 @@ def number(data: Any, where: str) -> float:
 
 
 def reader_of(kind: Any, special: Mapping[Any, Reader] = NONE) -> Reader:
-    """The reader of values of a type: of records for dataclasses, of lists for tuples.
+    """Return the reader of values of a type: of records for dataclasses, of lists for tuples.
 
-    special: readers of types that are written otherwise.  TypeError for a type that JSON has nothing for.
+    `special` has the readers of types that are written in another way. TypeError for a type that JSON cannot hold.
     """
     readers = {str: text, bool: flag, int: whole, float: number, **special}
     if kind in readers:
@@ -125,7 +125,7 @@ def reader_of(kind: Any, special: Mapping[Any, Reader] = NONE) -> Reader:
 
 
 def field_readers(kind: Any, special: Mapping[Any, Reader] = NONE) -> dict[str, Reader]:
-    """The readers of a dataclass' fields."""
+    """Return the readers of a dataclass' fields."""
     types = _types_of_fields(kind)
     return {each.name: reader_of(types[each.name], special) for each in fields(kind)}
 
@@ -144,7 +144,7 @@ def _row(readers: list[Reader]) -> Reader:
 
 
 def shown(data: Any) -> str:
-    """A value as it stands in a sentence."""
+    """Return a value as it stands in a sentence."""
     if isinstance(data, int) and abs(data) >= 10**30:
         return "a number of many digits"
     return shortened(json.dumps(data, ensure_ascii=False), 40)

@@ -26,11 +26,11 @@ def check_name(name: str, what: str) -> None:
 def check_colour(colour: int) -> None:
     """ParameterError for a number that is none of MARK_COLOURS."""
     if not 0 <= colour < MARK_COLOURS:
-        raise ParameterError(f"There are {MARK_COLOURS} colours, numbered from 0, and none is {colour}.")
+        raise ParameterError(f"Colours are numbered from 0 to {MARK_COLOURS - 1}, not {colour}.")
 
 
 def next_colour(marks: Iterable[Coloured]) -> int:
-    """The first of the colours that fewest of the marks have."""
+    """Return the first of the colours that fewest of the marks have."""
     counts = [0] * MARK_COLOURS
     for mark in marks:
         counts[mark.colour] += 1

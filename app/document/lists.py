@@ -33,7 +33,7 @@ def split_list(text: str) -> list[str]:
 
 
 def _outside_brackets(text: str) -> list[str]:
-    """What stands between those commas that no bracket holds: diffusion(t=1/4),mine(a=1,b=2)."""
+    """Split a text at those commas that no bracket holds: diffusion(t=1/4),mine(a=1,b=2)."""
     pieces, depth, start = list[str](), 0, 0
     for k, letter in enumerate(text):
         depth += (letter == "(") - (letter == ")")
@@ -44,12 +44,12 @@ def _outside_brackets(text: str) -> list[str]:
 
 
 def file_in(text: str) -> str:
-    """The path in @FILE, "-" for standard input (- and @-), "" for what is no file."""
+    """Return the path in @FILE, "-" for standard input (- and @-), "" for what is no file."""
     return "-" if text in ("-", "@-") else text[1:] if text.startswith("@") else ""
 
 
 def standard_input(what: str) -> str:
-    """The text of standard input; ParameterError, which speaks of it as `what`, where it is empty."""
+    """Return the text of standard input; ParameterError, which speaks of it as `what`, where it is empty."""
     text = sys.stdin.read()
     if not text.strip():
         raise ParameterError(f"Standard input holds no {what}.")
@@ -72,12 +72,12 @@ def pairs_from_words(text: str) -> list[tuple[int, int]] | str:
 
 
 def pairs_text(pairs: list[tuple[int, int]] | str) -> str:
-    """What `pairs_from_words` reads as these."""
+    """Write pairs as `pairs_from_words` reads them."""
     return f"@{pairs}" if isinstance(pairs, str) else ",".join(f"{i}:{j}" for i, j in pairs)
 
 
 def pair_from_words(text: str) -> tuple[int, int]:
-    """A pair of vertex ids from `1:2`; ParameterError for another text."""
+    """Return a pair of vertex ids from `1:2`; ParameterError for another text."""
     found = re.fullmatch(r"\s*([0-9]{1,15})\s*:\s*([0-9]{1,15})\s*", text)
     if found is None:
         raise ParameterError(f"{text!r} is not a pair of vertex ids such as 1:2")

@@ -1,4 +1,4 @@
-"""What a figure can be told: an option of `bihdist figure`, an argument of `bihdist.figure`, a part of a recipe."""
+"""Options of figures: of `bihdist figure`, as an argument of `bihdist.figure`, and as a part of a recipe."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -30,7 +30,7 @@ def with_commas(values: Any) -> str:
 
 
 def numbers(text: str) -> tuple[float, ...]:
-    """Of numbers with commas between them; ParameterError for other text."""
+    """Read numbers with commas between them; ParameterError for other text."""
     try:
         return tuple(float(word) for word in text.split(","))
     except ValueError:
@@ -41,18 +41,42 @@ def numbers(text: str) -> tuple[float, ...]:
 class Option:
     """One option of the command, and the argument of the function that means what it means.
 
-    name: the argument's, and with hyphens the option's if it has no `flag`.  default: the argument's.  meaning: the
-    help; metavar, choices: as argparse takes them.  read: the text behind the option as a value, ParameterError if it
-    is none; write: the inverse, where None is an option without text.  bare: the value of the option without text.
-    is_list: the value is a list, and the option has commas between what `read` and `write` know; may_be_lone: the
-    argument takes one of them without a list, too.  replaces_panels: whether other panels than those of the distances
-    are shown.
+    Parameters
+    ----------
+    name : str
+        By which values are known; with hyphens the option's word if it has no `flag`.
+    meaning : str
+        The help of the command.
+    default : object
+        Of the argument.
+    flag : str
+        The option's word where that is not the name.
+    group, key : str
+        The argument of Python that has this one among its keys, "" where it is an argument of its own, and its key
+        there, the name if empty.
+    metavar, choices
+        As argparse takes them.
+    read, write : callable
+        From the text behind the option to the value, with a ParameterError for any other text, and back; None is an
+        option without text.
+    bare : object
+        The value of the option without text.
+    is_list : bool
+        The value is a list, and the option has commas between what `read` and `write` know.
+    may_be_lone : bool
+        The argument takes one of them without a list, too.
+    replaces_panels : bool
+        Other panels are shown than those of the distances.
+    is_flag : bool
+        It has no value, though what it means where it is not given depends on others.
     """
 
     name: str
     meaning: str
     default: Any = None
     flag: str = ""
+    group: str = "marks"
+    key: str = ""
     metavar: str | None = None
     choices: tuple[str, ...] | None = None
     read: Callable[[str], Any] = str
@@ -61,6 +85,7 @@ class Option:
     is_list: bool = False
     may_be_lone: bool = False
     replaces_panels: bool = False
+    is_flag: bool = False
 
     @property
     def word(self) -> str:
@@ -68,9 +93,14 @@ class Option:
         return f"--{self.flag or self.name.replace('_', '-')}"
 
     @property
+    def argument(self) -> tuple[str, str]:
+        """The argument of Python, and the key in it, "" for the argument itself."""
+        return (self.group, self.key or self.name) if self.group else (self.name, "")
+
+    @property
     def is_switch(self) -> bool:
         """Whether the option has no value: given or not."""
-        return self.default is False and self.bare is None
+        return self.is_flag or (self.default is False and self.bare is None)
 
     def is_usual(self, value: Any) -> bool:
         """Whether an argument is as if it were not given; one without elements is."""
@@ -92,13 +122,24 @@ class Option:
 
 @dataclass(frozen=True)
 class Row:
-    """Options that belong together, and what they say of a recipe.
+    """Options that belong together, with the parts of a recipe that they express.
 
-    parts: of documents and pages, such as "Isolines.bold".  get: of a recipe, the values of those options that have to
-    be given, by name; NotExpressible where none say it.  put: the recipe with such values; ParameterError where they
-    make no sense.  is_of_two: whether it is put once all else is, and the second mesh is there.  made_from: of a
-    document, the one that the row has made it from, and the option's value; None for no value.  reason: why no option
-    needs to say the parts, if none does.
+    Parameters
+    ----------
+    options
+        The options.
+    parts
+        The parts of documents and pages, such as "Isolines.bold".
+    get
+        Returns the values of those options that a recipe needs, by name; NotExpressible where none can say it.
+    put
+        Returns the recipe with such values; ParameterError where they make no sense.
+    is_of_two
+        Whether it is put once all else is, and the second mesh is there.
+    made_from
+        Returns the document that the row has made a document from, and the option's value; None for no value.
+    reason
+        Why no option needs to express the parts, if none does.
     """
 
     options: tuple[Option, ...] = ()
@@ -116,9 +157,9 @@ class Row:
 
 
 def attribute(path: str, meaning: str, metavar: str | None = None, name: str = "", **how: Any) -> Row:
-    """The row of an option for an attribute such as "document.isolines.bold", a switch if that is a flag.
+    """Return the row of an option for an attribute such as "document.isolines.bold", a switch if its values are flags.
 
-    name: the argument's, that of the attribute if empty.  how: fields of `Option`.
+    `name` is that of the argument, by default the attribute's; `how` has further fields of `Option`.
     """
     owner, _, last = path.rpartition(".")
     usual = _at(USUAL, path)
@@ -153,7 +194,7 @@ def _at(owner: Any, path: str) -> Any:
 def vertex_of(point: Point) -> int | None:
     """The vertex that a point is at, None where nobody has put it; NotExpressible for a point elsewhere."""
     if point.at is not None and not isinstance(point.at, int):
-        raise NotExpressible("An anchor is at no vertex.")
+        raise NotExpressible("An anchor is not at a vertex.")
     return point.at
 
 

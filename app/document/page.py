@@ -17,13 +17,34 @@ TITLES = ("heading", "caption", "none")
 
 @dataclass(frozen=True)
 class Page:
-    """How a document is put on paper.
+    """The layout of a document on paper.
 
-    size: as it is written, "" for the usual one.  style: a word of the drawing's styles.  format: of the file, "" where
-    there is none, as for a session.  views: pictures of each panel side by side, the document's camera if empty.
-    columns: panels side by side, all in one row if None.  hints: what to look for, under the headings.  crop: without
-    the empty margins.  title: where a panel's name stands, one of TITLES.  font: its family, "" for the usual one.
-    text: the size of labels in points, the usual one if None.  anchor_values: whether they stand beside anchors.
+    Attributes
+    ----------
+    size
+        The size as the user writes it, "" for the usual one.
+    style
+        The name of a style.
+    format
+        The format of the file, "" where there is none, as for a session.
+    views
+        The pictures of each panel, side by side; the document's camera if empty.
+    columns
+        The number of panels side by side; None for all in one row.
+    hints
+        Whether sentences under the headings say what to look for.
+    transparent
+        Whether the background is transparent.
+    crop
+        Whether empty margins are cut off.
+    title
+        Where a panel's name stands, one of TITLES.
+    font_family
+        The font, "" for the usual one.
+    font_size
+        The size of labels, in points; None for the usual one.
+    anchor_values
+        Whether anchors are labelled with their values.
     """
 
     size: str = ""
@@ -35,8 +56,8 @@ class Page:
     transparent: bool = False
     crop: bool = False
     title: str = "heading"
-    font: str = ""
-    text: float | None = None
+    font_family: str = ""
+    font_size: float | None = None
     anchor_values: bool = False
 
     def __post_init__(self) -> None:
@@ -45,8 +66,8 @@ class Page:
         if self.columns is not None and self.columns < 1:
             raise ParameterError(f"A figure has at least one column, not {self.columns}.")
         one_of(self.title, TITLES, "title")
-        if self.text is not None and not 2 <= self.text <= 72:
-            raise ParameterError(f"Text has 2 to 72 points, not {self.text:g}.")
+        if self.font_size is not None and not 2 <= self.font_size <= 72:
+            raise ParameterError(f"The font size is 2 to 72 points, not {self.font_size:g}.")
         for view in self.views:
             checked_view(view)
 
@@ -55,7 +76,14 @@ class Page:
 class Recipe:
     """A figure: a document on a page.
 
-    made_with: the program that wrote it.  arrays: the archive of what the document has from Python, if anything.
+    Attributes
+    ----------
+    document, page
+        What is drawn, and on which page.
+    made_with
+        The program that wrote it.
+    arrays
+        The archive of the arrays that the document has from Python, "" for none.
     """
 
     document: Document

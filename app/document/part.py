@@ -1,4 +1,4 @@
-"""What a tool adds to documents: a frozen value of a type of its own."""
+"""Parts of documents that tools add: frozen values, each of a type of its own."""
 
 from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass
@@ -37,18 +37,22 @@ class Part:
 
     @property
     def has_values(self) -> bool:
-        """Whether what it marks has values, which a figure may show beside the marks."""
+        """Return whether what it marks has values, which a figure may show beside the marks."""
         return False
 
     def check(self, document: "Document") -> None:
         """ParameterError if it does not fit the document; that its points and surfaces are there is known."""
 
     def without_points(self, points: Set[str]) -> "Part":
-        """The part without what refers to these points."""
+        """Return the part without what refers to these points."""
+        return self
+
+    def fitted(self, document: "Document") -> "Part":
+        """Return the part without references to what the document no longer has."""
         return self
 
     def renumbered(self, numbers: Mapping[int, int]) -> "Part":
-        """The part with other ids of panels, by those it has; panels that have none are gone."""
+        """Return the part with other ids of panels, by those it has; panels that have none are gone."""
         return self
 
     def without_surfaces(self, document: "Document", surfaces: Set[str]) -> "Document":
@@ -56,16 +60,16 @@ class Part:
         return document
 
     def with_vertices(self, surface: str, vertices: "IntArray") -> "Part":
-        """The part with other ids of a surface's vertices; vertices: (n,) the new id of each."""
+        """Return the part after the vertices of a surface got new ids; `vertices` (n,) has the new id of each."""
         return self
 
     def with_paths(self, named: Callable[[str], str]) -> "Part":
-        """The part with other paths of the files that it names."""
+        """Return the part with other paths of the files that it names."""
         return self
 
     def check_files(self, surfaces: Mapping[str, "Surface"]) -> None:
-        """ParameterError if a file that it names is not what it was; surfaces: by their names in the document."""
+        """Raise ParameterError if a file that it names has changed; `surfaces` are by their names in the document."""
 
     def work(self, document: "Document") -> Mapping[str, Iterable[object]]:
-        """What takes effort to make again, by what it is called; what has moved is other work."""
+        """Return the work that takes effort to do again, by its name; after a move it is other work."""
         return {}

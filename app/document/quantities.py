@@ -1,12 +1,12 @@
-"""What a panel can show: something with a value at every vertex, in words and as data."""
+"""Quantities that a panel can show: something with a value at every vertex, in words and as data."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
-from bihdist_core.distances.kinds import Kind, Spec
+from bihdist_core.distances.distance_types import DistanceType, Spec
 from bihdist_core.errors import ParameterError
 
 from .json_values import flag, listed, placed, record, text
@@ -28,8 +28,8 @@ class Choice(NamedTuple):
 class Quantity(ABC):
     """Something with a value, or a colour, at every vertex; subclasses are frozen dataclasses.
 
-    What a tool adds is a subclass in its folder, which a row of `Tool.quantities` names; its question is made by
-    `question(document, surface)` there.
+    What a tool adds is a subclass in its folder, which a row of `Tool.quantities` names; a module of `Tool.questions`
+    registers what it asks.
     """
 
     is_distance: ClassVar[bool] = False
@@ -44,11 +44,6 @@ class Quantity(ABC):
     is_map: ClassVar[bool] = False
     """Whether it is shown in colours, one at each vertex, and has no values."""
 
-    @property
-    def interpolates(self) -> bool:
-        """Whether it has the anchors' values at the anchors, so that extrema elsewhere tell against it."""
-        return False
-
     compares_meshes: ClassVar[bool] = False
     """Whether it says what a change of the mesh does to a distance."""
 
@@ -61,7 +56,7 @@ class Quantity(ABC):
     @property
     @abstractmethod
     def word(self) -> str:
-        """Which quantity it is, whatever its parameters."""
+        """Return which quantity it is, whatever its parameters."""
 
     @property
     @abstractmethod
@@ -81,7 +76,7 @@ class Quantity(ABC):
     @property
     @abstractmethod
     def hint(self) -> str:
-        """What to look for."""
+        """A sentence on what to look for."""
 
     @property
     def parts(self) -> "tuple[Quantity, ...]":
@@ -92,15 +87,15 @@ class Quantity(ABC):
         """ParameterError if a document has not what it is made of, on a surface of that name."""
 
     def marks_extrema(self, document: "Document") -> bool:
-        """Whether its extrema are marked in the window, although the document does not say so."""
+        """Return whether its extrema are marked in the window, although the document does not say so."""
         return False
 
     def with_paths(self, named: Callable[[str], str]) -> "Quantity":
-        """The quantity with other paths of the files that it names."""
+        """Return the quantity with other paths of the files that it names."""
         return self
 
     def with_parts(self, parts: "tuple[Quantity, ...]") -> "Quantity":
-        """The quantity made of other parts."""
+        """Return the quantity made of other parts."""
         (part,) = parts
         return part
 
@@ -115,11 +110,11 @@ class Quantity(ABC):
         return ()
 
     def with_spec(self, spec: Spec) -> "Quantity":
-        """By another distance, where it is made of one."""
+        """Return the quantity by another distance, where it is made of one."""
         return self
 
     def moved_to(self, point: str) -> "Quantity":
-        """From another point, where it starts from one."""
+        """Return the quantity from another point, where it starts from one."""
         return self
 
     @property
@@ -129,26 +124,26 @@ class Quantity(ABC):
 
     @classmethod
     def choice_by(cls, spec: Spec, has_other: bool) -> Choice | None:
-        """The choice of this kind of quantity in the menu of a distance; has_other: whether there is a second mesh."""
+        """Return this kind's choice in the menu of a distance; `has_other` tells whether there is a second mesh."""
         return None
 
     @abstractmethod
     def to_json(self) -> dict[str, Any]:
-        """As records, texts and flags."""
+        """Return the quantity as records, texts and flags."""
 
     @classmethod
     @abstractmethod
     def from_json(cls, data: dict[str, Any], where: str) -> "Quantity | None":
-        """What `to_json` has written; None for the data of another kind.
+        """Read what `to_json` has written; None for the data of another kind.
 
         ParameterError, with the place, for what is wrong.
         """
 
     @classmethod
     def from_words(cls, words: str, point: str, parameters: Mapping[str, object]) -> "Quantity | None":
-        """What `str` has written; None for the words of another kind.
+        """Read what `str` has written; None for the words of another kind.
 
-        parameters: values of those that the words do not name.  ParameterError for a wrong distance.
+        `parameters` has the values that the words do not name. ParameterError for a wrong distance.
         """
         return None
 
@@ -160,7 +155,7 @@ class ByDistance(Quantity):
 
     @property
     def before(self) -> str:
-        """What its words begin with, before those of the distance."""
+        """The words before those of the distance."""
         return ""
 
     def __str__(self) -> str:
@@ -176,7 +171,7 @@ class ByDistance(Quantity):
 
     @property
     def title(self) -> str:
-        return f"{self.before}{self.spec.kind.name.lower()}"
+        return f"{self.before}{self.spec.distance_type.name.lower()}"
 
     def with_spec(self, spec: Spec) -> Quantity:
         return replace(self, spec=spec)  # type: ignore[type-var]
@@ -205,14 +200,18 @@ class DistanceFrom(FromPoint):
 
     @property
     def heading(self) -> str:
-        return kind_name(self.spec.kind)
+        return kind_name(self.spec.distance_type)
+
+    @property
+    def short_heading(self) -> str:
+        return self.spec.distance_type.short
 
     @property
     def hint(self) -> str:
-        return self.spec.kind.hint
+        return self.spec.distance_type.hint
 
     def to_json(self) -> dict[str, Any]:
-        return {"distance": self.spec.in_full, "from": self.point}
+        return {"distance": self.spec.canonical, "from": self.point}
 
     @classmethod
     def from_json(cls, data: dict[str, Any], where: str) -> Quantity:
@@ -325,32 +324,43 @@ class Difference(Quantity):
 
 @cache
 def quantity_kinds() -> tuple[type[Quantity], ...]:
-    """What a difference can be made of and a panel can show, in the order in which their words and data are tried."""
+    """Return the kinds of quantity that a panel can show, in the order in which their words and data are tried."""
     return (OwnField, *(tool.load(name) for tool in tools() for name in tool.quantities), DistanceFrom)
 
 
-def kind_name(kind: Kind) -> str:
-    """The name of a distance in heads, with the power of the family's weights as a raised letter."""
+def kind_name(kind: DistanceType) -> str:
+    """Return the name of a distance in heads, with the power of the family's weights as a raised letter."""
     return kind.name.replace("^α", "ᵅ")
 
 
 def quantity_name(shows: Quantity) -> str:
-    """The name of a quantity in the head of a panel: "Biharmonic", "Biharmonic − Geodesic", "1/λᵅ"."""
+    """Return the name of a quantity in the head of a panel: "Biharmonic", "Biharmonic − Geodesic", "1/λᵅ"."""
     return " − ".join(part.heading.removesuffix(" family") for part in shows.parts)
 
 
+def column_names(shown: Sequence[Quantity], are_short: bool = False) -> list[str]:
+    """Return the names of quantities for the columns of a table.
+
+    Those that would be alike are written as they are typed. With `are_short`, for columns with little room, they are as
+    "Biharm." and "Biharm. − Geod.".
+    """
+    names = [quantity_name(shows) for shows in shown]
+    if are_short:
+        names = [" − ".join(part.short_heading or quantity_name(part) for part in shows.parts) for shows in shown]
+    return [str(shows) if names.count(name) > 1 else name for shows, name in zip(shown, names, strict=True)]
+
+
 def own_fields(shows: Quantity) -> tuple[OwnField, ...]:
-    """The fields of the user's own that a quantity is made of."""
+    """Return the fields of the user's own that a quantity is made of."""
     return tuple(part for part in shows.parts if isinstance(part, OwnField))
 
 
 def quantity(text: str, point: str = "source", fields: Collection[str] = (), **parameters: object) -> Quantity:
-    """From a distance as `Spec.parse` reads it, or two: "biharmonic - diffusion(t=1/4)", "raw biharmonic - geodesic".
+    """Read a distance as `Spec.parse` does, or two: "biharmonic - diffusion(t=1/4)", "raw biharmonic - geodesic".
 
-    What tools add, such as "interpolant by biharmonic", is as good as a distance, unless it is shown in colours.
-
-    fields: names of the user's own, each as good as a distance.  parameters: values of those not named in the text.
-    ParameterError for what is neither.
+    What tools add, such as "interpolant by biharmonic", can stand for a distance, unless it is shown in colours; so can
+    the user's own `fields`, by name. `parameters` has the values that the text does not name. ParameterError for any
+    other text.
     """
     words = text.strip()
     # A hyphen in a word has no spaces about it.
@@ -367,13 +377,13 @@ def quantity(text: str, point: str = "source", fields: Collection[str] = (), **p
             raise ParameterError(f"{error}{names}") from None
     if len(found) == 1:
         if words.startswith("raw "):
-            raise ParameterError(f"{text!r} is no difference, which alone may be raw.")
+            raise ParameterError(f"{text!r} is not a difference; only differences can be raw.")
         return found[0]
     return Difference(found[0], found[1], words.startswith("raw "))
 
 
 def quantity_from(data: Any, where: str) -> Quantity:
-    """What `to_json` of a quantity has written; ParameterError, with the place, for anything else."""
+    """Read what `to_json` of a quantity has written; ParameterError, with the place, for anything else."""
     found = Difference.from_json(data, where) if isinstance(data, dict) else None
     return _part_from(data, where) if found is None else found
 
@@ -386,12 +396,12 @@ def _part_from(data: Any, where: str) -> Quantity:
 
 
 def read_spec(data: Any, where: str) -> Spec:
-    """A distance from its words in full; ParameterError, with the place, for anything else."""
+    """Return a distance from its words in full; ParameterError, with the place, for anything else."""
     return placed(Spec.parse, where, text=text(data, where))
 
 
 def from_point(shows: "Spec | Quantity", point: str) -> Quantity:
-    """A quantity, or a distance, from another point."""
+    """Return a quantity, or a distance, from another point."""
     if isinstance(shows, Spec):
         return DistanceFrom(shows, point)
     return shows.with_parts(tuple(part.moved_to(point) for part in shows.parts))

@@ -1,4 +1,4 @@
-"""What goes with points and surfaces that go."""
+"""Removal of points and surfaces, with all that depends on them."""
 
 from collections.abc import Set
 from dataclasses import replace
@@ -8,12 +8,12 @@ from .tools import part_types
 
 
 def without_orphans(before: Document, after: Document) -> Document:
-    """The document after, without points that were there only for what it has no more."""
+    """Return the document after, without points that were there only for what it has no more."""
     return without_points(after, before.held_points - after.held_points)
 
 
 def without_points(document: Document, points: Set[str]) -> Document:
-    """Without these points, and whatever of tools refers to them; no panel and no isoline does."""
+    """Remove points, which no panel and no isoline refers to, with whatever of tools refers to them."""
     return replace(
         document,
         points=tuple(point for point in document.points if point.name not in points),
@@ -22,7 +22,7 @@ def without_points(document: Document, points: Set[str]) -> Document:
 
 
 def without_surfaces(document: Document, surfaces: Set[str]) -> Document:
-    """The document, which still has these surfaces and their panels, without anything else of theirs.
+    """Return the document, which still has these surfaces and their panels, without anything else of theirs.
 
     Points stay that panels show fields from.
     """

@@ -1,4 +1,4 @@
-"""What is done to the surface in a file before anything is measured on it."""
+"""Repairs that are made to the surface in a file before anything is measured on it."""
 
 import math
 from dataclasses import dataclass, replace
@@ -16,9 +16,18 @@ NAME = "{name}"
 
 @dataclass(frozen=True)
 class Repairs:
-    """cut: a file with 1 for each vertex that stays and 0 for each that is cut out, in the order of the mesh's file, ""
-    for none.  cut_sha256: of its bytes, empty as long as any content will do.  merge: what is as near to each other, in
-    mesh units, or nearer, becomes one vertex, after the cut; None for nothing."""
+    """The repairs that are made to a mesh when it is read.
+
+    Attributes
+    ----------
+    cut
+        A file with 1 for each vertex that stays and 0 for each that is cut out, in the order of the mesh's file; "" for
+        none.
+    cut_sha256
+        The checksum of that file's bytes; empty as long as any content will do.
+    merge
+        The distance, in mesh units, up to which vertices become one, after the cut; None for no merging.
+    """
 
     cut: str = ""
     cut_sha256: str = ""
@@ -34,11 +43,11 @@ class Repairs:
 
     @property
     def is_any(self) -> bool:
-        """Whether anything is done."""
+        """Return whether anything is done."""
         return bool(self.cut) or self.merge is not None
 
     def is_same(self, there: "Repairs") -> bool:
-        """Whether what has been made by others will do."""
+        """Return whether what has been made by others will do."""
         return replace(self, cut_sha256=self.cut_sha256 or there.cut_sha256) == there
 
 
@@ -46,7 +55,7 @@ NO_REPAIRS = Repairs()
 
 
 def with_repairs(document: "Document", cut: str | None, merge: float | None, surface: str = "") -> "Document":
-    """The document with other repairs of its meshes, or of one of them with what is made from it.
+    """Return the document with other repairs of its meshes, or of one of them with what is made from it.
 
     None leaves them as they are, and "" takes the cut back.  ParameterError where one mask would be that of two meshes.
     """
@@ -64,13 +73,13 @@ def with_repairs(document: "Document", cut: str | None, merge: float | None, sur
 
 
 def without_repairs(document: "Document", surface: str) -> "Document":
-    """The document with a mesh as it is in its file, and what is made from it made from that."""
+    """Return the document with a mesh as it is in its file, and what is made from it made from that."""
     meant = _of_the_file(document, surface)
     meshes = (replace(mesh, repairs=NO_REPAIRS) if mesh in meant else mesh for mesh in document.surfaces)
     return replace(document, surfaces=tuple(meshes))
 
 
 def _of_the_file(document: "Document", surface: str) -> "tuple[MeshFile, ...]":
-    """A mesh with what is made from it."""
+    """Return a mesh with what is made from it."""
     shown = document.mesh(surface)
     return tuple(m for m in document.surfaces if (m.path, m.sha256) == (shown.path, shown.sha256))

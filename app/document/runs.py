@@ -18,7 +18,7 @@ def runs_of(ids: IntArray) -> Runs:
 
 
 def ids_of(runs: Runs) -> IntArray:
-    """(k,) the ids in runs, going up."""
+    """Return the ids (k,) in runs, ascending."""
     firsts, lasts = np.array(runs, np.int64).reshape(-1, 2).T
     counts = lasts - firsts + 1
     # A scattered selection has as many runs as vertices.
@@ -32,7 +32,7 @@ def runs_from_words(text: str) -> Runs:
     for word in text.split("+"):
         ends = word.strip().split("-")
         if len(ends) > 2 or not all(end.strip().isdecimal() for end in ends):
-            raise ParameterError(f"{word!r} is no vertex id or range of them, such as 12 or 40-77.")
+            raise ParameterError(f"{word!r} is not a vertex id or a range of ids, such as 12 or 40-77.")
         first, last = int(ends[0]), int(ends[-1])
         if last < first:
             raise ParameterError(f"The range {word.strip()} ends before it begins.")

@@ -1,4 +1,4 @@
-"""Where fields start, as one line says it: in words, and a curve by a file that it is saved in."""
+"""Starts of fields as one line says them: in words, and a curve by a file that it is saved in."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,19 +14,19 @@ from .source_edits import members_of
 
 @dataclass(frozen=True)
 class Starts:
-    """Where a field starts."""
+    """The start of a field."""
 
     at: Source
 
     def words(self, files: Mapping[Curve, str]) -> str:
-        """The source as an option says it; ParameterError if a curve has no file."""
+        """Return the source as an option says it; ParameterError if a curve has no file."""
         if any(curve not in files for curve in curves_of(self.at)):
-            raise ParameterError("A source is a curve, which a line names by a file; save it first.")
+            raise ParameterError("A source is a curve, which a line names by its file; save it first.")
         return words_of(self.at, files)
 
 
 def as_argument(value: Any, files: Mapping[Curve, str]) -> Any:
-    """A value as Python writes it: words for sources that are no vertex."""
+    """Return a value as Python writes it: words for sources that are no vertex."""
     if isinstance(value, list):
         return [as_argument(each, files) for each in value]
     if isinstance(value, Starts):
@@ -35,10 +35,10 @@ def as_argument(value: Any, files: Mapping[Curve, str]) -> Any:
 
 
 def curves_in(document: Document) -> list[Curve]:
-    """The curves that fields start from, each once: a line needs a file of each."""
+    """Return the curves that fields start from, each once: a line needs a file of each."""
     return list(dict.fromkeys(curve for at in document.sources for curve in curves_of(at)))
 
 
 def curves_of(at: Source | None) -> list[Curve]:
-    """Those among the members of a source."""
+    """Return the curves among the members of a source."""
     return [member for member in members_of(at) if isinstance(member, Curve)]

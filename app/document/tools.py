@@ -22,21 +22,58 @@ GROUP = "bihdist.tools"
 
 @dataclass(frozen=True)
 class Tool:
-    """One tool; names such as "dock:PinsDock" are of a module of its package and of something in that.
+    """A tool of the window, of figures and of the command line.
 
-    A dot before a module is, as in imports, for a package further up.
+    Names such as "dock:PinsDock" are of a module of the tool's package and of something in that module. As in imports,
+    a dot before the module is for a package further up.
 
-    package: the tool's, by its full name.  word: by which documents know its dock.  title: of the dock; text: in menus,
-    with an `&` before the letter of its key there; key: opens and closes the dock; tip: what it is for, in a few words;
-    icon: a name of `assets/icons`; in_bar: whether it has a button of its own; synonyms: other words by which it is
-    found.  dock: its `Instrument`, if it has one.  gesture: its `Gesture`, what clicks and drags mean.  commands:
-    modules of commands, by their words.  quantities: subclasses of `Quantity` that panels can show.  parts:
-    subclasses of `Part`, of documents.  options: a tuple of `Row`, what figures can be told of them.
-    marks: a function from a `MarkedPanel` to what is marked there, primitives of `marks.primitives`.
-    findings: a class of which each window has one, made with a `Context` once there are panels, that finds out beside
-    the window's thread what is marked and shown.  panel_edits: a tuple of `PanelEdit`, for the menu over a panel.
-    actions: a tuple of `Act`, what can be done by a menu or a key beside opening the dock.
-    add_panel: a function from a document to that with more panels; None where it is one more panel, as usual.
+    Parameters
+    ----------
+    package
+        The full name of the tool's package.
+    word
+        The name by which documents know its dock.
+    title
+        The title of the dock.
+    text
+        The entry in menus, with an `&` before the letter of its key there.
+    key
+        The key that opens and closes the dock.
+    tip
+        What the tool is for, in a few words.
+    icon
+        A name of `assets/icons`.
+    menu
+        The menu that it is in, "Tools" or "View".
+    synonyms
+        Other words by which it is found.
+    dock
+        Its `Instrument`, if it has one.
+    gesture
+        Its `Gesture`, which handles clicks and drags.
+    commands
+        Modules of commands, by the commands' names.
+    quantities
+        Subclasses of `Quantity` that panels can show.
+    questions
+        Modules that register the questions of these quantities (`session.questions.question_of`).
+    parts
+        Subclasses of `Part`, which documents hold.
+    options
+        A tuple of `Row`: the options of figures.
+    marks
+        A function from a `MarkedPanel` to the marks on it, primitives of `marks.primitives`.
+    items
+        A function from a document to the marks that the list of what is on the surface has, `SurfaceItem`s.
+    findings
+        A class of which each window makes one with a `Context` once there are panels; it computes, beside the window's
+        thread, what is marked and shown.
+    panel_edits
+        A tuple of `PanelEdit`, for the context menu of a panel.
+    actions
+        A tuple of `Action`: what menus and keys do beside opening the dock.
+    add_panel
+        A function from a document to one with more panels; None where it adds one panel, as usual.
     """
 
     package: str
@@ -46,22 +83,24 @@ class Tool:
     key: str = ""
     tip: str = ""
     icon: str = ""
-    in_bar: bool = False
+    menu: str = "Tools"
     synonyms: str = ""
     dock: str = ""
     gesture: str = ""
     commands: Mapping[str, str] = field(default_factory=dict)
     quantities: tuple[str, ...] = ()
+    questions: tuple[str, ...] = ()
     parts: tuple[str, ...] = ()
     options: str = ""
     marks: str = ""
+    items: str = ""
     findings: str = ""
     panel_edits: str = ""
     actions: str = ""
     add_panel: str = ""
 
     def load(self, name: str) -> Any:
-        """What a name such as "dock:PinsDock" means, or the module if there is no colon in it."""
+        """Load what a name such as "dock:PinsDock" is of; the module if there is no colon in it."""
         module, _, attribute = name.partition(":")
         found = import_module(f".{module}", self.package)
         return getattr(found, attribute) if attribute else found
@@ -69,7 +108,7 @@ class Tool:
 
 @cache
 def tools() -> tuple[Tool, ...]:
-    """All tools: the program's own in the order of the tool bar, then those of installed packages."""
+    """Return all tools: the program's own in the order of the toolbar, then those of installed packages."""
     package = f"{__name__.rpartition('.document.')[0]}.tools"
     own = (import_module(f"{package}.{name}").TOOL for name in import_module(package).TOOLS)
     return (*own, *_tools_of_others())
@@ -85,11 +124,11 @@ def _tools_of_others() -> Iterator[Tool]:
 
 
 def docked_tools() -> dict[str, Tool]:
-    """Those that have a dock, by its word, in the order of the menu."""
+    """Return the tools with a dock, by its word, in the order of the menu."""
     return {tool.word: tool for tool in sorted(tools(), key=lambda tool: tool.word) if tool.dock}
 
 
 @cache
 def part_types() -> "tuple[type[Part], ...]":
-    """The types of the parts of documents that are tools'."""
+    """Return the types of the parts of documents that are tools'."""
     return tuple(tool.load(name) for tool in tools() for name in tool.parts)

@@ -1,4 +1,4 @@
-"""Colour bars of a figure: their ends, ticks and words."""
+"""Colour bars of a figure: their ends, ticks and words, and their shapes."""
 
 from __future__ import annotations
 
@@ -7,27 +7,47 @@ from itertools import pairwise
 
 import numpy as np
 
+from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import with_unit
 
-from ..scene.bands import beyond
-from .boxes import Box, Words
+from ..drawing.colour_bar import BarLine, bar_shapes, line_shapes
+from ..drawing.numbers import MINUS, tick
+from ..drawing.shapes import Box, Path, Pen, Shape, line, opaque, rectangle
+from ..scene.bands import band_edges, bar_colours, beyond
+from ..scene.levels import BOLD, Levels, levels
 from .description import Figure
-from .words import BOUND, LINE, Lettering
+from .words import BOUND, LINE, Lettering, TextLines
 
 THICK = 11.0
 TICK = 3.0
 LONGEST = 420.0
 """Usual sizes, in units."""
 
+POINT = 0.7
+"""Length of the point at an end, as a fraction of a bar's thickness."""
+
+MOST_STEPS = 5
+"""Most steps from tick to tick on a bar."""
+
+LINE_ROOM, END_ROOM = 3.0, 1.5
+"""Least units from one isoline on a bar to the next, and to an end of the bar."""
+
 SHARE = 0.74
-"""Of a panel's width that its bar takes."""
+"""Fraction of a panel's width that its bar takes."""
 
 
 @dataclass(frozen=True)
 class Bar:
-    """A colour bar of the panel with this number, from `low` to `high`, upwards if it is upright, with its words.
+    """A colour bar of a panel, with its words.
 
-    goes_beyond: whether there are values below its lower and above its upper end.
+    Attributes
+    ----------
+    panel
+        Number of the panel.
+    low, high
+        Values at its ends.
+    goes_beyond
+        Whether there are values below its lower and above its upper end.
     """
 
     box: Box
@@ -35,38 +55,38 @@ class Bar:
     low: float
     high: float
     ticks: tuple[float, ...]
-    texts: tuple[Words, ...]
+    texts: tuple[TextLines, ...]
     is_upright: bool = False
     goes_beyond: tuple[bool, bool] = (False, False)
 
     def place(self, value: float) -> float:
-        """Where a value stands: its x, or y if the bar is upright."""
+        """Return the position of a value: its x, or y if the bar is upright."""
         share = (value - self.low) / (self.high - self.low)
         return self.box.bottom - share * self.box.height if self.is_upright else self.box.x + share * self.box.width
 
 
-def ends(figure: Figure, panel: int) -> tuple[float, float]:
-    """What stands at the ends of a panel's bar."""
-    top = 100.0 if figure.is_in_shares(panel) else figure.tops()[panel]
+def bar_limits(figure: Figure, panel: int) -> tuple[float, float]:
+    """Return the values at the ends of a panel's bar."""
+    top = 100.0 if figure.is_in_shares(panel) else figure.upper_limits()[panel]
     return (-top if figure.panels[panel].signed else 0.0), top
 
 
 def goes_beyond(figure: Figure, panel: int) -> tuple[bool, bool]:
-    """Whether a bar's panels have values beyond its lower and its upper end."""
+    """Return whether a bar's panels have values beyond its lower and its upper end."""
     shown = range(len(figure.panels)) if figure.has_one_bar else [panel]
-    tops, panels = figure.tops(), figure.panels
+    tops, panels = figure.upper_limits(), figure.panels
     found = [beyond(panels[k].field, tops[k], panels[k].signed) for k in shown]
     return any(low for low, _ in found), any(high for _, high in found)
 
 
 def name_of(figure: Figure, panel: int) -> str:
-    """The name of a panel, once."""
+    """Return the heading of a panel, or its label if it has none."""
     each = figure.panels[panel]
     return each.heading or each.label
 
 
 def end_words(figure: Figure, panel: int) -> str:
-    """What stands at a panel's bar beside its name: the unit, and where the colours end."""
+    """Return the words beside the name of a panel's bar: the unit, and the end of the colours."""
     each = figure.panels[panel]
     if each.field is None:
         return ""
@@ -74,23 +94,25 @@ def end_words(figure: Figure, panel: int) -> str:
         end = _largest_words(each.largest)
     elif each.signed:
         vertex = int(np.nanargmax(np.abs(each.field))) if np.isfinite(each.field).any() else 0
-        end = f"largest{BOUND}{_signed(each.field[vertex])} at{BOUND}vertex{BOUND}{vertex}"
+        number_at = f"{each.field[vertex]:+.4g}".replace("-", MINUS)
+        end = f"largest{BOUND}{number_at} at{BOUND}vertex{BOUND}{vertex}"
     else:
-        top = figure.tops()[panel]
+        top = figure.upper_limits()[panel]
         is_own = figure.is_of_set or any(goes_beyond(figure, panel))
-        end = f"max{BOUND}{each.own_top if is_own else top:.4g}"
+        end = f"max{BOUND}{each.own_maximum if is_own else top:.4g}"
     if figure.is_in_shares(panel) and not figure.has_one_bar:
         return f"% of the {end}{with_unit(each.unit)}"
     return f"{each.unit}, {end}" if each.unit else end
 
 
 def _largest_words(largest: str) -> str:
-    """How large a difference is; a number and what it counts stay on one line."""
-    return largest.replace(" % ", f"{BOUND}% ").replace(" at vertex ", f" at{BOUND}vertex{BOUND}")
+    """Return the size of a difference in words; a number and what it counts stay on one line."""
+    # Which of the two is farther there follows from the sign and the heading.
+    return largest.partition(":")[0].replace(" % ", f"{BOUND}% ").replace(" at vertex ", f" at{BOUND}vertex{BOUND}")
 
 
 def bar_words(figure: Figure, panel: int) -> str:
-    """All that stands under a panel: its name where it has no heading, and what its bar says."""
+    """Return all words under a panel: its name where it has no heading, and what its bar says."""
     each, end = figure.panels[panel], end_words(figure, panel)
     if figure.has_one_bar and each.largest:
         end = _largest_words(each.largest)
@@ -103,24 +125,19 @@ def bar_words(figure: Figure, panel: int) -> str:
 
 
 def shared_words(figure: Figure, panel: int) -> str:
-    """What stands at the one bar of all panels."""
+    """Return the words at the one bar of all panels."""
     if figure.is_in_shares(panel):
         return "% of each maximum" if not figure.panels[panel].signed else "% of each largest value"
     # How large a difference is stands under its panel.
     return figure.panels[panel].unit if figure.panels[panel].largest else end_words(figure, panel)
 
 
-def ticks(high: float, low: float = 0.0, most: int = 5) -> list[float]:
-    """Round numbers from `low` to `high`, for a colour bar."""
+def ticks(high: float, low: float = 0.0, most: int = MOST_STEPS) -> list[float]:
+    """Return round numbers from `low` to `high`, at most so many steps apart."""
     from matplotlib.ticker import MaxNLocator
 
     values = MaxNLocator(nbins=most, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
     return [float(v) for v in values if low * (1 + 1e-9) <= v <= high * (1 + 1e-9)]
-
-
-def number(value: float) -> str:
-    """A value at a tick."""
-    return f"{value:.6g}".replace("-", "−")
 
 
 def flat_bar(
@@ -132,16 +149,16 @@ def flat_bar(
     size: float,
     type: Lettering,
 ) -> Bar:
-    """A bar in a box with ticks and lines under it, all of them between two places of the page.
+    """Place a bar in a box with ticks and lines under it, all of them between two places of the page.
 
     Ticks are fewer where they would touch.
     """
-    low, high = ends(figure, panel)
+    low, high = bar_limits(figure, panel)
     bar = Bar(box, panel, low, high, (), ())
     chosen: list[float] = []
-    for most in (5, 4, 3, 2, 1):
+    for most in range(MOST_STEPS, 0, -1):
         chosen = ticks(high, low, most)
-        halves = [type.width(number(v), size) / 2 for v in chosen]
+        halves = [type.width(tick(v), size) / 2 for v in chosen]
         places = [bar.place(v) for v in chosen]
         spans = list(zip(places, halves, strict=True))
         is_inside = all(room[0] <= x - half and x + half <= room[1] for x, half in spans)
@@ -150,41 +167,40 @@ def flat_bar(
             break
         chosen = []
     base = box.bottom + TICK + 1 + size
-    texts = [Words((number(v),), bar.place(v), base, size) for v in chosen]
-    texts.append(Words(lines, sum(room) / 2, base + 1.1 * LINE * size, size, is_quiet=True))
+    texts = [TextLines((tick(v),), bar.place(v), base, size) for v in chosen]
+    texts.append(TextLines(lines, sum(room) / 2, base + 1.1 * LINE * size, size, is_quiet=True))
     return Bar(box, panel, low, high, tuple(chosen), tuple(texts), False, goes_beyond(figure, panel))
 
 
 def flat_foot(factor: float, size: float, lines: int, has_bar: bool = True) -> float:
-    """The height of a bar with so many lines of words, and of the space around it."""
+    """Return the height of a bar with so many lines of words, and of the space around it."""
     bar = THICK * factor + TICK + 1 + 1.12 * size if has_bar else 0.0
     return 7 * factor + bar + lines * LINE * size + 5 * factor
 
 
 def upright_width(figure: Figure, panel: int, factor: float, size: float, type: Lettering) -> float:
-    """The width of an upright bar with its words, and of the space around it."""
-    low, high = ends(figure, panel)
-    widest = max(type.width(number(v), size) for v in ticks(high, low))
+    """Return the width of an upright bar with its words, and of the space around it."""
+    low, high = bar_limits(figure, panel)
+    widest = max(type.width(tick(v), size) for v in ticks(high, low))
     return (10 + THICK) * factor + TICK + 3 + widest + 0.4 * size + LINE * size + 4 * factor
 
 
 def upright_bar(figure: Figure, panel: int, strip: Box, factor: float, size: float, type: Lettering) -> Bar:
-    """A bar at the left of a strip of the page, with its ticks and words at its right."""
-    low, high = ends(figure, panel)
+    """Place a bar at the left of a strip of the page, with its ticks and words at its right."""
+    low, high = bar_limits(figure, panel)
     long = min(strip.height - 1.2 * size, LONGEST * max(factor, 1.0))
     box = Box(strip.x + 10 * factor, strip.y + (strip.height - long) / 2, THICK * factor, long)
     bar = Bar(box, panel, low, high, (), (), True)
-    chosen = next(
-        c for n in (5, 4, 3, 2, 1, 0) if (c := ticks(high, low, n) if n else []) is not None and _apart(bar, c, size)
-    )
+    choices = (ticks(high, low, most) if most else [] for most in range(MOST_STEPS, -1, -1))
+    chosen = next(values for values in choices if _apart(bar, values, size))
     x = box.right + TICK + 3
     texts = []
     for value in chosen:
-        text = number(value)
-        texts.append(Words((text,), x + type.width(text, size) / 2, bar.place(value) + 0.36 * size, size))
-    widest = max((type.width(number(v), size) for v in chosen), default=0.0)
+        text = tick(value)
+        texts.append(TextLines((text,), x + type.width(text, size) / 2, bar.place(value) + 0.36 * size, size))
+    widest = max((type.width(tick(v), size) for v in chosen), default=0.0)
     smaller, (lines,) = type.fitted([shared_words(figure, panel)], size, strip.height, 1)
-    texts.append(Words(lines, x + widest + 0.4 * size + size, strip.middle[1], smaller, is_quiet=True, turned=True))
+    texts.append(TextLines(lines, x + widest + 0.4 * size + size, strip.middle[1], smaller, is_quiet=True, turned=True))
     return Bar(box, panel, low, high, tuple(chosen), tuple(texts), True, goes_beyond(figure, panel))
 
 
@@ -193,5 +209,59 @@ def _apart(bar: Bar, values: list[float], size: float) -> bool:
     return all(a - b >= 1.3 * size for a, b in pairwise(places))
 
 
-def _signed(value: float) -> str:
-    return f"{value:+.4g}".replace("-", "−")
+# ---------------------------------------------------------------------- as shapes
+def shapes_of_bar(figure: Figure, bar: Bar, stroke: float, room: float) -> list[Shape]:
+    """Return a colour bar with its isolines, ticks and words.
+
+    `room` is the least distance of two isolines on any bar.
+    """
+    style, signed, box, upright = figure.style, figure.panels[bar.panel].signed, bar.box, bar.is_upright
+    thick = box.width if upright else box.height
+    shapes: list[Shape] = []
+    if style.coloured:
+        # Where bars are in fractions of the maximum, what is drawn still ends there.
+        edges = band_edges(figure.panels[bar.panel].isolines, figure.upper_limits()[bar.panel], signed)
+        shapes += bar_shapes(box, bar_colours(style, edges, signed, bar.goes_beyond), POINT * thick, upright)
+    shapes += line_shapes(box, _lines_on_bar(figure, bar, stroke, room), upright)
+    if not style.coloured:
+        shapes.append(Path(rectangle(box), pen=Pen(opaque(style.text), 0.8)))
+    pen = Pen(opaque(style.quiet_text), 0.8 * max(stroke, 0.7))
+    for value in bar.ticks:
+        at = bar.place(value)
+        ends = ((box.right, at), (box.right + TICK, at)) if upright else ((at, box.bottom), (at, box.bottom + TICK))
+        shapes.append(line(*ends, pen))
+    return [*shapes, *(text for words in bar.texts for text in words.shapes(style))]
+
+
+def _levels_on(figure: Figure, bar: Bar) -> tuple[Levels, FloatArray]:
+    """Return the isolines of a bar's panel, and where they are on the bar, from 0 to 1."""
+    panel, top = figure.panels[bar.panel], figure.upper_limits()[bar.panel]
+    found = levels(panel.isolines, top, top, panel.signed, panel.through)
+    low = -top if panel.signed else 0.0
+    # Where bars are in fractions of the maximum, they do not end at it.
+    return found, (found.values - low) / (top - low) if top > 0 else found.values
+
+
+def line_spacing(figure: Figure, bar: Bar) -> float:
+    """Return the least distance between two isolines on a bar, without those through points."""
+    found, shares = _levels_on(figure, bar)
+    long = bar.box.height if bar.is_upright else bar.box.width
+    return float(np.diff(shares[~found.is_through]).min(initial=1.0)) * long
+
+
+def _lines_on_bar(figure: Figure, bar: Bar, stroke: float, room: float) -> list[BarLine]:
+    """Return the isolines, unless they would be too close; those through points always."""
+    style, signed = figure.style, figure.panels[bar.panel].signed
+    found, shares = _levels_on(figure, bar)
+    long, lines = bar.box.height if bar.is_upright else bar.box.width, []
+    for share, value, bold, through in zip(shares, found.values, found.is_bold, found.is_through, strict=True):
+        ink, width = style.isoline_ink(signed, value, through), style.isoline_width * stroke
+        rim_width = ink.rim_width * stroke
+        if through:
+            width *= BOLD
+        elif room >= LINE_ROOM and min(share, 1 - share) * long >= END_ROOM:
+            width, rim_width = min(width, room / 4) * (BOLD if bold else 1), min(rim_width, room / 8)
+        else:
+            continue
+        lines.append(BarLine(float(share), width, ink.colour, ink.rim, width + 2 * rim_width))
+    return lines

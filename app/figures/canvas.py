@@ -1,4 +1,4 @@
-"""What matplotlib draws of a page: words, colour bars, marks and frames over pixels, or the whole page as vectors.
+"""A page drawn by matplotlib: words, colour bars, marks and frames over pixels, or the whole page as vectors.
 
 Both come from the same commands, in units of the page.
 """
@@ -7,29 +7,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bihdist_core.arrays import ByteArray
+from bihdist_core.arrays import ByteArray, FloatArray
 
-from ..scene.field_actor import CASING
+from ..drawing.painters.mpl import POINT, paint
+from ..drawing.shapes import RGBA
 from ..scene.levels import BOLD, width_of
 from ..scene.line_clipping import Line
-from ..scene.style import RGBA, RIM, Colour
-from .axes import draw_axes
-from .description import Figure
+from ..scene.style import Colour
+from .captions import caption_shapes, cross_shapes
 from .fonts import families, has_cff_outlines
-from .glyphs import POINT
-from .isoline_labels import draw_labels
-from .layout import Layout
-from .legend import draw_legend
-from .marks import draw_frames, draw_marks
+from .isoline_labels import label_shapes
+from .legend import legend_shapes
+from .marks import frame_shapes, mark_shapes
+from .page_layout import ComposedPage
 from .shots import Shot
-from .simplified import simplified
-from .words_and_bars import draw_words, write
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,22 +41,12 @@ DOT = 0.05
 """Widths that a dot of a dotted line is long, besides its round ends; without any length PNG shows none."""
 
 EDGE_FINENESS = 0.1
-"""The same for the edge of the shape, which is found from pixels."""
-
-
-@dataclass(frozen=True, eq=False)
-class Composition:
-    """A figure, where everything stands, and its pictures in the order in which they lie on each other."""
-
-    figure: Figure
-    layout: Layout
-    shots: list[Shot]
-    is_opaque: bool = False
+"""Units by which the edge of the shape may differ from its course between pixels."""
 
 
 @contextmanager
 def matplotlib_settings(font: str = "") -> Iterator[None]:
-    """matplotlib as it is delivered, whatever the user's settings, and files that are equal when drawn again."""
+    """Use matplotlib's own settings, not the user's, and write files that are equal when drawn again."""
     import matplotlib
 
     # As type 42, which is for TrueType, PDF viewers warn of CFF outlines, and PostScript's refuse them.
@@ -83,37 +69,49 @@ def matplotlib_settings(font: str = "") -> Iterator[None]:
         yield
 
 
-def drawn(page: Composition, vector: bool, shots: bool = True, words: bool = True) -> Canvas:
-    """The page in matplotlib; not `vector`: for pixels, which its pictures' own become as they are.
+def drawn(page: ComposedPage, vector: bool, shots: bool = True, words: bool = True) -> Canvas:
+    """Draw a page by matplotlib.
 
-    shots, words: whether there are the pictures and what lies on them, and what stands beside them.
+    Parameters
+    ----------
+    vector
+        Draw vectors, rather than for pixels among which those of the pictures stay as they are.
+    shots, words
+        Whether to draw the pictures with what lies on them, and the words and bars beside them.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure as Canvas
-
     layout = page.layout
     # matplotlib cuts fractions of pixels off: a page a hair larger keeps its last row and column.
     more = 0.0 if vector else 0.01 / layout.scale
     width, height = (layout.width, layout.height) if vector else (side / layout.scale + more for side in layout.page)
     ground = "none" if vector or not shots or page.figure.transparent else page.figure.style.background
-    canvas = Canvas(figsize=(width / 96, height / 96), dpi=96 * layout.scale, facecolor=ground)
-    FigureCanvasAgg(canvas)
-    axes = canvas.add_axes((0, 0, 1, 1))
-    axes.set_xlim(0, width)
-    axes.set_ylim(height, 0)
-    axes.axis("off")
+    canvas, axes = blank_page((width / 96, height / 96), (width, height), 96 * layout.scale, ground)
     for number, shot in enumerate(page.shots if shots else ()):
         _draw_shot(axes, page, number, shot, vector)
     if shots:  # axes turn with them
-        draw_axes(axes, page, 10 * len(page.shots))
+        paint(axes, cross_shapes(page), 10 * len(page.shots), page.is_opaque)
     if words:
-        draw_words(axes, page)
-        draw_legend(axes, page, 10 * len(page.shots) + 5)
+        paint(axes, [*caption_shapes(page), *legend_shapes(page)], is_opaque=page.is_opaque)
     return canvas
 
 
+def blank_page(
+    inches: tuple[float, float], units: tuple[float, float], dpi: float, ground: str | Colour
+) -> tuple[Canvas, Axes]:
+    """Return a page of matplotlib's, and axes all over it with so many units across and down, y down."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure as Canvas
+
+    canvas = Canvas(inches, dpi, facecolor=ground)
+    FigureCanvasAgg(canvas)
+    axes = canvas.add_axes((0, 0, 1, 1))
+    axes.set_xlim(0, units[0])
+    axes.set_ylim(units[1], 0)
+    axes.axis("off")
+    return canvas, axes
+
+
 # ---------------------------------------------------------------------- pictures
-def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: bool) -> None:
+def _draw_shot(axes: Axes, page: ComposedPage, number: int, shot: Shot, vector: bool) -> None:
     from matplotlib.patches import Rectangle
 
     style, order, stroke = page.figure.style, 10 * number, page.layout.stroke
@@ -124,49 +122,38 @@ def _draw_shot(axes: Axes, page: Composition, number: int, shot: Shot, vector: b
     edge = _silhouette(shot, page.layout.scale) if shot.isolines else None
     # One object for all curves: it is then written once.
     shape = edge and _clip_path()(edge, axes.transData)
-    signed, top = page.figure.panels[shot.panel].signed, page.figure.tops()[shot.panel]
-    contours = shot.isolines
-    if page.figure.panels[shot.panel].isolines.labels:
-        contours = draw_labels(axes, page.figure, page.layout, shot, order + 2)
+    add = partial(_add_curve, axes)
+    panel, contours = page.figure.panels[shot.panel], shot.isolines
+    if panel.isolines.labels:
+        contours, labels = label_shapes(page.figure, page.layout, shot)
+        paint(axes, labels, order + 2, page.is_opaque)
     for k, line in enumerate(sorted(contours, key=lambda line: line.is_through)):
         if not line.parts:
             continue
-        colour, width = style.line(signed, line.value / top if top > 0 else 0.0), style.isoline_width * stroke
-        wider = width_of(page.figure.panels[shot.panel].isolines, line.is_bold, signed and line.value == 0)
-        strokes: list[tuple[Colour | RGBA, float]] = [(colour, width * wider)]
-        rim = style.rim(signed, line.value)
-        if rim is not None:
-            strokes.insert(0, (rim, width * wider + 2 * RIM * stroke))
-        if line.is_through:
-            strokes = [(style.mark_edge, BOLD * width + 2 * CASING * stroke), (style.source, BOLD * width)]
-        for paint, across in strokes:
-            curve = _curve(line.parts, paint, across, "butt", order + 2, f"isoline-{number}-{k}")
-            axes.add_artist(curve)
+        ink = style.isoline_ink(panel.signed, line.value, line.is_through)
+        wider = BOLD if line.is_through else width_of(panel.isolines, line.is_bold, panel.signed and line.value == 0)
+        width = wider * style.isoline_width * stroke
+        strokes = [(ink.rim, width + 2 * ink.rim_width * stroke)] if ink.rim is not None else []
+        for colour, across in (*strokes, (ink.colour, width)):
             # The stroke is cut where the shape ends, which its middle line does already.
-            curve.set_clip_path(shape)
+            add(line.parts, colour, across, "butt", order + 2, f"isoline-{number}-{k}", shape)
     if shot.outlines:
-        curve = _curve(
-            shot.outlines, style.outline_colour, style.outline * stroke, "round", order + 3, f"outline-{number}"
-        )
-        axes.add_artist(curve)
-        curve.set_clip_path(frame)
+        width, name = style.outline * stroke, f"outline-{number}"
+        add(shot.outlines, style.outline_colour, width, "round", order + 3, name, frame)
     for look, lines in shot.lines.items():
         for parts, looks in ((lines.course, look.hidden), (lines.seen, look.strokes)):
             for each in looks if parts else ():
-                width = each.width * stroke
-                curve = _curve(parts, style.named(each.colour), width, "round", order + 3, f"{look.name}-{number}")
+                width, name = each.width * stroke, f"{look.name}-{number}"
+                curve = add(parts, style.named(each.colour), width, "round", order + 3, name, frame)
                 if each.dots:
                     curve.set_linestyle((0, (DOT, each.dots / each.width - DOT)))
-                axes.add_artist(curve)
-                curve.set_clip_path(frame)
-    put = partial(write, axes, page)
-    draw_marks(axes, page, shot, order + 4, frame, put)
+    paint(axes, mark_shapes(page, shot), order + 4, page.is_opaque)
     if shot.source is not None:
-        draw_frames(axes, page, shot, order + 5, put)
+        paint(axes, frame_shapes(page, shot), order + 5, page.is_opaque)
 
 
-def _draw_image(axes: Axes, page: Composition, shot: Shot, order: int, vector: bool) -> None:
-    """The shaded pixels on their background, without what is empty around them."""
+def _draw_image(axes: Axes, page: ComposedPage, shot: Shot, order: int, vector: bool) -> None:
+    """Add the shaded pixels on their background, without what is empty around them."""
     from matplotlib.image import AxesImage
 
     alpha = shot.image[..., 3]
@@ -193,7 +180,7 @@ def _draw_image(axes: Axes, page: Composition, shot: Shot, order: int, vector: b
 
 @cache
 def _clip_path() -> type:
-    """The class of clip paths that are the same object whenever they are asked for, so that EPS has each once."""
+    """Return the class of clip paths that stay the same object, so that EPS has each once."""
     from matplotlib.transforms import TransformedPath
 
     class ClipPath(TransformedPath):
@@ -210,7 +197,7 @@ def _clip_path() -> type:
 
 @cache
 def _pixels_artist() -> type:
-    """The class of pixels that are put on a page of pixels as they are: matplotlib is imported late."""
+    """Return the class of pixels that are put on a page of pixels as they are: matplotlib is imported late."""
     from matplotlib.artist import Artist
 
     class Pixels(Artist):
@@ -228,7 +215,7 @@ def _pixels_artist() -> type:
 
 
 def _on(background: Colour | None, image: ByteArray) -> ByteArray:
-    """Pixels (h, w, 4) whose colours are multiplied by alpha: the same on a background, or straight.
+    """Put pixels (h, w, 4) with premultiplied alpha on a background, or make their alpha straight.
 
     On a background without transparency: some readers blend the edge of the shape with what lies unseen beside it.
     """
@@ -246,25 +233,45 @@ def _on(background: Colour | None, image: ByteArray) -> ByteArray:
     return result
 
 
-def _curve(lines: list[Line], colour: Colour | RGBA, width: float, cap: str, order: int, name: str) -> PathPatch:
-    """Parts of one curve as one path."""
+def _add_curve(
+    axes: Axes, lines: list[Line], colour: Colour | RGBA, width: float, cap: str, order: int, name: str, clip: Any
+) -> PathPatch:
+    """Add the parts of one curve as one path, which is seen inside of another."""
     from matplotlib.patches import PathPatch
 
-    rings = [(simplified(np.concatenate([p, p[:1]]) if closed else p, FINENESS), closed) for p, closed in lines]
-    return PathPatch(
-        _path(rings),
-        fill=False,
-        edgecolor=colour,
-        linewidth=width * POINT,
-        capstyle=cap,
-        joinstyle="round",
-        zorder=order,
-        gid=name,
-    )
+    rings = [(simplified_line(np.concatenate([p, p[:1]]) if closed else p, FINENESS), closed) for p, closed in lines]
+    look = {"edgecolor": colour, "linewidth": width * POINT, "capstyle": cap, "joinstyle": "round"}
+    curve = PathPatch(_path(rings), fill=False, zorder=order, gid=name, **look)
+    axes.add_artist(curve)
+    curve.set_clip_path(clip)
+    return curve
+
+
+def simplified_line(points: FloatArray, tolerance: float) -> FloatArray:
+    """Return points (k, 2) of a line without those it passes within `tolerance` anyway (Douglas and Peucker)."""
+    keep = np.zeros(len(points), bool)
+    keep[[0, -1]] = True
+    stack = [(0, len(points) - 1)]
+    while stack:
+        a, b = stack.pop()
+        if b - a < 2:
+            continue
+        way = points[b] - points[a]
+        length = float(np.hypot(*way))
+        arm = points[a + 1 : b] - points[a]
+        if length > 0:
+            along = np.clip((arm @ way) / length**2, 0, 1)
+            arm = arm - along[:, None] * way
+        off = np.hypot(arm[:, 0], arm[:, 1])
+        k = int(off.argmax())
+        if off[k] > tolerance:
+            keep[a + 1 + k] = True
+            stack += [(a, a + 1 + k), (a + 1 + k, b)]
+    return points[keep]
 
 
 def _path(rings: list[Line]) -> Path:
-    """Lines (k, 2) as one path; a closed one ends with its first point."""
+    """Return lines (k, 2) as one path; a closed one ends with its first point."""
     from matplotlib.path import Path
 
     codes = [[Path.MOVETO, *[Path.LINETO] * (len(p) - 2), Path.CLOSEPOLY if c else Path.LINETO] for p, c in rings]
@@ -272,7 +279,7 @@ def _path(rings: list[Line]) -> Path:
 
 
 def _silhouette(shot: Shot, scale: float, wider: int = 0) -> Path | None:
-    """The edge of the shape in the picture, between its pixels; or so many pixels outside of all that is drawn."""
+    """Return the edge of the shape in the picture, or of what lies so many pixels around it; None for none."""
     from contourpy import contour_generator
 
     alpha = np.pad(shot.image[..., 3].astype(np.float32), 1 + wider)
@@ -284,4 +291,4 @@ def _silhouette(shot: Shot, scale: float, wider: int = 0) -> Path | None:
             one, other = (np.roll(alpha, step, axis) for step in (1, -1))
             alpha = np.maximum(np.maximum(one, other), alpha)
     loops: Any = contour_generator(at[0] + shot.box.x, at[1] + shot.box.y, alpha).lines(0.5 if wider else 127.5)
-    return _path([(simplified(loop, EDGE_FINENESS), True) for loop in loops if len(loop) > 3])
+    return _path([(simplified_line(loop, EDGE_FINENESS), True) for loop in loops if len(loop) > 3])

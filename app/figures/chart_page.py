@@ -1,50 +1,61 @@
-"""What the figures of all charts have in common: a page in the style and the letters of other figures, and its file."""
+"""The page of a chart's figure: its look, its axes, and its file."""
 
 from __future__ import annotations
 
 import os
-import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 from bihdist_core import OutputError
-from bihdist_core.progress import Progress, silent
-from bihdist_core.whole_file import check_output, whole_file
+from bihdist_core.file_output import atomic_write, check_output
+from bihdist_core.progress import Progress
 
 from ..document.page import Page
+from ..drawing.chart import ASCENT, GAP, Axis, Ink, Plot, tick_shapes
+from ..drawing.painters.mpl import POINT, paint
+from ..drawing.shapes import RGBA, Box, Pen, Shape, Text, opaque
 from ..scene.style import PAPER, Style
-from .canvas import matplotlib_settings
+from .canvas import blank_page, matplotlib_settings
 from .draw import FIGURE_FORMATS
-from .fonts import check_font
-from .size import MM_PER_INCH, Size
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from .fonts import check_font, text_width
+from .page_output import write_undated
+from .size import MM_PER_INCH, UNITS_PER_INCH, Size
 
 INCHES = 5.5
 """As wide as the text of most papers."""
 
 POINTS = 8.0
-"""The size of all letters, if nothing is said."""
+"""The font size, if nothing is said."""
 
 PIXELS_PER_INCH = 300
 
-RULE, TICK = 0.6, 2.5
-"""Points that an axis is wide, and its ticks long."""
+RULE, TICK = 0.8, 3.3
+"""Units that an axis is wide, and its ticks long."""
 
-RIM = 3.0
-"""Points that words keep from the edge of the page."""
+RIM = 4.0
+"""Units that words keep from the edge of the page."""
 
 FAINT = 0.25
-"""How much of their colour the lines of a grid have."""
+"""Contrast of a grid's lines, as a fraction of that of quiet text."""
+
+APART = (4.5, 2.6)
+"""Least font sizes between ticks, across and up."""
 
 
 @dataclass(frozen=True)
 class ChartLook:
-    """inches: across; points: of the letters; font: a family, "" for the usual one."""
+    """The look of a chart's figure.
+
+    Attributes
+    ----------
+    inches
+        Width of the page.
+    points
+        Font size.
+    font
+        Family, "" for the usual one.
+    """
 
     style: Style = PAPER
     font: str = ""
@@ -53,95 +64,126 @@ class ChartLook:
 
     @classmethod
     def of(cls, page: Page, style: Style, inches: float = INCHES) -> ChartLook:
-        """As other figures on a page; inches: where the page says no width on paper."""
+        """Return the look of other figures on a page; a page without a width on paper is `inches` wide."""
         size = Size.parse(page.size) if page.size else Size()
         across = size.width / MM_PER_INCH if size.unit == "mm" and size.width else inches
-        return cls(style, page.font, across, page.text or POINTS)
+        return cls(style, page.font_family, across, page.font_size or POINTS)
+
+    @property
+    def size(self) -> float:
+        """The font size in units."""
+        return self.points / POINT
+
+    @property
+    def width(self) -> float:
+        """The width of the page in units."""
+        return self.inches * UNITS_PER_INCH
+
+    @property
+    def ink(self) -> Ink:
+        """The colours and the font of a chart's shapes."""
+        style = self.style
+        grid = Pen(faded(style, FAINT), 0.67)
+        return Ink(opaque(style.text), opaque(style.quiet_text), grid, self.size)
+
+    def text_width(self, text: str, size: float, is_bold: bool = False) -> float:
+        """Return the width of a text, in the unit of its size."""
+        return text_width(text, size, is_bold, self.font)
+
+    @property
+    def foot(self) -> float:
+        """The height of ticks and of the words under them."""
+        return TICK + (2 * GAP + 2 * ASCENT + 0.35) * self.size + RIM
+
+    def right(self, across: Axis) -> float:
+        """Return the free width at the right of a plot, where half of a tick's text may stand."""
+        return RIM + max(self.text_width(across.words(value), self.size) for value in (across.low, across.high)) / 2
+
+    def left(self, up: Axis, height: float, words: str) -> float:
+        """Return the width at the left of a plot this high: of the words at the axis up, and of its ticks."""
+        rows = up.ticks(height, APART[1] * self.size)
+        widest = max((self.text_width(up.words(v, v == rows[-1]), self.size) for v in rows), default=0.0)
+        return RIM + (1.5 * self.size if words else 0.0) + widest + GAP * self.size + TICK
+
+    def plot(
+        self,
+        room: Box,
+        across: Axis,
+        up: Axis,
+        words: tuple[str, str],
+        left: float | None = None,
+        is_square: bool = False,
+    ) -> tuple[Plot, list[Shape]]:
+        """Place a plot in a room with words at its axes; return it with its axes as shapes.
+
+        The room is for the plot and what stands at its left, so wide if it is given, and under it.
+        """
+        size, high = self.size, room.height - (self.foot if words[0] else self.foot - 1.3 * self.size)
+        left = self.left(up, high, words[1]) if left is None else left
+        box = Box(room.x + left, room.y, max(room.width - left, size), high)
+        if is_square and box.width > high:
+            box = Box(box.x + (box.width - high) / 2, box.y, high, high)
+        elif is_square:
+            box = Box(box.x, box.y + high - box.width, box.width, box.width)
+        plot = Plot(box, across, up)
+        apart = APART[0] * size, APART[1] * size
+        shapes = tick_shapes(plot, self.ink, apart, Pen(opaque(self.style.quiet_text), RULE), TICK)
+        return plot, [*shapes, *_axis_words(self, plot, room, words, box.x - left)]
+
+
+def _axis_words(look: ChartLook, plot: Plot, room: Box, words: tuple[str, str], left: float) -> list[Shape]:
+    """Return words at the axes, moved along them where they would leave the room."""
+    size, ink, (x, y) = look.size, look.ink, plot.box.middle
+    across, up = words
+    shapes: list[Shape] = []
+    if across:
+        half = look.text_width(across, size) / 2
+        x = min(max(x, room.x + RIM + half), max(room.right - RIM - half, room.x + RIM + half))
+        shapes.append(Text(across, x, room.bottom - RIM - 0.25 * size, size, ink.text, align="centre"))
+    if up:
+        half = look.text_width(up, size) / 2
+        y = max(min(y, room.bottom - RIM - half), room.y - 0.7 * size + half)
+        shapes.append(Text(up, left + RIM + 0.8 * size, y, size, ink.text, align="centre", angle=90.0))
+    return shapes
 
 
 USUAL_LOOK = ChartLook()
 
 
-def faded(style: Style, share: float) -> list[float]:
-    """The colour of quiet text with only a share of its contrast; EPS knows no transparency."""
-    return [share * a + (1 - share) * b for a, b in zip(style.quiet_text, style.background, strict=True)]
+def faded(style: Style, share: float) -> RGBA:
+    """Return the colour of quiet text with a fraction of its contrast; EPS knows no transparency."""
+    pairs = zip(style.quiet_text, style.background, strict=True)
+    return opaque([share * a + (1 - share) * b for a, b in pairs])
+
+
+def draw_chart(save: Callable[[Any, str], None], figure: object, path: str, progress: Progress | None = None) -> None:
+    """Save a figure as a job does, too quickly to report any progress."""
+    save(figure, path)
 
 
 def save_chart(
     path: str | os.PathLike[str],
     look: ChartLook,
-    high: float,
-    draw: Callable[[Figure], None],
-    progress: Progress | None = None,
+    height: float,
+    shapes: Sequence[Shape],
 ) -> None:
-    """Let `draw` fill a page so many inches high, into a .png, .pdf, .svg or .eps file, whole or not at all.
+    """Write shapes on a page of a height in units to a .png, .pdf, .svg or .eps file, whole or not at all.
 
-    Raises ParameterError where there is no such font; OutputError if it cannot be written.
+    Raises
+    ------
+    ParameterError
+        If there is no such font.
+    OutputError
+        If the file cannot be written.
     """
     extension = check_output(path, FIGURE_FORMATS)
     check_font(look.font)
-    (progress or silent)(0.0, "drawing the chart")
-    with whole_file(path) as temporary, matplotlib_settings(look.font):
+    with atomic_write(path) as temporary, matplotlib_settings(look.font):
         try:
-            _write(temporary, extension, look, high, draw)
+            page = (look.inches, height / UNITS_PER_INCH), (look.width, height)
+            figure, axes = blank_page(*page, PIXELS_PER_INCH, look.style.background)
+            paint(axes, shapes, is_opaque=extension == ".eps")
+            made: dict[str, Any] = {".png": {"Software": None}}.get(extension, {"Creator": "bihdist"})
+            write_undated(figure, temporary, made, facecolor=look.style.background)
         except ValueError as error:  # matplotlib's word for a page it cannot make
             raise OutputError(f"{path} could not be written: {error}.") from error
-
-
-def _write(path: Path, extension: str, look: ChartLook, high: float, draw: Callable[[Figure], None]) -> None:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    ground = look.style.background
-    figure = Figure((look.inches, high), PIXELS_PER_INCH, facecolor=ground, layout="constrained")
-    FigureCanvasAgg(figure)
-    draw(figure)
-    _keep_on_page(figure)
-    # Nothing in the file says when it was made, so that it is equal when made again.
-    dates = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}, ".png": {"Software": None}}.get(extension, {})
-    made = {} if extension == ".png" else {"Creator": "bihdist"}
-    figure.savefig(path, metadata={**made, **dates}, facecolor=ground)
-    if extension == ".eps":
-        content = path.read_bytes()
-        path.write_bytes(re.sub(rb"^%%(CreationDate|Title):[^\n]*\n", b"", content, count=2, flags=re.MULTILINE))
-
-
-def _keep_on_page(figure: Figure) -> None:
-    """Words at an axis that are longer than it is move along it where they would leave the page."""
-    if (engine := figure.get_layout_engine()) is not None:
-        engine.execute(figure)
-    rim = RIM / 72 * figure.dpi
-    for axes in figure.axes:
-        room = axes.get_window_extent()
-        for axis, ends, length, page in (
-            (axes.xaxis, "intervalx", room.width, figure.bbox.width),
-            (axes.yaxis, "intervaly", room.height, figure.bbox.height),
-        ):
-            low, high = getattr(axis.label.get_window_extent(), ends)
-            moved = max(rim - low, 0.0) - max(high - (page - rim), 0.0)
-            if moved and high > low:
-                axis.label.set(**{ends[-1]: 0.5 + moved / length})
-
-
-def style_axes(axes: Axes, look: ChartLook, across: str = "", up: str = "") -> None:
-    """Axes at the left and below, round numbers with true minus signs, quiet lines; across, up: words at the axes."""
-    from matplotlib.ticker import FuncFormatter
-
-    style, points = look.style, look.points
-    axes.set_facecolor(style.background)
-    for side in ("top", "right"):
-        axes.spines[side].set_visible(False)
-    for side in ("left", "bottom"):
-        axes.spines[side].set_color(style.quiet_text)
-        axes.spines[side].set_linewidth(RULE)
-    # Mixed, not transparent, which EPS cannot be.
-    quiet = faded(style, FAINT)
-    axes.grid(axis="y", color=quiet, linewidth=0.5)
-    axes.set_axisbelow(True)
-    axes.tick_params(labelsize=points, colors=style.quiet_text, width=RULE, length=TICK)
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.6g}".replace("-", "−")))
-    if across:
-        axes.set_xlabel(across, fontsize=points, color=style.text)
-    if up:
-        axes.set_ylabel(up, fontsize=points, color=style.text)

@@ -5,7 +5,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw, ImageFont, ImageOps
+
+from .words import shortened
 
 THUMBNAIL = (960, 480)
 """Pixels that a thumbnail fits into, across and down."""
@@ -15,11 +17,11 @@ SHAPE = 1.3
 """Across over down, of a sheet of many."""
 LABEL, GAP, MARGIN = 26, 14, 28
 """Pixels for a name, between figures, and around all of them."""
-TEXT, QUIET, ERROR, GROUND = "#1D2125", "#5B626B", "#B3261E", "#F6F7F8"
+TEXT, ERROR, GROUND = "#1D2125", "#B3261E", "#F6F7F8"
 
 
 @dataclass(frozen=True, eq=False)
-class Cell:
+class SheetEntry:
     """A figure of a sheet: its name, and its thumbnail, or why there is none."""
 
     name: str
@@ -28,7 +30,7 @@ class Cell:
 
 
 def thumbnail(figure: bytes) -> Image.Image:
-    """A figure (a PNG) as small as THUMBNAIL, on white where nothing is."""
+    """Return a figure (a PNG) as small as THUMBNAIL, on white where it is transparent."""
     picture = Image.open(io.BytesIO(figure)).convert("RGBA")
     picture.thumbnail(THUMBNAIL, Image.Resampling.LANCZOS)
     ground = Image.new("RGB", picture.size, "white")
@@ -36,8 +38,8 @@ def thumbnail(figure: bytes) -> Image.Image:
     return ground
 
 
-def contact_sheet(cells: Sequence[Cell], words: Sequence[str] = ()) -> Image.Image:
-    """Figures in rows under lines of words, with their names below them; at least one has a picture."""
+def contact_sheet(cells: Sequence[SheetEntry], words: Sequence[str] = ()) -> Image.Image:
+    """Return figures in rows under lines of words, with their names below them; at least one has a picture."""
     pictures = [cell.picture for cell in cells if cell.picture is not None]
     wide, high = (max(each.size[side] for each in pictures) for side in (0, 1))
     across = math.ceil(math.sqrt(SHAPE * len(cells) * (high + LABEL) / wide))
@@ -56,16 +58,11 @@ def contact_sheet(cells: Sequence[Cell], words: Sequence[str] = ()) -> Image.Ima
         x, y = MARGIN + k % across * (wide + GAP), head + k // across * (high + label + GAP)
         if cell.picture is None:
             draw.rectangle((x, y, x + wide - 1, y + high - 1), GROUND)
-            text = _wrapped(draw, cell.failure, font, wide - 24, max(1, int(high / (2 * font.size))))
-            draw.multiline_text((x + wide / 2, y + high / 2), text, ERROR, font, "mm", align="center")
+            lines = max(1, int(high / (2 * font.size)))
+            parts = shortened(cell.failure, font.size, wide - 24, lines, lambda part, _: draw.textlength(part, font))
+            draw.multiline_text((x + wide / 2, y + high / 2), "\n".join(parts), ERROR, font, "mm", align="center")
         else:
-            picture = (
-                cell.picture.resize(
-                    [max(1, round(side * small)) for side in cell.picture.size], Image.Resampling.LANCZOS
-                )
-                if small < 1
-                else cell.picture
-            )
+            picture = ImageOps.scale(cell.picture, small, Image.Resampling.LANCZOS) if small < 1 else cell.picture
             sheet.paste(picture, (x + (wide - picture.width) // 2, y + (high - picture.height) // 2))
         draw.text((x + wide / 2, y + high + label / 2), _cut(draw, cell.name, font, wide), TEXT, font, "mm")
     return sheet
@@ -80,7 +77,7 @@ def _font(size: int) -> ImageFont.FreeTypeFont:
 
 
 def _cut(draw: ImageDraw.ImageDraw, text: str, font: ImageFont.FreeTypeFont, wide: float) -> str:
-    """What there is room for; the middle goes, for names differ at their ends."""
+    """Shorten a text in its middle to what there is room for, as names differ at their ends."""
     if draw.textlength(text, font) <= wide:
         return text
     kept = len(text)
@@ -92,26 +89,13 @@ def _cut(draw: ImageDraw.ImageDraw, text: str, font: ImageFont.FreeTypeFont, wid
     return text[:1]
 
 
-def _wrapped(draw: ImageDraw.ImageDraw, text: str, font: ImageFont.FreeTypeFont, wide: float, most: int) -> str:
-    """In at most so many lines."""
-    lines: list[str] = []
-    for word in text.split():
-        if lines and draw.textlength(f"{lines[-1]} {word}", font) <= wide:
-            lines[-1] += f" {word}"
-        else:
-            lines.append(word)
-    if len(lines) > most:
-        lines = [*lines[: most - 1], f"{lines[most - 1]}…"]
-    return "\n".join(_cut(draw, line, font, wide) for line in lines)
-
-
 def as_jpeg(picture: Image.Image) -> bytes:
-    """Small: a page may have hundreds of them."""
+    """Return the picture as the bytes of a small JPEG file, as a page may have hundreds."""
     return _bytes(picture, "JPEG", quality=85, optimize=True)
 
 
 def as_png(picture: Image.Image) -> bytes:
-    """The picture as the bytes of a PNG file."""
+    """Return the picture as the bytes of a PNG file."""
     return _bytes(picture, "PNG", optimize=True)
 
 

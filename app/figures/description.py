@@ -1,4 +1,4 @@
-"""What a figure shows, as frozen data: panels in rows and columns, and how they look."""
+"""The description of a figure as frozen data: panels in rows and columns, and their look."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from bihdist_core.analysis.first_view import is_flat
 from bihdist_core.arrays import AnyArray, FloatArray
 
 from ..document.camera import View, checked_view
-from ..document.document import Zoom
+from ..document.document import Inset
 from ..document.looks import AS_IT_IS, RANGES, TWENTY_STEPS, Isolines, Shading, one_of
 from ..document.page import TITLES
 from ..marks.primitives import AreaMark, LineMark, PointMark
@@ -20,17 +20,42 @@ from .size import Size
 
 @dataclass(frozen=True, eq=False)
 class FigurePanel:
-    """One panel: a surface, a field (n,) on it with NaN where undefined, or None for the bare shape, and its words.
+    """One panel: a surface with a field or the bare shape, and its words.
 
-    label and unit stand at the colour bar, heading and hint above.  maximum: the end of the colour bar, the field's
-    own if None.  through: values that have an isoline besides, which stands out.  views: pictures of the same side by
-    side, each a standard one or a camera.  height: a flat surface becomes a height field, raised by the field so that
-    its maximum is this share of the surface's extent.  failure: why there is no field, to be read on the bare shape.
-    signed: the field has values on both sides of 0, and its colour bar goes from -maximum to maximum. up: which axis is
-    up in standard views.  source: the vertex that the view from the source looks at.  is_parallel: nothing gets smaller
-    with distance.  axes: where x, y and z point to is shown, unless it is in a panel before.  marks, lines, areas: what
-    is marked on the surface.  colours: (n, 3) of the surface's own, instead of a field, grey where they are NaN.
-    largest: of a difference, in words, how large it is and where.
+    Attributes
+    ----------
+    field
+        (n,) values, NaN where undefined; None for the bare shape.
+    heading, hint
+        Words above the panel.
+    label, unit
+        Words at the colour bar.
+    maximum
+        The end of the colour bar, the field's own if None.
+    through
+        Values of further isolines, which stand out.
+    views
+        Pictures of the panel side by side, each a standard view or a camera.
+    marks, lines, areas
+        Marks on the surface.
+    height
+        Height of a height field whose maximum is this fraction of the surface's extent; 0 for none.
+    failure
+        Why there is no field, to be read on the bare shape.
+    signed
+        Whether the field has values on both sides of 0, so that its bar goes from -maximum to maximum.
+    up
+        The axis that is up in standard views.
+    source
+        The vertex that the view from the source looks at.
+    is_parallel
+        Whether the projection is parallel.
+    axes
+        Whether the directions of x, y and z are shown, unless they are in a panel before.
+    colours
+        (n, 3) colours of the surface's own, instead of a field, grey where they are NaN.
+    largest
+        How large a difference is and where, in words.
     """
 
     surface: Surface
@@ -44,8 +69,8 @@ class FigurePanel:
     through: tuple[float, ...] = ()
     views: tuple[View, ...] = ("home",)
     marks: tuple[PointMark, ...] = ()
-    zooms: tuple[Zoom, ...] = ()
-    height: float = 0.0
+    insets: tuple[Inset, ...] = ()
+    warp_factor: float = 0.0
     failure: str = ""
     signed: bool = False
     shading: Shading = AS_IT_IS
@@ -65,28 +90,28 @@ class FigurePanel:
         if self.field is not None and np.shape(self.field) != (count,):
             raise ParameterError(f"The field has the shape {np.shape(self.field)}; the surface has {count:,} vertices.")
         if self.colours is not None and (self.field is not None or np.shape(self.colours) != (count, 3)):
-            raise ParameterError(f"{count:,} vertices have a colour each and no field, or a field.")
+            raise ParameterError(f"A panel has a field or a colour for each of its {count:,} vertices, not both.")
         if self.maximum is not None and not 0 < self.maximum < np.inf:
             raise ParameterError(f"A colour bar ends at a positive number, not at {self.maximum!r}.")
         if not self.views:
             raise ParameterError("A panel needs at least one view.")
         for view in self.views:
             checked_view(view)
-        if self.height and not is_flat(self.surface.vertices[self.surface.component_of_vertex >= 0]):
+        if self.warp_factor and not is_flat(self.surface.vertices[self.surface.component_of_vertex >= 0]):
             raise ParameterError("A height field needs a flat surface, with the same z everywhere.")
-        if not 0 <= self.height <= 10:
+        if not 0 <= self.warp_factor <= 10:
             raise ParameterError(
-                f"The height of a height field is a fraction of the surface's extent, not {self.height:g}."
+                f"The warp factor of a height field is a fraction of the surface's extent, not {self.warp_factor:g}."
             )
-        self.surface.check_vertices([*(mark.vertex for mark in self.marks), *(zoom.vertex for zoom in self.zooms)])
+        self.surface.check_vertices([*(mark.vertex for mark in self.marks), *(zoom.vertex for zoom in self.insets)])
 
     @property
-    def top(self) -> float:
+    def upper_limit(self) -> float:
         """The end of the colour bar; 0 if there is no field, or none that is more than 0 anywhere."""
-        return self.own_top if self.maximum is None else self.maximum
+        return self.own_maximum if self.maximum is None else self.maximum
 
     @property
-    def own_top(self) -> float:
+    def own_maximum(self) -> float:
         """The field's maximum, of its absolute values if it is signed."""
         if self.field is None:
             return 0.0
@@ -94,7 +119,7 @@ class FigurePanel:
 
 
 Entry = tuple[PointMark, str]
-"""Of a legend: a mark, whose vertex does not matter, and what such marks stand for."""
+"""An entry of a legend: a mark, whose vertex does not matter, and what such marks stand for."""
 
 USUAL = Size()
 """As the panels want it."""
@@ -102,16 +127,33 @@ USUAL = Size()
 
 @dataclass(frozen=True, eq=False)
 class Figure:
-    """Panels row by row, in as many columns as given (as many as the page has room for if None).
+    """Panels row by row.
 
-    range: where colour bars end, one of RANGES: with "shared", panels of one unit end at the largest maximum of them,
-    and with "shares" each is drawn in shares of its own.  crop: without empty space around shapes and at the edges.
-    title: where panels have their names, one of TITLES; font: a family, "" for the usual one; text: the size of labels
-    in points, all other words in proportion, the usual one if None; is_moving: one of the pictures of a movie, in all
-    of which insets stand in the same places; is_of_set: one of several figures whose colours end alike, so that its own
-    maximum is said; remarks: sentences on what could not be shown.
-    legend: under all panels, on a page whose height follows from them; dashes_all: marks that the shape hides are
-    dashed even where another view of their panel shows them.
+    Attributes
+    ----------
+    columns
+        Number of columns; None for as many as the page has room for.
+    range
+        Where colour bars end, one of RANGES: with "shared", panels of one unit end at their largest maximum, and with
+        "fraction" each is drawn in fractions of its own.
+    crop
+        Whether the empty space around shapes and at the edges is left out.
+    title
+        Where panels have their names, one of TITLES.
+    font
+        Family, "" for the usual one.
+    text
+        Font size of labels in points, to which all others are in proportion; None for the usual one.
+    is_moving
+        Whether it is a frame of a movie, in all of which insets stand in the same places.
+    is_of_set
+        Whether other figures' colours end alike, so that its own maximum is said.
+    remarks
+        Sentences on what could not be shown.
+    legend
+        Entries under all panels, on a page whose height follows from them.
+    dashes_all
+        Whether marks that the shape hides are dashed even if another view of their panel shows them.
     """
 
     panels: tuple[FigurePanel, ...]
@@ -136,7 +178,7 @@ class Figure:
         if self.columns is not None and self.columns < 1:
             raise ParameterError(f"A figure has at least one column, not {self.columns}.")
         if self.legend and self.size.height is not None:
-            raise ParameterError("A page with a legend is as high as it needs to be: its size has no height.")
+            raise ParameterError("The height of a page with a legend follows from what is on it; give its width only.")
         one_of(self.range, RANGES, "range")
         one_of(self.title, TITLES, "title")
         check_font(self.font)
@@ -145,18 +187,18 @@ class Figure:
             units = ", ".join(sorted({unit or "none" for unit, _ in kinds}))
             raise ParameterError(
                 f"Panels in different units ({units}) cannot share a range; "
-                "with --range shares (in Python range='shares') they have one bar, in fractions of each maximum."
+                "with --clim fraction (in Python clim='fraction') they have one bar, in fractions of each maximum."
             )
 
     @property
     def grid(self) -> tuple[int, int]:
-        """Rows and columns."""
+        """The number of rows and columns."""
         columns = min(self.columns or len(self.panels), len(self.panels))
         return -(-len(self.panels) // columns), columns
 
-    def tops(self) -> list[float]:
-        """The end of each panel's colours."""
-        own = [p.top for p in self.panels]
+    def upper_limits(self) -> list[float]:
+        """Return the end of each panel's colours."""
+        own = [p.upper_limit for p in self.panels]
         if self.range == "own":
             return own
         kinds = [_kind(p) for p in self.panels]
@@ -166,12 +208,12 @@ class Figure:
         ]
 
     def is_in_shares(self, panel: int) -> bool:
-        """Whether a bar reads shares of its end; a difference keeps its unit, and ends as others of it do."""
-        return self.range == "shares" and not self.panels[panel].largest
+        """Return whether a bar shows fractions of its end; a difference keeps its unit, and ends as others of it do."""
+        return self.range == "fraction" and not self.panels[panel].largest
 
     @property
     def has_one_bar(self) -> bool:
-        """Whether one colour bar serves all panels."""
+        """True if one colour bar serves all panels."""
         return self.range != "own" and len({kind for kind in map(self._bar_kind, range(len(self.panels))) if kind}) == 1
 
     def _bar_kind(self, panel: int) -> tuple[str, ...] | None:
@@ -181,7 +223,7 @@ class Figure:
 
 
 def _kind(panel: FigurePanel) -> tuple[str, ...] | None:
-    """What two panels have alike if one colour bar can serve both; None without a field."""
+    """Return the value that two panels share if one colour bar can serve both; None without a field."""
     if panel.field is None:
         return None
     return (panel.unit, "a difference" if panel.largest else "signed" if panel.signed else "")

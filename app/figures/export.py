@@ -1,4 +1,4 @@
-"""From a recipe to a file: the fields computed, the figure drawn, and the recipe written beside it."""
+"""Write the figure of a recipe: compute its fields, draw it, and write the recipe beside it."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -8,12 +8,12 @@ from pathlib import Path
 
 from bihdist_core import OutputError, ParameterError, SolverError
 from bihdist_core.distances.answers import Answer
+from bihdist_core.file_output import atomic_write, check_output
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.words import short_words_of
-from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.derived_surfaces import COLUMNS, changed_mesh
-from ..document.document import Document, Panel, Zoom, starting_points
+from ..document.document import Document, Inset, Panel, starting_points
 from ..document.looks import NO_LINES, Isolines
 from ..document.page import Recipe
 from ..marks.marked_panel import MarkedPanel, marks_of
@@ -22,7 +22,7 @@ from ..scene.levels import in_unit
 from ..scene.style import style_of
 from ..session.array_store import ArrayStore
 from ..session.bar_ends import own_end, typed_end
-from ..session.derived_surfaces import carried
+from ..session.derived_surfaces import map_to_derived
 from ..session.isoline_points import passed
 from ..session.loaded_mesh import LoadedMesh, open_mesh
 from ..session.questions import questions, source_at, vertex_at
@@ -37,58 +37,58 @@ Surfaces = dict[str, LoadedMesh]
 
 
 def check_export(document: Document, path: str | os.PathLike[str]) -> None:
-    """Before long work: that a figure and its recipe can be written; OutputError if not."""
+    """Raise OutputError before long work if a figure or its recipe cannot be written."""
     check_output(path, FIGURE_FORMATS)
     check_offscreen()
     check_recipe_beside(document, path)
 
 
 def check_tex(path: str | os.PathLike[str]) -> Path:
-    """Where the LaTeX snippet of a figure goes; OutputError if it cannot."""
+    """Return the path of a figure's LaTeX snippet; raise OutputError if it cannot be written."""
     snippet = tex_path(Path(path))
     check_output(snippet, (".tex",))
     if snippet.exists() and "\\includegraphics" not in snippet.read_text(encoding="utf-8", errors="replace"):
-        raise OutputError(f"{snippet}, where the snippet would go, is another file; give the figure another name.")
+        raise OutputError(f"{snippet} exists and was not written by this program; give the figure another name.")
     return snippet
 
 
 def open_document(recipe: Recipe, given: ArrayStore) -> tuple[Document, Surfaces]:
-    """The recipe's document with checksums and vertices, and its surfaces.
+    """Return the recipe's document with checksums and vertices, and its surfaces.
 
     Raises ParameterError if one is missing or has changed since the document was written.
     """
     surfaces: Surfaces = {}
     document = recipe.document
-    remedy = "Name the mesh that is to be drawn with --mesh." if recipe.made_with else ""
+    remedy = "Choose the mesh with --mesh." if recipe.made_with else ""
     for mesh in document.surfaces:
         surfaces[mesh.name] = loaded = open_mesh(mesh, given, remedy, list(surfaces.values()))
-        document = loaded.settled(document)
+        document = loaded.resolve_points(document)
     for loaded in surfaces.values():
-        loaded.beside = tuple(surfaces.values())
+        loaded.set_shown_with(surfaces.values())
     for each in document.parts:
         each.check_files({name: loaded.surface for name, loaded in surfaces.items()})
     return document, surfaces
 
 
 def compute(document: Document, surfaces: Surfaces, progress: Progress | None = None) -> list[Answer]:
-    """For each panel its answer; SolverError if all of them are failures."""
+    """Return each panel's answer; raise SolverError if all of them are failures."""
     asked = [(document.panel(id), question) for id, question in questions(document).items()]
     answers = []
     for k, (panel, question) in enumerate(asked):
         step = part(progress, k / len(asked), (k + 1) / len(asked))
-        answers.append(surfaces[panel.surface].answer(question, step))
+        answers.append(question.answer(surfaces[panel.surface], step))
     refuse_if_nothing(answers)
     return answers
 
 
 def refuse_if_nothing(answers: Sequence[Answer]) -> None:
-    """SolverError if all of them are failures: a figure of bare shapes helps nobody."""
+    """Raise SolverError if all of them are failures: a figure of bare shapes helps nobody."""
     if answers and all(answer.failure for answer in answers):
         raise SolverError(" ".join(dict.fromkeys(answer.failure for answer in answers)))
 
 
 def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> Figure:
-    """The figure a recipe describes, from its panels' answers."""
+    """Return the figure a recipe describes, from its panels' answers."""
     document, page = recipe.document, recipe.page
     style = style_of(page.style, document.colours)
     if not document.panels:
@@ -120,13 +120,13 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
         transparent=page.transparent,
         crop=page.crop,
         title=page.title,
-        font=page.font,
-        text=page.text,
+        font=page.font_family,
+        text=page.font_size,
     )
 
 
 def check_drawable(recipe: Recipe, surfaces: Surfaces, extension: str = ".png") -> None:
-    """Before long work: that a figure can be drawn into such a file, and has room; BihdistError if not."""
+    """Raise BihdistError before long work if a figure cannot be drawn into such a file, or has no room."""
     check_room(figure_of(recipe, surfaces, [Answer(label="")] * len(recipe.document.panels)), extension)
 
 
@@ -144,9 +144,14 @@ def write_figure(
     say: Callable[[str], None] = _silent,
     tex: Sequence[Answer] | None = None,
 ) -> None:
-    """The figure at `path` and its recipe beside it, all or nothing; `say` gets sentences on what is unusual.
+    """Write the figure at `path` and its recipe beside it, both or neither.
 
-    tex: the panels' answers, if a LaTeX snippet is to be written too.
+    Parameters
+    ----------
+    say
+        Called with a sentence on each thing that is unusual.
+    tex
+        The panels' answers, if a LaTeX snippet is to be written, too.
     """
     check_export(recipe.document, path)
     place, format = place_beside(path, recipe)
@@ -154,13 +159,13 @@ def write_figure(
     with ExitStack() as files:
         files.enter_context(recipe_written(recipe, given, place, version, format=format))
         if tex is not None:
-            snippet = files.enter_context(whole_file(check_tex(path)))
+            snippet = files.enter_context(atomic_write(check_tex(path)))
             snippet.write_text(tex_snippet(figure, recipe, tex, Path(path)), encoding="utf-8")
         remarks = save_figure(figure, path, progress)
     for remark in remarks:
         say(remark)
     if place != usual and is_new:
-        say(f"The recipe is in {place}: {usual.name} is that of something else, and stays.")
+        say(f"The recipe is in {place}, as {usual.name} belongs to another file.")
 
 
 def export(
@@ -171,9 +176,9 @@ def export(
     say: Callable[[str], None] = _silent,
     tex: bool = False,
 ) -> tuple[Figure, Recipe, list[Answer]]:
-    """Everything: read, compute, draw, write.  Returns the figure, the recipe with its sources, and the answers.
+    """Read, compute, draw and write a figure; return it, the recipe with its sources, and the answers.
 
-    say: as in `write_figure`.  tex: with a LaTeX snippet.
+    `say` gets sentences as in `write_figure`; with `tex` a LaTeX snippet is written, too.
     """
     check_export(recipe.document, path)
     check_transparency(recipe.page.transparent, path)
@@ -222,31 +227,31 @@ def _figure_panel(
         marks=tuple(_with_value(mark, recipe) for mark in marks if isinstance(mark, PointMark)),
         lines=tuple(mark for mark in marks if isinstance(mark, LineMark)),
         areas=tuple(mark for mark in marks if isinstance(mark, AreaMark)),
-        zooms=_zooms(document, loaded),
-        height=0.0 if answer.failure else document.height,
+        insets=_insets(document, loaded),
+        warp_factor=0.0 if answer.failure else document.warp_factor,
         signed=answer.is_signed,
         largest=answer.largest_words,
         shading=document.shading,
         up=up,
         source=vertex_at(starts[0], surface) if starts else None,
-        is_parallel=document.projection == "orthographic",
+        is_parallel=document.parallel_projection,
         axes=document.axes,
     )
 
 
 def _with_value(mark: PointMark, recipe: Recipe) -> PointMark:
-    """With its value beside it, where the page has those."""
+    """Return a mark with its value beside it, where the page has values."""
     return replace(mark, text=mark.value) if mark.value and recipe.page.anchor_values else mark
 
 
 def _isolines(document: Document, answer: Answer) -> Isolines:
-    in_shares = document.range == "shares" and answer.signs is None
+    in_shares = document.range == "fraction" and answer.signs is None
     return in_unit(document.isolines, answer.scale, in_shares, answer.is_signed)
 
 
-def _zooms(document: Document, loaded: LoadedMesh) -> tuple[Zoom, ...]:
-    """At the same places of a changed surface."""
+def _insets(document: Document, loaded: LoadedMesh) -> tuple[Inset, ...]:
+    """Return insets at the same places of a changed surface."""
     if loaded.origin is None:
-        return document.zooms
-    places = [vertex_at(carried(zoom.vertex, loaded), loaded.surface) for zoom in document.zooms]
-    return tuple(replace(zoom, vertex=vertex) for zoom, vertex in zip(document.zooms, places, strict=True))
+        return document.insets
+    places = [vertex_at(map_to_derived(zoom.vertex, loaded), loaded.surface) for zoom in document.insets]
+    return tuple(replace(zoom, vertex=vertex) for zoom, vertex in zip(document.insets, places, strict=True))

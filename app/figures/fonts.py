@@ -12,21 +12,21 @@ FONT = "DejaVu Sans"
 """The usual family, which comes with matplotlib; it also stands in for signs that another does not have."""
 
 SLACK = 1.02
-"""By how much a text may be wider than its outlines say: small letters are set on whole pixels."""
+"""Factor by which a text may be wider than its outlines say: small letters are set on whole pixels."""
 
 
 def check_font(family: str) -> None:
-    """ParameterError, with names like it, if no font of this family is installed; "" is the usual one."""
+    """Raise ParameterError, with similar names, if no font of this family is installed; "" is the usual one."""
     if not family or _is_there(family):
         return
     known = _families()
     near = [known[name] for name in get_close_matches(family.lower(), known, 3, 0.5)]
-    there = f"there is {' or '.join(near)}" if near else f"without one it is {FONT}"
+    there = f"there is {' or '.join(near)}" if near else f"the default is {FONT}"
     raise ParameterError(f"No font {family!r} is installed; {there}.")
 
 
 def families(family: str) -> list[str]:
-    """What is looked for, in order."""
+    """Return the families that are looked for, in order."""
     if family:
         _is_there(family)
     return list(dict.fromkeys([family or FONT, FONT]))
@@ -34,7 +34,7 @@ def families(family: str) -> list[str]:
 
 @cache
 def has_cff_outlines(family: str) -> bool:
-    """Whether letters of a family are PostScript outlines (CFF), as those of many .otf files are."""
+    """Return whether letters of a family are PostScript outlines (CFF), as those of many .otf files are."""
     from matplotlib.font_manager import FontProperties, findfont
 
     for weight in ("normal", "bold"):
@@ -45,7 +45,7 @@ def has_cff_outlines(family: str) -> bool:
 
 
 def text_width(text: str, size: float, bold: bool = False, family: str = "") -> float:
-    """Units a line of text takes at a size in units."""
+    """Return the width of a line of text, in the unit of its size."""
     return _width(text, bold, family) * size * SLACK / 100 if text else 0.0
 
 
@@ -55,9 +55,9 @@ def _is_there(family: str) -> bool:
 
 
 def _families(anew: bool = False) -> dict[str, str]:
-    """Names of fonts by their small letters.
+    """Return the names of fonts by their names in lower case.
 
-    anew: matplotlib keeps a list of what was there when it was first used; those installed since are looked for, too.
+    Matplotlib lists the fonts that there were when it was first used; with `anew`, those installed since are added.
     """
     from matplotlib.font_manager import findSystemFonts, fontManager
 

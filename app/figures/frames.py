@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+from collections import deque
 from collections.abc import Generator, Iterator
-from queue import Empty, SimpleQueue
-from threading import Thread
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from itertools import islice
+from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,9 +17,9 @@ from bihdist_core.arrays import ByteArray
 from bihdist_core.progress import Progress
 
 from ..scene.style import Style
-from .composition import KeptWords
 from .description import Figure
 from .draw import draw_figure
+from .page_output import KeptWords
 from .shots import RenderCache
 from .worker import Worker
 
@@ -28,7 +30,7 @@ EACH = 6
 """A process is worth its start for so many frames."""
 
 AHEAD = 2
-"""How many frames for each process may wait to be drawn, or for those before them."""
+"""Most frames for each process that wait to be drawn, or for those before them."""
 
 ALIKE = 4.0
 """Steps of 255 by which a colour differs from another that is taken for it, at most."""
@@ -40,9 +42,14 @@ NOTICED = 0.1
 def drawn_frames(
     figures: Iterator[Figure], count: int, mode: str, workers: int | None, progress: Progress
 ) -> Generator[Any, None, None]:
-    """The pictures of so many figures: arrays (height, width, 3) uint8 for the mode "RGB", images of PIL for "P".
+    """Yield the pictures of a movie's figures.
 
-    workers: how many processes draw, one for each processor if None; few frames are drawn in this one.
+    Parameters
+    ----------
+    mode
+        "RGB" for arrays (height, width, 3) uint8, "P" for images of PIL with a palette.
+    workers
+        Number of processes that draw, one for each processor if None; a few frames are drawn in this process.
     """
     number = min(workers or processors(), count // EACH)
     if number < 2:
@@ -53,12 +60,12 @@ def drawn_frames(
 
 
 def processors() -> int:
-    """How many this process may use."""
+    """Return the number of processors that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 class _Drawing:
-    """What a process keeps from one frame to the next."""
+    """The state that a process keeps from one frame to the next."""
 
     def __init__(self) -> None:
         # Without a graphics card sampling costs three times as much; in what moves nobody sees its absence.
@@ -74,7 +81,7 @@ class _Drawing:
 
 
 def _with_256_colours(picture: ByteArray, style: Style) -> Image:
-    """An image with a palette of what there is most of, and of the ground and the marks, though these be small."""
+    """Return an image with a palette of its most frequent colours, and of its ground and marks, however small."""
     from PIL import Image as images
 
     own = [np.round(255 * np.array(c)) for c in (style.background, style.source, style.largest, style.mark_edge)]
@@ -109,7 +116,7 @@ _OF_THIS_PROCESS: list[_Drawing] = []
 
 
 def _frame(figure: Figure, mode: str) -> Any:
-    """What a worker is asked."""
+    """Draw one frame in a worker."""
     if not _OF_THIS_PROCESS:
         _OF_THIS_PROCESS.append(_Drawing())
     return _OF_THIS_PROCESS[0].frame(figure, mode)
@@ -118,55 +125,32 @@ def _frame(figure: Figure, mode: str) -> Any:
 def _drawn_by_others(
     figures: Iterator[Figure], count: int, mode: str, number: int, progress: Progress
 ) -> Iterator[Any]:
-    asked: SimpleQueue[tuple[int, Figure] | None] = SimpleQueue()
-    answers: SimpleQueue[tuple[int, Any]] = SimpleQueue()
     # With a thread each, software OpenGL and the libraries of several processes do not stand in each other's way.
     workers = [Worker(threads=1) for _ in range(number)]
-
-    def draw(worker: Worker) -> None:
-        while (work := asked.get()) is not None:
-            k, figure = work
-            try:
-                answers.put((k, worker.ask(_frame, figure, mode)))
-            except Exception as error:
-                answers.put((k, error))
-
+    idle: SimpleQueue[Worker] = SimpleQueue()
     for worker in workers:
-        Thread(target=draw, args=(worker,), name="frames", daemon=True).start()
+        idle.put(worker)
+
+    def draw(figure: Figure) -> Any:
+        worker = idle.get()
+        try:
+            return worker.ask(_frame, figure, mode)
+        finally:
+            idle.put(worker)
+
+    pool, frames = ThreadPoolExecutor(number, "frames"), deque[Future[Any]]()
     try:
-        yield from _in_order(figures, count, AHEAD * number, asked, answers, progress)
+        for k in range(count):
+            for figure in islice(figures, AHEAD * number - len(frames)):
+                frames.append(pool.submit(draw, figure))
+            frame = frames.popleft()
+            progress(k / count, f"frame {k + 1} of {count}")
+            while not wait([frame], NOTICED).done:
+                progress(k / count, f"frame {k + 1} of {count}")
+            if isinstance(error := frame.exception(), Exception) and not isinstance(error, BihdistError):
+                raise BihdistError(f"Frame {k + 1} could not be drawn ({type(error).__name__}).") from error
+            yield frame.result()
     finally:
-        for _ in workers:
-            asked.put(None)
         for worker in workers:
             worker.close()
-
-
-def _in_order(
-    figures: Iterator[Figure],
-    count: int,
-    ahead: int,
-    asked: SimpleQueue[tuple[int, Figure] | None],
-    answers: SimpleQueue[tuple[int, Any]],
-    progress: Progress,
-) -> Iterator[Any]:
-    drawn: dict[int, Any] = {}
-    waiting = enumerate(figures)
-    for work in (next(waiting) for _ in range(min(ahead, count))):
-        asked.put(work)
-    for k in range(count):
-        while k not in drawn:
-            progress(k / count, f"frame {k + 1} of {count}")
-            try:
-                number, picture = answers.get(timeout=NOTICED)
-            except Empty:
-                continue
-            if isinstance(picture, BihdistError):
-                raise picture
-            if isinstance(picture, Exception):
-                raise BihdistError(f"Frame {number + 1} could not be drawn ({type(picture).__name__}).") from picture
-            drawn[number] = picture
-        yield drawn.pop(k)
-        for work in waiting:
-            asked.put(work)
-            break
+        pool.shutdown(wait=False, cancel_futures=True)

@@ -1,4 +1,4 @@
-"""What the views of a figure's panels see: their surfaces, cameras, and how much of a picture the shape takes."""
+"""The framing of a figure's views: their surfaces, cameras, and how much of a picture the shape takes."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from bihdist_core import Surface
 from bihdist_core.arrays import FloatArray
 
 from ..document.camera import Camera, View
-from ..scene.camera import Margins, Projection, outwards_at, standard_camera
-from ..scene.height_field import rise, warp_by_scalar
-from .boxes import Box
+from ..drawing.shapes import Box
+from ..scene.camera import Projection, outwards_at, standard_camera
+from ..scene.drawable import bounds_of, rise, warp_by_scalar
 from .description import FigurePanel
 
 FREE = 0.03
@@ -21,10 +21,8 @@ FREE = 0.03
 EDGE = 3.0
 """Units left around a shape that is cropped, for marks and lines at its edge."""
 
-NO_MARGINS = Margins(side=0.0, top=0.0, bottom=0.0)
-
 MOST_PLACES = 4000
-"""By which it is found out what an inset would hide."""
+"""Most places of a surface that are tried to find what an inset would hide."""
 
 
 @dataclass(frozen=True)
@@ -43,28 +41,25 @@ class Seen:
 
 
 def shown_surface(panel: FigurePanel, top: float) -> Surface:
-    """The surface, or the height field of its field."""
-    if not panel.height or panel.field is None:
+    """Return the surface, or the height field of its field."""
+    if not panel.warp_factor or panel.field is None:
         return panel.surface
-    used = _used(panel.surface)
-    bounds = np.stack([used.min(axis=0), used.max(axis=0)], axis=1).ravel().tolist()
-    return warp_by_scalar(panel.surface, panel.field, top, rise(bounds, panel.height))
+    up = rise(bounds_of(_used(panel.surface)), panel.warp_factor)
+    return warp_by_scalar(panel.surface, panel.field, top, up)
 
 
 def camera_of(view: View, panel: FigurePanel, surface: Surface, aspect: float) -> Camera:
-    """The camera of a view of a panel in a picture of width / height `aspect`."""
+    """Return the camera of a view of a panel in a picture of width / height `aspect`."""
     if isinstance(view, Camera):
         return view
-    name = "relief" if panel.height and view == "home" else view
+    name = "relief" if panel.warp_factor and view == "home" else view
     outwards = outwards_at(surface, panel.source) if name == "source" and panel.source is not None else None
-    return standard_camera(_used(surface), aspect, name, NO_MARGINS, panel.up, outwards, panel.is_parallel)
+    return standard_camera(_used(surface), aspect, name, panel.up, outwards, panel.is_parallel, margin=0.0)
 
 
 def seen(view: View, panel: FigurePanel, surface: Surface) -> Seen:
-    """How much of a square picture the shape takes, as far as the camera is sure to see it."""
-    camera = camera_of(view, panel, surface, 1.0)
-    flat = Projection(camera, 1.0, surface.vertices, 0.0, panel.is_parallel)(_used(surface))[:, :2]
-    across, up = (side / max(camera.extent) for side in camera.extent)
+    """Return the part of a square picture that the shape takes, as far as the camera is sure to see it."""
+    flat, (across, up) = _flat(view, panel, surface)
     if not np.isfinite(flat).all():
         return Seen(-across, across, -up, up)
     (x, y), (x_end, y_end) = flat.min(axis=0), flat.max(axis=0)
@@ -75,21 +70,26 @@ def seen(view: View, panel: FigurePanel, surface: Surface) -> Seen:
 
 
 def height_for(width: float, view: View, panel: FigurePanel, surface: Surface) -> float:
-    """How high a box of this width is that shows all of the shape that higher ones would."""
-    camera = camera_of(view, panel, surface, 1.0)
-    flat = Projection(camera, 1.0, surface.vertices, 0.0, panel.is_parallel)(_used(surface))[:, :2]
+    """Return the height from which on a box of this width shows all of the shape that higher ones would."""
+    flat, (across, up) = _flat(view, panel, surface)
     if not np.isfinite(flat).all():
         return np.inf
     if not isinstance(view, Camera):
         wide, high = np.ptp(flat, axis=0)
         # The space that is left free beside a flat shape is too little above it.
         return float(width * high / wide) + 4 * FREE * width if wide > 1e-3 else np.inf
-    across, up = (side / max(camera.extent) for side in camera.extent)
     return float(width * max(np.abs(flat[:, 1]).max(), up) / across) + 2 * FREE * width
 
 
+def _flat(view: View, panel: FigurePanel, surface: Surface) -> tuple[FloatArray, tuple[float, float]]:
+    """Return the vertices of faces (k, 2) in a square picture, and how much of it across and up is sure to be seen."""
+    camera = camera_of(view, panel, surface, 1.0)
+    projection, longest = Projection(camera, 1.0, surface.vertices, 0.0, panel.is_parallel), max(camera.extent)
+    return projection(_used(surface))[:, :2], (camera.extent[0] / longest, camera.extent[1] / longest)
+
+
 def places(surface: Surface) -> FloatArray:
-    """(k, 3) places all over a surface: middles of faces, or of every so many."""
+    """Return places (k, 3) all over a surface: the middles of faces, or of every so many."""
     faces = surface.faces[:: max(len(surface.faces) // MOST_PLACES, 1)]
     middles: FloatArray = surface.vertices[faces].mean(axis=1)
     return middles
@@ -100,10 +100,17 @@ def _used(surface: Surface) -> FloatArray:
 
 
 class Framed:
-    """A view in a box of the page: what its camera makes of points there.
+    """A view in a box of the page, which maps points of the surface to the page.
 
-    part: what of a square picture the box shows, with a little space around it; None to fit the camera to the box.
-    whole: the box of the page that the whole of the camera's picture takes, which may be larger.
+    Parameters
+    ----------
+    part
+        What of a square picture the box shows, with a little space around it; None to fit the camera to the box.
+
+    Attributes
+    ----------
+    whole
+        The box that the whole of the camera's picture takes, which may be larger.
     """
 
     def __init__(self, view: View, panel: FigurePanel, surface: Surface, box: Box, part: Seen | None) -> None:
@@ -122,7 +129,7 @@ class Framed:
         )
 
     def places(self, points: FloatArray) -> FloatArray:
-        """(k, 2) where points (k, 3) stand on the page; NaN behind the camera."""
+        """Return the positions (k, 2) of points (k, 3) on the page; NaN behind the camera."""
         flat = self.projection(points)
         x = self.whole.x + (flat[:, 0] + 1) / 2 * self.whole.width
         return np.column_stack([x, self.whole.y + (1 - flat[:, 1]) / 2 * self.whole.height])

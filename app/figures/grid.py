@@ -1,4 +1,4 @@
-"""How large a page is, and in how many rows and columns its panels stand."""
+"""The size of a page, and its rows and columns of panels."""
 
 from __future__ import annotations
 
@@ -24,9 +24,18 @@ MOST_IN_A_ROW = 4
 
 @dataclass(frozen=True)
 class Grid:
-    """The page before its panels: units, and None for a height that follows from them.
+    """The page before its panels are laid out, in units.
 
-    scale: pixels per unit; pixels: of the page, None for what follows; is_printed: whether units are those of paper.
+    Attributes
+    ----------
+    height
+        None if it follows from the panels.
+    scale
+        Pixels per unit.
+    pixels
+        Size of the page in pixels, None for a height that follows.
+    is_printed
+        Whether units are those of paper.
     """
 
     rows: int
@@ -39,7 +48,7 @@ class Grid:
 
 
 def grid_of(figure: Figure) -> Grid:
-    """The page that a figure's size says."""
+    """Return the page that a figure's size says."""
     size = figure.size
     dpi = size.resolution
     if size.width is not None and size.height is not None:
@@ -64,17 +73,17 @@ def grid_of(figure: Figure) -> Grid:
 
 
 def most_views(figure: Figure) -> int:
-    """The largest number of views that a panel of the figure has."""
+    """Return the largest number of views that a panel of the figure has."""
     return max(len(panel.views) for panel in figure.panels)
 
 
 def view_width(figure: Figure) -> float:
-    """The usual width of a view."""
+    """Return the usual width of a view."""
     return PANEL[0] if most_views(figure) == 1 else VIEW_WIDTH
 
 
 def _columns(figure: Figure, width: float | None) -> int:
-    """As many as are asked for, or as a page of this width has room for."""
+    """Return as many columns as are asked for, or as a page of this width has room for."""
     count = len(figure.panels)
     if figure.columns is not None:
         return min(figure.columns, count)
@@ -86,7 +95,7 @@ def _columns(figure: Figure, width: float | None) -> int:
 
 
 def _fullest(figure: Figure, aspect: float) -> int:
-    """The number of columns with which panels are largest on a page of this width / height."""
+    """Return the number of columns with which panels are largest on a page of this width / height."""
     count = len(figure.panels)
     if figure.columns is not None:
         return min(figure.columns, count)

@@ -9,6 +9,7 @@ from bihdist_core import Surface
 from bihdist_core.analysis.isoline_tracing import isolines
 from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
 
+from ..drawing.shapes import Box
 from ..scene.camera import Projection, SeenNow
 from ..scene.levels import Levels
 from ..scene.line_clipping import Line, clipped
@@ -19,17 +20,22 @@ SHORTEST = 0.25
 """Pixels: shorter pieces are as their neighbours are."""
 
 TOLERANCE = 1e-7
-"""Of the surface's extent: what stands before a point by less does not hide it."""
+"""Fraction of the surface's extent: what stands before a point by less does not hide it."""
 
 NEAREST = 1e-3
-"""Of the largest depth: what is nearer to the eye's plane hides nothing."""
+"""Fraction of the largest depth: what is nearer to the eye's plane hides nothing."""
 
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """A curve on the surface: points (k, 3) whose neighbours share a face, and the mesh edge (k, 2) each lies on.
+    """A curve on the surface.
 
-    edges: also (k, 3), for points in faces.
+    Attributes
+    ----------
+    points
+        (k, 3) points whose neighbours share a face.
+    edges
+        (k, 2) vertices of the mesh edge that each lies on, or (k, 3) of the face.
     """
 
     points: FloatArray
@@ -38,9 +44,14 @@ class Curve:
 
 
 class HiddenLineRemoval:
-    """A surface as a camera sees it in a picture of `size` pixels; pixels are real numbers, y down.
+    """A surface as a camera sees it in a picture; pixels are real numbers, y down.
 
-    outward: (m, 3) the faces, wound as seen from outside: their insides show no curves.
+    Parameters
+    ----------
+    size
+        Width and height of the picture in pixels.
+    outward
+        (m, 3) faces, wound as seen from outside, whose insides show no curves; None to show them on both sides.
     """
 
     def __init__(
@@ -60,22 +71,22 @@ class HiddenLineRemoval:
         self._backs = None if outward is None else self._face_keys(outward[self._from_inside(outward)])
 
     def pixels(self, points: FloatArray) -> FloatArray:
-        """(n, 3): x and y in pixels, and the distance along the line of sight."""
+        """Return x and y in pixels, and the distance along the line of sight, (n, 3)."""
         x, y, depth = self._projection(points).T
         width, height = self._size
         return np.column_stack([(x + 1) / 2 * width, (1 - y) / 2 * height, depth])
 
     def sees(self, point: FloatArray) -> bool:
-        """Whether nothing stands before a point (3,) of the surface."""
+        """Return whether nothing stands before a point (3,) of the surface."""
         at = self.lifted(self.pixels(point[None]))[0]
         return bool(self.occlusion.nearest(at[None, :2])[0] <= at[2])
 
     def covers(self, points: FloatArray) -> BoolArray:
-        """(k,) whether points (k, 2) of the picture are on the shape."""
+        """Return whether points (k, 2) of the picture are on the shape, (k,)."""
         return np.isfinite(self.occlusion.nearest(points))
 
     def visible(self, curves: Iterable[Curve]) -> list[list[Line]]:
-        """For each curve its visible parts, in the picture and about it."""
+        """Return the visible parts of each curve, in the picture and about it."""
         whole = list(curves)
         kept = [(k, part) for k, curve in enumerate(whole) for part in self._before_the_camera(curve)]
         result: list[list[Line]] = [[] for _ in whole]
@@ -98,22 +109,23 @@ class HiddenLineRemoval:
         return result
 
     def outlined(self, curves: Iterable[Curve]) -> list[Line]:
-        """Curves in the picture, seen or not."""
+        """Return curves in the picture, seen or not."""
         parts = [part for curve in curves for part in self._before_the_camera(curve)]
         return self._about((self.pixels(part.points)[:, :2], part.closed) for part in parts)
 
     def _about(self, lines: Iterable[Line]) -> list[Line]:
-        """Lines as far as they are in the picture or no farther from it than it is wide and high.
+        """Cut lines to the picture and as much around it as it is wide and high.
 
         Where a surface passes beside the eye they go on for millions of pixels.
         """
         width, height = self._size
-        return [part for line in lines for part in clipped(line, (-width, 2 * width, -height, 2 * height))]
+        return [part for line in lines for part in clipped(line, Box(-width, -height, 3 * width, 3 * height))]
 
     def _hidden(self, at: FloatArray, segments: IntArray, on: IntArray) -> tuple[AnyArray, ...]:
-        """(k,) segments, in order, and from where to where (k,) in the picture, 0 to 1, each is hidden.
+        """Return segments (k,), in order, and from where to where (k,) in the picture, 0 to 1, each is hidden.
 
-        Segment s goes from place s to place s + 1 of places (n, 3) in pixels; on: as `Occlusion.intervals` has it.
+        Segment s goes from place s to place s + 1 of places (n, 3) in pixels; `on` is as `Occlusion.intervals` takes
+        it.
         """
         lifted = self.lifted(at)
         hidden, start, stop = self.occlusion.intervals(np.stack([lifted[segments], lifted[segments + 1]], 1), on)
@@ -132,36 +144,39 @@ class HiddenLineRemoval:
         return segments[hidden], start, stop
 
     def _from_inside(self, outward: IntArray) -> BoolArray:
-        """(m,) whether faces show their inside; pixels have y down, which turns them round."""
+        """Return whether faces show their inside, (m,); pixels have y down, which turns them round."""
         a, b, c = (self.at[outward[:, k], :2] for k in range(3))
         u, v = b - a, c - a
         return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] > 0
 
     def _face_keys(self, faces: IntArray) -> AnyArray:
-        """(m,) a number for each face, whatever the order of its vertices."""
+        """Return a number for each face (m,), whatever the order of its vertices."""
         low, middle, high = np.sort(faces, axis=1).astype(np.uint64).T
         count = np.uint64(len(self.surface.vertices))
         keys: AnyArray = (low * count + middle) * count + high  # of more than 2.6 million vertices some might share one
         return keys
 
     def lifted(self, at: FloatArray) -> FloatArray:
-        """(k, 3) x, y and nearness of places (k, 3) in pixels, which come towards the eye by the tolerance."""
+        """Return x, y and nearness (k, 3) of places (k, 3) in pixels, moved towards the eye by the tolerance."""
         return self._near(at - [0, 0, TOLERANCE * self.extent])
 
     def depth(self, near: FloatArray) -> FloatArray:
-        """(k,) the distance along the line of sight from nearness (k,); inf where nothing is seen."""
+        """Return the distance along the line of sight (k,) from nearness (k,); inf where nothing is seen."""
         with np.errstate(divide="ignore"):
             return np.where(np.isneginf(near), np.inf, 1 / near if self._projection.matrix[3, 2] else -near)
 
     def _near(self, at: FloatArray) -> FloatArray:
-        """(k, 3) x, y and nearness, of places with x, y and depth; NaN behind the camera."""
+        """Return x, y and nearness (k, 3) of places with x, y and depth; NaN behind the camera."""
         depth = at[:, 2]
         # Seen in perspective, it is 1 / depth that is linear in the picture.
         near = 1 / np.where(depth > 0, depth, np.nan) if self._projection.matrix[3, 2] else -depth
         return np.column_stack([at[:, :2], near])
 
     def _before_the_eye(self) -> tuple[FloatArray, IntArray]:
-        """(t, 3, 3) x, y and nearness of the faces' corners and (t, 3) their ids; faces that pass the eye are cut."""
+        """Return x, y and nearness of the faces' corners (t, 3, 3), and their ids (t, 3).
+
+        Faces that pass the eye are cut.
+        """
         faces, depth = self.surface.faces, self.at[:, 2]
         least = NEAREST * max(float(depth.max(initial=0.0)), 1e-300)
         ahead = depth[faces] > least
@@ -186,7 +201,7 @@ class HiddenLineRemoval:
         return np.concatenate(found), np.concatenate(ids)
 
     def _before_the_camera(self, curve: Curve) -> list[Curve]:
-        """The curve, or what is left of it without the points behind the camera."""
+        """Return the curve, or what is left of it without the points behind the camera."""
         before = self.pixels(curve.points)[:, 2] > 0
         if before.all():
             return [curve]
@@ -195,7 +210,7 @@ class HiddenLineRemoval:
 
 
 def contours_seen(sight: HiddenLineRemoval, field: FloatArray, levels: Levels) -> list[Contour]:
-    """The visible parts of a field's isolines, in the order of their values; field: (n,) on the surface in sight."""
+    """Return the visible parts of the isolines of a field (n,), in the order of their values."""
     lines = isolines(sight.surface, field, levels.values)
     parts = sight.visible(Curve(line.points, line.edges, line.closed) for line in lines)
     of = np.searchsorted(levels.values, [line.value for line in lines])
@@ -207,7 +222,7 @@ def contours_seen(sight: HiddenLineRemoval, field: FloatArray, levels: Levels) -
 
 
 def _parts(at: FloatArray, length: FloatArray, hidden: FloatArray, closed: bool) -> list[Line]:
-    """The parts of one curve, points (k, 2) at lengths (k,), outside of hidden intervals (m, 2), in order."""
+    """Return the parts of one curve, points (k, 2) at lengths (k,), outside of hidden intervals (m, 2), in order."""
     seen = _outside(hidden, length[0], length[-1])
     if not len(seen):
         return []
@@ -220,7 +235,7 @@ def _parts(at: FloatArray, length: FloatArray, hidden: FloatArray, closed: bool)
 
 
 def _outside(hidden: FloatArray, low: float, high: float) -> FloatArray:
-    """(k, 2) what is left between low and high without intervals (m, 2), in order; specks join their neighbours."""
+    """Return the gaps that intervals (m, 2) leave between low and high (k, 2); specks join their neighbours."""
     if len(hidden):
         apart = hidden[1:, 0] - hidden[:-1, 1] >= SHORTEST
         hidden = np.stack([hidden[np.append(True, apart), 0], hidden[np.append(apart, True), 1]], 1)
@@ -230,7 +245,7 @@ def _outside(hidden: FloatArray, low: float, high: float) -> FloatArray:
 
 
 def _cut(at: FloatArray, length: FloatArray, start: float, stop: float) -> FloatArray:
-    """(k, 2) the part of a line from one length to another."""
+    """Return the part (k, 2) of a line from one length to another."""
     inner = length[(length > start) & (length < stop)]
     lengths = np.concatenate([[start], inner, [stop]])
     return np.stack([np.interp(lengths, length, at[:, k]) for k in (0, 1)], 1)

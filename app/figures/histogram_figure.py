@@ -1,30 +1,41 @@
 """The figure of a histogram: how much of a surface's area has which values of a field, in the colours of its bar."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bihdist_core.arrays import FloatArray
-from bihdist_core.progress import Progress
 
-from .chart_page import USUAL_LOOK, ChartLook, save_chart, style_axes
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from ..drawing.chart import Axis
+from ..drawing.numbers import MINUS
+from ..drawing.shapes import Box, Path, Pen, Shape, Text, opaque, rectangle
+from .chart_page import RIM, USUAL_LOOK, ChartLook, save_chart
+from .size import UNITS_PER_INCH
 
 HIGH, SLANT = 2.0, 0.62
 """Inches that it is high at most, and by its width."""
 
+HEAD = 0.05
+"""Room above the highest bar, as a fraction of it."""
+
 
 @dataclass(frozen=True, eq=False)
 class HistogramFigure:
-    """ends: (b + 1,) of the bins; shares: (b,) of the area, together 1; colours: (b, 3), from 0 to 1.
+    """A histogram by area.
 
-    name: of the field; unit: of its values.  mean: by area.
+    Attributes
+    ----------
+    ends
+        (b + 1,) ends of the bins.
+    shares
+        (b,) fractions of the area, together 1.
+    colours
+        (b, 3) colours of the bins, 0 to 1.
+    name, unit
+        The field's name and unit.
+    mean
+        The field's mean by area.
     """
 
     ends: FloatArray
@@ -36,39 +47,30 @@ class HistogramFigure:
     look: ChartLook = USUAL_LOOK
 
 
-def save_histogram_figure(
-    figure: HistogramFigure, path: str | os.PathLike[str], progress: Progress | None = None
-) -> None:
-    """See `save_chart`."""
-    high = min(SLANT * figure.look.inches, HIGH)
-    save_chart(path, figure.look, high, lambda page: _draw(page, figure), progress)
+def save_histogram_figure(figure: HistogramFigure, path: str | os.PathLike[str]) -> None:
+    """Write the figure of a histogram, see `save_chart`."""
+    height = min(SLANT * figure.look.inches, HIGH) * UNITS_PER_INCH
+    save_chart(path, figure.look, height, _shapes(figure, height))
 
 
-def _draw(page: Figure, figure: HistogramFigure) -> None:
-    look, axes = figure.look, page.add_subplot()
-    style_axes(axes, look, f"{figure.name} ({figure.unit})" if figure.unit else figure.name, "% of the area")
-    ends = figure.ends
-    axes.bar(
-        ends[:-1],
-        100 * figure.shares,
-        np.diff(ends),
-        align="edge",
-        color=figure.colours,
-        edgecolor=look.style.quiet_text,
-        linewidth=0.4,
-    )
-    axes.set_xlim(float(ends[0]), float(ends[-1]))
+def _shapes(figure: HistogramFigure, height: float) -> list[Shape]:
+    look, ends = figure.look, figure.ends
+    top = RIM + (1.4 * look.size if figure.mean is not None else 0.5 * look.size)
+    across = Axis(float(ends[0]), float(ends[-1]))
+    up = Axis(0.0, 100 * (1 + HEAD) * float(figure.shares.max(initial=0.0)) or 1.0)
+    name = f"{figure.name} ({figure.unit})" if figure.unit else figure.name
+    room = Box(0, top, look.width - look.right(across), height - top)
+    plot, shapes = look.plot(room, across, up, (name, "% of the area"))
+    pen = Pen(opaque(look.style.quiet_text), 0.53)
+    bottom = plot.box.bottom
+    for left, right, share, colour in zip(ends[:-1], ends[1:], figure.shares, figure.colours, strict=True):
+        x, high = float(plot.x(left)), bottom - float(plot.y(100 * share))
+        bar = Box(x, bottom - high, float(plot.x(right)) - x, high)
+        shapes.append(Path(rectangle(bar), opaque(colour), pen))
     if figure.mean is not None:
-        mean = figure.mean
-        axes.axvline(mean, color=look.style.text, linewidth=0.9, linestyle="--", gid="mean")
-        words = f"mean {mean:.4g}".replace("-", "−")
-        axes.annotate(
-            words,
-            (mean, 1.0),
-            xycoords=("data", "axes fraction"),
-            xytext=(0, 3),
-            textcoords="offset points",
-            ha="center",
-            fontsize=look.points,
-            color=look.style.text,
-        )
+        shapes.append(plot.upright(figure.mean, Pen(look.ink.text, 1.2, (3.7, 1.6)), "mean"))
+        words = f"mean {figure.mean:.4g}".replace("-", MINUS)
+        half = look.text_width(words, look.size) / 2
+        x = float(np.clip(plot.x(figure.mean), RIM + half, look.width - RIM - half))
+        shapes.append(Text(words, x, plot.box.y - 0.35 * look.size, look.size, look.ink.text, align="centre"))
+    return shapes

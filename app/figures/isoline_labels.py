@@ -4,79 +4,106 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bihdist_core.arrays import BoolArray, FloatArray
+from bihdist_core.sentences import with_and
 
-from ..scene.field_actor import CASING
-from ..scene.line_labels import Contour, Label, labelled as labelled_lines
-from ..scene.style import RIM
+from ..drawing.shapes import Pen, Shape, Text
+from ..scene.line_labels import CLEAR, Contour, Label, labelled as labelled_lines
 from .description import Figure
-from .glyphs import POINT
-from .layout import Layout
+from .page_layout import PageLayout
 from .shots import Shot
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+TIGHT = 0.5
+"""Least distance of other lines from the words' middle line, in letter sizes; letters reach up to 0.37."""
 
 LABEL_SIZE = 0.85
-"""Of the letters of colour bars."""
+"""Font size of labels, as a fraction of that of colour bars."""
+
+SMALLER = ((1.0, CLEAR), (0.87, CLEAR), (0.75, CLEAR), (0.75, TIGHT))
+"""Fractions of the usual size, and distances kept from other lines, that are tried until ENOUGH values have room."""
+ENOUGH = 3
 
 
 def labelled(
-    shot: Shot, size: float, width: Callable[[str], float], marks: float, written: Sequence[tuple[float, float]] = ()
+    shot: Shot,
+    size: float,
+    width: Callable[[str], float],
+    marks: float,
+    written: Sequence[tuple[float, float]] = (),
+    clear: float = CLEAR,
 ) -> tuple[list[Contour], list[Label]]:
-    """The shot's isolines with gaps, and what stands in them, see `scene.line_labels`.
+    """Return the shot's isolines with gaps, and the labels in them.
 
-    size: of the letters; width: of a text in them; marks: how far words keep from the middle of a mark; written:
-    middles of single signs that stand in the picture.
+    Parameters
+    ----------
+    size
+        Size of the letters.
+    width
+        Returns the width of a text.
+    marks
+        Distance that labels keep from the middle of a mark.
+    written, clear
+        See `scene.line_labels.labelled`.
     """
     marked = np.array([[x, y] for _, x, y in shot.marks]).reshape(-1, 2)
-    box = (shot.box.x, shot.box.y, shot.box.width, shot.box.height)
-    return labelled_lines(shot.isolines, box, size, width, partial(_is_covered, shot), marked, marks, written)
+
+    def is_covered(places: FloatArray) -> BoolArray:
+        return shot.alpha_at(places) > 250
+
+    return labelled_lines(shot.isolines, shot.box, size, width, is_covered, marked, marks, written, clear)
 
 
-def _is_covered(shot: Shot, places: FloatArray) -> BoolArray:
-    """Which of places (k, 2) are wholly on the shape."""
-    height, width = shot.image.shape[:2]
-    x = ((places[:, 0] - shot.box.x) / shot.box.width * width).astype(int)
-    y = ((places[:, 1] - shot.box.y) / shot.box.height * height).astype(int)
-    is_inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
-    is_covered: BoolArray = is_inside & (shot.image[np.clip(y, 0, height - 1), np.clip(x, 0, width - 1), 3] > 250)
-    return is_covered
+def placed_labels(figure: Figure, layout: PageLayout, shot: Shot) -> tuple[float, list[Contour], list[Label]]:
+    """Return the size of a shot's labels, the isolines with gaps for them, and the labels, smaller if few have room."""
+    best = LABEL_SIZE * layout.label, shot.isolines, list[Label]()
+    for share, clear in SMALLER:
+        size = share * LABEL_SIZE * layout.label
+        # The number of an inset.
+        insets = figure.panels[shot.panel].insets
+        corner = [(shot.box.x + 0.6 * size, shot.box.y + 0.8 * size)] if shot.source and len(insets) > 1 else []
+        width = partial(layout.lettering.width, size=size)
+        contours, labels = labelled(shot, size, width, layout.mark / 2 + 3, corner, clear)
+        if len(labels) > len(best[2]):
+            best = size, contours, labels
+        if len(labels) >= min(ENOUGH, len({line.value for line in shot.isolines})):
+            break
+    return best
 
 
-def draw_labels(axes: Axes, figure: Figure, layout: Layout, shot: Shot, order: int) -> list[Contour]:
-    """Values on a shot's isolines, in the lines' own colours; the isolines with gaps for them."""
-    from matplotlib.patheffects import withStroke
+def unlabelled_words(figure: Figure, layout: PageLayout, shots: Sequence[Shot]) -> list[str]:
+    """Return a sentence if the values of isolines are wanted in panels where they have no room."""
+    wanted = {shot.panel for shot in shots if figure.panels[shot.panel].isolines.labels and shot.isolines}
+    there = {shot.panel for shot in shots if shot.panel in wanted and placed_labels(figure, layout, shot)[2]}
+    missing = [f"{panel + 1}" for panel in sorted(wanted - there)]
+    if not missing:
+        return []
+    where = f"{'panel' if len(missing) == 1 else 'panels'} {with_and(missing)}"
+    return [f"The isolines of {where} are too close for their values; choose fewer isolines or a larger size."]
 
-    style, panel, top = figure.style, figure.panels[shot.panel], figure.tops()[shot.panel]
-    size = LABEL_SIZE * layout.label
-    # The number of an inset.
-    corner = [(shot.box.x + 0.6 * size, shot.box.y + 0.8 * size)] if shot.source and len(panel.zooms) > 1 else []
-    width = partial(layout.lettering.width, size=size)
-    contours, labels = labelled(shot, size, width, layout.mark / 2 + 3, corner)
+
+def label_shapes(figure: Figure, layout: PageLayout, shot: Shot) -> tuple[list[Contour], list[Shape]]:
+    """Return a shot's isolines with gaps, and the values that stand in these in the lines' own colours."""
+    size, contours, labels = placed_labels(figure, layout, shot)
+    shapes: list[Shape] = []
     for label in labels:
         line = contours[label.contour]
-        text = axes.text(
-            label.x,
-            label.y,
-            label.text,
-            ha="center",
-            va="center_baseline",
-            rotation=label.angle,
-            rotation_mode="anchor",
-            size=size * POINT,
-            color=style.source if line.is_through else style.line(panel.signed, line.value / top if top > 0 else 0.0),
-            weight="bold",
-            zorder=order,
-            gid="isoline-label",
+        ink = figure.style.isoline_ink(figure.panels[shot.panel].signed, line.value, line.is_through)
+        shapes.append(
+            Text(
+                label.text,
+                label.x,
+                label.y,
+                size,
+                ink.colour,
+                is_bold=True,
+                align="centre",
+                level="capitals",
+                angle=label.angle,
+                halo=ink.rim and Pen(ink.rim, 2 * ink.rim_width * layout.stroke),
+                name="isoline-label",
+            )
         )
-        if line.is_through:
-            rim = 2 * CASING * layout.stroke * POINT
-            text.set_path_effects([withStroke(linewidth=rim, foreground=style.mark_edge)])
-        elif (faint := style.rim(panel.signed, line.value)) is not None:
-            text.set_path_effects([withStroke(linewidth=2 * RIM * layout.stroke * POINT, foreground=faint)])
-    return contours
+    return contours, shapes

@@ -1,21 +1,20 @@
-"""Where everything stands in a figure.  Lengths are in units of 1/96 inch, from the top left corner, y down."""
+"""The layout of a figure's page, in units of 1/96 inch from its top left corner, y down."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from ..marks.primitives import PointMark
+from ..drawing.shapes import Box
 from ..scene.corners import SIDE
 from ..scene.style import PAPER
 from . import bars
-from .bars import Bar
-from .boxes import Box, Words
 from .description import Figure
 from .framing import Seen, height_for, seen, shown_surface
 from .grid import VIEW_HEIGHT, Grid, grid_of, most_views, view_width
 from .inset_places import insets_of
+from .legend import with_legend
+from .overhang import overhang
+from .page_layout import PageLayout, PanelLayout
 from .size import check_pixels
-from .words import LINE, Lettering
+from .words import LINE, Lettering, TextLines
 
 HEADING, HINT, LABEL = 17.0, 13.0, 12.0
 """The usual sizes of words, in units."""
@@ -24,7 +23,7 @@ NARROW, WIDE = 420.0, 600.0
 """Panels narrower than the one have smaller words; on paper those wider than the other have larger ones."""
 
 SMALLEST_WORDS = 0.67
-"""How much smaller at most, before they have to fit."""
+"""Smallest factor of words in narrow panels, before they have to fit."""
 
 CLOSE, APART = 100.0, 200.0
 """In panels as narrow as the one headings are no larger than labels, lest they be larger than the shapes; from the
@@ -34,10 +33,10 @@ STROKE = 400.0
 """Views narrower than this many units have thinner lines."""
 
 THINNEST = 0.35
-"""How much thinner at most: what is white must still be seen in print."""
+"""Smallest factor of lines in narrow views: what is white must still be seen in print."""
 
 MARK, LEAST_MARK = 0.026, 4.0
-"""How far a mark is across: a share of the shorter side of a view, and units."""
+"""Width of a mark as a fraction of the shorter side of a view, and in units at least."""
 
 LEAST_VIEWS = 0.45
 """The share of a panel's height that its views have, if need be at the words' cost."""
@@ -55,72 +54,24 @@ WIDEST = 1.6
 """Heights of a view that a cropped one is wide at most; flatter shapes have lower ones."""
 
 
-@dataclass(frozen=True)
-class Cell:
-    """One panel: its words, its views, what part of a square picture each shows, its insets, and its colour bar.
-
-    parts: None for a view whose camera is to fit its box.
-    """
-
-    box: Box
-    words: tuple[Words, ...]
-    views: tuple[Box, ...]
-    parts: tuple[Seen | None, ...]
-    insets: tuple[Box, ...]
-    bar: Bar | None
-
-
-@dataclass(frozen=True)
-class Layout:
-    """The page.
-
-    scale: pixels per unit; page: the size the page has in pixels at that scale; stroke: by how much lines are thinner
-    than the style says; mark: how far marks are across; label: the size of labels; shared_bar: that of all panels.
-    legend: of each entry the mark, where (x, y) it is, and its words.
-    """
-
-    width: float
-    height: float
-    scale: float
-    page: tuple[int, int]
-    cells: tuple[Cell, ...]
-    label: float
-    lettering: Lettering
-    shared_bar: Bar | None
-    stroke: float
-    mark: float
-    legend: tuple[tuple[PointMark, float, float, Words], ...] = ()
-
-    @property
-    def smallest(self) -> float:
-        """The size of the smallest words, in points."""
-        texts = [words for cell in self.cells for words in cell.words]
-        texts += [words for bar in (*(c.bar for c in self.cells), self.shared_bar) if bar for words in bar.texts]
-        return 0.75 * min((each.size for each in texts if each.lines), default=self.label)
-
-
-def lay_out(figure: Figure, least_scale: float = 0.0, share: float = 1.0) -> Layout:
-    """The figure's layout, at its own resolution or at least at `least_scale`; or the same at a share of it."""
+def lay_out(figure: Figure, least_scale: float = 0.0, share: float = 1.0) -> PageLayout:
+    """Lay out a figure, at its own resolution or at least at `least_scale`, times `share`."""
     layout = _laid_out(figure, least_scale, share)
-    from .overhang import overhang  # which measures in a layout
-
     above, beside = overhang(figure, layout)
     if above or (beside > MARGIN and figure.crop):
         # Markers of pins have room at the edges, too.
         layout = _laid_out(figure, least_scale, share, above, beside)
     if figure.legend:
-        from .legend import with_legend  # which draws, with what needs a layout
-
         layout = with_legend(figure, layout)
     return layout
 
 
-def _laid_out(figure: Figure, least_scale: float, share: float, above: float = 0.0, beside: float = 0.0) -> Layout:
-    """With so much free above views, and at the edges of a cropped page."""
+def _laid_out(figure: Figure, least_scale: float, share: float, above: float = 0.0, beside: float = 0.0) -> PageLayout:
+    """Lay out a figure with so much free above views, and at the edges of a cropped page."""
     grid = grid_of(figure)
     room = grid.width / grid.columns
     factor = _factor(figure, grid, room)
-    lettering = Lettering(figure.font, figure.text is not None)
+    lettering = Lettering(figure.font, figure.text is not None, grid.is_printed)
     views = [_shapes(figure, k) for k in range(len(figure.panels))]
     rooms = [room] * grid.columns
     for _ in range(3 if figure.crop else 2 if figure.has_one_bar else 1):
@@ -135,7 +86,7 @@ def _laid_out(figure: Figure, least_scale: float, share: float, above: float = 0
 
 
 def _factor(figure: Figure, grid: Grid, room: float) -> float:
-    """How large words are beside the usual: in panels of this width, the same in all."""
+    """Return the factor of words' sizes in panels of this width, the same in all."""
     if figure.text is not None:
         return figure.text / 0.75 / LABEL
     if grid.height is not None:
@@ -146,38 +97,38 @@ def _factor(figure: Figure, grid: Grid, room: float) -> float:
 
 
 def _heading_size(figure: Figure, factor: float, room: float) -> float:
-    """How large headings are in panels of this width."""
+    """Return the size of headings in panels of this width."""
     share = 1.0 if figure.text is not None else min(max((room - CLOSE) / (APART - CLOSE), 0.0), 1.0)
     return (LABEL + share * (HEADING - LABEL)) * factor
 
 
 # ---------------------------------------------------------------------- what has to find room
 def _shapes(figure: Figure, panel: int) -> list[tuple[float, float, Seen | None]]:
-    """Of each view of a panel its width and height, 1 for the usual height, and what it shows if that is cropped."""
+    """Return each view's width and height, 1 for the usual height, and what it shows if that is cropped."""
     each = figure.panels[panel]
     if not figure.crop:
         return [(view_width(figure) / VIEW_HEIGHT, 1.0, None)] * len(each.views)
-    surface = shown_surface(each, figure.tops()[panel])
+    surface = shown_surface(each, figure.upper_limits()[panel])
     parts = [seen(view, each, surface) for view in each.views]
     # Marks at the edges of two views meet between them; pages without a legend stay as they were.
     more = BETWEEN_VIEWS if figure.legend and len(parts) > 1 else 0.0
     found: list[tuple[float, float, Seen | None]] = [
         (min(p.aspect, WIDEST) + more, min(WIDEST / p.aspect, 1.0), p) for p in parts
     ]
-    if any(zoom.corner == "auto" for zoom in each.zooms):
+    if any(zoom.corner == "auto" for zoom in each.insets):
         wide, high, part = found[0]
         found[0] = (wide + SIDE * min(wide, high), high, part)  # an inset may need room beside the shape
     return found
 
 
 def _tallest(figure: Figure, room: float) -> float:
-    """How high views in panels of this width have use for; the rest would be empty.
+    """Return the height beyond which views in panels of this width would be empty.
 
     Insets may need that, and what moves is to stay where it is.
     """
-    if figure.is_moving or any(panel.zooms for panel in figure.panels):
+    if figure.is_moving or any(panel.insets for panel in figure.panels):
         return float("inf")
-    tops = figure.tops()
+    tops = figure.upper_limits()
     return max(
         height_for(room / len(panel.views), view, panel, shown_surface(panel, top))
         for panel, top in zip(figure.panels, tops, strict=True)
@@ -186,9 +137,16 @@ def _tallest(figure: Figure, room: float) -> float:
 
 
 class _Texts:
-    """The words of all panels, in columns of these widths, and what they take at the top and bottom of each.
+    """The words of all panels, and the room that they take at the top and bottom of each.
 
-    level: the higher, the less there is of them; above: what is left free under them for what stands over views.
+    Parameters
+    ----------
+    rooms
+        Widths of the columns.
+    level
+        The higher, the fewer words there are.
+    above
+        Room that is left free under the headings for marks that stand above views.
     """
 
     def __init__(
@@ -207,20 +165,21 @@ class _Texts:
         if level < 1:
             self.hint, self.hints = self._hints([p.hint for p in figure.panels], room)
         feet = [bars.bar_words(figure, k) if level < 3 else "" for k in range(count)]
-        self.label, self.feet = lettering.fitted(feet, LABEL * factor, room, most + (figure.title == "caption"))
+        more = figure.title == "caption" or lettering.is_printed
+        self.label, self.feet = lettering.fitted(feet, LABEL * factor, room, most + more)
         lines = max(map(len, self.headings))
         self.head_lines = lines
         gap = 7 * factor if level < 2 else 2.0
         self.head = gap + lines * LINE * self.heading + max(map(len, self.hints)) * LINE * self.hint
         self.head += max(5 * factor if self.head > gap else 0.0, above)
         has_bars = not figure.has_one_bar and level < 4
-        self.bars = [has_bars and p.field is not None and p.top > 0 for p in figure.panels]
+        self.bars = [has_bars and p.field is not None and p.upper_limit > 0 for p in figure.panels]
         lines = max(map(len, self.feet))
         is_needed = any(self.bars) or lines
         self.foot = bars.flat_foot(factor, self.label, lines, any(self.bars)) if is_needed else 6 * factor
 
     def _hints(self, texts: list[str], room: float) -> tuple[float, list[tuple[str, ...]]]:
-        """In one line or two; none at all if they do not fit."""
+        """Return hints in one line or two; none at all if they do not fit."""
         size, found = self.lettering.fitted(texts, HINT * self.factor, room, 2)
         is_whole = all(
             "".join(lines).replace(" ", "") == text.replace(" ", "") for lines, text in zip(found, texts, strict=True)
@@ -236,7 +195,7 @@ class _Strip:
         self.width = self.height = 0.0
         self.label = texts.label
         self.lines: tuple[str, ...] = ()
-        tops = figure.tops()
+        tops = figure.upper_limits()
         self.is_there = figure.has_one_bar and tops[self.panel] > 0
         if not self.is_there:
             return
@@ -247,17 +206,22 @@ class _Strip:
         cell = grid.width / grid.columns
         each = texts.head + texts.foot + cell / most_views(figure) * VIEW_HEIGHT / view_width(figure)
         high = grid.height or grid.rows * each
-        if right / grid.width < under / high:
+        # In one column of a journal the shapes need the width.
+        if grid.width >= NARROW and right / grid.width < under / high:
             self.width = right
         else:
             self.height = under
 
 
 class _Sizes:
-    """How wide columns are, how high the views of each row, and the page.
+    """The widths of columns, and the heights of rows and of the page.
 
-    high: the usual height of views, of which each has its share; space: above each row and under the last, where the
-    page is higher than its shapes.
+    Attributes
+    ----------
+    high
+        Usual height of views, of which each has its share.
+    space
+        Room above each row and under the last, where the page is higher than its shapes.
     """
 
     def __init__(
@@ -320,7 +284,8 @@ class _Sizes:
             high = max(low, 8.0)
         self.high = high
         self.columns = columns(high)
-        if sum(self.columns) > bound and not is_free:
+        is_as_wide = grid.is_printed and figure.size.width is not None and figure.size.height is None
+        if is_as_wide or (sum(self.columns) > bound and not is_free):
             self.columns = [each * bound / sum(self.columns) for each in self.columns]
         self.rows = [high * each for each in tall]
         self.gap = gap
@@ -328,7 +293,7 @@ class _Sizes:
 
 
 # ---------------------------------------------------------------------- where it stands
-def _placed(figure: Figure, grid: Grid, texts: _Texts, strip: _Strip, sizes: _Sizes, scale: float) -> Layout:
+def _placed(figure: Figure, grid: Grid, texts: _Texts, strip: _Strip, sizes: _Sizes, scale: float) -> PageLayout:
     width, height = sizes.width, sizes.height
     page = (round(width * scale), round(height * scale))
     if scale == grid.scale and not figure.crop:
@@ -361,7 +326,7 @@ def _placed(figure: Figure, grid: Grid, texts: _Texts, strip: _Strip, sizes: _Si
         stroke = max(stroke, narrowest / WIDE)
     sides = min(min(view.width, view.height) for cell in cells for view in cell.views)
     mark = max(MARK * sides, LEAST_MARK) * figure.style.marker_size / PAPER.marker_size
-    return Layout(width, height, scale, page, tuple(cells), texts.label, texts.lettering, shared, stroke, mark)
+    return PageLayout(width, height, scale, page, tuple(cells), texts.label, texts.lettering, shared, stroke, mark)
 
 
 def _bar_box(room: Box, y: float, factor: float) -> Box:
@@ -369,13 +334,13 @@ def _bar_box(room: Box, y: float, factor: float) -> Box:
     return Box(room.x + (room.width - wide) / 2, y, wide, bars.THICK * factor)
 
 
-def _cell(figure: Figure, k: int, box: Box, texts: _Texts, sizes: _Sizes, scale: float) -> Cell:
+def _cell(figure: Figure, k: int, box: Box, texts: _Texts, sizes: _Sizes, scale: float) -> PanelLayout:
     panel, shapes = figure.panels[k], sizes.shapes[k]
     middle, factor = box.middle[0], texts.factor
     first = box.y + 7 * factor + texts.heading
-    words = [Words(texts.headings[k], middle, first, texts.heading, is_bold=True)]
+    words = [TextLines(texts.headings[k], middle, first, texts.heading, is_bold=True)]
     hint_at = box.y + 7 * factor + texts.head_lines * LINE * texts.heading + texts.hint
-    words.append(Words(texts.hints[k], middle, hint_at, texts.hint, is_quiet=True))
+    words.append(TextLines(texts.hints[k], middle, hint_at, texts.hint, is_quiet=True))
     area = Box(box.x, box.y + texts.head, box.width, max(box.height - texts.head - texts.foot, 4.0))
     total = sum(w for w, _, _ in shapes)
     views, left = [], area.x
@@ -384,8 +349,8 @@ def _cell(figure: Figure, k: int, box: Box, texts: _Texts, sizes: _Sizes, scale:
         left += area.width * wide / total
     parts = tuple(part for _, _, part in shapes)
     insets: tuple[Box, ...] = ()
-    if panel.zooms:
-        surface = shown_surface(panel, figure.tops()[k])
+    if panel.insets:
+        surface = shown_surface(panel, figure.upper_limits()[k])
         views[0], insets = insets_of(figure, k, surface, views[0], parts[0], scale)
     bar = None
     if texts.bars[k]:
@@ -400,5 +365,7 @@ def _cell(figure: Figure, k: int, box: Box, texts: _Texts, sizes: _Sizes, scale:
             texts.lettering,
         )
     else:
-        words.append(Words(texts.feet[k], middle, area.bottom + 7 * factor + texts.label, texts.label, is_quiet=True))
-    return Cell(box, tuple(w for w in words if w.lines), tuple(views), parts, insets, bar)
+        words.append(
+            TextLines(texts.feet[k], middle, area.bottom + 7 * factor + texts.label, texts.label, is_quiet=True)
+        )
+    return PanelLayout(box, tuple(w for w in words if w.lines), tuple(views), parts, insets, bar)

@@ -1,27 +1,21 @@
-"""The legend of a figure: its sorts of marks in lines under all panels, each with what it stands for."""
+"""The legend of a figure: its kinds of marks in lines under all panels, each with what it stands for."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-from .boxes import Words
-from .glyphs import draw_glyph
-from .words_and_bars import write
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-    from .canvas import Composition
-    from .description import Figure
-    from .layout import Layout
+from ..drawing.glyphs import glyph_shapes
+from ..drawing.shapes import Shape
+from .description import Figure
+from .page_layout import ComposedPage, PageLayout
+from .words import TextLines
 
 GAP, BETWEEN, HIGH = 0.5, 2.0, 1.7
-"""Of the size of labels: from a mark to its words, from one entry to the next, and how high a line is."""
+"""Font sizes from a mark to its words, from one entry to the next, and from line to line."""
 
 
-def with_legend(figure: Figure, layout: Layout) -> Layout:
-    """The layout with room for the figure's legend under it, in as many lines as it takes."""
+def with_legend(figure: Figure, layout: PageLayout) -> PageLayout:
+    """Return the layout with room for the figure's legend under it, in as many lines as it takes."""
     size = layout.label
     reach = _reach(figure, layout)
     wide = [2 * reach + GAP * size + layout.lettering.width(words, size) for _, words in figure.legend]
@@ -39,7 +33,7 @@ def with_legend(figure: Figure, layout: Layout) -> Layout:
         for k in line:
             mark, words = figure.legend[k]
             middle = x + 2 * reach + GAP * size + (wide[k] - 2 * reach - GAP * size) / 2
-            places.append((mark, x + reach, y, Words((words,), middle, y + 0.36 * size, size)))
+            places.append((mark, x + reach, y, TextLines((words,), middle, y + 0.36 * size, size)))
             x += wide[k] + BETWEEN * size
         y += high
     more = len(lines) * high + 0.4 * size
@@ -47,15 +41,19 @@ def with_legend(figure: Figure, layout: Layout) -> Layout:
     return replace(layout, height=layout.height + more, page=page, legend=tuple(places))
 
 
-def _reach(figure: Figure, layout: Layout) -> float:
-    """Half of what the largest mark of the legend is across."""
+def _reach(figure: Figure, layout: PageLayout) -> float:
+    """Return half the width of the largest mark of the legend."""
     standing = [mark.glyph.reach_of(layout.mark, layout.label) for mark, _ in figure.legend if mark.glyph.rise]
     return max(0.72 * layout.mark, 3.5, *(1.6 * reach for reach in standing))
 
 
-def draw_legend(axes: Axes, page: Composition, order: int) -> None:
-    """The legend of a page, if it has one."""
-    for mark, x, y, words in page.layout.legend:
-        lower = mark.glyph.rise * mark.glyph.reach_of(page.layout.mark, page.layout.label) / 2
-        draw_glyph(axes, page, mark, (x, y + lower), False, order)
-        write(axes, page, words, order + 2)
+def legend_shapes(page: ComposedPage) -> list[Shape]:
+    """Return the legend of a page, if it has one."""
+    style, layout = page.figure.style, page.layout
+    shapes: list[Shape] = []
+    for mark, x, y, words in layout.legend:
+        reach = mark.glyph.reach_of(layout.mark, layout.label)
+        at = x, y + mark.glyph.rise * reach / 2
+        shapes += glyph_shapes(mark.glyph, at, reach, style.named_for(mark.colour), mark.number)
+        shapes += words.shapes(style)
+    return shapes

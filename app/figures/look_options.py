@@ -1,4 +1,4 @@
-"""What figures can be told of how fields and surfaces look: isolines, colours and their ends, shading."""
+"""Options of figures for the look of fields and surfaces: isolines, colours and their ends, shading."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -8,8 +8,8 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.progress import Progress
 
 from ..document.document import Document
-from ..document.isoline_edits import pass_through, pass_through_none
-from ..document.looks import Colours, Isolines, shaded
+from ..document.edits import pass_through, pass_through_none
+from ..document.looks import Colours, Isolines
 from ..document.option import (
     USUAL,
     NotExpressible,
@@ -19,10 +19,11 @@ from ..document.option import (
     numbers,
     vertex,
     vertex_of,
-    with_attribute,
     with_commas,
 )
 from ..document.page import Recipe
+from ..document.settings import BANDS, FLIP_SCALARS
+from .size import is_column
 
 
 # ---------------------------------------------------------------------- isolines
@@ -38,12 +39,12 @@ def _isolines_of(recipe: Recipe) -> dict[str, Any]:
         values["equal_isolines"] = True
     vertices = [vertex_of(recipe.document.point(name)) for name in isolines.through]
     if None in vertices or not _has_own_points(recipe.document):
-        raise NotExpressible("An isoline passes through a point that is more than that.")
+        raise NotExpressible("An isoline passes through a point that also marks something else.")
     return values | ({"isoline_through": vertices} if vertices else {})
 
 
 def _has_own_points(document: Document) -> bool:
-    """Whether nothing starts at the points that isolines pass through, and they are on the first surface."""
+    """Return whether isolines pass through points of the first surface only, from which no field starts."""
     used = {name for panel in document.panels for name in panel.shows.points}
     first = document.surfaces[0].name
     return all(name not in used and document.point(name).surface == first for name in document.isolines.through)
@@ -62,7 +63,7 @@ def _with_isolines(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
 
 
 def isolines_with(isolines: Isolines, values: Mapping[str, Any]) -> Isolines:
-    """Isolines where some options say; ParameterError for two ways to say where."""
+    """Return isolines where the options say; raise ParameterError if two of them do."""
     where = [
         f"--{name.replace('_', '-')}" for name in ("isolines", "isoline_spacing", "isoline_values") if name in values
     ]
@@ -80,13 +81,52 @@ def isolines_with(isolines: Isolines, values: Mapping[str, Any]) -> Isolines:
     return replace(isolines, round=not values.get("equal_isolines", not isolines.round))
 
 
+def _count(text: str) -> int:
+    """Return the number of isolines in a text; raise ParameterError for any other text, such as their values."""
+    try:
+        return int(text)
+    except ValueError:
+        raise ParameterError(
+            f"{text!r} is not a number of isolines; for lines at given values write --isoline-values 0.1,0.2"
+        ) from None
+
+
+def _isoline_option(name: str, key: str, meaning: str, default: Any = None, **how: Any) -> Option:
+    return Option(name, meaning, default, group="isolines", key=key, **how)
+
+
 ISOLINES = Row(
     (
-        Option("isolines", "about so many, at round values; 0 for none (default: 20)", 20, metavar="N", read=int),
-        Option("equal_isolines", "as many equal steps from 0 to the maximum, instead of round values", False),
-        Option("isoline_spacing", "isolines at multiples of this, in the field's unit", metavar="STEP", read=float),
-        Option("isoline_values", "isolines at these values", (), metavar="A,B,…", read=numbers, write=with_commas),
-        Option("isoline_through", "one more through each of these vertices", (), "", "V,…", read=vertex, is_list=True),
+        _isoline_option(
+            "isolines",
+            "count",
+            "about so many, at round values; 0 for none (default: 20)",
+            20,
+            metavar="N",
+            read=_count,
+        ),
+        _isoline_option(
+            "equal_isolines", "equal", "as many equal steps from 0 to the maximum, instead of round values", False
+        ),
+        _isoline_option(
+            "isoline_spacing",
+            "spacing",
+            "isolines at multiples of this, in the field's unit",
+            metavar="STEP",
+            read=float,
+        ),
+        _isoline_option(
+            "isoline_values", "values", "isolines at these values", (), metavar="A,B,…", read=numbers, write=with_commas
+        ),
+        _isoline_option(
+            "isoline_through",
+            "through",
+            "one more through each of these vertices",
+            (),
+            metavar="V,…",
+            read=vertex,
+            is_list=True,
+        ),
     ),
     ("Document.isolines", *(f"Isolines.{name}" for name in ("count", "spacing", "values", "through", "round"))),
     _isolines_of,
@@ -95,56 +135,71 @@ ISOLINES = Row(
 
 
 # ---------------------------------------------------------------------- colours, their ends, shading
-def _colours_of(recipe: Recipe) -> dict[str, Any]:
+def _map_of(recipe: Recipe) -> dict[str, Any]:
     colours = recipe.document.colours
     if colours.stops:
         raise NotExpressible("The colours came from a file.")
-    values = {"colours": colours.map, "reversed": colours.reversed, "bands": colours.bands}
-    return {name: value for name, value in values.items() if value}
+    return {"cmap": colours.map} if colours.map else {}
 
 
-def _with_colours(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
-    colours, chosen = recipe.document.colours, values.get("colours")
+def _with_map(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
+    colours, chosen = recipe.document.colours, values["cmap"]
     if isinstance(chosen, Colours):
         colours = chosen
-    elif chosen is not None:
+    else:
         from ..scene.colour_file import colours_named
 
         colours = colours_named(chosen, colours)
-    flags = {name: values[name] for name in ("reversed", "bands") if name in values}
-    return replace(recipe, document=replace(recipe.document, colours=replace(colours, **flags)))
+    return replace(recipe, document=replace(recipe.document, colours=colours))
 
 
-COLOURS = Row(
-    (
-        Option(
-            "colours",
-            "a colour map: paper (default), uniform, ember, safe (also in grey), diverging; or a .txt, .csv or "
-            "ParaView's .json",
-            "",
-            metavar="NAME|FILE",
+COLOURS = (
+    Row(
+        (
+            Option(
+                "cmap",
+                "colour map: paper (default), uniform (as viridis), ember (like inferno), safe (like cividis; also in "
+                "grey), diverging; or a .txt, .csv or ParaView's .json",
+                "",
+                group="look",
+                metavar="NAME|FILE",
+            ),
         ),
-        Option("reversed", "the colours from the other end", False),
-        Option("bands", "one colour between isolines", False),
+        ("Document.colours", "Colours.map", "Colours.stops"),
+        _map_of,
+        _with_map,
     ),
-    ("Document.colours", "Colours.map", "Colours.stops", "Colours.reversed", "Colours.bands"),
-    _colours_of,
-    _with_colours,
+    FLIP_SCALARS.row,
+    BANDS.row,
 )
 
 
+def suits_one_bar(recipe: Recipe) -> bool:
+    """Return whether one colour bar, in fractions of each maximum, can take the place of the panels' own.
+
+    It can where they are distances, whose isolines are at as many steps.
+    """
+    document, isolines = recipe.document, recipe.document.isolines
+    is_by_steps = isolines.spacing is None and not (isolines.values or isolines.through or isolines.labels)
+    panels = document.panels
+    return (
+        len(panels) > 1 and is_by_steps and all(panel.shows.is_distance and panel.maximum is None for panel in panels)
+    )
+
+
 def _range_of(recipe: Recipe) -> dict[str, Any]:
-    """A word, or where each colour bar ends."""
+    """Return the word for the range, or where each colour bar ends."""
     word, ends = recipe.document.range, [panel.maximum for panel in recipe.document.panels]
     if all(end is None for end in ends):
-        return {} if word == USUAL.document.range else {"range": word}
+        usual = "fraction" if is_column(recipe.page.size) and suits_one_bar(recipe) else USUAL.document.range
+        return {} if word == usual else {"clim": word}
     if word != "own":
-        raise NotExpressible("A colour bar ends where somebody typed, and they all have one range.")
-    return {"range": float(ends[0] or 0) if len(ends) == 1 else ends}
+        raise NotExpressible("A colour bar ends at a typed value, and all share one range.")
+    return {"clim": float(ends[0] or 0) if len(ends) == 1 else ends}
 
 
 def _ends(text: str) -> str | list[float | None]:
-    """Numbers, with None for a panel's own; a word or a path as it is."""
+    """Return the numbers in a text, None for a panel's own maximum; a word or a path is returned as it is."""
     try:
         return [None if word.strip() == "own" else float(word) for word in text.split(",")] if text != "own" else text
     except ValueError:
@@ -160,12 +215,12 @@ def _ends_text(ends: Any) -> str:
 RANGE = Row(
     (
         Option(
-            "range",
-            "where colour bars end: own (own maximum, the default), shared (one for all panels of a unit), shares "
-            "(fraction of the maximum), a number, or one or `own` for each panel such as 0.8,own,2; or a session or "
-            "recipe, whose ends are taken",
-            "own",
-            metavar="RANGE",
+            "clim",
+            "where colour bars end: own (own maximum, the default), shared (one for all panels of a unit), fraction "
+            "(of each maximum; the default for distances in one column), a number, or one or `own` for each panel such "
+            "as 0.8,own,2; or a session or recipe, whose limits are taken",
+            group="look",
+            metavar="LIMITS",
             read=_ends,
             write=_ends_text,
         ),
@@ -179,43 +234,74 @@ RANGE = Row(
 def with_range(
     recipe: Recipe, values: Mapping[str, Any], tell: Callable[[str], None], progress: Progress | None
 ) -> Recipe:
-    """The recipe with the range of colours that the options say."""
-    document, range = recipe.document, values.get("range")
-    if range is not None:
-        from .ends import ranged
+    """Return the recipe with the colour limits that the options say."""
+    document, limits = recipe.document, values.get("clim")
+    if limits is not None:
+        from .colour_limits import with_limits
 
-        document, sentence = ranged(document, range, progress)
+        document, sentence = with_limits(document, limits, progress)
         if sentence:
             tell(sentence)
     return replace(recipe, document=document)
 
 
+SPLIT = {"smooth": False, "creased": True}
+"""What `split_sharp_edges` says of normals; neither is for automatic."""
+
+
 def _shading_of(recipe: Recipe) -> dict[str, Any]:
-    """An angle alone would make it creased."""
     shading, usual = recipe.document.shading, USUAL.document.shading
-    values: dict[str, Any] = {}
-    if (shading.normals, shading.crease) != (usual.normals, usual.crease):
-        values["shading"] = shading.normals
-    if shading.crease != usual.crease:
-        values["crease"] = shading.crease
-    return values | ({"wireframe": True} if shading.wireframe else {})
+    values: dict[str, Any] = {"smooth_shading": False} if shading.normals == "flat" else {}
+    # An angle alone splits sharp edges.
+    if shading.normals in SPLIT:
+        values["split_sharp_edges"] = SPLIT[shading.normals]
+    if shading.feature_angle != usual.feature_angle:
+        values["feature_angle"] = shading.feature_angle
+        if shading.normals == "auto":
+            raise NotExpressible("Sharp edges are found automatically, at an angle that was typed.")
+    return values
+
+
+def _with_shading(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
+    shading = recipe.document.shading
+    normals, split = shading.normals, values.get("split_sharp_edges")
+    if values.get("smooth_shading") is False:
+        if split:
+            raise ParameterError("Flat shading has no edges to split; leave out smooth_shading or split_sharp_edges.")
+        normals = "flat"
+    elif split is not None or "feature_angle" in values:
+        normals = "smooth" if split is False else "creased"
+    elif values.get("smooth_shading") and normals == "flat":
+        normals = "auto"
+    angle = values.get("feature_angle", shading.feature_angle)
+    shading = replace(shading, normals=normals, feature_angle=angle)
+    return replace(recipe, document=replace(recipe.document, shading=shading))
 
 
 SHADING = Row(
     (
         Option(
-            "shading",
-            "auto, smooth, creased or flat (default: creased where there are sharp edges)",
-            metavar="NAME",
+            "smooth_shading",
+            "a normal at each vertex; without, one for each face (default: yes)",
+            True,
+            group="look",
+            is_flag=True,
         ),
-        Option("crease", "where faces meet at more is an edge (default: 40)", metavar="DEGREES", read=float),
-        Option("wireframe", "the edges of the mesh", False),
+        Option(
+            "split_sharp_edges",
+            "a normal on each side of a sharp edge (default: on surfaces that have some)",
+            group="look",
+            is_flag=True,
+        ),
+        Option(
+            "feature_angle",
+            "where faces meet at more is a sharp edge (default: 40)",
+            group="look",
+            metavar="DEGREES",
+            read=float,
+        ),
     ),
-    ("Document.shading", "Shading.normals", "Shading.crease", "Shading.wireframe"),
+    ("Document.shading", "Shading.normals", "Shading.feature_angle"),
     _shading_of,
-    lambda recipe, values: with_attribute(
-        recipe,
-        "document.shading",
-        shaded(recipe.document.shading, *(values.get(name) for name in ("shading", "crease", "wireframe"))),
-    ),
+    _with_shading,
 )

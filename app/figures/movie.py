@@ -16,9 +16,9 @@ from bihdist_core import BihdistError, OutputError, ParameterError, Surface
 from bihdist_core.arrays import AnyArray, ByteArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.distances.edge_geodesic import EdgeGeodesic
+from bihdist_core.file_output import atomic_write, check_output
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
-from bihdist_core.whole_file import check_output, whole_file
 
 from ..document.camera import View
 from ..document.document import Document, Panel
@@ -27,6 +27,7 @@ from ..document.page import Recipe
 from ..scene.camera import turned
 from ..session.array_store import ArrayStore
 from ..session.questions import Question, questions, vertex_at
+from ..version import install_command
 from .description import Figure
 from .export import Surfaces, check_drawable, figure_of, open_document, refuse_if_nothing
 from .frames import drawn_frames
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
 MOVIE_FORMATS = (".mp4", ".gif")
 
 PLACES = 12
-"""Of a source's way, that are looked for in the picture."""
+"""Places of a source's way that are looked for in the picture."""
 
 SETTING_UP = 0.03
 """The share of a movie's progress before its first frame; the rest goes evenly with the frames."""
@@ -48,8 +49,14 @@ SETTING_UP = 0.03
 class Movie:
     """A figure in motion.
 
-    turn: degrees the shape turns in all; path: vertices the source goes through, by way of edges; frames: how many
-    pictures, fps: how many of them a second.
+    Attributes
+    ----------
+    turn
+        Degrees by which the shape turns in all.
+    path
+        Vertices that the source goes through, along edges.
+    frames, fps
+        Number of pictures, and how many of them a second shows.
     """
 
     recipe: Recipe
@@ -66,20 +73,28 @@ class Movie:
         if not np.isfinite(self.turn):
             raise ParameterError(f"A turn is a number of degrees, not {self.turn}.")
         if len(self.path) == 1:
-            raise ParameterError("A path goes through two vertices or more.")
+            raise ParameterError("A path needs at least two vertices.")
         if self.turn == 0 and not self.path:
             raise ParameterError("Nothing would move: give a turn or a path.")
 
 
 def check_movie(path: str | os.PathLike[str]) -> None:
-    """Before long work: that a movie can be written there; BihdistError, with what to install, if not."""
-    if check_output(path, MOVIE_FORMATS) == ".mp4":
-        try:
-            import imageio_ffmpeg  # noqa: F401
-        except ImportError:
-            raise BihdistError(
-                "MP4 needs the package imageio-ffmpeg (pip install imageio-ffmpeg); GIF needs nothing more."
-            ) from None
+    """Raise BihdistError, with what to install, before long work if a movie cannot be written there."""
+    if check_output(path, MOVIE_FORMATS) == ".mp4" and (lack := mp4_lack()):
+        raise BihdistError(f"A GIF needs no further package. {lack}")
+
+
+def mp4_lack() -> str:
+    """Return a sentence on the package that MP4 lacks, with the line that installs it; "" if none does."""
+    try:
+        from imageio_ffmpeg import get_ffmpeg_exe
+
+        get_ffmpeg_exe()
+    except ImportError:
+        return f"MP4 needs the package imageio-ffmpeg: {install_command('imageio-ffmpeg')}"
+    except RuntimeError:  # the package has come without it
+        return "MP4 needs the program ffmpeg, which was not found."
+    return ""
 
 
 def write_movie(
@@ -89,10 +104,14 @@ def write_movie(
     given: ArrayStore | None = None,
     workers: int | None = None,
 ) -> list[Answer]:
-    """Compute and draw a movie into a .mp4 or .gif file, whole or not at all.  Returns an answer of each panel.
+    """Compute and draw a movie into a .mp4 or .gif file, whole or not at all; return an answer of each panel.
 
-    given: what the document has from Python, in the recipe's archive if None.  workers: how many processes draw, one
-    for each processor if None.
+    Parameters
+    ----------
+    given
+        What the document has from Python; None for that in the recipe's archive.
+    workers
+        How many processes draw, one for each processor if None.
     """
     check_movie(path)
     if not movie.recipe.document.panels:
@@ -101,7 +120,7 @@ def write_movie(
     movie = replace(movie, recipe=replace(movie.recipe, document=document))
     check_drawable(movie.recipe, surfaces)
     fields = _Fields(movie, surfaces, part(progress, 0.0, SETTING_UP))
-    with whole_file(path) as temporary:
+    with atomic_write(path) as temporary:
         is_mp4 = temporary.suffix.lower() == ".mp4"
         frames = drawn_frames(
             _figures(movie, fields), movie.frames, "RGB" if is_mp4 else "P", workers, part(progress, SETTING_UP, 1.0)
@@ -112,7 +131,7 @@ def write_movie(
 
 
 def route(surface: Surface, stops: tuple[int, ...]) -> AnyArray:
-    """(k,) vertices of the shortest way along edges through the stops; ParameterError where there is none."""
+    """Return the vertices (k,) of the shortest way along edges through the stops; raise ParameterError without one."""
     edges = EdgeGeodesic(surface)
     legs = [edges.path(start, stop) for start, stop in pairwise(stops)]
     return np.concatenate([legs[0][:1], *(leg[1:] for leg in legs)])
@@ -120,7 +139,7 @@ def route(surface: Surface, stops: tuple[int, ...]) -> AnyArray:
 
 # ---------------------------------------------------------------------- what each frame shows
 def _documents(movie: Movie, surface: Surface) -> list[Document]:
-    """What each frame shows, but for where it is seen from."""
+    """Return the document of each frame, but for the cameras."""
     document = movie.recipe.document
     if not movie.path:
         return [document] * movie.frames
@@ -133,7 +152,7 @@ def _documents(movie: Movie, surface: Surface) -> list[Document]:
 
 
 def _from(document: Document, vertex: int) -> Document:
-    """The document with every field of the first panel's surface from one vertex."""
+    """Return the document with every field of the first panel's surface from one vertex."""
     first = document.panels[0].surface
     for name in dict.fromkeys(name for panel in document.panels_of(first) for name in panel.shows.points):
         document = put_point(document, name, vertex, first)
@@ -141,9 +160,12 @@ def _from(document: Document, vertex: int) -> Document:
 
 
 class _Fields:
-    """The answers to all that the frames ask, and one end of the colour bar for all of them.
+    """The answers that all frames need, and one upper colour limit for all of them.
 
-    examples: an answer of each panel.
+    Attributes
+    ----------
+    examples
+        An answer of each panel.
     """
 
     def __init__(self, movie: Movie, surfaces: Surfaces, progress: Progress) -> None:
@@ -165,7 +187,7 @@ class _Fields:
         answers = {}
         for number, question in enumerate(wanted):
             step = part(progress, number / len(wanted), (number + 1) / len(wanted))
-            answer = self.surfaces[panel.surface].answer(question, step)
+            answer = question.answer(self.surfaces[panel.surface], step)
             if answer.field is not None:
                 answer = replace(answer, field=answer.field.astype(np.float32))
             answers[question] = answer
@@ -175,7 +197,7 @@ class _Fields:
         self._tops[panel.id] = max(self._answers[question].maximum for question in wanted)
 
     def figure(self, frame: int, cameras: Mapping[str, View]) -> Figure:
-        """cameras: of the surfaces, by their names in the document."""
+        """Return the figure of a frame; `cameras` has those of the surfaces, by their names in the document."""
         document = self.documents[frame]
         panels = tuple(replace(p, maximum=p.maximum or self._tops[p.id] or None) for p in document.panels)
         recipe = Recipe(
@@ -189,7 +211,7 @@ class _Fields:
 
 
 def _figures(movie: Movie, fields: _Fields) -> Iterator[Figure]:
-    """What is drawn of each frame."""
+    """Return the figure of each frame."""
     document = fields.documents[0]
     # What turns shows its source at first; what stands, as much as may be of the source's way.
     seen = fields.documents[:1] if movie.turn else fields.documents[:: max(len(fields.documents) // PLACES, 1)]
@@ -201,7 +223,9 @@ def _figures(movie: Movie, fields: _Fields) -> Iterator[Figure]:
         view = movie.recipe.page.views[0] if movie.recipe.page.views else document.camera_of(name)
         up = document.up_of(name)
         view = loaded.view_of(view, up)
-        starts[name] = start_and_axis(view, surface, movie.turn, document.height, sources, up, document.projection)
+        starts[name] = start_and_axis(
+            view, surface, movie.turn, document.warp_factor, sources, up, document.parallel_projection
+        )
     first, _ = starts[document.panels[0].surface]
     size = fitted_size(fields.figure(0, {name: camera for name, (camera, _) in starts.items()}), first.extent)
     for k in range(movie.frames):
@@ -212,7 +236,7 @@ def _figures(movie: Movie, fields: _Fields) -> Iterator[Figure]:
 
 
 def _sources_on(document: Document, surface: str) -> list[Source | None]:
-    """Where the fields of a surface start, each place once, in order."""
+    """Return the sources of a surface's fields, each once, in order."""
     names = [name for panel in document.panels_of(surface) for name in panel.shows.points]
     return list(dict.fromkeys(document.point(name).at for name in names))
 

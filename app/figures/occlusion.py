@@ -1,7 +1,7 @@
-"""What the faces of a surface hide in a picture, face by face and exactly: no rays, no pixels.
+"""Occlusion by the faces of a surface in a picture, face by face and exactly: no rays, no pixels.
 
-In the picture a straight segment passes behind a triangle along one interval, which follows from seven linear
-functions: inside each of the three sides, before each of its ends, and farther than the triangle's plane.  What hides a
+In the picture a straight segment passes behind a triangle along one interval.  Seven linear functions give it: the
+segment is inside each of the three sides, before each of its ends, and farther than the triangle's plane.  What hides a
 segment is the union of these intervals over all triangles that it meets; a grid over the picture finds those.  Nothing
 is assumed of the surface: it may have holes, edges of three faces, and pass through itself.
 """
@@ -20,20 +20,25 @@ MOST_CELLS = 1 << 22
 MOST_PLACES = 16
 
 TOUCHING = 1e-9
-"""Of a segment: what rounding may leave between two triangles that share a side."""
+"""Fraction of a segment that rounding may leave between two triangles that share a side."""
 
 
 class Occlusion:
     """Triangles in a picture, ready to say what they hide.
 
-    corners: (t, 3, 3) of x, y and nearness, which is linear in the picture (1 / depth in perspective); those that are
-    not finite are left out.  vertices: (t, 3) ids.
+    Parameters
+    ----------
+    corners
+        (t, 3, 3) x, y and nearness, which is linear in the picture (1 / depth in perspective); triangles that are not
+        finite are left out.
+    vertices
+        (t, 3) ids of the corners.
     """
 
     def __init__(self, corners: FloatArray, vertices: IntArray) -> None:
         xy = corners[..., :2]
         a, b, c = xy[:, 0], xy[:, 1], xy[:, 2]
-        area = _cross(b - a, c - a)
+        area = cross(b - a, c - a)
         kept = np.flatnonzero(np.isfinite(area) & (area != 0))
         turned = area[kept] < 0
         corners = corners[kept]
@@ -54,10 +59,15 @@ class Occlusion:
         self._across, self._down = (np.floor(extent / self._cell).astype(int) + 1).tolist()
 
     def intervals(self, ends: FloatArray, on: IntArray) -> tuple[IntArray, FloatArray, FloatArray]:
-        """(k,) segments, in order, and from where to where (k,) in the picture, 0 to 1, each is hidden; none touch.
+        """Return segments (k,), in order, and from where to where (k,), 0 to 1, each is hidden; no intervals touch.
 
-        ends: (m, 2, 3) of x, y and nearness; on: (m, 4) or (m, 6) vertices that span the face or edge which a segment
-        lies on: it is not hidden by triangles that have them all.
+        Parameters
+        ----------
+        ends
+            (m, 2, 3) x, y and nearness of the segments' ends.
+        on
+            (m, 4) or (m, 6) vertices that span the face or edge of each segment, which triangles with all of them do
+            not hide.
         """
         found = []
         low, high = ends[..., :2].min(axis=1), ends[..., :2].max(axis=1)
@@ -71,7 +81,7 @@ class Occlusion:
             sides = []
             for k in range(3):
                 a, b = corners[:, k - 2, :2], corners[:, k - 1, :2]
-                f, g = _cross(b - a, p[:, :2] - a), _cross(b - a, q[:, :2] - a)
+                f, g = cross(b - a, p[:, :2] - a), cross(b - a, q[:, :2] - a)
                 _keep(start, stop, f, g)
                 sides.append((f, g))
             # How much nearer the triangle is, at both ends: its plane from the corners' shares of the area.
@@ -86,13 +96,11 @@ class Occlusion:
         return _united(*map(np.concatenate, zip(*found, strict=True)))
 
     def nearest(self, points: FloatArray) -> FloatArray:
-        """(m,) the nearness of what is seen at points (m, 2) of the picture; -inf where nothing is."""
+        """Return the nearness (m,) of what is seen at points (m, 2) of the picture; -inf where nothing is."""
         seen = np.full(len(points), -np.inf)
         for i, j in self._pairs(points, points):
             corners, at = self._corners[j], points[i]
-            sides = [
-                _cross(corners[:, k - 1, :2] - corners[:, k - 2, :2], at - corners[:, k - 2, :2]) for k in range(3)
-            ]
+            sides = [cross(corners[:, k - 1, :2] - corners[:, k - 2, :2], at - corners[:, k - 2, :2]) for k in range(3)]
             inside = (sides[0] >= 0) & (sides[1] >= 0) & (sides[2] >= 0)
             depth = sum(side * corners[:, k, 2] for k, side in enumerate(sides)) / self._area[j]
             np.maximum.at(seen, i[inside], depth[inside])
@@ -103,7 +111,7 @@ class Occlusion:
         return np.floor((points - self._start) / self._cell).astype(np.int64)
 
     def _places(self, low: FloatArray, high: FloatArray) -> tuple[IntArray, IntArray]:
-        """Which box (k,) touches which cell (k,) of the grid; finite ones only."""
+        """Return which box (k,) touches which cell (k,) of the grid; finite ones only."""
         most = [self._across - 1, self._down - 1]
         finite = np.flatnonzero(np.isfinite(low).all(axis=1) & np.isfinite(high).all(axis=1))
         far = 1e15  # beyond the numbers of cells
@@ -119,7 +127,7 @@ class Occlusion:
         return index[row], (first[row, 1] + y) * self._across + first[row, 0] + x
 
     def _pairs(self, low: FloatArray, high: FloatArray) -> Iterator[tuple[IntArray, IntArray]]:
-        """Boxes (k,) and triangles (k,) that share a cell, in parts; all that meet are among them, some twice."""
+        """Yield boxes (k,) and triangles (k,) that share a cell; all that meet are among them, some twice."""
         box, where = self._places(low, high)
         if not len(box) or not len(self._vertices):
             return
@@ -155,7 +163,7 @@ def _keep(start: FloatArray, stop: FloatArray, f: FloatArray, g: FloatArray) -> 
 
 
 def _united(segment: IntArray, start: FloatArray, stop: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Intervals of segments (k,) as few that do not touch."""
+    """Join intervals of segments (k,) that touch."""
     if not len(segment):
         return segment, start, stop
     order = np.lexsort((start, segment))
@@ -167,5 +175,6 @@ def _united(segment: IntArray, start: FloatArray, stop: FloatArray) -> tuple[Int
     return segment[first], start[first], ends[last] - 2.0 * segment[last]
 
 
-def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
+def cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return the cross products (k,) of vectors (k, 2)."""
     return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]

@@ -13,7 +13,7 @@ from dataclasses import replace
 from typing import Any
 
 from bihdist_core.sources.source import Curve
-from bihdist_core.sources.words import NONE
+from bihdist_core.sources.words import EMPTY
 
 from ..document.derived_surfaces import COLUMNS
 from ..document.document import COMPARISON
@@ -26,11 +26,18 @@ from .options import made_from, rows, rows_of_sources
 
 
 # ---------------------------------------------------------------------- the lines
-def command_line(recipe: Recipe, output: str, files: Mapping[Curve, str] = NONE) -> str:
-    """For a shell: `bihdist figure ... -o OUTPUT`.
+def command_line(recipe: Recipe, output: str, files: Mapping[Curve, str] = EMPTY) -> str:
+    """Return the line for a shell, ``bihdist figure ... -o OUTPUT``.
 
-    files: where curves that fields start from are saved.  ParameterError for what `why_not` names, and for a curve that
-    has no file.
+    Parameters
+    ----------
+    files
+        Where curves that fields start from are saved.
+
+    Raises
+    ------
+    ParameterError
+        For what `why_not` names, and for a curve that has no file.
     """
     words = ["bihdist", "figure", mesh_word(recipe.document.surfaces[0].path)]
     for option, value in _options_of(recipe):
@@ -43,27 +50,37 @@ def command_line(recipe: Recipe, output: str, files: Mapping[Curve, str] = NONE)
     return _joined([*words, "-o", output])
 
 
-def python_line(recipe: Recipe, output: str, files: Mapping[Curve, str] = NONE) -> str:
-    """For Python: `import bihdist; bihdist.figure(...).save(OUTPUT)`; otherwise as `command_line`."""
-    arguments = [repr(mesh_word(recipe.document.surfaces[0].path))]
+def python_line(recipe: Recipe, output: str, files: Mapping[Curve, str] = EMPTY) -> str:
+    """Return the line for Python, ``import bihdist; bihdist.figure(...).save(OUTPUT)``; see `command_line`."""
+    arguments: dict[str, Any] = {}
     for option, value in _options_of(recipe):
-        shown = value[0] if option.may_be_lone and len(value) == 1 else value
-        arguments.append(f"{option.name}={as_argument(shown, files)!r}")
-    return f"import bihdist; bihdist.figure({', '.join(arguments)}).save({output!r})"
+        shown = as_argument(value[0] if option.may_be_lone and len(value) == 1 else value, files)
+        name, key = option.argument
+        if key:
+            arguments.setdefault(name, {})[key] = shown
+        else:
+            arguments[name] = shown
+    if arguments.get("isolines", {}).keys() == {"count"}:
+        arguments["isolines"] = arguments["isolines"]["count"]
+    words = [
+        repr(mesh_word(recipe.document.surfaces[0].path)),
+        *(f"{name}={each!r}" for name, each in arguments.items()),
+    ]
+    return f"import bihdist; bihdist.figure({', '.join(words)}).save({output!r})"
 
 
 def recipe_command_line(path: str, output: str) -> str:
-    """The same from a recipe's file, for what no line can say."""
+    """Return the line for a shell that draws the figure of a recipe's file again."""
     return _joined(["bihdist", "figure", "--recipe", path, "-o", output])
 
 
 def recipe_python_line(path: str, output: str) -> str:
-    """A line of Python that draws the figure of a recipe's file again."""
+    """Return the line of Python that draws the figure of a recipe's file again."""
     return f"import bihdist; bihdist.figure_again({path!r}).save({output!r})"
 
 
 def why_not(recipe: Recipe) -> str:
-    """A sentence on what of a recipe no line can say; empty if all of it can be said."""
+    """Return a sentence on what no line can say of a recipe; "" if a line can say all of it."""
     try:
         list(_options_of(recipe))
     except NotExpressible as reason:
@@ -72,7 +89,7 @@ def why_not(recipe: Recipe) -> str:
 
 
 def mesh_word(path: str) -> str:
-    """How a line names a mesh wherever it is run: a sample by its name, a file by its whole path."""
+    """Return the name of a sample or the whole path of a file, which a line can name wherever it is run."""
     stem = os.path.splitext(os.path.basename(path))[0]
     sample = mesh_path(stem)
     if not os.path.exists(path) or (sample != stem and os.path.exists(sample) and os.path.samefile(path, sample)):
@@ -85,7 +102,7 @@ def _joined(words: list[str]) -> str:
 
 
 def _options_of(recipe: Recipe) -> Iterator[tuple[Option, Any]]:
-    """What has to be said, in the order of the table, with its values; NotExpressible for what cannot be."""
+    """Yield the options that are not as usual, with their values; raise NotExpressible where no option can say it."""
     document, made = made_from(recipe.document)
     if made:
         yield from _values_of(recipe, *(row for row in rows() if row.made_from is not None))
@@ -103,14 +120,14 @@ def _values_of(recipe: Recipe, *those: Row) -> Iterator[tuple[Option, Any]]:
 
 # ---------------------------------------------------------------------- what is shown of what
 def _panels_of(recipe: Recipe) -> dict[str, Any]:
-    """Quantities, and the sources from which each of them is shown, if that is how the panels stand."""
+    """Return the quantities, and the sources from each of which all of them are shown."""
     document = recipe.document
     if len(document.surfaces) != 1:
-        raise NotExpressible(f"{len(document.surfaces)} meshes do not go into one line.")
+        raise NotExpressible(f"One line draws one mesh, and here are {len(document.surfaces)}.")
     if not document.surfaces[0].path:
         raise NotExpressible("The mesh was given from Python as arrays, which no line can hold.")
     if document.fields or any(own_fields(panel.shows) for panel in document.panels):
-        raise NotExpressible("Fields of one's own were given from Python as arrays, which no line can hold.")
+        raise NotExpressible("User-defined fields were given from Python as arrays, which no line can hold.")
     if not document.panels:
         raise NotExpressible("There are no panels.")
     names = list(dict.fromkeys(name for panel in document.panels for name in panel.shows.points))
@@ -120,10 +137,10 @@ def _panels_of(recipe: Recipe) -> dict[str, Any]:
     # What starts nowhere, such as interpolants, is named once.
     repeated = [from_point(each, name) for name in names or ["source"] for each in shows]
     if [panel.shows for panel in document.panels] != repeated:
-        raise NotExpressible("The panels start from different points, and not each distance from each.")
+        raise NotExpressible("The panels start from different points, and not every distance from every point.")
     places = [document.point(name).at for name in names]
     if None in places and len(places) > 1:
-        raise NotExpressible("One of several sources is where nobody has put it.")
+        raise NotExpressible("One of several sources has not been placed.")
     starts = [Starts(at) for at in places if at is not None]
     words = [str(each) for each in shows]
     values: dict[str, Any] = {} if words == [str(spec) for spec in COMPARISON] else {"distances": words}
@@ -132,8 +149,8 @@ def _panels_of(recipe: Recipe) -> dict[str, Any]:
 
 PANELS = Row(
     (
-        Option("distances", "", flag="distance", is_list=True),
-        Option("source", "", flag="sources", write=lambda start: start, is_list=True, may_be_lone=True),
+        Option("distances", "", flag="distance", group="", is_list=True),
+        Option("source", "", flag="sources", group="", write=lambda start: start, is_list=True, may_be_lone=True),
     ),
     ("Document.surfaces", "Document.fields", "Document.points", "Document.panels", "Panel.shows"),
     _panels_of,

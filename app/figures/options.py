@@ -11,7 +11,6 @@ from bihdist_core.progress import Progress
 
 from ..document.derived_surfaces import COLUMNS
 from ..document.document import AREAS, Document
-from ..document.looks import PROJECTIONS
 from ..document.option import (
     NotExpressible,
     Option,
@@ -21,40 +20,66 @@ from ..document.option import (
     with_attribute,
 )
 from ..document.page import Recipe
+from ..document.settings import AXES, ISOLINE_LABELS, PARALLEL_PROJECTION, SHOW_EDGES
 from ..document.tools import tools
-from .look_options import COLOURS, ISOLINES, RANGE, SHADING, with_range
+from .look_options import COLOURS, ISOLINES, RANGE, SHADING, suits_one_bar, with_range
 from .repair_options import REPAIRS
-from .view_options import UP, VIEWS, ZOOMS
+from .size import is_column
+from .view_options import INSETS, UP, VIEWS
 
-VERTEX_AREAS = attribute("document.areas", "vertex areas (default: voronoi)", choices=AREAS)
+VERTEX_AREAS = attribute("document.areas", "vertex areas (default: voronoi)", group="", choices=AREAS)
+
+
+def _layout(name: str, meaning: str, metavar: str | None = None, **how: Any) -> Row:
+    return attribute(f"page.{name}", meaning, metavar, group="layout", **how)
+
 
 PAGE_ROWS = (
-    attribute("page.font", "of all words (default: DejaVu Sans)", "FAMILY"),
-    attribute("page.text", "size of labels, other words in proportion (default: by the size)", "POINTS", read=float),
-    attribute(
-        "page.size",
-        "such as 85mm, 1680x640, 160mm@300dpi, 160x80mm; or column (85 mm), double (178 mm), slide, A0",
+    _layout("font_family", "of all text (default: DejaVu Sans)", "FAMILY"),
+    _layout("font_size", "of labels in points, other text in proportion (default: by the size)", "POINTS", read=float),
+    _layout(
+        "size",
+        "such as 85mm, 3.5in, 1680x640, 160mm@300dpi; or column (85 mm, cropped), double (178 mm), slide, A0",
         "SIZE",
     ),
-    attribute("page.style", "paper, uniform, lines or dark (default: paper)", "NAME"),
+    _layout("style", "paper, uniform, lines or dark (default: paper)", "NAME"),
 )
 """Of a page, with panels or with a chart."""
 
 
 # ---------------------------------------------------------------------- columns
 def rows_of_sources(recipe: Recipe) -> int | None:
-    """The columns of a page with a row of panels for each source, None if there are not several sources."""
+    """Return the columns of a page with a row of panels for each source, None if there is one source."""
     names = {name for panel in recipe.document.panels for name in panel.shows.points}
     return len(recipe.document.panels) // len(names) if len(names) > 1 else None
 
 
 def _columns_of(recipe: Recipe) -> dict[str, Any]:
-    """Without a word, one row a source."""
+    """Return the columns, unless there is a row for each source, which is the default."""
     usual = rows_of_sources(recipe)
     if recipe.page.columns is None and usual is not None:
         raise NotExpressible("The panels of several sources are in one row.")
     return {} if recipe.page.columns == usual else {"columns": recipe.page.columns}
 
+
+# ---------------------------------------------------------------------- one column
+def _with_column(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
+    """Return the recipe cropped and with one colour bar, if its size is one column of a journal."""
+    if not is_column(values.get("size", "")):
+        return recipe
+    if "crop" not in values:
+        recipe = with_attribute(recipe, "page.crop", True)
+    if "clim" not in values and recipe.document.range == "own" and suits_one_bar(recipe):
+        recipe = with_attribute(recipe, "document.range", "fraction")
+    return recipe
+
+
+CROP = Row(
+    (Option("crop", "without the empty margins (default: in one column)", group="layout", is_flag=True),),
+    ("Page.crop",),
+    lambda recipe: {} if recipe.page.crop == is_column(recipe.page.size) else {"crop": recipe.page.crop},
+    lambda recipe, values: with_attribute(recipe, "page.crop", values["crop"]),
+)
 
 # ---------------------------------------------------------------------- all of them
 ROWS = (
@@ -62,43 +87,60 @@ ROWS = (
     REPAIRS,
     ISOLINES,
     attribute(
-        "document.isolines.bold", "each of so many is bolder (nothing: 5)", "N", name="bold_isolines", read=int, bare=5
+        "document.isolines.bold",
+        "every n-th isoline is bold (without a number: 5)",
+        "N",
+        name="bold_isolines",
+        group="isolines",
+        key="bold",
+        read=int,
+        bare=5,
     ),
-    attribute("document.isolines.labels", "the values stand on the lines", name="isoline_labels"),
+    ISOLINE_LABELS.row,
     UP,
     VIEWS,
-    attribute("document.projection", "how depth is drawn (default: perspective)", choices=PROJECTIONS),
-    attribute("document.axes", "where x, y and z point to, in a corner (default: no)"),
+    PARALLEL_PROJECTION.row,
+    AXES.row,
     Row(
-        (Option("columns", "panels side by side (default: all, or one row a source)", metavar="N", read=int),),
+        (
+            Option(
+                "columns",
+                "panels side by side (default: all, or one row a source)",
+                group="layout",
+                metavar="N",
+                read=int,
+            ),
+        ),
         ("Page.columns",),
         _columns_of,
         lambda recipe, values: with_attribute(recipe, "page.columns", values["columns"]),
     ),
-    ZOOMS,
-    attribute("document.extrema", "triangles at maxima and at minima away from the source (default: no)"),
+    INSETS,
+    attribute("document.extrema", "triangles at maxima and at minima away from the source (default: no)", group="look"),
     attribute(
-        "document.height",
-        "a flat mesh becomes a height field, its highest point at this fraction of its extent (nothing: 0.35)",
+        "document.warp_factor",
+        "a flat mesh becomes a height field, its highest point at this fraction of its extent (without a number: 0.35)",
         "FRACTION",
+        group="look",
         read=float,
         bare=0.35,
     ),
-    COLOURS,
+    *COLOURS,
     RANGE,
-    attribute("page.hints", "what to look for, under the headings (default: no)"),
-    attribute("page.title", "names as heading (default), as caption at the bars, or none", "WHERE"),
+    _layout("hints", "what to look for, under the headings (default: no)"),
+    _layout("title", "names as heading (default), as caption at the bars, or none", "WHERE"),
     *PAGE_ROWS,
-    attribute("page.transparent", "no background"),
-    attribute("page.crop", "without the empty margins"),
+    _layout("transparent", "no background"),
+    CROP,
     SHADING,
+    SHOW_EDGES.row,
     unsaid("for panels that are still to come", "Document.next_id"),
     unsaid("where instruments stand in the window", "Document.dock_places"),
     unsaid("what the pointer does in the window", "Document.snap"),
     unsaid("each is said by itself", "Document.parts"),
     unsaid("for the window and the history", "Panel.id"),
     unsaid("with one mesh all panels are of it", "Panel.surface"),
-    unsaid("with one mesh there is none beside it", "Document.beside"),
+    unsaid("with one mesh there is none beside it", "Document.second_views"),
     unsaid("what the cameras of the window do", "Document.linked"),
     unsaid("the file's name says it", "Page.format"),
     unsaid("what the mask holds is looked up", "Repairs.cut_sha256"),
@@ -107,22 +149,22 @@ ROWS = (
 
 @cache
 def tool_rows() -> tuple[Row, ...]:
-    """Those of tools, in their order."""
+    """Return the rows of tools, in their order."""
     return tuple(row for tool in tools() if tool.options for row in tool.load(tool.options))
 
 
 def rows() -> tuple[Row, ...]:
-    """The table, with the rows of tools at its end."""
+    """Return the table, with the rows of tools at its end."""
     return (*ROWS, *tool_rows())
 
 
 def arguments() -> dict[str, Option]:
-    """By name, what `bihdist.figure` takes besides a mesh, what is shown of it, and from where."""
+    """Return the options of `bihdist.figure` by their names, without the mesh, the distances and the sources."""
     return {option.name: option for row in rows() for option in row.options}
 
 
 def made_from(document: Document) -> tuple[Document, dict[str, Any]]:
-    """The document that a row has made this one from, and the value of its option; itself and {} if none has."""
+    """Return the document that a row has derived this one from, and the option's value; itself and {} if none has."""
     for row in rows():
         made, value = (document, None) if row.made_from is None else row.made_from(document)
         if value is not None:
@@ -131,7 +173,7 @@ def made_from(document: Document) -> tuple[Document, dict[str, Any]]:
 
 
 def with_rows(recipe: Recipe, values: Mapping[str, Any], those: Iterable[Row]) -> Recipe:
-    """The recipe with the values that some rows know, by name."""
+    """Return the recipe with the values, by name, that some rows know."""
     for row in those:
         own = {option.name: values[option.name] for option in row.options if option.name in values}
         recipe = row.put(recipe, own) if own else recipe
@@ -145,17 +187,28 @@ def with_options(
     tell: Callable[[str], None] = lambda sentence: None,
     progress: Progress | None = None,
 ) -> Recipe:
-    """The recipe with the values of any options, by name; ParameterError where they make no sense.
+    """Return the recipe with the values of any options, by name.
 
-    beside: the document with a second mesh, if there is to be one.  tell: gets a sentence on colour bars that end as in
-    a file.  progress: of fields that this takes.
+    Parameters
+    ----------
+    beside
+        Returns the document with a second mesh, if there is to be one.
+    tell
+        Called with a sentence on colour limits that were taken from a file.
+    progress
+        Told of the fields that this computes.
+
+    Raises
+    ------
+    ParameterError
+        If a value is invalid.
     """
     document, made = made_from(recipe.document)
     was = recipe.page.columns if made else None
     first = [row for row in rows() if not row.is_late]
     recipe = with_rows(replace(recipe, document=document), values, first)
-    ends = values.get("range")
-    is_ranged = "range" in values
+    ends = values.get("clim")
+    is_ranged = "clim" in values
     # What replaces the panels has colour bars of its own.
     is_of_all = any(option.replaces_panels for name, option in arguments().items() if name in values) or (
         isinstance(ends, list | tuple) and len(ends) not in (1, len(document.panels))
@@ -170,4 +223,5 @@ def with_options(
         recipe = with_attribute(recipe, "page.columns", columns)
     last = [REPAIRS, *(row for row in rows() if row.is_of_two)]
     recipe = with_rows(replace(recipe, document=beside(recipe.document)), values, last)
-    return with_range(recipe, values, tell, progress) if is_ranged and is_of_all else recipe
+    recipe = with_range(recipe, values, tell, progress) if is_ranged and is_of_all else recipe
+    return _with_column(recipe, values)

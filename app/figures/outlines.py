@@ -11,19 +11,20 @@ from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
 
 from ..scene.line_clipping import Line
 from .hidden_lines import HiddenLineRemoval
+from .occlusion import cross
 
 BESIDE = 0.3
 """Pixels from an outline to where what lies behind it is looked for."""
 
 STEP = 0.01
-"""Of the surface's extent: an outline stands before what is farther away than this."""
+"""Fraction of the surface's extent: an outline stands before what is farther away than this."""
 
 BRIDGED, TICK = 6.0, 3.0
 """Pixels: shorter pieces of a fold that are no outline are drawn between others; shorter outlines are not drawn."""
 
 
 def outlines(sight: HiddenLineRemoval) -> list[Line]:
-    """Lines (k, 2) in pixels, each with whether its last point joins its first.
+    """Return lines (k, 2) in pixels, each with whether its last point joins its first.
 
     An outline lies on folds, edges whose faces lie to the same side of them in the picture or that have not two faces.
     Folds within the surface's own roughness, where what lies beside is as near as they are, are none.
@@ -43,8 +44,8 @@ def outlines(sight: HiddenLineRemoval) -> list[Line]:
 
 
 def _folds(sight: HiddenLineRemoval) -> tuple[AnyArray, AnyArray]:
-    """(k, 2) edges at which the surface turns away, ends, or meets more than one other face, and (k,) a vertex of a
-    face at each, on the side where the surface is; -1 where that is both sides."""
+    """Return edges (k, 2) at which the surface turns away, ends, or meets more than one other face, and a vertex of a
+    face at each (k,), on the side where the surface is; -1 where that is both sides."""
     f, at = sight.surface.faces, sight.at[:, :2]
     half = np.stack([f, np.roll(f, -1, axis=1)], -1).reshape(-1, 2)
     opposite = np.roll(f, -2, axis=1).ravel()
@@ -58,14 +59,14 @@ def _folds(sight: HiddenLineRemoval) -> tuple[AnyArray, AnyArray]:
     a, b = (at[edges[two, k]] for k in range(2))
     one, other = (at[opposite[order[first[two] + k]]] for k in range(2))
     fold = ~two
-    fold[two] = _cross(b - a, one - a) * _cross(b - a, other - a) >= 0
+    fold[two] = cross(b - a, one - a) * cross(b - a, other - a) >= 0
     fold &= np.isfinite(at[edges]).all(axis=(1, 2))
     inner = np.where(count > 2, -1, opposite[order[first]])
     return edges[fold], inner[fold]
 
 
 def _outside(count: int, edge: AnyArray, start: AnyArray, stop: AnyArray) -> tuple[AnyArray, ...]:
-    """(k,) of `count` edges, and from where to where (k,) each is outside of intervals, which are in order."""
+    """Return edges (k,) of `count`, and from where to where (k,) each is outside of intervals, which are in order."""
     edges = np.concatenate([np.arange(count), edge])
     lows, order = np.concatenate([np.zeros(count), stop]), np.argsort(edges, kind="stable")
     ends = np.concatenate([edge, np.arange(count)])
@@ -76,7 +77,7 @@ def _outside(count: int, edge: AnyArray, start: AnyArray, stop: AnyArray) -> tup
 
 
 def _is_outline(sight: HiddenLineRemoval, pieces: FloatArray, inner: IntArray) -> BoolArray:
-    """(k,) whether pieces (k, 2, 3) of folds stand well before what is seen beside them."""
+    """Return whether pieces (k, 2, 3) of folds stand well before what is seen beside them, (k,)."""
     a, b = pieces[:, 0], pieces[:, 1]
     middle, way = (a + b) / 2, b[:, :2] - a[:, :2]
     length = np.linalg.norm(way, axis=1)
@@ -95,7 +96,7 @@ def _between(ends: FloatArray, share: FloatArray) -> FloatArray:
 
 
 def _lines(nodes: AnyArray, places: FloatArray, drawn: AnyArray) -> list[Line]:
-    """Segments (k, 2) of nodes at places (n, 2) put end to end, without those that are not to be drawn (k,).
+    """Put segments (k, 2) of nodes at places (n, 2) end to end, without those that are not to be drawn (k,).
 
     Gaps are bridged, and ticks left out.
     """
@@ -117,7 +118,7 @@ def _lines(nodes: AnyArray, places: FloatArray, drawn: AnyArray) -> list[Line]:
 
 
 def _bridged(drawn: AnyArray, length: AnyArray) -> AnyArray:
-    """Which segments (k,) of these lengths are drawn, with short gaps between others filled."""
+    """Return which segments (k,) of these lengths are drawn, with short gaps between others filled."""
     bounds = np.flatnonzero(np.diff(drawn)) + 1
     total = np.append(0.0, np.cumsum(length))
     result = drawn.copy()
@@ -128,7 +129,7 @@ def _bridged(drawn: AnyArray, length: AnyArray) -> AnyArray:
 
 
 def _long_enough(segments: IntArray, places: FloatArray) -> BoolArray:
-    """(k,) whether the connected piece that a segment (k, 2) is part of is no tick."""
+    """Return whether the connected piece that each segment (k, 2) is part of is long enough, (k,)."""
     ids, index = np.unique(segments, return_inverse=True)
     pair = index.reshape(-1, 2)
     graph = coo_array((np.ones(len(pair)), (pair[:, 0], pair[:, 1])), shape=(len(ids), len(ids)))
@@ -136,7 +137,3 @@ def _long_enough(segments: IntArray, places: FloatArray) -> BoolArray:
     length = np.linalg.norm(places[segments[:, 1]] - places[segments[:, 0]], axis=1)
     is_long: BoolArray = np.bincount(part[pair[:, 0]], length)[part[pair[:, 0]]] >= TICK
     return is_long
-
-
-def _cross(a: FloatArray, b: FloatArray) -> AnyArray:
-    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]

@@ -4,19 +4,19 @@ import numpy as np
 
 from .description import Figure
 from .framing import Framed, shown_surface
-from .layout import Layout
+from .page_layout import PageLayout
 
 EDGE = 1.3
 """Reaches of a glyph from its middle to the outside of its rims."""
 
 
-def overhang(figure: Figure, layout: Layout) -> tuple[float, float]:
-    """By how much pins and the like stand over the views of a page: at most above one, and at most beside one.
+def overhang(figure: Figure, layout: PageLayout) -> tuple[float, float]:
+    """Return the lengths by which marks at most stand out above the views of a page, and beside them.
 
-    In a movie above, wherever they are now.
+    In a movie they may be anywhere.
     """
     above = beside = 0.0
-    for panel, top, cell in zip(figure.panels, figure.tops(), layout.cells, strict=True):
+    for panel, top, cell in zip(figure.panels, figure.upper_limits(), layout.cells, strict=True):
         marks = [mark for mark in panel.marks if mark.glyph.rise]
         if not marks:
             continue

@@ -10,7 +10,7 @@ from bihdist_core import BihdistError
 from bihdist_core.arrays import ByteArray
 from bihdist_core.progress import Progress, silent
 
-from ..scene.camera import Projection
+from ..scene.camera import Projection, see_part
 from ..scene.style import Style
 
 FINER = 2
@@ -23,15 +23,20 @@ TILE = 1024
 """Pixels of the picture, along each side, that are drawn at once: OpenGL limits a picture's size, and memory does."""
 
 Rectangle = tuple[float, float, float, float]
-"""left, right, bottom, top: part of a picture, in coordinates that run from -1 to 1 across the whole."""
+"""Left, right, bottom and top of a part of a picture, in coordinates that run from -1 to 1 across the whole."""
 
 WHOLE: Rectangle = (-1.0, 1.0, -1.0, 1.0)
 
 
 class RenderWindow:
-    """An off-screen window with one surface in it, to be closed at the end; only one thread may use it.
+    """An off-screen window with one surface in it, which has to be closed; only one thread may use it.
 
-    finer: how many pixels are drawn for each pixel of the picture, along each side; samples: of each of them.
+    Parameters
+    ----------
+    finer
+        Number of pixels drawn along each side of a pixel of the picture.
+    samples
+        Number of samples of each of these.
     """
 
     def __init__(self, style: Style, finer: int = FINER, samples: int = SAMPLES) -> None:
@@ -65,15 +70,22 @@ class RenderWindow:
         part: Rectangle = WHOLE,
         progress: Progress | None = None,
     ) -> ByteArray:
-        """(height, width, 4) uint8 picture of what is shown, on nothing: the colours are multiplied by alpha.
+        """Return a transparent picture (height, width, 4) uint8 of what is shown, with premultiplied alpha.
 
-        size: its width and height in pixels; scale: pixels per pixel of the style's line widths; part: of the view.
+        Parameters
+        ----------
+        size
+            Width and height in pixels.
+        scale
+            Pixels per pixel of the style's line widths.
+        part
+            Part of the view.
         """
         report = progress or silent
         width, height = size
         self.shown.set_scale(scale * self._finer)
         # Of equal size, so that the window keeps its own.
-        tile = tuple(_even_tile(side) for side in size)
+        tile = tuple(-(-side // -(-side // TILE)) for side in size)
         across, down = (-(-side // step) for side, step in zip(size, tile, strict=True))
         picture = np.zeros((down * tile[1], across * tile[0], 4), np.uint8)
         self._window.SetSize(tile[0] * self._finer, tile[1] * self._finer)
@@ -97,24 +109,16 @@ class RenderWindow:
         return picture[:height, :width]
 
     def _draw(self, projection: Projection, part: Rectangle) -> ByteArray:
-        """One tile, upright, averaged down to the picture's pixels."""
+        """Draw one tile, averaged down to the picture's pixels."""
         from vtkmodules.util.numpy_support import vtk_to_numpy
         from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
-        from vtkmodules.vtkCommonMath import vtkMatrix4x4
 
-        left, right, bottom, top = part
-        enlarge = np.eye(4)
-        enlarge[0, 0], enlarge[1, 1] = 2 / (right - left), 2 / (top - bottom)
-        enlarge[0, 3], enlarge[1, 3] = -(right + left) / (right - left), -(top + bottom) / (top - bottom)
-        matrix = vtkMatrix4x4()
-        matrix.DeepCopy((enlarge @ projection.matrix).ravel().tolist())
         camera = self._renderer.GetActiveCamera()
         camera.SetPosition(*projection.position)
         camera.SetFocalPoint(*(projection.position - projection.view[2, :3]))
         camera.SetViewUp(*projection.view[1, :3])
         camera.SetParallelProjection(projection.is_parallel)
-        camera.UseExplicitProjectionTransformMatrixOn()
-        camera.SetExplicitProjectionTransformMatrix(matrix)
+        see_part(camera, projection.matrix, part)
         self._window.Render()
         width, height = self._window.GetSize()
         read = vtkUnsignedCharArray()
@@ -127,13 +131,8 @@ class RenderWindow:
         return (total // self._finer**2).astype(np.uint8)[::-1]
 
 
-def _even_tile(side: int) -> int:
-    """The size of tiles for a side of a picture."""
-    return -(-side // -(-side // TILE))
-
-
 def check_offscreen() -> None:
-    """BihdistError, with what to install, where the libraries that draw without a screen are missing.
+    """Raise BihdistError, with what to install, where the libraries that draw without a screen are missing.
 
     Without them VTK does not raise but ends the process.
     """

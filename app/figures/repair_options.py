@@ -1,4 +1,4 @@
-"""What figures and commands can be told of a mesh before it is measured: what is cut out of it, and merged."""
+"""Options of figures and commands for a mesh before it is measured: what is cut out of it, and merged."""
 
 import os
 from collections.abc import Mapping
@@ -29,14 +29,15 @@ def _tolerance(text: str) -> float:
         raise ParameterError(f"{text!r} is not a length, a number from 0") from None
 
 
-MERGE = "make vertices one that are no farther apart, in mesh units, after --cut; they are then numbered anew"
+MERGE = "merge vertices no farther apart than this, in mesh units, after --cut; vertices are then renumbered"
 """What merging does, in words."""
 
 CUT = Option(
     "cut",
-    "cut vertices out with their faces, which nothing then crosses: a file of 1 for each that stays and 0 for "
-    "each that goes (.npy, .txt, .gii, .annot, .label or another of FreeSurfer's); {name} is the mesh's name",
+    "cut out vertices with their faces, so that no distance crosses them: a file with 1 for each vertex to keep and "
+    "0 for each to remove (.npy, .txt, .gii, .annot, .label or another of FreeSurfer's); {name} is the mesh's name",
     "",
+    group="",
     metavar="MASK",
 )
 
@@ -46,6 +47,7 @@ REPAIRS = Row(
         Option(
             "merge",
             f"{MERGE}; OUT.ids.csv beside the output has their new ids",
+            group="",
             metavar="TOLERANCE",
             read=_tolerance,
             write=digits,

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bihdist_core.analysis.field_scatter import FieldScatter
-from bihdist_core.arrays import AnyArray
-from bihdist_core.progress import Progress
+from bihdist_core.arrays import AnyArray, ByteArray
 
+from ..drawing.chart import Axis
+from ..drawing.numbers import MINUS
+from ..drawing.shapes import Box, Image, Path, Pen, Shape, Text, hexadecimal, opaque, polyline, rectangle
 from ..scene.density import axis_ends, cell_size, density_picture
-from .chart_page import ChartLook, save_chart, style_axes
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from .chart_page import RIM, ChartLook, save_chart
+from .size import UNITS_PER_INCH
 
 INCHES = 3.35
 """As wide as a column of most journals."""
@@ -26,13 +26,16 @@ COLUMN_LOOK = ChartLook(inches=INCHES)
 PLOT = 0.76
 """The plot's part of the width, about: what is left is for words."""
 
+STEP = 1.5
+"""Font sizes from one selection's name to the next."""
+
 CELLS_PER_INCH = 150
 """Twice or three times as wide where there are few points, as in the window."""
 
 
 @dataclass(frozen=True)
 class ScatterAxis:
-    """name: of the field; unit: of its values; low, high: where the axis ends."""
+    """An axis of a scatter: the field's name and unit, and the ends of the axis."""
 
     name: str
     unit: str
@@ -47,9 +50,21 @@ class ScatterAxis:
 
 @dataclass(frozen=True, eq=False)
 class ScatterFigure:
-    """in_shares: the values are shares of 1, written in percent.  is_common: both axes have one unit, so that there is
-    a diagonal.  selections: a name, vertices (k,), and a colour as #rrggbb each.  correlation: of ranks.  largest: the
-    vertex where the fields are farthest apart."""
+    """Two fields against each other.
+
+    Attributes
+    ----------
+    in_shares
+        Whether the values are fractions of 1, written in percent.
+    is_common
+        Whether both axes have one unit, so that there is a diagonal.
+    selections
+        A name, vertices (k,), and a colour as #rrggbb each.
+    correlation
+        Rank correlation of the two.
+    largest
+        The vertex where the fields are farthest apart.
+    """
 
     scatter: FieldScatter
     across: ScatterAxis
@@ -65,74 +80,73 @@ class ScatterFigure:
 def axes_of(
     scatter: FieldScatter, names: tuple[str, str], units: tuple[str, str], in_shares: bool
 ) -> tuple[ScatterAxis, ScatterAxis]:
-    """Both axes, named by fields with such units."""
+    """Return both axes, named by fields with such units."""
     ends = axis_ends(scatter, in_shares or units[0] == units[1])
     words = ("% of the maximum", "% of the maximum") if in_shares else units
     across, up = (ScatterAxis(name, unit, *end) for name, unit, end in zip(names, words, ends, strict=True))
     return across, up
 
 
-def save_scatter_figure(figure: ScatterFigure, path: str | os.PathLike[str], progress: Progress | None = None) -> None:
-    """See `save_chart`.  The points are a picture, all else is drawn with lines and letters."""
-    legend = 1.5 * figure.look.points / 72 * len(figure.selections)
-    high = PLOT * figure.look.inches + 0.55 + legend
-    save_chart(path, figure.look, high, lambda page: _draw(page, figure), progress)
+def save_scatter_figure(figure: ScatterFigure, path: str | os.PathLike[str]) -> None:
+    """Write the figure of a scatter, see `save_chart`; its points are pixels, the rest vectors and text."""
+    look = figure.look
+    legend = STEP * look.size * len(figure.selections)
+    height = (PLOT * look.inches + 0.55) * UNITS_PER_INCH + legend
+    save_chart(path, look, height, _shapes(figure, height - legend))
 
 
-def _draw(page: Figure, figure: ScatterFigure) -> None:
-    look, axes = figure.look, page.add_subplot()
-    style_axes(axes, look, figure.across.words, figure.up.words)
-    scale = 100 if figure.in_shares else 1
-    ends = [(scale * axis.low, scale * axis.high) for axis in (figure.across, figure.up)]
-    axes.set_xlim(*ends[0])
-    axes.set_ylim(*ends[1])
-    axes.locator_params(nbins=6)
-    axes.grid(False)
+def _shapes(figure: ScatterFigure, height: float) -> list[Shape]:
+    look, scale = figure.look, 100 if figure.in_shares else 1
+    across, up = (Axis(scale * axis.low, scale * axis.high) for axis in (figure.across, figure.up))
+    top = RIM + (1.4 if figure.correlation is not None else 0.4) * look.size
+    room = Box(0, top, look.width - look.right(across), height - top)
+    plot, axes = look.plot(room, across, up, (figure.across.words, figure.up.words), is_square=figure.is_common)
+    ink = look.ink
+    without_grid = [shape for shape in axes if not (isinstance(shape, Path) and shape.pen == ink.grid)]
+    shapes: list[Shape] = [Image(_picture(figure), plot.box), *without_grid]
     if figure.is_common:
-        axes.set_aspect("equal")
-        axes.axline((0, 0), slope=1, color=look.style.quiet_text, linewidth=0.8, linestyle="--", gid="diagonal")
-    cells = round(PLOT * look.inches * CELLS_PER_INCH / cell_size(len(figure.scatter.ids)))
-    grid = cells, cells, (figure.across.low, figure.across.high), (figure.up.low, figure.up.high)
-    chosen = [(vertices, _rgb(colour)) for _, vertices, colour in figure.selections]
-    (red, green, blue), ground = (
-        [round(255 * x) for x in colour] for colour in (look.style.text, look.style.background)
-    )
-    picture = density_picture(figure.scatter, grid, (red, green, blue), chosen)
-    opaque = picture[..., 3:] / 255  # EPS has no other
-    picture = np.round(opaque * picture[..., :3] + (1 - opaque) * ground).astype(np.uint8)
-    axes.imshow(
-        picture, extent=(*ends[0], *ends[1]), aspect="equal" if figure.is_common else "auto", interpolation="nearest"
-    )
+        ends = max(across.low, up.low), min(across.high, up.high)
+        places = [(float(plot.x(value)), float(plot.y(value))) for value in ends]
+        shapes.append(Path(polyline(places), pen=Pen(ink.quiet, 1.07, (3.7, 1.6)), name="diagonal"))
     if figure.correlation is not None:
-        words = f"rank correlation {figure.correlation:.4f}".replace("-", "−")
-        axes.set_title(words, loc="right", fontsize=look.points, color=look.style.quiet_text)
-    place = np.flatnonzero(figure.scatter.ids == figure.largest)
-    if len(place):
-        at = scale * figure.scatter.x[place], scale * figure.scatter.y[place]
-        for colour, width, size in ((look.style.background, 2.4, 7.6), (look.style.text, 1.1, 6)):
-            axes.plot(*at, "+", color=colour, markersize=size, markeredgewidth=width, zorder=3, gid="largest")
-    if figure.selections:
-        _name_selections(page, figure)
+        words = f"rank correlation {figure.correlation:.4f}".replace("-", MINUS)
+        y = plot.box.y - 0.35 * look.size
+        shapes.append(Text(words, plot.box.right, y, look.size, ink.quiet, align="right"))
+    for place in np.flatnonzero(figure.scatter.ids == figure.largest):
+        x, y = float(plot.x(scale * figure.scatter.x[place])), float(plot.y(scale * figure.scatter.y[place]))
+        for colour, width, arm in ((opaque(look.style.background), 3.2, 5.1), (ink.text, 1.5, 4.0)):
+            cross = (*polyline([(x - arm, y), (x + arm, y)]), *polyline([(x, y - arm), (x, y + arm)]))
+            shapes.append(Path(cross, pen=Pen(colour, width), name="largest"))
+    return [*shapes, *_selections(figure, height)]
 
 
-def _name_selections(page: Figure, figure: ScatterFigure) -> None:
-    from matplotlib.patches import Patch
-
-    patches = [
-        Patch(facecolor=colour, label=f"{name} ({len(vertices):,})") for name, vertices, colour in figure.selections
-    ]
-    page.legend(
-        handles=patches,
-        loc="outside lower center",
-        ncols=1,
-        frameon=False,
-        fontsize=figure.look.points,
-        labelcolor=figure.look.style.text,
-        handlelength=0.9,
-        handleheight=0.9,
-    )
+def _picture(figure: ScatterFigure) -> ByteArray:
+    """Return the points as opaque pixels (h, w, 4): EPS has no others."""
+    style = figure.look.style
+    cells = round(PLOT * figure.look.inches * CELLS_PER_INCH / cell_size(len(figure.scatter.ids)))
+    grid = cells, cells, (figure.across.low, figure.across.high), (figure.up.low, figure.up.high)
+    chosen = [(vertices, _rgb(hexadecimal(colour))) for _, vertices, colour in figure.selections]
+    picture = density_picture(figure.scatter, grid, _rgb(style.text), chosen)
+    opacity = picture[..., 3:] / 255
+    colours = np.round(opacity * picture[..., :3] + (1 - opacity) * _rgb(style.background))
+    return np.concatenate([colours, np.full_like(opacity, 255)], 2).astype(np.uint8)
 
 
-def _rgb(colour: str) -> tuple[int, int, int]:
-    red, green, blue = (int(colour[k : k + 2], 16) for k in (1, 3, 5))
+def _selections(figure: ScatterFigure, top: float) -> list[Shape]:
+    """Return the names of selections, each with its colour, in the middle under the plot."""
+    look, size = figure.look, figure.look.size
+    texts = [f"{name} ({len(vertices):,})" for name, vertices, _ in figure.selections]
+    wide = max((look.text_width(text, size) for text in texts), default=0.0)
+    left = (look.width - wide) / 2
+    shapes: list[Shape] = []
+    for k, (text, (_, _, colour)) in enumerate(zip(texts, figure.selections, strict=True)):
+        y = top + (k + 0.75) * STEP * size
+        sample = Box(left - 0.8 * size, y - 0.8 * size, 0.9 * size, 0.9 * size)
+        shapes.append(Path(rectangle(sample), hexadecimal(colour)))
+        shapes.append(Text(text, left + 0.6 * size, y, size, look.ink.text))
+    return shapes
+
+
+def _rgb(colour: Sequence[float]) -> tuple[int, int, int]:
+    red, green, blue = (round(255 * part) for part in colour[:3])
     return red, green, blue

@@ -11,12 +11,13 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from bihdist_core import ParameterError, Surface
-from bihdist_core.arrays import ByteArray, FloatArray
+from bihdist_core.arrays import AnyArray, ByteArray, FloatArray
 from bihdist_core.progress import Progress, part
 
 from ..document.document import isolines_in
 from ..document.looks import Isolines, Shading
-from ..marks.line_looks import LineLook
+from ..drawing.line_looks import LineLook
+from ..drawing.shapes import Box
 from ..marks.primitives import PointMark
 from ..scene.bands import band_edges
 from ..scene.drawable import drawable, normals_shading, outward_faces
@@ -25,13 +26,12 @@ from ..scene.line_clipping import Line
 from ..scene.line_labels import Contour
 from ..scene.selected import selected_colours
 from ..scene.style import Style
-from .boxes import Box
 from .description import Figure
 from .framing import Framed, shown_surface
 from .hidden_lines import Curve, HiddenLineRemoval, contours_seen
 from .inset_places import source_of
-from .layout import Layout
 from .outlines import outlines
+from .page_layout import PageLayout
 from .raster import FINER, SAMPLES, Rectangle, RenderWindow
 
 LEAST_SEEN = 3.0
@@ -43,7 +43,10 @@ PlacedMark = tuple[int, float, float]
 
 @dataclass(frozen=True, eq=False)
 class SeenLines:
-    """What is seen of lines of one look; course: all of them, if what is hidden is drawn, too."""
+    """The parts of lines of one look that are seen.
+
+    `course` holds all of their parts, if what is hidden is drawn, too.
+    """
 
     seen: list[Line]
     course: list[Line]
@@ -53,10 +56,22 @@ class SeenLines:
 class Shot:
     """A rectangle of the page with a picture in it.
 
-    image: (h, w, 4) uint8, colours multiplied by alpha; isolines: in the order of their values; marks: their index in
-    the panel, and where (x, y) on the page; frame: (3, 3) of the camera, see `scene.camera.frame`; ghosts: of marks
-    that the shape hides, the same; source: for an inset, what it enlarges; seen: the names of the lines of which
-    something is seen; lines: by their looks, those of a higher rank last.
+    Attributes
+    ----------
+    image
+        (h, w, 4) uint8, with premultiplied alpha.
+    isolines
+        In the order of their values.
+    marks, ghosts
+        Marks that are seen, and marks that the shape hides.
+    frame
+        (3, 3) axes of the camera, see `scene.camera.frame`.
+    source
+        What an inset enlarges; None for a view.
+    seen
+        Names of lines of which something is seen.
+    lines
+        By their looks, those of a higher rank last.
     """
 
     panel: int
@@ -71,12 +86,26 @@ class Shot:
     seen: frozenset[str] = frozenset()
     lines: dict[LineLook, SeenLines] = field(default_factory=dict)
 
+    def alpha_at(self, points: FloatArray) -> AnyArray:
+        """Return the opacity of the picture, 0 to 255, at points (k, 2) of the page; 0 outside of it."""
+        rows, columns, _ = self.image.shape
+        column, row = np.floor(self.box.shares(points) * (columns, rows)).astype(int).T
+        is_inside = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
+        alpha = np.zeros(len(points), np.uint8)
+        alpha[is_inside] = self.image[row[is_inside], column[is_inside], 3]
+        return alpha
+
 
 class RenderCache:
-    """What is kept from one figure to the next: the off-screen window, and surfaces made ready.  Use it as a context.
+    """Resources kept from one figure to the next: the off-screen window, and prepared surfaces.  Use it as a context.
 
-    finer, samples: see `RenderWindow`.  curves: isolines are exact, found and hidden one by one; otherwise the surface
-    is painted with them, as in the window, which takes a fraction of the time.
+    Parameters
+    ----------
+    finer, samples
+        See `RenderWindow`.
+    curves
+        Whether isolines are exact curves, hidden one by one; otherwise the surface is painted with them, as in the
+        window, which takes a fraction of the time.
     """
 
     def __init__(self, finer: int = FINER, samples: int = SAMPLES, curves: bool = True) -> None:
@@ -97,7 +126,7 @@ class RenderCache:
         self._render_window = None
 
     def render_window(self, style: Style) -> RenderWindow:
-        """The window for a style."""
+        """Return the off-screen window for a style."""
         if self._render_window is None or self._render_window.shown.style != style:
             self.close()
             self._render_window = RenderWindow(style, self._finer, self._samples)
@@ -109,7 +138,7 @@ class RenderCache:
         self._meshes = {key: entry for key, entry in self._meshes.items() if key[0] in ids}
 
     def mesh(self, surface: Surface, shading: Shading) -> vtkPolyData:
-        """The surface as VTK draws it with this shading, made once."""
+        """Return the surface as VTK draws it with this shading, made once."""
         key = (id(surface), normals_shading(shading))
         if key not in self._meshes:
             self._meshes[key] = (surface, drawable(surface, shading))
@@ -117,12 +146,12 @@ class RenderCache:
 
 
 def take_shots(
-    figure: Figure, layout: Layout, progress: Progress, render_cache: RenderCache | None = None
+    figure: Figure, layout: PageLayout, progress: Progress, render_cache: RenderCache | None = None
 ) -> list[Shot]:
-    """All pictures, in the order in which they lie on each other."""
+    """Take all pictures, in the order in which they lie on each other."""
     shots: list[Shot] = []
-    tops = figure.tops()
-    count = sum(len(p.views) + len(p.zooms) for p in figure.panels)
+    tops = figure.upper_limits()
+    count = sum(len(p.views) + len(p.insets) for p in figure.panels)
     sights: dict[Hashable, HiddenLineRemoval] = {}
     with RenderCache() if render_cache is None else nullcontext(render_cache) as render_cache:
         render_cache.keep(panel.surface for panel in figure.panels)
@@ -152,15 +181,15 @@ def take_shots(
                     sights[key] = HiddenLineRemoval(surface, framed.projection, size, outward_faces(mesh))
                 taker = _Taker(figure, index, surface, sights[key], tops[index], framed, layout, render_window, curves)
                 shots.append(taker.take(box, panel.isolines, step))
-                for zoom, inset in zip(panel.zooms, cell.insets, strict=True) if number == 0 else ():
+                for inset, place in zip(panel.insets, cell.insets, strict=True) if number == 0 else ():
                     step = part(progress, len(shots) / count, (len(shots) + 1) / count)
-                    source = source_of(framed, surface, zoom.vertex, inset.width, zoom.factor, box)
-                    shots.append(taker.take(inset, isolines_in(zoom, panel.isolines), step, source))
+                    source = source_of(framed, surface, inset.vertex, place.width, inset.factor, box)
+                    shots.append(taker.take(place, isolines_in(inset, panel.isolines), step, source))
     return shots if figure.dashes_all else [_without_seen(shot, shots) for shot in shots]
 
 
 def _without_seen(shot: Shot, shots: Sequence[Shot]) -> Shot:
-    """Without those dashed marks that another picture of the panel shows."""
+    """Leave out dashed marks that another picture of the panel shows."""
     seen = {mark[0] for other in shots if other.panel == shot.panel for mark in other.marks}
     return replace(shot, ghosts=[ghost for ghost in shot.ghosts if ghost[0] not in seen])
 
@@ -176,7 +205,7 @@ class _Taker:
         sight: HiddenLineRemoval,
         top: float,
         framed: Framed,
-        layout: Layout,
+        layout: PageLayout,
         render_window: RenderWindow,
         curves: bool,
     ) -> None:
@@ -194,7 +223,7 @@ class _Taker:
         self._marks, self._ghosts = self._placed_marks()
 
     def take(self, box: Box, wanted: Isolines, progress: Progress, source: Box | None = None) -> Shot:
-        """A box of the page: what it shows of the view or, for an inset, a part of it enlarged, with these isolines."""
+        """Take what a box of the page shows: the view or, for an inset, a part of it enlarged, with these isolines."""
         _, _, width, height = box.pixels(self._scale)
         self._render_window.shown.show_isolines(Isolines(0) if self._curves else wanted, self._panel.through)
         image = self._render_window.shade(
@@ -204,37 +233,38 @@ class _Taker:
             self._part(source or box),
             part(progress, 0, 0.7),
         )
-        progress(0.7, "finding what is hidden")
+        progress(0.7, "finding hidden marks")
         contours = self._contours(wanted) if self._curves else []
         if self._style.outline and self._outlines is None:
             self._outlines = outlines(self._sight)
-        move = _Move(source or box, box)
-        marks, ghosts = (
-            [(k, *move(np.array([[x, y]]) + self._corner)[0]) for k, x, y in each]
-            for each in (self._marks, self._ghosts)
-        )
+        corner = np.array([self._box.x, self._box.y])
+
+        def moved(points: FloatArray) -> FloatArray:
+            """Return points (k, 2) of the view's picture as they stand on the page, enlarged in an inset."""
+            return box.at((source or box).shares(points + corner))
+
+        def moved_lines(lines: Sequence[Line]) -> list[Line]:
+            return [(moved(points), is_closed) for points, is_closed in lines]
+
+        def moved_marks(marks: Sequence[PlacedMark]) -> list[PlacedMark]:
+            places = [(k, *moved(np.array([x, y])).tolist()) for k, x, y in marks]
+            return [mark for mark in places if box.holds(*mark[1:])]
+
         return Shot(
             self._index,
             box,
             image,
-            [replace(line, parts=[(move(p + self._corner), c) for p, c in line.parts]) for line in contours],
-            [(move(p + self._corner), c) for p, c in self._outlines or []],
-            [mark for mark in marks if box.holds(*mark[1:])],
+            [replace(line, parts=moved_lines(line.parts)) for line in contours],
+            moved_lines(self._outlines or ()),
+            moved_marks(self._marks),
             self._projection.view[:3, :3].T,
-            [mark for mark in ghosts if source is None and box.holds(*mark[1:])],
+            moved_marks(self._ghosts) if source is None else [],
             source,
             frozenset(self._seen),
-            {
-                look: SeenLines(*([(move(p + self._corner), c) for p, c in lines] for lines in (of.seen, of.course)))
-                for look, of in self._lines.items()
-            },
+            {look: SeenLines(moved_lines(of.seen), moved_lines(of.course)) for look, of in self._lines.items()},
         )
 
     # ------------------------------------------------------------------ what is seen
-    @property
-    def _corner(self) -> FloatArray:
-        return np.array([self._box.x, self._box.y])
-
     def _part(self, source: Box) -> Rectangle:
         whole = self._box
         left, right = (2 * (side - whole.x) / whole.width - 1 for side in (source.x, source.right))
@@ -242,7 +272,7 @@ class _Taker:
         return left, right, bottom, top
 
     def _contours(self, wanted: Isolines) -> list[Contour]:
-        """The visible parts of isolines; traced once for all pictures that have the same."""
+        """Return the visible parts of isolines, traced once for all pictures that have the same."""
         if wanted not in self._found:
             self._found[wanted] = self._visible_isolines(wanted)
         return self._found[wanted]
@@ -258,7 +288,7 @@ class _Taker:
         return contours_seen(self._sight, panel.field, found)
 
     def _seen_lines(self, look: LineLook) -> SeenLines:
-        """Of the panel's lines of a look; the names of those of which something is seen are kept."""
+        """Return the panel's lines of a look; the names of those of which something is seen are kept."""
         lines, x = [line for line in self._panel.lines if line.look == look], self._surface.vertices
         curves = [Curve(line.positions(x), line.spans, line.is_closed) for line in lines]
         seen = self._sight.visible(curves)
@@ -268,7 +298,7 @@ class _Taker:
         return SeenLines(list(chain.from_iterable(seen)), self._sight.outlined(curves) if look.hidden else [])
 
     def _placed_marks(self) -> tuple[list[PlacedMark], list[PlacedMark]]:
-        """Those that are seen, and those that the shape hides."""
+        """Return the marks that are seen, and those that the shape hides."""
         seen: list[PlacedMark] = []
         hidden: list[PlacedMark] = []
         for k, mark in enumerate(self._panel.marks):
@@ -294,17 +324,5 @@ class _Taker:
 
 
 def _length(part: Line) -> float:
-    """Of a part of a line, in units of the page."""
+    """Return the length of a part of a line, in units of the page."""
     return float(np.linalg.norm(np.diff(part[0], axis=0), axis=1).sum())
-
-
-class _Move:
-    """From one rectangle of the page to another."""
-
-    def __init__(self, start: Box, stop: Box) -> None:
-        self._from, self._to = start, stop
-
-    def __call__(self, points: FloatArray) -> FloatArray:
-        a, b = self._from, self._to
-        share = (points - [a.x, a.y]) / [a.width, a.height]
-        return share * [b.width, b.height] + [b.x, b.y]

@@ -1,4 +1,4 @@
-"""The size of a figure, as one writes it: 1680x640, 8000px, 160mm@300dpi, 160x80mm, column, slide."""
+"""The size of a figure, as one writes it: 1680x640, 8000px, 160mm@300dpi, 160x80mm, 8.5cm, column, slide."""
 
 import re
 from dataclasses import dataclass
@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from bihdist_core import ParameterError
 
 MM_PER_INCH = 25.4
+MM_PER_UNIT = {"mm": 1.0, "cm": 10.0, "in": MM_PER_INCH}
 UNITS_PER_INCH = 96
 """Lengths in a figure are in pixels of a page at 96 dpi, which is what a pixel is in SVG and on the web."""
 
 PRINT_DPI = 300.0
-"""Where a size is in millimetres and no resolution is given."""
+"""Dots per inch of a size in millimetres without a resolution."""
 
 LEAST_DPI, MOST_DPI = 10, 2400
 
@@ -21,8 +22,13 @@ NAMED = {"column": "85mm", "double": "178mm", "slide": "1920x1080@288dpi", "A0":
 """Sizes by what they are for: one or two columns of a journal, a screen that is looked at from afar, a poster."""
 
 _WRITTEN = re.compile(
-    r"(?P<width>\d+(?:\.\d+)?)(?:x(?P<height>\d+(?:\.\d+)?))?(?P<unit>px|mm)?(?:@(?P<dpi>\d+(?:\.\d+)?)(?:dpi)?)?"
+    r"(?P<width>\d+(?:\.\d+)?)(?:x(?P<height>\d+(?:\.\d+)?))?(?P<unit>px|mm|cm|in)?(?:@(?P<dpi>\d+(?:\.\d+)?)(?:dpi)?)?"
 )
+
+
+def is_column(text: str) -> bool:
+    """Return whether a size is written as one column of a journal, whose figures are cropped and share a colour bar."""
+    return text.strip().lower() == "column"
 
 
 @dataclass(frozen=True)
@@ -49,16 +55,19 @@ class Size:
 
     @classmethod
     def parse(cls, text: str) -> "Size":
-        """The size written as `text`; ParameterError if it is not one."""
+        """Return the size written as `text`; raise ParameterError if it is none."""
         named = {name.lower(): written for name, written in NAMED.items()}
-        found = _WRITTEN.fullmatch(named.get(text.strip().lower(), text).strip().replace("×", "x"))
+        found = _WRITTEN.fullmatch(named.get(text.strip().lower(), text).replace(" ", "").replace("×", "x"))
         if not found:
             raise ParameterError(
-                f"{text!r} is not a size such as 1680x640, 8000px, 160mm@300dpi or 160x80mm, "
+                f"{text!r} is not a size such as 1680x640, 8000px, 160mm@300dpi, 160x80mm, 8.5cm or 3.5in, "
                 f"nor one of {', '.join(NAMED)}."
             )
         width, height, dpi = (None if found[k] is None else float(found[k]) for k in ("width", "height", "dpi"))
-        return cls(width, height, found["unit"] or "px", dpi)
+        if (unit := found["unit"] or "px") == "px":
+            return cls(width, height, unit, dpi)
+        width, height = (side and round(side * MM_PER_UNIT[unit], 9) for side in (width, height))
+        return cls(width, height, "mm", dpi)
 
     @property
     def resolution(self) -> float | None:
@@ -66,11 +75,11 @@ class Size:
         return self.dpi or (PRINT_DPI if self.unit == "mm" else None)
 
     def pixels_of(self, length: float) -> float:
-        """Pixels that a width or height of this size has."""
+        """Return a width or height of this size in pixels."""
         return length * (self.resolution or 0) / MM_PER_INCH if self.unit == "mm" else length
 
     def pixels(self, usual: tuple[float, float]) -> tuple[int, int, float]:
-        """Width, height and pixels per unit, for panels that would usually take this many units."""
+        """Return width, height and pixels per unit, for panels that would usually take this many units."""
         dpi = self.resolution
         if self.width is not None:
             width = self.pixels_of(self.width)
@@ -87,7 +96,7 @@ class Size:
 
 
 def check_pixels(width: float, height: float) -> None:
-    """ParameterError for a picture that is too small or too large."""
+    """Raise ParameterError for a picture that is too small or too large."""
     if not (16 <= width <= LARGEST and 16 <= height <= LARGEST):
         raise ParameterError(
             f"A picture has 16 to {LARGEST} pixels along a side; this would have {width:.0f} x {height:.0f}."

@@ -1,4 +1,4 @@
-"""What a figure needs in LaTeX: a snippet that includes it at its width, with a caption that says what it shows."""
+"""LaTeX snippets that include a figure at its width, with a caption that says what it shows."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from bihdist_core.distances.answers import Answer, with_unit
+from bihdist_core.sentences import with_and
 from bihdist_core.sources.source import BoundaryLoop, Curve, Member, Source, SurfacePoint
 from bihdist_core.sources.words import short_words_of
 
@@ -19,7 +20,7 @@ from .layout import lay_out
 from .size import MM_PER_INCH, UNITS_PER_INCH
 
 MOST_NAMED = 6
-"""Of each kind so many sources are named."""
+"""Most sources of each kind that are named."""
 
 _SPECIAL = {
     "\\": r"\textbackslash{}",
@@ -35,12 +36,12 @@ _SPECIAL = {
 
 
 def tex_path(figure: Path) -> Path:
-    """Where the snippet of a figure goes."""
+    """Return the path of a figure's snippet."""
     return figure.with_suffix(".tex")
 
 
 def tex_snippet(figure: Figure, recipe: Recipe, answers: Sequence[Answer], file: Path) -> str:
-    """A figure environment for a file, to be read with \\input; it needs the package graphicx."""
+    """Return a figure environment for a file, to be read with \\input; it needs the package graphicx."""
     layout = lay_out(figure)
     width = layout.width / UNITS_PER_INCH * MM_PER_INCH
     # LaTeX has no way to read SVG; the same name may be there as PDF.
@@ -56,12 +57,12 @@ def tex_snippet(figure: Figure, recipe: Recipe, answers: Sequence[Answer], file:
 
 
 def caption(figure: Figure, recipe: Recipe, answers: Sequence[Answer]) -> str:
-    """In LaTeX: the mesh, the source, and of each panel the quantity, its unit and its range."""
-    document, tops = recipe.document, figure.tops()
+    """Return the mesh, the source, and each panel's quantity, unit and range, in LaTeX."""
+    document, tops = recipe.document, figure.upper_limits()
     meshes = dict.fromkeys(panel.surface.name for panel in figure.panels)
     surface = figure.panels[0].surface
     sources = [source_at(at, surface) for at in document.sources]
-    sentences = [f"{'Distances' if sources else 'Fields'} on {_listed(list(meshes))}"]
+    sentences = [f"{'Distances' if sources else 'Fields'} on {with_and(meshes)}"]
     if sources:
         sentences[0] += f" from {sources_in_words(sources)}"
     parts = []
@@ -76,7 +77,7 @@ def caption(figure: Figure, recipe: Recipe, answers: Sequence[Answer]) -> str:
             f"{shown.heading or answer.label}, {low:.4g} to {top:.4g}{with_unit(shown.unit)}".replace("-", "−")
         )
     sentences.append("; ".join(parts))
-    ranges = {"shared": "Panels of one unit share a range", "shares": "Colours are fractions of each maximum"}
+    ranges = {"shared": "Panels of one unit share a range", "fraction": "Colours are fractions of each maximum"}
     if figure.range in ranges:
         sentences.append(ranges[figure.range])
     sentences.append(_isolines(figure))
@@ -84,10 +85,10 @@ def caption(figure: Figure, recipe: Recipe, answers: Sequence[Answer]) -> str:
 
 
 def _isolines(figure: Figure) -> str:
-    """Where the panels' isolines are, "" where there are none or at values of one's own."""
+    """Return the isolines of the panels in words, "" for none and for values that were given."""
     every: dict[str, None] = {}
     equal: dict[str, None] = {}
-    for panel, top in zip(figure.panels, figure.tops(), strict=True):
+    for panel, top in zip(figure.panels, figure.upper_limits(), strict=True):
         isolines = panel.isolines
         if panel.field is None or not top > 0 or isolines.values:
             continue
@@ -97,13 +98,13 @@ def _isolines(figure: Figure) -> str:
             every[f"{round_step(top, steps_to_top(isolines, panel.signed)):g}{with_unit(panel.unit)}"] = None
         elif isolines.count:
             equal[f"{isolines.count}"] = None
-    parts = [f"every {_listed(list(every))}"] if every else []
-    parts += [f"at {_listed(list(equal))} equal steps"] if equal else []
+    parts = [f"every {with_and(every)}"] if every else []
+    parts += [f"at {with_and(equal)} equal steps"] if equal else []
     return f"Isolines {' and '.join(parts)}" if parts else ""
 
 
 def sources_in_words(sources: Sequence[Source]) -> str:
-    """ "vertex 3", "vertices 3 and 7", "the nearest of vertices 3 and 7 and boundary loop 0"."""
+    """Return such as "vertices 3 and 7", or "the nearest of vertices 3 and 7 and boundary loop 0"."""
     if all(isinstance(each, int) for each in sources):
         return _members_in_words([each for each in sources if isinstance(each, int)])
     return "; from ".join(
@@ -114,8 +115,8 @@ def sources_in_words(sources: Sequence[Source]) -> str:
 
 def _members_in_words(members: Sequence[Member]) -> str:
     vertices = [str(each) for each in members if isinstance(each, int)]
-    words = [f"{'vertex' if len(vertices) == 1 else 'vertices'} {_listed(_some(vertices))}"] if vertices else []
-    return _listed(words + _some([_in_words(each) for each in members if not isinstance(each, int)]))
+    words = [f"{'vertex' if len(vertices) == 1 else 'vertices'} {with_and(_some(vertices))}"] if vertices else []
+    return with_and(words + _some([_in_words(each) for each in members if not isinstance(each, int)]))
 
 
 def _in_words(member: Member) -> str:
@@ -129,14 +130,10 @@ def _in_words(member: Member) -> str:
 
 
 def _some(words: list[str]) -> list[str]:
-    """A few of them, and how many more there are."""
+    """Return a few of them, and how many more there are."""
     return words if len(words) <= MOST_NAMED else [*words[: MOST_NAMED - 1], f"{len(words) - MOST_NAMED + 1} more"]
 
 
 def escaped(text: str) -> str:
-    """A text as LaTeX sets it."""
+    """Return a text as LaTeX sets it."""
     return "".join(_SPECIAL.get(sign, sign) for sign in text)
-
-
-def _listed(words: list[str]) -> str:
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"

@@ -1,23 +1,19 @@
-"""Where a moving shape is seen from, and how large its frame is: as large as what turns, and no larger."""
+"""Cameras around a turning shape, and frames as large as what turns, and no larger."""
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
-from vtkmodules.vtkCommonCore import mutable
-from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
 
 from bihdist_core import Surface
 from bihdist_core.analysis.first_view import is_flat
-from bihdist_core.analysis.view_directions import FIRST_VIEWS
+from bihdist_core.analysis.view_directions import OBLIQUE_VIEWS
 from bihdist_core.arrays import FloatArray
 
 from ..document.camera import Camera, View
-from ..document.looks import Shading
 from ..scene.camera import VIEW_ANGLE, Projection, directions, outwards_at, standard_camera, turned
-from ..scene.drawable import drawable
-from ..scene.height_field import rise
+from ..scene.drawable import bounds_of, rise
+from ..scene.face_blocks import FaceBlocks
 from .description import Figure
 from .grid import grid_of
 from .layout import lay_out
@@ -30,9 +26,9 @@ FLATTEST, STEEPEST = 2.5, 0.5
 """Width by height of a view, at most and at least."""
 
 NARROWEST = 0.6
-"""Of the usual width of a view, where a high shape takes less."""
+"""Least fraction of a view's usual width, where a high shape takes less."""
 
-WELL = 15
+SEEN_ALSO_DEG = 15
 """Degrees by which a place that is well seen may be turned either way, and is still seen."""
 
 
@@ -43,18 +39,24 @@ def start_and_axis(
     height: float,
     sources: Sequence[int],
     up: str = "y",
-    projection: str = "perspective",
+    is_parallel: bool = False,
 ) -> tuple[Camera, FloatArray]:
-    """The camera of the first frame, whose extent holds the shape while it turns, and the axis (3,) of the turn.
+    """Return the camera of the first frame, whose extent holds the shape while it turns, and the axis (3,) of the turn.
 
-    height: of a height field.  sources: vertices of which, from home, where nobody has chosen, as many are seen as can
-    be. up: which axis is; projection: one of PROJECTIONS.
+    Parameters
+    ----------
+    height
+        Of a height field.
+    sources
+        Vertices of which as many as possible are seen from home, where no view was chosen.
+    up
+        The axis that is up.
+    is_parallel
+        Whether the projection is parallel.
     """
-    is_parallel = projection == "orthographic"
     points = surface.vertices[surface.component_of_vertex >= 0]
     if height:
-        bounds = np.stack([points.min(axis=0), points.max(axis=0)], axis=1).ravel().tolist()
-        points = np.concatenate([points, points + np.array([0.0, 0.0, rise(bounds, height)])])
+        points = np.concatenate([points, points + np.array([0.0, 0.0, rise(bounds_of(points), height)])])
     if isinstance(view, Camera):
         axis, camera = np.array(view.up), view
         extent = _swept(camera, axis, points, turn, is_parallel)
@@ -64,16 +66,16 @@ def start_and_axis(
     name = "relief" if height and view == "home" else view
     outwards = outwards_at(surface, sources[0]) if name == "source" and sources else None
     axis = directions(name, up, outwards)[1]
-    camera = standard_camera(points, 1.0, name, None, up, outwards, is_parallel)
+    camera = standard_camera(points, 1.0, name, up, outwards, is_parallel)
     if turn:
         camera = _about(camera, axis, points)
-    if view in FIRST_VIEWS and sources and not is_flat(points):
+    if view in OBLIQUE_VIEWS and sources and not is_flat(points):
         camera = turned(camera, _facing(camera, axis, surface, sources), axis)
     return replace(camera, extent=_swept(camera, axis, points, turn, is_parallel)), axis
 
 
 def fitted_size(figure: Figure, extent: tuple[float, float]) -> Size:
-    """The size of a figure whose views have the shape of an extent, as far as its own leaves that open."""
+    """Return the size of a figure whose views have the shape of an extent, as far as its own leaves that open."""
     size, layout = figure.size, lay_out(figure)
     scale, dpi = layout.scale, 96 * layout.scale
     if size.height is not None or not 10 <= dpi <= 2400:
@@ -97,7 +99,7 @@ def fitted_size(figure: Figure, extent: tuple[float, float]) -> Size:
 
 
 def _about(camera: Camera, axis: FloatArray, points: FloatArray) -> Camera:
-    """The camera at the middle of the shape, far enough to see it from everywhere round an axis."""
+    """Return the camera at the middle of the shape, far enough to see it from everywhere round an axis."""
     axis = axis / np.linalg.norm(axis)
     along = points @ axis
     across = points - along[:, None] * axis
@@ -111,7 +113,7 @@ def _about(camera: Camera, axis: FloatArray, points: FloatArray) -> Camera:
 
 
 def _centre(points: FloatArray) -> FloatArray:
-    """(3,) about the middle of the smallest ball round points (n, 3): steps towards the farthest, ever smaller."""
+    """Return about the middle (3,) of the smallest ball round points (n, 3), by ever smaller steps to the farthest."""
     middle: FloatArray = (points.min(axis=0) + points.max(axis=0)) / 2
     for k in range(2, 60):
         farthest = points[((points - middle) ** 2).sum(axis=1).argmax()]
@@ -120,7 +122,7 @@ def _centre(points: FloatArray) -> FloatArray:
 
 
 def _swept(camera: Camera, axis: FloatArray, points: FloatArray, turn: float, is_parallel: bool) -> tuple[float, float]:
-    """The extent that holds points (n, 3) at all angles of a turn."""
+    """Return the extent that holds points (n, 3) at all angles of a turn."""
     angles = np.append(np.arange(0, min(abs(turn), 360), STEP), min(abs(turn), 360)) * np.sign(turn)
     wide = high = 0.0
     for degrees in angles if turn else (0.0,):
@@ -131,23 +133,12 @@ def _swept(camera: Camera, axis: FloatArray, points: FloatArray, turn: float, is
 
 
 def _facing(camera: Camera, axis: FloatArray, surface: Surface, vertices: Sequence[int]) -> float:
-    """The least turn, in degrees, after which most of the vertices are well seen."""
-    locator = vtkStaticCellLocator()
-    locator.SetDataSet(drawable(surface, Shading("smooth")))
-    locator.BuildLocator()
+    """Return the least turn, in degrees, after which most of the vertices are well seen."""
+    blocks = FaceBlocks(surface)
     tolerance = 1e-6 * float(np.linalg.norm(np.ptp(surface.vertices, axis=0)))
 
-    def is_seen(eye: FloatArray, point: FloatArray) -> bool:
-        t: Any = mutable(0.0)
-        part: Any = mutable(0)
-        cell: Any = mutable(0)
-        where, way = [0.0] * 3, point - eye
-        if not locator.IntersectWithLine([*eye], [*(eye + 1.001 * way)], 0.0, t, where, [0.0] * 3, part, cell):
-            return True
-        return float(np.linalg.norm(np.array(where) - eye)) >= float(np.linalg.norm(way)) - tolerance
-
     def seen(degrees: float) -> int:
-        eyes = [np.array(turned(camera, degrees + more, axis).position) for more in (-WELL, 0, WELL)]
-        return sum(is_seen(eye, point) for eye in eyes for point in surface.vertices[list(vertices)])
+        eyes = [np.array(turned(camera, degrees + more, axis).position) for more in (-SEEN_ALSO_DEG, 0, SEEN_ALSO_DEG)]
+        return sum(blocks.sees(eye, point, tolerance) for eye in eyes for point in surface.vertices[list(vertices)])
 
     return float(max(sorted(range(-180 + STEP, 181, STEP), key=abs), key=seen))

@@ -1,4 +1,4 @@
-"""What figures can be told of how a shape is seen: views and cameras, which way is up, insets."""
+"""Options of figures for the view of a shape: views and cameras, the axis that points up, insets."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -7,11 +7,11 @@ from typing import Any
 from bihdist_core.errors import ParameterError
 
 from ..document.camera import Camera, View
-from ..document.document import Zoom
-from ..document.edits import stand
+from ..document.document import Inset
 from ..document.looks import UPS
 from ..document.option import NotExpressible, Option, Row, attribute, digits, numbers, with_commas
 from ..document.page import Recipe
+from ..document.second_mesh_edits import set_up_axis
 
 
 # ---------------------------------------------------------------------- views
@@ -20,14 +20,14 @@ def _views_of(recipe: Recipe) -> dict[str, Any]:
     if len(cameras) > 1 or (cameras and recipe.views[-1] is not cameras[0]):
         raise NotExpressible("There are several cameras.")
     names = [view for view in recipe.views if isinstance(view, str)]
-    values: dict[str, Any] = {"views": names} if names and (names != ["auto"] or cameras) else {}
+    values: dict[str, Any] = {"cpos": names} if names and (names != ["auto"] or cameras) else {}
     for camera in cameras:
         values["camera"] = tuple(map(float, (*camera.position, *camera.focal_point, *camera.up, *camera.extent)))
     return values
 
 
 def _with_views(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
-    asked = values.get("views", ())
+    asked = values.get("cpos", ())
     views: list[View] = [asked] if isinstance(asked, str | Camera) else list(asked)
     if "camera" in values:
         x = [float(number) for number in values["camera"]]
@@ -48,11 +48,12 @@ def _camera_numbers(text: str) -> tuple[float, ...]:
 VIEWS = Row(
     (
         Option(
-            "views",
-            "home and high, each also with -right, -back or -left, front, back, left, right, top, bottom, source, or "
-            "auto, the one of the first eight that shows most of the shape (default); with commas for several",
+            "cpos",
+            "camera position: home and high, each also with -right, -back or -left, front, back, left, right, top, "
+            "bottom, source, or auto, the one of the first eight that shows most of the shape (default); with "
+            "commas for several",
             "auto",
-            flag="view",
+            group="view",
             metavar="NAME,…",
             is_list=True,
             may_be_lone=True,
@@ -60,6 +61,7 @@ VIEWS = Row(
         Option(
             "camera",
             "position, focal point, up, extent: 11 numbers",
+            group="view",
             metavar="X,Y,…",
             read=_camera_numbers,
             write=with_commas,
@@ -72,33 +74,33 @@ VIEWS = Row(
 
 
 def up_meaning(default: str) -> str:
-    """What `--up` means; default: what is up without it, in words."""
-    return f"which axis points up: {', '.join(UPS)} (default: {default}); write --up=-z for those with a sign"
+    """Return the help of `--viewup`, with what is up without it in words."""
+    return f"which axis points up: {', '.join(UPS)} (default: {default}); write --viewup=-z for those with a sign"
 
 
 UP = replace(
-    attribute("document.up", up_meaning("guessed"), "AXIS", choices=UPS),
+    attribute("document.up", up_meaning("guessed"), "AXIS", name="viewup", group="view", choices=UPS),
     # A camera that comes with a recipe would be askew.
-    put=lambda recipe, values: replace(recipe, document=stand(recipe.document, values["up"])),
+    put=lambda recipe, values: replace(recipe, document=set_up_axis(recipe.document, values["viewup"])),
 )
 
 
 # ---------------------------------------------------------------------- insets
-def _zooms_of(recipe: Recipe) -> dict[str, Any]:
-    zooms = recipe.document.zooms
-    if any(zoom.corner != "auto" for zoom in zooms):
+def _insets_of(recipe: Recipe) -> dict[str, Any]:
+    insets = recipe.document.insets
+    if any(each.corner != "auto" for each in insets):
         raise NotExpressible("An inset has a corner of its own.")
-    values = [(zoom.vertex, zoom.factor, *(() if zoom.isolines is None else (zoom.isolines,))) for zoom in zooms]
-    return {"zooms": values} if values else {}
+    values = [(each.vertex, each.factor, *(() if each.isolines is None else (each.isolines,))) for each in insets]
+    return {"insets": values} if values else {}
 
 
-def _with_zooms(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
-    found = (zoom if isinstance(zoom, tuple) else (zoom,) for zoom in values["zooms"])
-    zooms = tuple(replace(Zoom(*each[:2]), isolines=each[2] if len(each) > 2 else None) for each in found)
-    return replace(recipe, document=replace(recipe.document, zooms=zooms))
+def _with_insets(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
+    found = (each if isinstance(each, tuple) else (each,) for each in values["insets"])
+    insets = tuple(replace(Inset(*each[:2]), isolines=each[2] if len(each) > 2 else None) for each in found)
+    return replace(recipe, document=replace(recipe.document, insets=insets))
 
 
-def _zoom(text: str) -> tuple[Any, ...]:
+def _inset(text: str) -> tuple[Any, ...]:
     words = text.split(":")
     try:
         vertex, factor, steps, *others = *words, *[""] * (3 - len(words))
@@ -111,20 +113,20 @@ def _zoom(text: str) -> tuple[Any, ...]:
         ) from None
 
 
-ZOOMS = Row(
+INSETS = Row(
     (
         Option(
-            "zooms",
-            "enlarge the places of vertices, perhaps so many times, and with N isolines",
+            "insets",
+            "enlarge around these vertices, by a factor and with N isolines if given",
             (),
-            flag="zoom",
+            group="view",
             metavar="V[:FACTOR[:N]],…",
-            read=_zoom,
-            write=lambda zoom: ":".join(map(digits, zoom)),
+            read=_inset,
+            write=lambda inset: ":".join(map(digits, inset)),
             is_list=True,
         ),
     ),
-    ("Document.zooms", "Zoom.vertex", "Zoom.factor", "Zoom.corner", "Zoom.isolines"),
-    _zooms_of,
-    _with_zooms,
+    ("Document.insets", "Inset.vertex", "Inset.factor", "Inset.corner", "Inset.isolines"),
+    _insets_of,
+    _with_insets,
 )

@@ -6,47 +6,60 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from ..drawing.shapes import Shape, Text, opaque
+from ..scene.style import Style
 from .fonts import text_width
 
 LEAST, LAST = 8.0, 20 / 3
-"""Units: words become smaller down to 6 points if that is enough, and otherwise down to 5."""
+"""Units: words become smaller down to 6 points, and where that is not enough and nothing is printed down to 5."""
 
 ALMOST = 0.7
 """Down to this share of its size a text rather becomes smaller than it takes a second line."""
 
 LINE = 1.28
-"""From line to line, in sizes of the text."""
+"""Font sizes from line to line."""
 
 _PARTS = re.compile(r"[^ ]+?[_/](?=[^ ])|[^ ]+")
-"""Where a line may end: after a space, an underscore, a slash; not after a space that binds."""
+"""Parts after which a line may end: at a space, an underscore or a slash, but not at a space that binds."""
 
 BOUND = "\u00a0"
 """A space at which no line ends."""
 
 Widths = Callable[[str, float], float]
-"""Of a line of text at a size, in units."""
+"""Returns the width of a line of text at a size."""
 
 
 @dataclass(frozen=True)
 class Lettering:
-    """How all words of a page are set: their family, and whether their size is given, so that it stays."""
+    """The font of all words of a page.
+
+    Attributes
+    ----------
+    family
+        Its name, "" for the usual one.
+    stays
+        Whether the size is given, so that words do not become smaller to fit.
+    is_printed
+        Whether words are to be read on paper.
+    """
 
     family: str = ""
     stays: bool = False
+    is_printed: bool = False
 
     def width(self, text: str, size: float, bold: bool = False) -> float:
-        """The width of a text in points."""
+        """Return the width of a text, in the unit of its size."""
         return text_width(text, size, bold, self.family)
 
     def fitted(
         self, texts: list[str], size: float, room: float, most: int, bold: bool = False
     ) -> tuple[float, list[tuple[str, ...]]]:
-        """Texts in at most `most` lines no wider than the room: the size they have in common, and their lines."""
+        """Fit texts into at most `most` lines no wider than the room; return their common size, and their lines."""
 
         def wide(text: str, size: float) -> float:
             return self.width(text, size, bold)
 
-        sizes = [size] if self.stays else _sizes(size)
+        sizes = [size] if self.stays else _sizes(size, (LEAST,) if self.is_printed else (LEAST, LAST))
         for smaller in sizes:
             if smaller >= ALMOST * size and all(wide(text, smaller) <= room for text in texts):
                 return smaller, [_plain((text,)) if text else () for text in texts]
@@ -57,21 +70,52 @@ class Lettering:
         return sizes[-1], [_plain(shortened(text, sizes[-1], room, most, wide)) for text in texts]
 
 
+@dataclass(frozen=True)
+class TextLines:
+    """Lines of text about x, the first standing on y; with `turned` they run upwards, the first standing on x."""
+
+    lines: tuple[str, ...]
+    x: float
+    y: float
+    size: float
+    is_bold: bool = False
+    is_quiet: bool = False
+    turned: bool = False
+
+    def shapes(self, style: Style) -> list[Shape]:
+        """Return a text for each line, in a style's colours."""
+        colour = opaque(style.quiet_text if self.is_quiet else style.text)
+        across, down = (LINE * self.size, 0.0) if self.turned else (0.0, LINE * self.size)
+        return [
+            Text(
+                line,
+                self.x + k * across,
+                self.y + k * down,
+                self.size,
+                colour,
+                self.is_bold,
+                align="centre",
+                angle=90.0 if self.turned else 0.0,
+            )
+            for k, line in enumerate(self.lines)
+        ]
+
+
 def _plain(lines: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(line.replace(BOUND, " ") for line in lines)
 
 
-def _sizes(size: float) -> list[float]:
-    """From a size down to the last."""
+def _sizes(size: float, floors: tuple[float, ...]) -> list[float]:
+    """Return sizes from the first down to the last."""
     found, step = [size], 0.94
-    for floor in (LEAST, LAST):
+    for floor in floors:
         while found[-1] > floor:
             found.append(max(found[-1] * step, floor))
     return found
 
 
 def wrapped(text: str, size: float, room: float, wide: Widths = text_width) -> tuple[str, ...]:
-    """The lines of a text that are no wider than the room, as far as its words allow."""
+    """Return the lines of a text that are no wider than the room, as far as its words allow."""
     lines: list[str] = []
     end = 0
     for part in _PARTS.finditer(text):
@@ -85,7 +129,7 @@ def wrapped(text: str, size: float, room: float, wide: Widths = text_width) -> t
 
 
 def shortened(text: str, size: float, room: float, most: int, wide: Widths = text_width) -> tuple[str, ...]:
-    """At most `most` lines no wider than the room; what is left out is an ellipsis."""
+    """Return at most `most` lines no wider than the room; what is left out is an ellipsis."""
     lines: list[str] = []
     for line in wrapped(text, size, room, wide):
         while wide(line, size) > room and len(line) > 1:

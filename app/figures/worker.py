@@ -13,52 +13,61 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from bihdist_core import BihdistError, Cancelled, Surface
-from bihdist_core.child_process import ANSWER, DIED, REPORT, SERVED, WRONG, ChildProcess, framed, send, unframed
+from bihdist_core.child_process import ANSWER, DIED_REASON, WRONG, ChildProcess, read_request, send, send_report
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.progress import Progress, silent
 
 LARGE = 1 << 15
 """Bytes from which an array is sent once and then named."""
 
-GONE = "The process that draws ended without a word; perhaps there is not enough memory, or no OpenGL."
+GONE = "The drawing process ended unexpectedly; perhaps there is not enough memory, or no OpenGL."
 
 Ended = Callable[[str | None], None]
 """Called with nothing when the file is there, otherwise with the sentence why not; "" if it was cancelled."""
 
 
 class Worker:
-    """Only one thread may ask at a time; any may `stop` or `close`.
+    """A process that draws what it is asked for; one thread may ask at a time, any may `stop` or `close` it.
 
-    threads: how many its numerical libraries and software OpenGL may use, as many as they like if None.
+    Parameters
+    ----------
+    threads
+        Number of threads of its numerical libraries and software OpenGL; None for as many as they like.
     """
 
     def __init__(self, threads: int | None = None) -> None:
         self._sent: dict[int, Any] = {}
-        self._child = ChildProcess(SERVED, framed(__name__.encode()), threads)
+        self._child = ChildProcess(__name__, threads)
 
     def ask(self, function: Callable[..., Any], *arguments: Any, progress: Progress | None = None) -> Any:
-        """What the function makes of the arguments there; all three must pickle.  BihdistError if it cannot.
+        """Call a function in the process and return its result; all must pickle.
 
-        progress: if there is one, the function gets one, too, as an argument of that name; it is called from another
-        thread.
+        Parameters
+        ----------
+        progress
+            Passed on to the function as an argument of that name, if given; it is called from another thread.
+
+        Raises
+        ------
+        BihdistError
+            If the function fails, or the process ends.
         """
         file = io.BytesIO()
         sender = _Sender(file, self._sent)
         sender.dump((function, arguments, progress is not None))
         # What this does not need is not needed any more, here and there.
         self._sent = sender.used
-        report = progress or silent
-        answer = self._child.ask(framed(file.getbuffer()), lambda told: report(*pickle.loads(told))).get()
+        answer = self._child.ask([file.getbuffer()], progress or silent).get()
         if isinstance(answer, str):
-            raise BihdistError(GONE if answer == DIED else answer)
+            raise BihdistError(GONE if answer == DIED_REASON else answer)
         return pickle.loads(answer)
 
     def stop(self) -> None:
-        """Cancel what it does, as soon as that tells of its progress; no half file is left.  Then it ends."""
+        """Cancel the work at its next progress report, leaving no partial file, and end the process."""
         self._child.stop()
 
     def close(self) -> None:
-        """End it, whatever it does."""
+        """End the process, whatever it does."""
         self._child.end()
 
 
@@ -81,7 +90,7 @@ class FigureJob:
 
     @property
     def is_running(self) -> bool:
-        """Whether the figure is still being drawn."""
+        """True while the figure is being drawn."""
         return self._thread.is_alive()
 
     def wait(self, timeout: float | None = None) -> None:
@@ -101,9 +110,12 @@ class FigureJob:
 
 
 class _Sender(pickle.Pickler):
-    """Surfaces and large arrays that have been sent before are only named.
+    """Pickles a request, and only names surfaces and large arrays that have been sent before.
 
-    sent: the things sent so far, by what they are called; used: those of them, old and new, in what is pickled now.
+    Attributes
+    ----------
+    used
+        What is named or sent in this request, by id.
     """
 
     def __init__(self, file: io.BytesIO, sent: dict[int, Any]) -> None:
@@ -121,7 +133,7 @@ class _Sender(pickle.Pickler):
 
 
 class _Receiver(pickle.Unpickler):
-    """known: the things received before; used: those of them, old and new, in what is read now."""
+    """Reads what was sent, with the things that were received before (`known`, of which `used` are in use now)."""
 
     def __init__(self, content: bytes, known: dict[int, Any]) -> None:
         super().__init__(io.BytesIO(content))
@@ -138,7 +150,7 @@ class _Receiver(pickle.Unpickler):
 
 
 def failure_sentence(error: BaseException) -> str:
-    """What is said of something that could not be drawn."""
+    """Return a sentence on something that could not be drawn."""
     if isinstance(error, BihdistError):
         return " ".join(str(error).split())
     if isinstance(error, MemoryError):
@@ -148,7 +160,7 @@ def failure_sentence(error: BaseException) -> str:
 
 
 def serve(requests: BinaryIO, answers: BinaryIO) -> None:
-    """What the process does: questions come in, answers and progress go out, until its input ends."""
+    """Answer questions, with progress, until the input of the process ends."""
     questions: SimpleQueue[bytes] = SimpleQueue()
     has_ended = threading.Event()
     threading.Thread(target=_listen, args=(requests, questions, has_ended), daemon=True).start()
@@ -156,7 +168,7 @@ def serve(requests: BinaryIO, answers: BinaryIO) -> None:
     def progress(fraction: float, text: str) -> None:
         if has_ended.is_set():
             raise Cancelled("The drawing was cancelled.")
-        send(answers, REPORT, [pickle.dumps((fraction, text))])
+        send_report(answers, fraction, text)
 
     known: dict[int, Any] = {}
     while content := questions.get():
@@ -178,7 +190,7 @@ def serve(requests: BinaryIO, answers: BinaryIO) -> None:
 
 
 def _listen(requests: BinaryIO, questions: "SimpleQueue[bytes]", has_ended: threading.Event) -> None:
-    while content := unframed(requests):
+    while content := read_request(requests):
         questions.put(content)
     has_ended.set()
     questions.put(b"")

@@ -1,1 +1,1 @@
-"""What is marked on surfaces, as data: points with glyphs, lines, faces.  Windows and figures draw these alike."""
+"""Marks on surfaces as data: points with glyphs, lines, faces.  The window and figures draw these alike."""

@@ -12,16 +12,17 @@ from bihdist_core.sources.source import BoundaryLoop, Curve, Source, SurfacePoin
 from bihdist_core.sources.words import short_words_of
 
 from ..document.document import Document, Panel
+from ..document.on_surface import SOURCE, Hidden
 from ..document.source_edits import members_of
+from ..drawing.glyphs import DOT, LARGEST
 from ..session.isoline_points import IsolinePoint, passed
 from ..session.loaded_mesh import LoadedMesh
 from ..session.questions import source_at
-from .glyphs import DOT, LARGEST
-from .primitives import LineMark, PointMark, SurfaceMark
+from .primitives import LegendRow, LineMark, PointMark, SurfaceMark
 
 
 def field_marks(document: Document, panel: Panel, loaded: LoadedMesh, answer: Answer) -> list[SurfaceMark]:
-    """Dots on isolines through points, discs and lines where the field starts, and the largest of a difference."""
+    """Return dots on isolines through points, marks where the field starts, and the largest of a difference."""
     return [
         *isoline_points(passed(document, panel.surface, loaded, answer), answer),
         *starts(document, panel, loaded.surface),
@@ -30,21 +31,22 @@ def field_marks(document: Document, panel: Panel, loaded: LoadedMesh, answer: An
 
 
 def isoline_points(points: Sequence[IsolinePoint], answer: Answer) -> list[PointMark]:
-    """A dot on each isoline through a point; see `scene.levels` on the values that have a line."""
+    """Return a dot on each isoline through a point; see `scene.levels` on the values that have a line."""
     low = -answer.maximum if answer.is_signed else 0.0
     found = [p for p in points if low < p.value < answer.maximum]
     return [PointMark(p.vertices[0], DOT, corners=p.vertices, weights=p.weights) for p in found]
 
 
 def starts(document: Document, panel: Panel, surface: Surface) -> list[PointMark | LineMark]:
-    """Where the field of a panel starts: discs, which can be dragged, and the lines of boundary loops and curves."""
-    sources = [source_at(document.point(name).at, surface) for name in panel.shows.points]
+    """Mark where the field of a panel starts: by discs, which can be dragged, and by lines along loops and curves."""
+    names = () if SOURCE in document[Hidden].hidden else panel.shows.points
+    sources = [source_at(document.point(name).at, surface) for name in names]
     points = [point for source in sources for point in _source_points(source, surface)]
     return [*points, *_source_lines(sources, surface)]
 
 
 def _source_points(start: Source, surface: Surface) -> list[PointMark]:
-    """A disc for each vertex and each place in a face."""
+    """Return a disc for each vertex and each place in a face."""
     marks = []
     points = pieces_of(start, surface).points
     for face, corners, weights in zip(points.faces.tolist(), points.corners, points.start, strict=True):
@@ -59,7 +61,7 @@ def _source_points(start: Source, surface: Surface) -> list[PointMark]:
 
 
 def _source_lines(sources: Sequence[Source], surface: Surface) -> list[LineMark]:
-    """Those of boundary loops and curves."""
+    """Return the lines of boundary loops and curves."""
     members = dict.fromkeys(member for source in sources for member in members_of(source))
     return [
         line
@@ -76,7 +78,7 @@ def _line_in_words(member: BoundaryLoop | Curve) -> str:
 
 
 def source_lines(pieces: Pieces, name: str = "") -> list[LineMark]:
-    """The lines that the parts of lines among some pieces make, one after another; name: of each."""
+    """Return the lines that the parts of lines among some pieces make, one after another, each with this name."""
     lines = pieces.lines
     corners = np.concatenate([lines.corners, lines.corners])
     weights = np.concatenate([lines.start, lines.stop])
@@ -96,10 +98,11 @@ def source_lines(pieces: Pieces, name: str = "") -> list[LineMark]:
     return [LineMark(corners[at[ids]], weights[at[ids]], closed, name=name) for ids, closed in found]
 
 
-def largest(answer: Answer) -> list[PointMark]:
-    """The place of the largest difference, with its value and name."""
+def largest(answer: Answer) -> list[PointMark | LegendRow]:
+    """Return a mark at the largest difference with its value, and what it stands for."""
     vertex = answer.largest
     if vertex is None or answer.field is None:
         return []
     value, percent = float(answer.field[vertex]), " %" if answer.scale == 100 else ""
-    return [PointMark(vertex, LARGEST, "largest", f"{value:+.3g}{percent} at {vertex}".replace("-", "−"))]
+    mark = PointMark(vertex, LARGEST, "largest", f"{value:+.3g}{percent} at {vertex}".replace("-", "−"))
+    return [mark, LegendRow(LARGEST, "largest difference" if answer.signs else "largest magnitude", "largest")]

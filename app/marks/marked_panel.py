@@ -7,20 +7,25 @@ from typing import Any, TypeVar
 from bihdist_core.distances.answers import Answer
 
 from ..document.document import Document, Panel
+from ..document.on_surface import Hidden
 from ..document.tools import tools
 from ..session.loaded_mesh import LoadedMesh
 from .field_marks import field_marks
-from .primitives import PointMark, SurfaceMark
+from .primitives import AreaMark, Caption, PointMark, SurfaceMark
 
 Found = TypeVar("Found")
 
 
 @dataclass(frozen=True, eq=False)
 class MarkedPanel:
-    """What marks are made of: a panel of a document, and its answer.
+    """The input of marks: a panel of a document, and its answer.
 
-    surfaces: of the document, by their names; the panel's is there.  found: what others have found beside the window's
-    thread, by its type; None if nobody has, and all is found at once, as for figures.
+    Attributes
+    ----------
+    surfaces
+        The document's surfaces by their names, the panel's among them.
+    found
+        What has been found beside the window's thread, by its type; None for figures, where it is found at once.
     """
 
     document: Document
@@ -31,11 +36,11 @@ class MarkedPanel:
 
     @property
     def is_for_figure(self) -> bool:
-        """Whether what takes a while is waited for."""
+        """True if marks that take a while are waited for."""
         return self.found is None
 
     def find(self, kind: type[Found], made: Callable[[], Found | None]) -> Found | None:
-        """What has been found of a type, None if it is still on its way; for a figure, `made` is called for it."""
+        """Find the value of a type, None if it is still on its way; for a figure, the result of `made`."""
         return made() if self.found is None else self.found.get(kind)
 
     @property
@@ -44,10 +49,27 @@ class MarkedPanel:
         return self.surfaces[self.panel.surface]
 
 
-def marks_of(marked: MarkedPanel) -> list[SurfaceMark]:
-    """In the order in which points lie on each other; what a tool's `marks` finds may take a while."""
-    found = field_marks(marked.document, marked.panel, marked.loaded, marked.answer)
+def marks_of_tools(marked: MarkedPanel) -> dict[str, list[SurfaceMark]]:
+    """Return the marks of each tool, by its word, without those that the document hides."""
+    hidden, found = marked.document[Hidden], {}
     for tool in tools():
         if tool.marks:
-            found += tool.load(tool.marks)(marked)
+            marks: list[SurfaceMark] = tool.load(tool.marks)(marked)
+            if hidden.hidden and tool.items:
+                words = [item.word for item in tool.load(tool.items)(marked.document)]
+                marks = [mark for mark in marks if not hidden.hides(words, _name(mark)) or isinstance(mark, Caption)]
+            found[tool.word] = marks
+    return found
+
+
+def _name(mark: SurfaceMark) -> str:
+    """Return the name by which a mark is hidden among those of its tool."""
+    return mark.point if isinstance(mark, PointMark) else mark.name if isinstance(mark, AreaMark) else ""
+
+
+def marks_of(marked: MarkedPanel) -> list[SurfaceMark]:
+    """Return all marks in the order in which points lie on each other; what a tool marks may take a while."""
+    found = field_marks(marked.document, marked.panel, marked.loaded, marked.answer)
+    for marks in marks_of_tools(marked).values():
+        found += marks
     return sorted(found, key=lambda mark: mark.glyph.rank if isinstance(mark, PointMark) else 0)

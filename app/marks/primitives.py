@@ -1,4 +1,4 @@
-"""What is marked on a surface: frozen, of vertices and faces, with no positions and no pixels."""
+"""Marks on a surface: frozen, of vertices and faces, with no positions and no pixels."""
 
 from dataclasses import dataclass
 
@@ -6,18 +6,30 @@ import numpy as np
 
 from bihdist_core.arrays import FloatArray, IntArray
 
-from .glyphs import DISC, Glyph
-from .line_looks import SOURCE, LineLook
+from ..drawing.glyphs import DISC, Glyph
+from ..drawing.line_looks import SOURCE, LineLook
 
 
 @dataclass(frozen=True)
 class PointMark:
-    """A vertex, or a place in a face with these corners and weights, of which the vertex is one.
+    """A mark at a vertex, or at a place in a face with these corners and weights, of which the vertex is one.
 
-    colour: such as "#1F7A3D", or a name that `Style.named` knows.  text: stands beside it; value: too, where values are
-    asked for.  aside: behind the text, less loud.  number: stands in glyphs that have room for one.  name: in
-    sentences, its vertex or its number if empty.  point: the name of the document's point that is there, if one is.
-    is_handle: in the window it can be dragged, though it lies flat.
+    Attributes
+    ----------
+    colour
+        Such as "#1F7A3D", or a name that `Style.named` knows.
+    text, aside
+        Words beside the mark, and quieter ones after them.
+    value
+        The value to write after the text, where values are asked for.
+    number
+        Stands in glyphs that have room for one.
+    name
+        In sentences; its vertex or its number if empty.
+    point
+        The name of the document's point at this place, if there is one.
+    is_handle
+        Whether it can be dragged in the window though it lies flat.
     """
 
     vertex: int
@@ -34,7 +46,7 @@ class PointMark:
     is_handle: bool = False
 
     def on(self, vertices: FloatArray) -> FloatArray:
-        """(3,) where it is on a surface with these vertices (n, 3)."""
+        """Return the mark's position (3,) on a surface with vertices (n, 3)."""
         at: FloatArray = vertices[self.vertex]
         if self.corners:
             at = np.array(self.weights) @ vertices[list(self.corners)]
@@ -45,8 +57,14 @@ class PointMark:
 class LineMark:
     """A line on a surface through k places, whose neighbours share a face.
 
-    corners (k, 3): vertices of a face that holds each; weights (k, 3): of these.  is_closed: the last joins the first.
-    name: in sentences, if it is of a source.
+    Attributes
+    ----------
+    corners, weights
+        (k, 3) vertices of a face that holds each place, and its barycentric weights.
+    is_closed
+        Whether the last place joins the first.
+    name
+        In sentences, if it belongs to a source.
     """
 
     corners: IntArray
@@ -56,7 +74,7 @@ class LineMark:
     name: str = ""
 
     def positions(self, vertices: FloatArray) -> FloatArray:
-        """(k, 3) on a surface whose vertices are at (n, 3)."""
+        """Return the line's places (k, 3) on a surface with vertices (n, 3)."""
         at: FloatArray = np.einsum("kc,kcx->kx", self.weights, vertices[self.corners])
         return at
 
@@ -72,7 +90,7 @@ class LineMark:
 
     @property
     def spans(self) -> IntArray:
-        """(k, 3) the vertices that have a weight, of a place on an edge or in a corner one of them twice or thrice."""
+        """The vertices (k, 3) that have a weight; on an edge or in a corner, one of them twice or three times."""
         has = self.weights > 0
         some = np.take_along_axis(self.corners, has.argmax(axis=1)[:, None], axis=1)
         spans: IntArray = np.where(has, self.corners, some)
@@ -81,15 +99,24 @@ class LineMark:
 
 @dataclass(frozen=True, eq=False)
 class AreaMark:
-    """Vertices (k,) that stand out, with a rim around them and hatching in a colour such as "#1F7A3D"."""
+    """Vertices (k,) that stand out, with a rim around them and hatching.
+
+    Attributes
+    ----------
+    colour
+        Such as "#1F7A3D".
+    name
+        Name of the selection.
+    """
 
     vertices: IntArray
     colour: str
+    name: str = ""
 
     def __eq__(self, other: object) -> bool:
         return (
             isinstance(other, AreaMark)
-            and self.colour == other.colour
+            and (self.colour, self.name) == (other.colour, other.name)
             and np.array_equal(self.vertices, other.vertices)
         )
 
@@ -98,10 +125,17 @@ class AreaMark:
 
 @dataclass(frozen=True)
 class LegendRow:
-    """What a glyph stands for, where it has no number of its own: said in the corner of a view in the window."""
+    """The meaning of a glyph without a number of its own, for the corner of a view in the window.
+
+    Attributes
+    ----------
+    colour
+        Of the mark, as `PointMark` has it; "" for a glyph in quiet lines.
+    """
 
     glyph: Glyph
     text: str
+    colour: str = ""
 
 
 @dataclass(frozen=True)
@@ -113,10 +147,16 @@ class Remark:
 
 @dataclass(frozen=True)
 class Caption:
-    """What stands at a panel besides its field.
+    """Words at a panel besides its field.
 
-    sentence: in place of the colour bar, and the same in fewer words, the first for which there is room.  value: at the
-    bar while nothing is pointed at, with the words for its unit.  plain: the name of a surface that is shown as it is.
+    Attributes
+    ----------
+    sentence
+        A sentence in place of the colour bar, and the same in fewer words, the first for which there is room.
+    value, unit
+        The value at the bar while nothing is pointed at, and the words for its unit.
+    plain
+        The name of a surface that is shown without a field.
     """
 
     sentence: tuple[str, ...] = ()

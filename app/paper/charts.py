@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bihdist_core.distances.distance_types import BUILT_IN
 from bihdist_core.experiments import Chart
+from bihdist_core.experiments.verdicts import RAISED
 
 if TYPE_CHECKING:
     from matplotlib.axis import XAxis, YAxis
@@ -17,13 +19,8 @@ if TYPE_CHECKING:
 SIZE = (5.85, 3.8)
 """Inches: two stand side by side on the page."""
 
-OF_DISTANCE = {
-    "biharmonic": "#1f4fbf",
-    "geodesic": "#c2272d",
-    "dijkstra": "#c2272d",
-    "commute-time": "#7d4cb8",
-    "truncated": "#4bb4d8",
-}
+COLOURS = {each.word: each.colour for each in BUILT_IN}
+COLOURS["dijkstra"] = COLOURS["geodesic"]
 """The colour of each distance by the first word of its name, the same in all charts."""
 
 BRIEF, LONG = (1 / 16, "#a5d66f"), (4.0, "#0c5238")
@@ -39,7 +36,7 @@ NARROW, WIDE = 0.9, 2.2
 
 
 def colours_of(names: Sequence[str]) -> list[str]:
-    """A colour for each of the curves of these names: a distance has its own, others take the rest in turn."""
+    """Return a colour for each of the curves of these names: distances have their own, others take the rest in turn."""
     found = [_of_distance(name) for name in names]
     rest = iter(REST * (len(names) // len(REST) + 1))
     return [colour or next(rest) for colour in found]
@@ -48,7 +45,7 @@ def colours_of(names: Sequence[str]) -> list[str]:
 def _of_distance(name: str) -> str:
     word = re.split(r"[\s,(]", name.strip().lower(), maxsplit=1)[0]
     if word != "diffusion":
-        return OF_DISTANCE.get(word, "")
+        return COLOURS.get(word, "")
     time = re.search(r"t\s*=\s*([\d.]+(?:/\d+)?)", name)
     share = 0.5
     if time:
@@ -61,7 +58,7 @@ def _of_distance(name: str) -> str:
 
 
 def chart_svg(chart: Chart) -> str:
-    """The chart as an <svg> element."""
+    """Return the chart as an <svg> element."""
     import matplotlib
 
     with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": chart.heading, "font.size": 10}):
@@ -72,7 +69,7 @@ def chart_svg(chart: Chart) -> str:
 
 
 def drawn(chart: Chart) -> "Canvas":
-    """The chart in matplotlib."""
+    """Return the chart as a matplotlib canvas."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure as Canvas
 
@@ -105,7 +102,7 @@ def drawn(chart: Chart) -> "Canvas":
 
 
 def _scale(axis: "XAxis | YAxis", is_log: bool) -> None:
-    """Plain numbers at ticks that are far enough from each other."""
+    """Write plain numbers at ticks, far enough from each other."""
     from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
     if is_log:
@@ -122,10 +119,10 @@ def _scale(axis: "XAxis | YAxis", is_log: bool) -> None:
 
 
 def plain(number: float) -> str:
-    """A number at a tick: 0.25, 1,000, and 10⁻⁵ where there would be many zeros."""
+    """Return a number at a tick: 0.25, 1,000, and 10⁻⁵ instead of many zeros."""
     if number and not 1e-4 <= abs(number) < 1e7:
         power = int(np.floor(np.log10(abs(number)) + 1e-9))
         times = f"{number / 10.0**power:.4g}"
-        raised = str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+        raised = str(power).translate(RAISED)
         return (f"10{raised}" if times == "1" else f"{times} · 10{raised}").replace("-", "−")
     return f"{number:,.6g}".replace("-", "−")

@@ -8,7 +8,7 @@ from types import TracebackType
 from typing import Any
 
 from bihdist_core import BihdistError
-from bihdist_core.whole_file import whole_file
+from bihdist_core.file_output import atomic_write
 
 from ..figures.draw import Figure, draw_figure
 from ..figures.shots import RenderCache
@@ -36,22 +36,23 @@ class Pictures:
             self._worker.close()
 
     def draw(self, folder: Path, name: str, figure: Figure) -> Picture:
-        """Have a figure drawn, and kept as NAME.png."""
+        """Start to draw a figure as NAME.png."""
 
         def drawn() -> bytes:
             content: bytes = self._ask(png, figure)
-            with whole_file(folder / f"{name}.png") as temporary:
+            with atomic_write(folder / f"{name}.png") as temporary:
                 temporary.write_bytes(content)
             return content
 
         return self._turn.submit(drawn).result
 
     def write(self, folder: Path, page: LivePage) -> Written:
-        """Have a page that computes written into a folder."""
+        """Start to write a page that computes into a folder."""
         return self._turn.submit(self._ask, write_live, page, folder / page.file).result
 
     def _ask(self, function: Callable[..., Any], *arguments: object) -> Any:
-        """What a process makes of it, that begins with the first picture, and anew after one that has ended it."""
+        """Run a function in the process that draws, which starts with the first picture, and again after it has
+        ended."""
         if self._worker is None:
             self._worker = Worker(threads=1)
         try:
@@ -64,7 +65,7 @@ class Pictures:
 
 
 def png(figure: Figure) -> bytes:
-    """A figure as a PNG file."""
+    """Return a figure as a PNG file."""
     from PIL import Image
 
     buffer = io.BytesIO()

@@ -16,18 +16,18 @@ from ..web.export import page_of
 from .pictures import is_seen, name_of, plain_name
 
 MOST_EIGENPAIRS = 200
-"""In a page for each diffusion distance: those of the figures take up to 54 on the bundled meshes."""
+"""The eigenpairs in a page for each diffusion distance; figures take up to 54 on the bundled meshes."""
 
 MARKED = {"minimum": "minima", "maximum": "maxima"}
-"""What pages have no marks of."""
+"""The marks that pages do not have."""
 
 
 @dataclass(frozen=True, eq=False)
 class LivePage:
-    """What a page computes, and how the index names it.
+    """A page that computes, and how the index names it.
 
-    row: of the panels it is of.  mesh: the name of their mesh.  file: its path from the index, with "/".  left_out:
-    what the row shows of that mesh and the page does not, as words.  document, given: what `page_of` makes it of.
+    It shows panels of a `row` on a `mesh`, in the `file` at this path from the index, with "/". `left_out` are the
+    words for what the row shows and the page does not; `document` and `given` are the arguments of `page_of`.
     """
 
     row: str
@@ -40,12 +40,12 @@ class LivePage:
 
     @property
     def notes(self) -> list[str]:
-        """What it leaves out, as a sentence; none if nothing."""
+        """A sentence on the parts of the figure that the page leaves out, if any."""
         return [f"In the figure only: {', '.join(self.left_out)}."] if self.left_out else []
 
 
 def live_pages(result: Result, row: str, panels: Sequence[Panel], up: str = "y") -> list[LivePage]:
-    """Of a row of panels; up: the axis that is up in all of them."""
+    """Return the pages of a row of panels with the axis `up` in all of them."""
     meshes = list(dict.fromkeys(panel.surface for panel in panels))
     pages = []
     for mesh in meshes:
@@ -68,7 +68,7 @@ def write_live(page: LivePage, path: Path) -> int:
 
 
 def _is_computed(panel: Panel) -> bool:
-    """Whether pages compute what a panel shows; they know no other geodesic distance than the exact one."""
+    """Return whether pages compute what a panel shows; their geodesic distance is the exact one."""
     spec = panel.distance
     if panel.field is None or spec is None or _source(panel) is None:
         return False
@@ -88,7 +88,7 @@ def _left_out(panels: Sequence[Panel]) -> tuple[str, ...]:
 
 
 def _contents(result: Result, panels: Sequence[Panel], up: str) -> tuple[Document, ArrayStore]:
-    """Panels of one mesh and one source, seen from where the figure shows that source."""
+    """Return the document of panels of one mesh and one source, seen from where the figure shows it."""
     first, given = panels[0], ArrayStore()
     surface, source = result.surfaces[first.surface], _source(first)
     assert source is not None  # as _is_computed says

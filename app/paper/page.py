@@ -20,7 +20,7 @@ LONGEST_TABLE = 24
 
 @dataclass(frozen=True)
 class Named:
-    """What stands over a section that is not, or not only, an experiment."""
+    """The heading of a section that is not, or not only, an experiment."""
 
     id: str
     title: str
@@ -29,9 +29,10 @@ class Named:
 
 @dataclass(frozen=True)
 class Section:
-    """One experiment on the page: its result, pictures (caption, PNG) and charts (SVG), or why there are none.
+    """An experiment on the page: its result, pictures (caption, PNG) and charts (SVG), or why there are none.
 
-    missing: what could not be done of a section without result.  live: pages that compute, each with its bytes.
+    `missing` are the parts that could not be done of a section without result, `live` the pages that compute, with
+    their bytes.
     """
 
     experiment: "Experiment | Named"
@@ -44,17 +45,17 @@ class Section:
 
     @property
     def not_done(self) -> tuple[NotDone, ...]:
-        """What of it could not be done."""
+        """The parts that could not be done."""
         if self.failure:
             return (NotDone(self.experiment.title, self.failure),)
         return self.result.not_done if self.result else self.missing
 
 
 def page(title: str, introduction: str, sections: Sequence[Section], quick: bool = False, before: bool = False) -> str:
-    """The whole page.
+    """Return the whole page.
 
-    quick: it says that its verdicts are.  before: with what changed from the verdicts of the version before, which had
-    whole pages of the bundled meshes.
+    With `quick` it says that its verdicts are quick ones; with `before` it lists what changed from the verdicts of
+    the version before, which had whole pages of the bundled meshes.
     """
     claims = [(section.experiment.id, section.result.claims if section.result else ()) for section in sections]
     every = [claim for _, those in claims for claim in those]
@@ -114,9 +115,9 @@ def _section(section: Section) -> str:
 
 
 def _links(pages: Sequence[tuple[LivePage, int]]) -> str:
-    """To pages that compute.
+    """Return links to pages that compute.
 
-    Not frames: all of them in one index take five times its memory, and browsers draw in sixteen at most.
+    Frames would take five times the memory, and browsers draw sixteen at most.
     """
     if not pages:
         return ""
@@ -130,7 +131,7 @@ def _links(pages: Sequence[tuple[LivePage, int]]) -> str:
 
 
 def _width(picture: bytes) -> int:
-    """Pixels that a PNG is wide."""
+    """Return the width of a PNG in pixels."""
     return int.from_bytes(picture[16:20], "big")
 
 

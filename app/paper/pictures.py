@@ -1,6 +1,6 @@
 """The panels of an experiment as figures, drawn by the same code as everybody's figures."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,13 +12,14 @@ from bihdist_core.experiments.result import MARKS
 
 from ..document.camera import Camera, View
 from ..document.looks import Isolines
+from ..drawing.glyphs import BALL, CROSS, DIAMOND, DISC, PIN, TRIANGLE_DOWN, TRIANGLE_UP
 from ..figures.description import Entry
 from ..figures.draw import Figure, FigurePanel
 from ..figures.framing import seen
 from ..figures.size import Size
-from ..marks.glyphs import BALL, CROSS, DIAMOND, DISC, PIN, TRIANGLE_DOWN, TRIANGLE_UP
 from ..marks.primitives import PointMark
 from ..scene.camera import directions, outwards_at
+from ..scene.face_blocks import FaceBlocks
 from ..scene.style import PAPER
 
 ACROSS, ACROSS_NARROW = {1: 4, 2: 3}, {1: 6, 2: 3}
@@ -41,8 +42,8 @@ SIDES = ("front", "back", "left", "right", "top", "bottom")
 BROAD = 0.7
 """A view is broad if the shape takes at least this share of what it takes in the broadest."""
 
-NEAR = 5.0
-"""How far away the camera of an enlarged place stands, in radii of what it shows."""
+CLOSE_UP_RADII = 5.0
+"""The distance of the camera of a close-up, in radii of what it shows."""
 
 ANCHOR, TARGET, CANDIDATE = "#262B33", "#E0162B", "#FFC400"
 """Colours of marks that are told apart by their shapes as well."""
@@ -58,14 +59,8 @@ WORDS = {
 }
 
 
-def figures(result: Result, up: str = "y") -> Iterator[tuple[str, str, Figure]]:
-    """(file name without extension, caption, figure) for each row of panels, see `figure_of`."""
-    for row, panels in rows_of(result).items():
-        yield name_of(result, row), row, figure_of(result, panels, up)
-
-
 def rows_of(result: Result) -> dict[str, list[Panel]]:
-    """The panels of each row, by its name, in order of their first ones."""
+    """Return the panels of each row, by its name, in order of their first ones."""
     rows: dict[str, list[Panel]] = {}
     for panel in result.panels:
         rows.setdefault(panel.row, []).append(panel)
@@ -73,12 +68,12 @@ def rows_of(result: Result) -> dict[str, list[Panel]]:
 
 
 def name_of(result: Result, row: str) -> str:
-    """The name of the file of a row's picture, without extension."""
+    """Return the name of the file of a row's picture, without extension."""
     return "-".join(word for word in (result.id, plain_name(row)) if word)
 
 
 def figure_of(result: Result, panels: Sequence[Panel], up: str = "y") -> Figure:
-    """A row of panels; up: the axis that is up in all of them."""
+    """Return the figure of a row of panels with the axis `up` in all of them."""
     side = _side(result, panels, up)
     shown = [_panel(result, panel, up, side) for panel in panels]
     views = max(len(panel.views) for panel in shown)
@@ -97,7 +92,8 @@ def figure_of(result: Result, panels: Sequence[Panel], up: str = "y") -> Figure:
 
 
 def _columns(panels: Sequence[FigurePanel], views: int, are_pairs: bool) -> int:
-    """In rows as even as they can be: four panels of two views are two by two; pairs stay together."""
+    """Return the number of columns for rows as even as possible: four panels of two views are two by two; pairs stay
+    together."""
     parts = [seen(view, panel, panel.surface) for panel in panels for view in panel.views]
     is_narrow = all(part.aspect < 1 for part in parts)
     most = (ACROSS_NARROW if is_narrow else ACROSS).get(views, 2)
@@ -128,16 +124,16 @@ def _panel(result: Result, panel: Panel, up: str, side: str) -> FigurePanel:
         isolines=Isolines(panel.isoline_count, round=False),
         views=("relief",) if is_relief else tuple(views) or ("front",),
         marks=_marks(panel.marks),
-        height=RELIEF if is_relief else 0.0,
+        warp_factor=RELIEF if is_relief else 0.0,
         failure=panel.failure,
         up=up,
     )
 
 
 def _side(result: Result, panels: Sequence[Panel], up: str) -> str:
-    """The standard view in which most panels of a row show their first marks, a broad one if may be.
+    """Return the standard view in which most panels of a row show their first marks, a broad one if possible.
 
-    Of several the one that looks at the first panel's most frontally.
+    Of several, it is the one that looks at the first panel's mark most frontally.
     """
     marked = [(result.surfaces[panel.surface], panel.marks[0].vertex) for panel in panels if panel.marks]
     outwards = outwards_at(*marked[0]) if marked else None
@@ -158,32 +154,28 @@ def _side(result: Result, panels: Sequence[Panel], up: str) -> str:
 
 
 def _across(vertices: FloatArray, towards: FloatArray, upright: FloatArray) -> float:
-    """The area of the rectangle that a shape takes in a view."""
+    """Return the area of the rectangle of a shape in a view."""
     return float(np.ptp(vertices @ np.cross(upright, towards)) * np.ptp(vertices @ upright))
 
 
 def is_seen(surface: Surface, vertex: int, towards: FloatArray) -> bool:
-    """Whether nothing but the faces at a vertex is in the way from it in a direction (3,)."""
-    faces = surface.faces[(surface.faces != vertex).all(axis=1)]
-    a, b, c = (surface.vertices[faces[:, k]] - surface.vertices[vertex] for k in range(3))
-    # The ray meets a triangle where its volumes with the three sides have one sign.
-    volumes = np.stack([np.cross(p, q) @ towards for p, q in ((a, b), (b, c), (c, a))])
-    meets = (volumes >= 0).all(axis=0) | (volumes <= 0).all(axis=0)
-    meets &= np.abs(volumes).sum(axis=0) > 0
-    normals = np.cross(b[meets] - a[meets], c[meets] - a[meets])
-    far = np.einsum("ij,ij->i", normals, a[meets]) / (normals @ towards)
-    return not bool((far > 0).any())
+    """Return whether nothing but the faces at a vertex is in the way from it in a direction (3,)."""
+    at, size = surface.vertices[vertex], float(np.linalg.norm(np.ptp(surface.vertices, axis=0)))
+    far = at + 2 * size / np.linalg.norm(towards) * towards
+    return FaceBlocks(surface).sees(far, at, 1e-9 * size)
 
 
 def _close_up(surface: Surface, vertex: int, radius: float, up: str) -> View:
-    """The camera that sees a place from outside and so far around it."""
+    """Return the camera that sees a place from outside, and so far around it."""
     outwards = outwards_at(surface, vertex)
     if outwards is None:
         return "front"
     back, upright = directions("source", up, outwards)
     at = surface.vertices[vertex]
-    position = at + NEAR * radius * back
-    return Camera(tuple(position.tolist()), tuple(at.tolist()), tuple(upright.tolist()), (1 / NEAR, 1 / NEAR))
+    position = at + CLOSE_UP_RADII * radius * back
+    return Camera(
+        tuple(position.tolist()), tuple(at.tolist()), tuple(upright.tolist()), (1 / CLOSE_UP_RADII, 1 / CLOSE_UP_RADII)
+    )
 
 
 # ---------------------------------------------------------------------- marks
@@ -200,7 +192,7 @@ GLYPHS = {
 
 
 def _marks(marks: Sequence[ExperimentMark]) -> tuple[PointMark, ...]:
-    """Anchors are numbered in their order."""
+    """Return the marks of a panel; anchors are numbered in their order."""
     anchors = [mark.vertex for mark in marks if mark.kind == "anchor"]
     return tuple(
         _mark(mark.kind, mark.vertex, anchors.index(mark.vertex) + 1 if mark.kind == "anchor" else None)
@@ -213,7 +205,7 @@ def _mark(kind: str, vertex: int, number: int | None = None) -> PointMark:
 
 
 def _legend(panels: Sequence[Panel]) -> tuple[Entry, ...]:
-    """What the marks of some panels stand for; those with words of their own one by one."""
+    """Explain the marks of panels; marks with words of their own one by one."""
     found: dict[tuple[str, int | None], str] = {}
     for panel in panels:
         anchors = [mark for mark in panel.marks if mark.kind == "anchor"]
@@ -231,5 +223,5 @@ def _legend(panels: Sequence[Panel]) -> tuple[Entry, ...]:
 
 
 def plain_name(text: str) -> str:
-    """What of a name can stand in that of a file."""
+    """Return the characters of a name that a file name can have."""
     return "".join(c if c.isalnum() else "-" for c in text.lower()).strip("-")

@@ -6,21 +6,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from bihdist_core import (
-    Laplacian,
-    OutputError,
-    ParameterError,
-    Surface,
-    read_surface,
-)
+from bihdist_core import Laplacian, OutputError, ParameterError, Surface, read_surface
 from bihdist_core.analysis.upright import guess_up
 from bihdist_core.distances.answers import Answer, Distances
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.experiments import EXPERIMENTS, Experiment, Parts, Result, Shapes
 from bihdist_core.experiments.verdicts import FAILS, HOLDS, VERDICTS
+from bihdist_core.file_output import atomic_write
 from bihdist_core.formats.mesh_names import MESH_FORMATS, is_mesh_file, mesh_format, mesh_name
-from bihdist_core.progress import Progress, part
-from bihdist_core.whole_file import whole_file
+from bihdist_core.progress import Progress, part, steps
 
 from ..figures.draw import Figure, FigurePanel, check_offscreen
 from ..figures.size import Size
@@ -34,20 +28,50 @@ from .page import Named, Section, page
 from .pictures import FINER, figure_of, name_of, rows_of
 
 FOLDER_EXPERIMENTS = ("fig1", "claims")
-"""What is done for each mesh of a folder: a picture and the numbers."""
+"""The experiments that are run on each mesh of a folder, unless others are named: a picture and the numbers."""
 
 PAGE = "index.html"
 
-SHORT = 100
-"""Letters of a statement, and of what was measured, in a line."""
+LONGEST_TEXT = 100
+"""Characters of a statement, and of a measurement, in a line."""
 
-SHEET, SHEET_COLUMNS = 40, 5
-"""Meshes on a contact sheet, and side by side on it."""
+MESHES_PER_SHEET, SHEET_COLUMNS = 40, 5
 
 
 @dataclass(frozen=True)
-class Asked:
-    """What is being made for a section: pictures by their captions, and pages that compute."""
+class Run:
+    """The options that every section of a reproduction shares; `say` gets a line for each experiment."""
+
+    folder: Path
+    experiments: Sequence[Experiment]
+    quick: bool
+    up: str
+    progress: Progress | None
+    say: Callable[[str], None]
+    pictures: Pictures
+
+    @property
+    def page(self) -> Path:
+        """The path of the page."""
+        return self.folder / PAGE
+
+
+@dataclass(frozen=True)
+class Subject:
+    """The shapes of some sections: the axis that is up, where their files go, and their anchors on the page.
+
+    The id of an experiment follows the anchor.
+    """
+
+    shapes: Shapes
+    up: str
+    folder: Path
+    anchor: str = ""
+
+
+@dataclass(frozen=True)
+class SectionDrawings:
+    """The pictures by their captions, and the pages that compute, that are being made for a section."""
 
     pictures: dict[str, Picture] = field(default_factory=dict)
     pages: list[tuple[LivePage, Written]] = field(default_factory=list)
@@ -55,7 +79,7 @@ class Asked:
 
 @dataclass(frozen=True)
 class Reproduction:
-    """page: the path of index.html; not_done: how many parts, or whole experiments and meshes, could not be done."""
+    """The path of index.html, and how many parts, experiments or meshes could not be done."""
 
     page: Path
     not_done: int
@@ -72,38 +96,38 @@ def reproduce(
 ) -> Reproduction:
     """Write results, pictures and index.html into the folder `out`.
 
-    only: ids of experiments, all if empty.  mesh: the reader's own mesh, or a folder of meshes, instead of the
-    bundled ones.  up: the axis that is up; left alone it is y for the bundled meshes, and guessed for those of the
-    reader's own.  A part that cannot be done is on the page with the reason.  `say` gets a line for each.
+    `only` lists ids of experiments, all if empty. `mesh` is the reader's own mesh, or a folder of meshes, instead of
+    the bundled ones. `up` is the axis that is up; left alone it is y for the bundled meshes, and guessed for the
+    reader's own. A part that cannot be done is on the page with the reason, and `say` gets a line for it.
     Raises ParameterError for an unknown id, OutputError if something cannot be written.
     """
     check_offscreen()
-    chosen = _chosen(only, mesh)
+    experiments = _chosen(only, mesh)
     folder = Path(out)
     _make(folder)
-    if mesh is not None and Path(mesh).is_dir():
-        with Pictures() as pictures:
-            return _each_mesh(folder, Path(mesh), _of_folder(chosen, only), quick, progress, say, up, pictures)
-    missing = Parts()
-    if mesh is None:
-        up = "y" if up == "auto" else up
-        shapes = Shapes.from_folder(SAMPLES)
-    else:
-        surface = read_surface(mesh)
-        up = _up(up, surface, mesh, missing)
-        shapes = Shapes(own=surface, up=up)
     with Pictures() as pictures:
-        here = f"{folder / PAGE}#"
-        sections = _sections(folder, chosen, shapes, quick, progress, say, here, up, pictures)
+        if mesh is not None and Path(mesh).is_dir():
+            experiments = [each for each in experiments if only or each.id in FOLDER_EXPERIMENTS]
+            return _each_mesh(Run(folder, experiments, quick, up, progress, say, pictures), Path(mesh))
+        missing = Parts()
+        if mesh is None:
+            up = "y" if up == "auto" else up
+            shapes = Shapes.from_folder(SAMPLES)
+        else:
+            surface = read_surface(mesh)
+            up = _up(up, surface, mesh, missing)
+            shapes = Shapes(own=surface, up=up)
+        run = Run(folder, experiments, quick, up, progress, say, pictures)
+        sections = _sections(run, Subject(shapes, up, folder), progress)
     for each in missing.not_done:
         say(f"not done: {each}")
         sections.append(Section(Named("up", each.part), None, failure=each.reason))
     about = "the bundled meshes" if mesh is None else Path(mesh).name
-    return _written(folder, sections, about, quick, before=mesh is None and not quick)
+    return _written(run, sections, about, before=mesh is None and not quick)
 
 
 def _up(up: str, surface: Surface, path: str | Path, parts: Parts) -> str:
-    """The axis that is up; y where it cannot be guessed."""
+    """Return the axis that is up, y where it cannot be guessed."""
     if up != "auto":
         return up
     return parts.do(f"which way {Path(path).name} is up", guess_up, surface, mesh_format(path)) or "y"
@@ -122,47 +146,31 @@ def _chosen(only: Sequence[str], mesh: str | None) -> list[Experiment]:
     return possible
 
 
-def _of_folder(chosen: Sequence[Experiment], only: Sequence[str]) -> list[Experiment]:
-    """Of those chosen what is done for each mesh of a folder."""
-    return [experiment for experiment in chosen if only or experiment.id in FOLDER_EXPERIMENTS]
-
-
-def _sections(
-    folder: Path,
-    chosen: Sequence[Experiment],
-    shapes: Shapes,
-    quick: bool,
-    progress: Progress | None,
-    say: Callable[[str], None],
-    read_more: str,
-    up: str,
-    pictures: Pictures,
-) -> list[Section]:
-    """In the order chosen; read_more: where the page has what is said of an experiment, to be followed by its id."""
-    done: dict[str, tuple[Section, Asked]] = {}
-    # What is timed comes first: no pictures are being drawn then.
-    for k, experiment in enumerate(sorted(chosen, key=lambda each: not each.is_timed)):
-        mine = part(progress, k / len(chosen), (k + 1) / len(chosen))
-        section, asked = _section(folder, experiment, shapes, quick, mine, up, pictures)
-        done[experiment.id] = section, asked
+def _sections(run: Run, subject: Subject, progress: Progress | None) -> list[Section]:
+    """Run the experiments on a subject; return their sections in the order in which they were chosen."""
+    done: dict[str, tuple[Section, SectionDrawings]] = {}
+    # Experiments that are timed run first, while no pictures are being drawn.
+    for step, experiment in steps(progress, sorted(run.experiments, key=lambda each: not each.is_timed)):
+        section, drawings = _section(run, subject, experiment, step)
+        done[experiment.id] = section, drawings
         if section.result is None:
-            say(f"{experiment.id}: not done: {section.failure}")
+            run.say(f"{experiment.id}: not done: {section.failure}")
         else:
-            say(f"{experiment.id}: {_judged(section.result)}, {section.result.seconds:.1f} s")
+            run.say(f"{experiment.id}: {_counted_verdicts(section.result)}, {section.result.seconds:.1f} s")
             for warning in dict.fromkeys(claim.warning for claim in section.result.claims if claim.warning):
-                say(f"  warning: {warning}")
+                run.say(f"  warning: {warning}")
             for missing in section.not_done:
-                say(f"  not done: {missing}")
-            for line in _not_held(section.result, f"{read_more}{experiment.id}"):
-                say(line)
-    return [_with_pictures(*done[experiment.id], say) for experiment in chosen]
+                run.say(f"  not done: {missing}")
+            for line in _not_held(section.result, f"{run.page}#{subject.anchor}{experiment.id}"):
+                run.say(line)
+    return [_with_pictures(*done[experiment.id], run.say) for experiment in run.experiments]
 
 
-def _with_pictures(section: Section, asked: Asked, say: Callable[[str], None]) -> Section:
-    """A section when its pictures are drawn, and its pages that compute are written."""
+def _with_pictures(section: Section, drawings: SectionDrawings, say: Callable[[str], None]) -> Section:
+    """Wait for the pictures of a section and its pages that compute, and return it with them."""
     parts = Parts()
-    found = [(row, parts.do(f"the picture {row}".strip(), picture)) for row, picture in asked.pictures.items()]
-    written = [(page, parts.do(f"the live page {page.file}", size)) for page, size in asked.pages]
+    found = [(row, parts.do(f"the picture {row}".strip(), picture)) for row, picture in drawings.pictures.items()]
+    written = [(page, parts.do(f"the live page {page.file}", size)) for page, size in drawings.pages]
     for missing in parts.not_done:
         say(f"{section.experiment.id}: not done: {missing}")
     result = section.result and replace(section.result, not_done=(*section.result.not_done, *parts.not_done))
@@ -171,118 +179,101 @@ def _with_pictures(section: Section, asked: Asked, say: Callable[[str], None]) -
     return replace(section, result=result, pictures=pictures, live=live)
 
 
-def _judged(result: Result) -> str:
-    """How many of the statements have each verdict."""
-    counts = [(verdict, sum(claim.verdict == verdict for claim in result.claims)) for verdict in (*VERDICTS, None)]
-    return ", ".join(f"{count} {_many(verdict, count)}" for verdict, count in counts if count) or "no statements"
-
-
-def _many(verdict: str | None, count: int) -> str:
-    several = {HOLDS: "hold", FAILS: "do not hold"}
-    return "not judged" if verdict is None else several.get(verdict, verdict) if count > 1 else verdict
+def _counted_verdicts(result: Result) -> str:
+    """Count the statements by verdict."""
+    plurals = {HOLDS: "hold", FAILS: "do not hold"}
+    words = []
+    for verdict in (*VERDICTS, None):
+        count = sum(claim.verdict == verdict for claim in result.claims)
+        if count:
+            word = verdict or "not judged"
+            words.append(f"{count} {plurals.get(word, word) if count > 1 else word}")
+    return ", ".join(words) or "no statements"
 
 
 def _not_held(result: Result, where: str) -> list[str]:
-    """A line for each statement that does not hold, or only partly, and where to read more."""
+    """Return a line for each statement that does not hold, or only partly, and where to read more."""
     lines = []
     for claim in result.claims:
         if claim.verdict != HOLDS:
-            text, measured = (textwrap.shorten(words, SHORT, placeholder="…") for words in (claim.text, claim.measured))
+            text, measured = (
+                textwrap.shorten(words, LONGEST_TEXT, placeholder="…") for words in (claim.text, claim.measured)
+            )
             lines.append(f"  {claim.verdict or 'not judged'}: {text.rstrip('.')} ({measured.rstrip('.')})")
     return [*lines, f"  more in {where}"] if lines else []
 
 
-def _section(
-    folder: Path,
-    experiment: Experiment,
-    shapes: Shapes,
-    quick: bool,
-    progress: Progress,
-    up: str,
-    pictures: Pictures,
-) -> tuple[Section, Asked]:
-    """An experiment's section, and its pictures and pages, which are being made."""
+def _section(run: Run, subject: Subject, experiment: Experiment, progress: Progress) -> tuple[Section, SectionDrawings]:
+    """Run an experiment; return its section, with its drawings on their way."""
     parts = Parts()
-    result = parts.do(experiment.title, experiment.compute, shapes, quick, part(progress, 0, 0.9))
+    result = parts.do(experiment.title, experiment.compute, subject.shapes, run.quick, part(progress, 0, 0.9))
     if result is None:
-        return Section(experiment, None, failure=parts.not_done[0].reason), Asked()
-    result.save(folder)
-    asked, charts = Asked(), []
+        return Section(experiment, None, failure=parts.not_done[0].reason), SectionDrawings()
+    result.save(subject.folder)
+    drawings, charts = SectionDrawings(), []
     for row, panels in rows_of(result).items():
-        figure = parts.do(f"the picture {row}".strip(), figure_of, result, panels, up)
+        figure = parts.do(f"the picture {row}".strip(), figure_of, result, panels, subject.up)
         if figure is not None:
-            asked.pictures[row] = pictures.draw(folder, name_of(result, row), figure)
-        live = parts.do(f"live pages {row}".strip(), live_pages, result, row, panels, up)
-        asked.pages.extend((each, pictures.write(folder, each)) for each in live or ())
+            drawings.pictures[row] = run.pictures.draw(subject.folder, name_of(result, row), figure)
+        live = parts.do(f"live pages {row}".strip(), live_pages, result, row, panels, subject.up)
+        drawings.pages.extend((each, run.pictures.write(subject.folder, each)) for each in live or ())
     for chart in result.charts:
         svg = parts.do(f"the chart {chart.heading}", chart_svg, chart)
         charts += [] if svg is None else [svg]
     result = replace(result, not_done=(*result.not_done, *parts.not_done))
-    return Section(experiment, result, charts=tuple(charts)), asked
+    return Section(experiment, result, charts=tuple(charts)), drawings
 
 
-def _each_mesh(
-    folder: Path,
-    meshes: Path,
-    chosen: Sequence[Experiment],
-    quick: bool,
-    progress: Progress | None,
-    say: Callable[[str], None],
-    up: str,
-    pictures: Pictures,
-) -> Reproduction:
-    """The claims and a picture of each mesh of a folder; one that fails is named and the others go on."""
+def _each_mesh(run: Run, meshes: Path) -> Reproduction:
+    """Run the experiments on each mesh of a folder; one that fails is named and the others go on."""
     paths = sorted(path for path in meshes.iterdir() if is_mesh_file(path))
     if not paths:
-        raise ParameterError(f"{meshes} holds no meshes ({', '.join(MESH_FORMATS)}).")
+        raise ParameterError(f"There is no mesh in {meshes}; meshes are {', '.join(MESH_FORMATS)} files.")
     names = Counter(map(mesh_name, paths))
     sections: list[Section] = []
     surfaces: list[tuple[Surface, str]] = []
     missing = Parts()
-    for k, path in enumerate(paths):
-        say(path.name)
-        mine = part(progress, k / len(paths), (k + 1) / len(paths))
+    for step, path in steps(run.progress, paths):
+        run.say(path.name)
         name = mesh_name(path)
         name = name if names[name] == 1 else path.name.replace(".", "-")
         parts = Parts()
         surface = parts.do(path.name, read_surface, path)
         if surface is None:
             reason = parts.not_done[0].reason
-            say(f"not done: {reason}")
-            sections.append(Section(_named(chosen[0], name, path), None, failure=reason))
+            run.say(f"not done: {reason}")
+            sections.append(Section(_named(run.experiments[0], name, path), None, failure=reason))
             continue
-        its_up = _up(up, surface, path, missing)
-        shapes = Shapes(own=surface, up=its_up)
-        place = folder / name
-        _make(place)
-        here = f"{folder / PAGE}#{name}-"
-        for section in _sections(place, chosen, shapes, quick, mine, say, here, its_up, pictures):
+        up = _up(run.up, surface, path, missing)
+        subject = Subject(Shapes(own=surface, up=up), up, run.folder / name, f"{name}-")
+        _make(subject.folder)
+        for section in _sections(run, subject, step):
             live = tuple((replace(each, file=f"{name}/{each.file}"), size) for each, size in section.live)
             sections.append(replace(section, experiment=_named(section.experiment, name, path), live=live))
-        surfaces.append((surface, its_up))
+        surfaces.append((surface, up))
     if surfaces:
-        sections.insert(0, _contact_sheets(folder, surfaces, missing, pictures))
+        sections.insert(0, _contact_sheets(run, surfaces, missing))
         for each in missing.not_done:
-            say(f"not done: {each}")
-    return _written(folder, sections, f"{len(paths)} meshes of {meshes.name}", quick)
+            run.say(f"not done: {each}")
+    return _written(run, sections, f"{len(paths)} meshes of {meshes.name}")
 
 
 def _named(experiment: Experiment | Named, name: str, path: Path) -> Named:
     return Named(f"{name}-{experiment.id}", f"{path.name}: {experiment.title}")
 
 
-def _contact_sheets(folder: Path, surfaces: Sequence[tuple[Surface, str]], parts: Parts, pictures: Pictures) -> Section:
-    """Biharmonic distance on every mesh, which has its axis up, from its highest vertex, many to a picture.
+def _contact_sheets(run: Run, surfaces: Sequence[tuple[Surface, str]], parts: Parts) -> Section:
+    """Draw the biharmonic distance on every mesh from its highest vertex, many to a picture.
 
-    parts: what could not be done before; it gets what cannot be done here.
+    Each mesh comes with the axis that is up; failures are added to `parts`.
     """
     sheets = []
-    for start in range(0, len(surfaces), SHEET):
-        panels = [_on_sheet(surface, up, parts) for surface, up in surfaces[start : start + SHEET]]
+    for start in range(0, len(surfaces), MESHES_PER_SHEET):
+        panels = [_on_sheet(surface, up, parts) for surface, up in surfaces[start : start + MESHES_PER_SHEET]]
         columns = min(SHEET_COLUMNS, len(panels))
         sheet = Figure(tuple(panels), columns=columns, size=Size(FINER * 230 * columns, dpi=FINER * 96))
-        number = start // SHEET + 1
-        picture = parts.do(f"contact sheet {number}", pictures.draw(folder, f"contact-sheet-{number}", sheet))
+        number = start // MESHES_PER_SHEET + 1
+        picture = parts.do(f"contact sheet {number}", run.pictures.draw(run.folder, f"contact-sheet-{number}", sheet))
         sheets += [("", picture)] if picture else []
     named = Named("all", "All meshes", "Biharmonic distance from each mesh's highest vertex.")
     return Section(named, None, tuple(sheets), missing=tuple(parts.not_done))
@@ -303,20 +294,19 @@ def _biharmonic(surface: Surface, source: int) -> Answer:
     return Distances(Laplacian(surface)).answer(Spec.of("biharmonic"), source)
 
 
-def _written(folder: Path, sections: Sequence[Section], about: str, quick: bool, before: bool = False) -> Reproduction:
+def _written(run: Run, sections: Sequence[Section], about: str, before: bool = False) -> Reproduction:
     introduction = (
         "The figures and tables of Lipman, Rustamov and Funkhouser, Biharmonic Distance (ACM Transactions on Graphics "
         f"29(3), 2010), computed anew on {about}. Numbers stand as measured, also where a statement does not hold. "
         "The data of every picture is beside this page, as .npz and .csv files. A mark with a dashed outline is on the "
         "far side of the shape."
     )
-    if quick:
+    if run.quick:
         introduction += " This is the quick version, with smaller meshes and fewer samples."
-    path = folder / PAGE
-    with whole_file(path) as temporary:
-        text = page("Biharmonic Distance, reproduced", introduction, sections, quick, before)
+    with atomic_write(run.page) as temporary:
+        text = page("Biharmonic Distance, reproduced", introduction, sections, run.quick, before)
         temporary.write_text(text, encoding="utf-8")
-    return Reproduction(path, sum(len(section.not_done) for section in sections))
+    return Reproduction(run.page, sum(len(section.not_done) for section in sections))
 
 
 def _make(folder: Path) -> None:

@@ -44,12 +44,12 @@ QUICK = (
 
 
 def chip(verdict: str | None) -> str:
-    """A verdict as a sign, a word and a colour."""
+    """Return a verdict as a sign, a word and a colour."""
     return f'<b class="chip {KINDS[verdict]}">{SIGNS[verdict]} {verdict or UNJUDGED}</b>'
 
 
 def counts(claims: Sequence[Claim]) -> str:
-    """How many of the statements hold, hold partly, do not, in a line."""
+    """Count the statements that hold, hold partly and do not hold, in a line."""
     html = []
     for verdict in (HOLDS, PARTLY, FAILS, None):
         count = sum(claim.verdict == verdict for claim in claims)
@@ -59,7 +59,7 @@ def counts(claims: Sequence[Claim]) -> str:
 
 
 def overview(sections: Sequence[tuple[str, Sequence[Claim]]]) -> str:
-    """All statements, by the ids of their sections, as links with their verdicts."""
+    """Return all statements by section, as links with their verdicts."""
     groups = []
     for section, claims in sections:
         if claims:
@@ -73,12 +73,12 @@ def overview(sections: Sequence[tuple[str, Sequence[Claim]]]) -> str:
 
 
 def statements(section: str, claims: Sequence[Claim]) -> str:
-    """The statements of a section, each with its verdict, numbers and rule."""
+    """Return the statements of a section, each with its verdict, numbers and rule."""
     return "".join(_statement(section, claim) for claim in claims)
 
 
 def changes(sections: Sequence[tuple[str, Sequence[Claim]]]) -> str:
-    """The statements whose verdict is another than in the version before, and why; "" if none had one."""
+    """Return the statements whose verdict changed since the version before, and why; "" if none did."""
     judged = [(section, claim) for section, claims in sections for claim in claims if claim.statement.before]
     if not judged:
         return ""
@@ -129,7 +129,7 @@ def _statement(section: str, claim: Claim) -> str:
 
 def _part(part: Part, numbers: Numbers | None) -> str:
     verdict = part.judge(numbers)
-    html = "not measured" if numbers is None else escape(part.said(numbers))
+    html = "not measured" if numbers is None else escape(part.formatted(numbers))
     if isinstance(numbers, BySource) and numbers.random:
         html += f" ({part.counts(numbers)[1]} within)"
     strip = "" if numbers is None else _strip(part.limit, numbers)
@@ -146,7 +146,7 @@ def _unbroken(text: str) -> str:
 
 
 def _strip(limit: Limit, numbers: Numbers) -> str:
-    """All numbers along a line, what the limit allows shaded; "" where there is only one number."""
+    """Return all numbers along a line with the limit shaded; "" for a single number."""
     if isinstance(numbers, Estimate):
         spots = [numbers.low, numbers.value, numbers.high]
         if len({*spots}) == 1:

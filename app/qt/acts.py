@@ -1,16 +1,20 @@
 """All that can be done by a menu, a key or a button, in one table."""
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Sequence
 from functools import partial
 from operator import methodcaller
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
+from ..document.document import Document
+from ..document.on_surface import SOURCE, SurfaceItem, by_products, clear_surface, remove_items, surface_items
 from ..document.panel_edits import ADD, panel_edits
+from ..document.settings import BANDS, EQUAL_STEPS, FLIP_SCALARS, SWITCHES, Setting
 from ..document.tools import Tool, docked_tools
-from .actions import Act, acts_of_tools
+from ..scene.style import style_of
+from .actions import Action, actions_of_tools
 from .choices import Choices
 from .context import Context
 from .files.curve_files import CurveFiles
@@ -32,7 +36,7 @@ if TYPE_CHECKING:
     from .docks.docks import Docks
     from .gestures import Gestures
 
-NO_SECOND = "open a mesh beside first"
+NO_SECOND = "open a second mesh first"
 
 
 def _gestures(context: Context) -> "Gestures":
@@ -47,17 +51,26 @@ def _docks(context: Context) -> "Docks":
     return context[Docks]
 
 
+def _figure_actions() -> ModuleType:
+    from .files import figure_actions  # with the figures, which take long to import
+
+    return figure_actions
+
+
 def stop(context: Context) -> None:
-    """Esc: out of the tour, a box, the live source or the full screen; otherwise stop what is being computed."""
+    """Esc: leave a box, the live source or the full screen; or stop what is being computed; or clear.
+
+    What is cleared are selections and borders whose tool is closed.
+    """
     box, session = context[TypedSource].box, context.session
-    if context[Guide].end_tour():
-        return
     if box.hasFocus():
         box.give_up()
         context.focus_panels()
-    elif context.is_built and _gestures(context).put_down():
+    elif context.is_built and _gestures(context).cancel():
         return
     elif session.progress or not context[Choices].is_full_screen:
+        if not session.progress:
+            clear_by_products(context, of_closed=True)
         session.cancel()
         context[ProgressDisplay].show()
         if context.is_built:
@@ -66,8 +79,16 @@ def stop(context: Context) -> None:
         context[Choices].toggle_full_screen()
 
 
+def clear_by_products(context: Context, of_closed: bool = False) -> None:
+    """Remove selections and borders, and say so; with `of_closed` only those whose tool is closed."""
+    items = by_products(context.document, of_closed)
+    if items:
+        context.session.show(remove_items(context.document, items))
+        context.tell(f"Cleared: {', '.join(item.name.lower() for item in items)}. Ctrl+Z brings them back.")
+
+
 def _change_part(context: Context) -> None:
-    """From the panels to the tool bar, and back."""
+    """Switch the focus from the panels to the tool bar, and back."""
     window = context.widget
     bar = window.findChild(QtWidgets.QToolBar, "tools")
     if bar.isAncestorOf(window.focusWidget() or window):
@@ -77,7 +98,7 @@ def _change_part(context: Context) -> None:
 
 
 def _on_view(method: str, *numbers: float) -> Callable[[Context], object]:
-    """Calls a method of the active panel's view."""
+    """Return a function that calls a method of the active panel's view."""
     do = methodcaller(method, *numbers)
     return lambda context: do(context.active.view) if context.active else None
 
@@ -90,133 +111,214 @@ def _edit_panel(word: str, context: Context) -> None:
     context[Choices].edit_panel(context.grid.active, word)
 
 
-def _dock(tool: Tool) -> Act:
-    """Opens and closes the dock of a tool."""
-    act = Act(f"dock {tool.word}", tool.text, lambda c: _docks(c).toggle(tool.word), (tool.key,), tool.tip, tool.icon)
-    return replace(act, is_check=True)
+def _dock(tool: Tool) -> Action:
+    """Return the action that opens and closes the dock of a tool."""
+    return Action(
+        f"dock {tool.word}",
+        tool.text,
+        lambda c: _docks(c).toggle(tool.word),
+        (tool.key,),
+        tool.tip,
+        tool.icon,
+        is_check=True,
+        synonyms=tool.synonyms,
+    )
 
+
+def _switch(setting: Setting) -> Action:
+    """Return the action that switches a setting."""
+    return Action(
+        setting.word,
+        setting.label,
+        lambda c: c[Choices].toggle(setting),
+        setting.keys,
+        setting.tip,
+        needs_mesh=not setting.is_preference,
+        is_on=setting.is_on,
+        can_run=CAN_SWITCH.get(setting.word),
+        synonyms=setting.synonyms,
+    )
+
+
+def _has_two(context: Context) -> bool:
+    return len(context.document.surfaces) > 1
+
+
+def _is_repaired(context: Context) -> bool:
+    return any(mesh.repairs.is_any for mesh in context.document.surfaces)
+
+
+def _is_merged(context: Context) -> bool:
+    return any(mesh.repairs.merge is not None for mesh in context.document.surfaces)
+
+
+def _has_removable(items: Callable[[Document], Sequence[SurfaceItem]]) -> Callable[[Context], bool]:
+    return lambda context: any(item.remove is not None and item.word != SOURCE for item in items(context.document))
+
+
+def _has_colours(context: Context) -> bool:
+    return style_of(context.page.style).coloured
+
+
+def _has_steps(context: Context) -> bool:
+    isolines = context.document.isolines
+    return bool(context.document.surfaces) and isolines.spacing is None and not isolines.values
+
+
+CAN_SWITCH = {BANDS.word: _has_colours, FLIP_SCALARS.word: _has_colours, EQUAL_STEPS.word: _has_steps}
+"""When a setting can be switched that cannot always be."""
 
 # fmt: off
 FILE = (
-    Act("open", "&Open…", lambda c: c[Files].choose(), ("Ctrl+O",), "Open a mesh, a session or a recipe", "open",
-        needs_mesh=False),
-    Act("open beside", "Open beside…", lambda c: c[Files].choose_beside(), ("Ctrl+Shift+O",),
-        "A second mesh, with panels and a camera of its own"),
-    Act("close beside", "Close the mesh beside", lambda c: c.session.close_beside(),
-        tip="The first mesh alone, without the panels of the second", lack=NO_SECOND),
-    Act("cut", "Cut out by a mask…", lambda c: c[MeshRepairs].choose_cut(),
-        tip="Vertices go with their faces, and nothing crosses what is gone: a mask has 1 for each that stays"),
-    Act("merge", "Merge vertices…", lambda c: c[MeshRepairs].ask_merge(),
-        tip="Vertices in one place, or within a tolerance, become one, so that distances step between their faces"),
-    Act("save ids", "Save table of ids…", lambda c: c[MeshRepairs].save_ids(),
-        tip="The new id of each vertex of the file, after vertices have been merged", lack="merge vertices first"),
-    Act("put back", "Put back the mesh of the file", lambda c: c[MeshRepairs].put_back(),
-        tip="With all that is cut out, and nothing merged", lack="nothing is cut out or merged"),
-    Act("save", "&Save session", lambda c: c[SessionFile].save_or_say(), ("Ctrl+S",), icon="save"),
-    Act("save as", "Save session &as…", lambda c: c[SessionFile].choose_and_save(), ("Ctrl+Shift+S",)),
-    Act("figure", "&Export figure…", lambda c: c[Files].export_figure(), ("Ctrl+E",),
-        "A figure of what is shown, for a paper or a slide", "export-figure"),
-    Act("movie", "Export &movie…", lambda c: c[Files].export_movie(), ("Ctrl+M",)),
-    Act("page", "Export &web page…", lambda c: c[Files].export_page(),
-        tip="An HTML file in which distances are computed anew wherever one clicks, without a network"),
-    Act("screenshot", "S&creenshot of the window…", lambda c: c[Files].choose_screenshot(), ("Ctrl+P",)),
-    Act("save fields", "Save all &fields…", lambda c: c[FieldFiles].save_all(),
-        tip="The values of all panels at the vertices, in one file"),
-    Act("quit", "&Quit", lambda c: c.widget.close(), ("Ctrl+Q",), needs_mesh=False),
+    Action("open", "&Open…", lambda c: c[Files].choose(), ("Ctrl+O",), "Open a mesh, a session or a recipe", "open",
+        needs_mesh=False, synonyms="load import read file"),
+    Action("open beside", "Open second mesh…", lambda c: c[Files].choose_second_mesh(), ("Ctrl+Shift+O",),
+        "Show another mesh, with panels and a camera of its own", synonyms="load second two compare correspondence"),
+    Action("close mesh", "Close mesh", lambda c: c.session.close_meshes(), ("Ctrl+W",),
+        "Return to the start page; undo opens it again", synonyms="start page new empty"),
+    Action("close beside", "Close second mesh", lambda c: c.session.close_second_mesh(),
+        tip="Keep the first mesh alone", can_run=_has_two, lack=NO_SECOND, synonyms="remove second"),
+    Action("cut", "Cut out by mask…", lambda c: c[MeshRepairs].choose_cut(),
+        tip="Remove vertices with their faces; a mask has 1 for each vertex to keep",
+        synonyms="mask medial wall remove vertices hole cortex"),
+    Action("merge", "Merge vertices…", lambda c: c[MeshRepairs].ask_merge(),
+        tip="Merge vertices in one place or within a tolerance, so that distances cross between their faces",
+        synonyms="weld join coincident duplicate double vertices seams soup tolerance"),
+    Action("save ids", "Save vertex id table…", lambda c: c[MeshRepairs].save_ids(),
+        tip="Save the new id of each vertex of the file", can_run=_is_merged,
+        lack="merge vertices first", synonyms="export write merged numbers map"),
+    Action("put back", "Restore original mesh", lambda c: c[MeshRepairs].put_back(),
+        tip="Undo cutting out and merging", can_run=_is_repaired, lack="nothing is cut out or merged",
+        synonyms="mask whole again fill unmerge original"),
+    Action("save", "&Save session", lambda c: c[SessionFile].save_or_say(), ("Ctrl+S",), icon="save",
+        synonyms="store keep project"),
+    Action("save as", "Save session &as…", lambda c: c[SessionFile].choose_and_save(), ("Ctrl+Shift+S",),
+        synonyms="store keep project"),
+    Action("figure", "&Export figure…", lambda c: _figure_actions().export_figure(c), ("Ctrl+E",),
+        "Save what is shown for a paper or a slide", "export-figure",
+        synonyms="save picture image pdf svg png print paper latex resolution dpi font text size transparent "
+            "background"),
+    Action("movie", "Export &movie…", lambda c: _figure_actions().export_movie(c), ("Ctrl+M",),
+        synonyms="save video animation animate gif mp4"),
+    Action("page", "Export &web page…", lambda c: _figure_actions().export_page(c),
+        tip="Save an HTML file that computes distances from wherever one clicks, offline",
+        synonyms="save html browser internet interactive share"),
+    Action("screenshot", "S&creenshot of window…", lambda c: c[Files].choose_screenshot(), ("Ctrl+P",),
+        synonyms="save picture image grab png"),
+    Action("save fields", "Save all &fields…", lambda c: c[FieldFiles].save_all(),
+        tip="Save the vertex values of all panels in one file",
+        synonyms="export write values distances data npy csv ply vtp obj glb blender colours colors"),
+    Action("quit", "&Quit", lambda c: c.widget.close(), ("Ctrl+Q",), needs_mesh=False, synonyms="exit close end"),
 )
 EDIT = (
-    Act("undo", "&Undo", lambda c: c.session.undo(), ("Ctrl+Z",), "Undo the last change", "undo", needs_mesh=False,
-        lack="nothing to undo"),
-    Act("redo", "&Redo", lambda c: c.session.redo(), ("Ctrl+Shift+Z", "Ctrl+Y"), "Do it again", "redo",
-        needs_mesh=False, lack="nothing to redo"),
-    Act("copy camera", "Copy ca&mera", lambda c: c[Views].copy(), ("Ctrl+Alt+C",),
-        "As text, for another window or bihdist figure --camera"),
-    Act("paste camera", "P&aste camera", lambda c: c[Views].paste(), ("Ctrl+Alt+V",),
-        "Look from where a copied camera looked"),
-    Act("copy picture", "&Copy picture", lambda c: c[Files].copy("picture"), ("Ctrl+Shift+C",),
-        "The figure as an image, to be pasted elsewhere", "copy"),
-    Act("copy command", "Copy as command &line", lambda c: c[Files].copy("command"),
-        tip="One line for a shell that makes the figure of what is shown"),
-    Act("copy python", "Copy as P&ython", lambda c: c[Files].copy("python"),
-        tip="One line of Python that makes the figure of what is shown"),
-    Act("preferences", "&Preferences…", lambda c: c[Choices].ask_preferences(), ("Ctrl+,",), icon="settings",
-        needs_mesh=False),
+    Action("undo", "&Undo", lambda c: c.session.undo(), ("Ctrl+Z",), "Undo the last change", "undo", needs_mesh=False,
+        lack="nothing to undo", synonyms="back revert"),
+    Action("redo", "&Redo", lambda c: c.session.redo(), ("Ctrl+Shift+Z", "Ctrl+Y"), "Redo the last undone change",
+        "redo",
+        needs_mesh=False, lack="nothing to redo", synonyms="again repeat"),
+    Action("copy camera", "Copy ca&mera", lambda c: c[Views].copy(), ("Ctrl+Alt+C",),
+        "Copy as text, for another window or bihdist figure --camera", synonyms="view viewpoint"),
+    Action("paste camera", "P&aste camera", lambda c: c[Views].paste(), ("Ctrl+Alt+V",),
+        "Use a copied camera", synonyms="view viewpoint"),
+    Action("copy picture", "&Copy picture", lambda c: _figure_actions().copy(c, "picture"), ("Ctrl+Shift+C",),
+        "Copy the figure as an image", "copy", synonyms="image clipboard"),
+    Action("copy command", "Copy as command &line", lambda c: _figure_actions().copy(c, "command"),
+        tip="Copy a shell command that draws what is shown", synonyms="shell terminal script"),
+    Action("copy python", "Copy as P&ython", lambda c: _figure_actions().copy(c, "python"),
+        tip="Copy a line of Python that draws what is shown", synonyms="script code notebook"),
+    Action("clear by-products", "Clear selections and &borders", lambda c: clear_by_products(c),
+        tip="Remove selections and borders of regions", can_run=_has_removable(by_products),
+        lack="there are none", synonyms="hatching lasso regions deselect unselect stripes"),
+    Action("clear surface", "Clear all but the &source", lambda c: c.session.show(clear_surface(c.document)),
+        tip="Remove pins, selections, borders, anchors and other marks", can_run=_has_removable(surface_items),
+        lack="nothing else is there", synonyms="reset marks pins anchors empty"),
+    Action("preferences", "&Preferences…", lambda c: c[Choices].ask_preferences(), ("Ctrl+,",), icon="settings",
+        needs_mesh=False, synonyms="settings options configure"),
 )
 VIEW = (
-    Act("reset", "Hom&e", lambda c: c[Views].reset(), ("R", "Home"), "See all of it", "reset-view"),
+    Action("reset", "Hom&e", lambda c: c[Views].reset(), ("R", "Home"), "Fit to view", "reset-view",
+        synonyms="home reset fit all whole view camera"),
     *(
-        Act(f"view {name}", VIEW_TEXTS.get(name, f"&{name.capitalize()}"), partial(_see_from, name), (str(number),))
+        Action(f"view {name}", VIEW_TEXTS.get(name, f"&{name.capitalize()}"), partial(_see_from, name), (str(number),))
         for number, name in enumerate(VIEWS, 1)
     ),
-    Act("centre", "&Centre the view here", lambda c: _gestures(c).centre_here(), ("C",),
-        "What is under the pointer comes into the middle, and is turned about"),
-    Act("zoom to", "&Zoom to it", lambda c: _gestures(c).zoom_here(), ("Z",), "What is pointed at, larger"),
-    Act("link", "Link the two cameras", lambda c: c[Views].link(), ("K",), "Turning one of two meshes turns the other",
-        is_check=True, is_on=True, lack=NO_SECOND),
-    Act("next up", "The &next axis up", lambda c: c[Views].next_up(), ("U",)),
-    Act("other end up", "Upside &down", lambda c: c[Views].other_end_up(), ("Shift+U",)),
-    Act("orthographic", "&Orthographic", lambda c: c[Views].project(), ("O",),
-        "What is farther away is drawn as large", is_check=True),
-    Act("axes", "A&xes", lambda c: c[Views].show_axes(), ("X",), "Where x, y and z point to, in a corner",
-        is_check=True),
-    Act("turntable", "Turn as on a tur&ntable", lambda c: c[Views].turn_upright(),
-        tip="What is up stays upright while the surface turns", needs_mesh=False, is_check=True),
-    Act("view before", "The &view before", lambda c: c[Views].back(), ("Ctrl+[",)),
-    Act("view after", "The view &after", lambda c: c[Views].on(), ("Ctrl+]",)),
-    Act("wireframe", "&Wireframe", lambda c: c[Choices].wireframe(c.actions["wireframe"].isChecked()), ("W",),
-        "The edges of the mesh", is_check=True),
-    Act("crease", "&Angle of creases…", lambda c: c[Choices].ask_crease()),
-    Act("full screen", "&Full screen for talks", lambda c: c[Choices].toggle_full_screen(), ("F11",),
-        "Panels and bars only, in larger text", needs_mesh=False, is_check=True),
+    Action("centre", "&Centre view here", lambda c: _gestures(c).centre_here(), ("C",),
+        "Centre what is under the pointer, and turn about it", synonyms="middle pivot focus look at"),
+    Action("zoom to", "&Zoom in here", lambda c: _gestures(c).zoom_here(), ("Z",), "Enlarge what is under the pointer",
+        synonyms="nearer closer focus"),
+    Action("link", "Link cameras", lambda c: c[Views].link(), ("K",), "Turn both meshes together",
+        is_on=lambda c: c.document.linked, can_run=_has_two, lack=NO_SECOND, synonyms="synchronise together"),
+    Action("next up", "&Next axis up", lambda c: c[Views].next_up(), ("U",)),
+    Action("other end up", "Upside &down", lambda c: c[Views].other_end_up(), ("Shift+U",)),
+    Action("view before", "&Previous view", lambda c: c[Views].back(), ("Ctrl+[",), synonyms="back camera undo"),
+    Action("view after", "Next vie&w", lambda c: c[Views].on(), ("Ctrl+]",), synonyms="forward camera redo"),
+    Action("feature angle", "Feature &angle…", lambda c: c[Choices].ask_feature_angle(),
+        tip="Choose from which angle on edges are sharp", synonyms="crease sharp edges normals"),
+    Action("full screen", "&Full screen for talks", lambda c: c[Choices].toggle_full_screen(), ("F11",),
+        "Show panels and bars only, in larger text", needs_mesh=False,
+        is_on=lambda c: c[Choices].is_full_screen, synonyms="fullscreen presentation present maximise"),
 )
 TURNS = (
-    Act("turn left", "Turn to the left", _on_view("turn_by", -1, 0), ("Left",), of_view=True),
-    Act("turn right", "Turn to the right", _on_view("turn_by", 1, 0), ("Right",), of_view=True),
-    Act("turn up", "Turn up", _on_view("turn_by", 0, 1), ("Up",), of_view=True),
-    Act("turn down", "Turn down", _on_view("turn_by", 0, -1), ("Down",), of_view=True),
-    Act("move left", "Move to the left", _on_view("shift_by", -1, 0), ("Shift+Left",), of_view=True),
-    Act("move right", "Move to the right", _on_view("shift_by", 1, 0), ("Shift+Right",), of_view=True),
-    Act("move up", "Move up", _on_view("shift_by", 0, 1), ("Shift+Up",), of_view=True),
-    Act("move down", "Move down", _on_view("shift_by", 0, -1), ("Shift+Down",), of_view=True),
-    Act("nearer", "Nearer", _on_view("zoom", 1.2), ("+", "="), of_view=True),
-    Act("farther", "Farther", _on_view("zoom", 1 / 1.2), ("-",), of_view=True),
-    Act("remove anchor", "Remove the chosen anchor or pair", lambda c: _gestures(c).remove_chosen(), ("Delete",),
+    Action("turn left", "Turn left", _on_view("turn_by", -1, 0), ("Left",), of_view=True),
+    Action("turn right", "Turn right", _on_view("turn_by", 1, 0), ("Right",), of_view=True),
+    Action("turn up", "Turn up", _on_view("turn_by", 0, 1), ("Up",), of_view=True),
+    Action("turn down", "Turn down", _on_view("turn_by", 0, -1), ("Down",), of_view=True),
+    Action("move left", "Move left", _on_view("shift_by", -1, 0), ("Shift+Left",), of_view=True),
+    Action("move right", "Move right", _on_view("shift_by", 1, 0), ("Shift+Right",), of_view=True),
+    Action("move up", "Move up", _on_view("shift_by", 0, 1), ("Shift+Up",), of_view=True),
+    Action("move down", "Move down", _on_view("shift_by", 0, -1), ("Shift+Down",), of_view=True),
+    Action("nearer", "Zoom in", _on_view("zoom", 1.2), ("+", "="), of_view=True, synonyms="zoom in larger closer"),
+    Action("farther", "Zoom out", _on_view("zoom", 1 / 1.2), ("-",), of_view=True, synonyms="zoom out smaller"),
+    Action("remove anchor", "Remove chosen anchor or pair", lambda c: _gestures(c).remove_chosen(), ("Delete",),
         of_view=True),
-    Act("accept pair", "Accept the predicted partner", lambda c: None if c[Guide].go_on() else _gestures(c).accept(),
-        ("Return", "Enter"), of_view=True),
+    Action("accept pair", "Accept predicted partner", lambda c: _gestures(c).accept(), ("Return", "Enter"),
+        of_view=True),
 )
 PANELS = (
-    Act("add panel", "&Add a panel", lambda c: c[Choices].add_panel(), ("Ctrl+T",), "One more panel", "add-panel"),
-    *(Act(f"panel {word}", word, partial(_edit_panel, word)) for word in panel_edits() if word != ADD),
-    Act("save field", "Save &field…", lambda c: c[FieldFiles].save(c.grid.active),
-        tip="The values of the active panel at the vertices"),
-    Act("next panel", "&Next panel", lambda c: c.grid.focus(1), ("Tab",), of_view=True),
-    Act("previous panel", "&Previous panel", lambda c: c.grid.focus(-1), ("Shift+Tab",), of_view=True),
-    Act("panels and bars", "Between panels and tool bar", _change_part, ("F6",), needs_mesh=False),
+    Action("add panel", "&Add panel", lambda c: c[Choices].add_panel(), ("Ctrl+T",), "Show one more distance",
+        "add-panel",
+        can_run=lambda c: c[Choices].can_add_panel, lack="there are six panels already; remove one first",
+        synonyms="new compare distance more"),
+    *(
+        Action(f"panel {word}", word, partial(_edit_panel, word), synonyms=edit.synonyms)
+        for word, edit in panel_edits().items() if word != ADD
+    ),
+    Action("save field", "Save &field…", lambda c: c[FieldFiles].save(c.grid.active),
+        tip="Save the vertex values of the active panel",
+        synonyms="export write values distance data npy csv ply vtp obj glb blender colours colors"),
+    Action("next panel", "&Next panel", lambda c: c.grid.focus(1), ("Tab",), of_view=True, synonyms="focus switch"),
+    Action("previous panel", "&Previous panel", lambda c: c.grid.focus(-1), ("Shift+Tab",), of_view=True,
+        synonyms="focus switch"),
+    Action("panels and bars", "Switch focus to toolbar", _change_part, ("F6",), needs_mesh=False,
+        synonyms="focus switch keyboard"),
 )
 TOOLS = (
-    Act("source id", "&Type a source", lambda c: c[TypedSource].ask(), ("G",), icon="source"),
-    Act("snap", "Snap to &vertices", lambda c: c[Snapping].set(c.actions["snap"].isChecked()), ("V",),
-        "The source is put on vertices, and not anywhere in faces", is_check=True, is_on=True),
-    Act("save curve", "Save the drawn curve…", lambda c: c[CurveFiles].save_source(c.grid.active),
-        tip="The curve that distances start from, as curve.json: a source in words and on the command line"),
-    Act("source before", "The source be&fore", lambda c: c.session.walk_sources(-1), ("Alt+Left",)),
-    Act("source after", "The source &after", lambda c: c.session.walk_sources(1), ("Alt+Right",)),
-    Act("live", "&Live: the source follows the pointer", lambda c: _gestures(c).set_live(c.actions["live"].isChecked()),
-        ("L",), "The source follows the pointer while the key is held, or until this is switched off", "live",
-        is_check=True),
-    Act("stop", "&Stop what is being computed", stop, ("Esc",), needs_mesh=False),
+    Action("source id", "&Type source…", lambda c: c[TypedSource].ask(), ("G",), icon="source",
+        synonyms="vertex number go find select"),
+    Action("snap", "Snap to &vertices", lambda c: c[Snapping].set(not c.document.snap), ("V",),
+        "Put sources on vertices, not inside faces", is_on=lambda c: c.document.snap, synonyms="magnet nearest"),
+    Action("save curve", "Save drawn curve…", lambda c: c[CurveFiles].save_source(c.grid.active),
+        tip="Save the source curve as curve.json, a source for the command line", synonyms="export write source"),
+    Action("source before", "Pr&evious source", lambda c: c.session.walk_sources(-1), ("Alt+Left",),
+        synonyms="back history"),
+    Action("source after", "Ne&xt source", lambda c: c.session.walk_sources(1), ("Alt+Right",),
+        synonyms="forward history"),
+    Action("live", "&Live source", lambda c: _gestures(c).set_live(c.actions["live"].isChecked()),
+        ("L",), "Let the source follow the pointer, while the key is held or until switched off", "live",
+        is_check=True, synonyms="hover drag follow mouse"),
+    Action("stop", "Cancel co&mputation", stop, ("Esc",), needs_mesh=False, synonyms="cancel abort interrupt halt"),
 )
 HELP = (
-    Act("keys", "All &commands and gestures", lambda c: c[Guide].show_commands(), ("F1",), icon="info",
-        needs_mesh=False),
-    Act("guide", "&Guide", lambda c: c[Guide].open_guide(), tip="How-to pages, examples and reference, in the browser",
-        needs_mesh=False),
-    Act("tour", "A &tour in five steps", lambda c: c[Guide].start_tour(), needs_mesh=False),
-    Act("about", "&About", lambda c: c[Guide].show_about(), needs_mesh=False),
+    Action("keys", "&Commands and gestures…", lambda c: c[Guide].show_commands(), ("F1",), icon="info",
+        needs_mesh=False, synonyms="help shortcuts palette gestures"),
+    Action("guide", "&Guide", lambda c: c[Guide].open_guide(), tip="Open how-to pages, examples and reference",
+        needs_mesh=False, synonyms="help manual documentation docs handbook how-to tutorial introduction tour examples "
+            "gallery reference"),
+    Action("about", "&About", lambda c: c[Guide].show_about(), needs_mesh=False, synonyms="version licence citation"),
 )
 # fmt: on
 INSTRUMENTS = tuple(map(_dock, docked_tools().values()))
 """The docks, in the order of the menu."""
 
-ALL = (*FILE, *EDIT, *VIEW, *TURNS, *PANELS, *TOOLS, *acts_of_tools(), *INSTRUMENTS, *HELP)
+SETTINGS = tuple(map(_switch, SWITCHES))
+ALL = (*FILE, *EDIT, *VIEW, *SETTINGS, *TURNS, *PANELS, *TOOLS, *actions_of_tools(), *INSTRUMENTS, *HELP)

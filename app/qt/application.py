@@ -1,4 +1,4 @@
-"""Qt's application and its event loop, for the command and for whoever has a process of his own."""
+"""Qt's application and its event loop, for the command and for scripts."""
 
 import locale
 import os
@@ -15,17 +15,17 @@ from .look.look import LOOK
 from .screen import check_screen as check_screen
 
 POLL_MS = 20
-"""How often it is looked whether the waiting has an end."""
+"""Interval at which the condition is checked."""
 
 PROGRAM = "bihdist"
-"""The name of its entry in a desktop's menu, and of its windows' class."""
+"""Name of the entry in a desktop's menu, and of the windows' class."""
 
 _kept: list[QtWidgets.QApplication] = []
-"""Qt's application must not be taken down while there are windows."""
+"""Qt's application, which has to outlive all windows."""
 
 
 def application() -> QtWidgets.QApplication:
-    """Qt's application, made if there is none; the environment and the locale stay as they are."""
+    """Return Qt's application, made if needed; the environment and the locale stay as they are."""
     known = QtWidgets.QApplication.instance()
     if known is not None:
         return known
@@ -54,7 +54,7 @@ def application() -> QtWidgets.QApplication:
 
 @contextmanager
 def _drawn_through_x() -> Iterator[None]:
-    """VTK draws through X only, which Qt has to know when it starts."""
+    """Have Qt use X, through which alone VTK draws."""
     both = os.environ.get("DISPLAY") and os.environ.get("WAYLAND_DISPLAY")
     is_ours = bool(both) and "QT_QPA_PLATFORM" not in os.environ
     if is_ours:
@@ -67,7 +67,7 @@ def _drawn_through_x() -> Iterator[None]:
 
 
 def run_until(condition: Callable[[], bool]) -> None:
-    """Let Qt work until the condition holds; KeyboardInterrupt if the user presses Ctrl+C meanwhile."""
+    """Run the event loop until a condition holds; KeyboardInterrupt if the user presses Ctrl+C."""
     loop = QtCore.QEventLoop()
     timer = QtCore.QTimer(interval=POLL_MS, timeout=loop.quit)
     timer.start()
@@ -87,7 +87,7 @@ def _note(number: int, frame: object) -> None:
 
 @contextmanager
 def interrupts_noted() -> Iterator[None]:
-    """Ctrl+C is noted, and raised at the end: within a slot it would end the process."""
+    """Note Ctrl+C, and raise it at the end; within a slot it would end the process."""
     is_python = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if not is_python or threading.current_thread() is not threading.main_thread():
         yield

@@ -1,4 +1,4 @@
-"""What an instrument computes beside the window's thread: the latest that is asked for, and nothing else."""
+"""Computations of instruments in the background: only the latest request is computed."""
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
@@ -11,6 +11,11 @@ from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.progress import Progress
 
 from ..session.latest_request_worker import LatestRequestWorker
+
+
+def call(request: tuple[Callable[[], object]], progress: Progress) -> Iterator[object]:
+    """Compute a request that is a function: yield what it returns."""
+    yield request[0]()
 
 
 class Background(QtCore.QObject):
@@ -33,12 +38,12 @@ class Background(QtCore.QObject):
         self._worker: LatestRequestWorker[Any] = LatestRequestWorker(name, self._work, self._report, self._fail)
 
     def ask(self, request: Any) -> None:
-        """None stops what goes on."""
+        """Compute a request, in place of the one before; None only cancels that."""
         self._latest = request
         self._worker.submit(request)
 
     def close(self, waits: bool = True) -> None:
-        """End the thread, and wait for it; what it computes is not wanted any more."""
+        """End the thread, and wait for it."""
         self._latest = None
         (self._worker.close if waits else self._worker.end)()
 

@@ -1,4 +1,4 @@
-"""From one document to the next: the panels are shown what is another."""
+"""Changes of the document: the panels are shown what differs."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -6,6 +6,7 @@ from typing import NamedTuple
 from qtpy import QtCore
 
 from ..document.document import Document
+from ..document.on_surface import SOURCE, Hidden
 from ..scene.style import Style
 from ..session.loaded_mesh import LoadedMesh
 from .context import Context
@@ -30,17 +31,21 @@ def _sources(context: Context) -> None:
 
 TABLE = (
     Row(lambda d: d.points, _sources),
+    Row(lambda d: SOURCE in d[Hidden].hidden, lambda c: c.grid.marks.show_sources(c.document)),
     Row(lambda d: d, lambda c: c.grid.marks.show(c.document)),
     Row(lambda d: d, lambda c: c.grid.show_edits(c.document)),
-    Row(lambda d: d.zooms, lambda c: c.grid.marks.show_insets(c.document)),
-    Row(lambda d: (d.isolines, d.isolines.through and d.points), lambda c: c.grid.marks.show_isolines(c.document)),
+    Row(lambda d: d.insets, lambda c: c.grid.marks.show_insets(c.document)),
+    Row(
+        lambda d: (d.isolines, d.isolines.through and (d.points, d[Hidden])),
+        lambda c: c.grid.marks.show_isolines(c.document),
+    ),
     Row(lambda d: d.shading, lambda c: c.grid.show_shading()),
 )
 """What panels show besides their fields."""
 
 
 class Changes(QtCore.QObject):
-    """What the panels show, kept equal to what the session does."""
+    """Keeps the panels equal to what the session shows."""
 
     answered = QtCore.Signal(int)  # a panel has to show its answer again
     surfaces_changed = QtCore.Signal(object, bool)  # those in the panels now; whether the first is that from before
@@ -54,11 +59,11 @@ class Changes(QtCore.QObject):
 
     @property
     def _style(self) -> Style:
-        """What fields look like: that of the page, in the document's colours, on the window's ground."""
+        """The style of fields: that of the page, in the document's colours, on the window's ground."""
         return canvas_style(self._context.page.style, LOOK.theme, self._context.document.colours)
 
     def show(self, before: Document) -> None:
-        """The session's document, where the one before is shown."""
+        """Show the session's document, where the one before is shown."""
         context, session, grid = self._context, self._context.session, self._context.grid
         document = session.document
         loaded = tuple(session.loaded(mesh.name) for mesh in document.surfaces)
@@ -81,25 +86,31 @@ class Changes(QtCore.QObject):
         for row in TABLE:
             if other_panels or row.of(document) != row.of(before):
                 row.show(context)
-        is_raised = document.height != before.height
+        is_raised = document.warp_factor != before.warp_factor
         if other_panels or is_raised or document.range != before.range:
             for panel in document.panels:
                 if session.is_answered(panel.id) or (has_other_style and panel.id in session.shown):
                     self.answered.emit(panel.id)
         context[Views].document_changed(before, is_other, is_raised)
 
+    def show_none(self) -> None:
+        """The document has no meshes, and so no panels; what is next is shown anew."""
+        self._loaded = ()
+        self._context.grid.show_panels(self._context.document)
+        self._context[TypedSource].show()
+
     def apply_theme(self) -> None:
-        """Other colours of the window, or another style of the fields."""
+        """Show the window's other colours, or another style of the fields."""
         if self._context.is_built and self._context.grid.show_style(self._style):
             self.show_all_again()
 
     def _apply_theme_next(self) -> None:
-        """The same, with the next change of the document, which then shows all anew."""
+        """Apply the theme with the next change of the document, which then shows all anew."""
         if self._context.is_built and self._context.grid.show_style(self._style):
             self._loaded = ()
 
     def show_all_again(self) -> None:
-        """All that is in the panels, where nothing has changed but how it looks."""
+        """Show everything in the panels again, where nothing has changed but how it looks."""
         context, grid = self._context, self._context.grid
         if context.session.loaded() is None:
             return
@@ -113,6 +124,6 @@ class Changes(QtCore.QObject):
 
 
 def _is_remade(before: tuple[LoadedMesh | None, ...], after: tuple[LoadedMesh | None, ...]) -> bool:
-    """Whether the first surface stays, and the others are made from it, or were."""
+    """Return whether the first surface stays, and the others are made from it, or were."""
     others = [*before[1:], *after[1:]]
     return bool(before and after) and before[0] is after[0] and all(o and o.origin is after[0] for o in others)

@@ -1,4 +1,4 @@
-"""What the user chooses: panels, isolines, colours, ranges, preferences."""
+"""Choices of the user: panels, isolines, colours, ranges, preferences."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -8,23 +8,23 @@ from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
 
-from ..document.edits import MOST_ADDED, add_another, end_at, show_in_row, with_range
+from ..document.document import Document
+from ..document.edits import MOST_ADDED, add_another, end_at, show_in_row
 from ..document.looks import Colours
 from ..document.panel_edits import ADD, panel_edits, possible_edits
 from ..document.quantities import Quantity
+from ..document.settings import THEME, Preferences, Setting
 from ..document.tools import tools
 from ..scene.colour_file import read_stops
 from .context import Context
 from .files.taken_ends import TakenEnds
-from .isoline_choices import IsolineChoices
 from .look.canvas import map_word
 from .look.look import LOOK, TALK
-from .preferences import Preferences
 
 COLOUR_FILES = "Colour maps (*.txt *.csv *.json);;All files (*)"
 
-LEAST_CREASE = 0.1
-"""Degrees."""
+LEAST_ANGLE = 0.1
+"""In degrees."""
 
 
 class Choices:
@@ -33,27 +33,40 @@ class Choices:
     def __init__(self, context: Context) -> None:
         self._context = context
         self.is_full_screen = False
-        self.ends, self.isoline = context[TakenEnds], context[IsolineChoices]
+        self.ends = context[TakenEnds]
 
     # ------------------------------------------------------------------ panels
     def add_panel(self) -> None:
-        """One more, with a distance that is not shown yet."""
+        """Add a panel with a distance that is not shown yet."""
         session = self._context.session
-        if session.surface is not None and not self._add_panels() and len(session.document.panels) < MOST_ADDED:
+        if self.can_add_panel and not self._add_panels():
             active = {panel.id: panel.surface for panel in session.document.panels}
             session.show(add_another(session.document, active.get(self._context.grid.active)))
 
-    def _add_panels(self) -> bool:
-        """Several that a tool adds at once; whether one does."""
+    @property
+    def can_add_panel(self) -> bool:
+        """Whether a panel can be added."""
         session = self._context.session
-        documents = (tool.load(tool.add_panel)(session.document) for tool in tools() if tool.add_panel)
-        document = next((each for each in documents if each is not None), None)
-        if document is not None and document != session.document:
-            session.show(document)
+        if session.loaded() is None:
+            return False
+        several = self._with_panels_of_tools()
+        return len(session.document.panels) < MOST_ADDED if several is None else several != session.document
+
+    def _with_panels_of_tools(self) -> Document | None:
+        """Return the document with the panels that a tool adds at once; None where no tool does."""
+        document = self._context.document
+        documents = (tool.load(tool.add_panel)(document) for tool in tools() if tool.add_panel)
+        return next((each for each in documents if each is not None), None)
+
+    def _add_panels(self) -> bool:
+        """Add the panels that a tool adds at once, and return whether a tool does."""
+        document = self._with_panels_of_tools()
+        if document is not None and document != self._context.document:
+            self._context.session.show(document)
         return document is not None
 
     def edit_panel(self, panel: int, word: str) -> None:
-        """Do what an entry of the menu over a panel says, where that is possible."""
+        """Run an entry of the menu over a panel, where that is possible."""
         session = self._context.session
         is_there = any(shown.id == panel for shown in session.document.panels)
         if is_there and word == ADD and self._add_panels():
@@ -62,41 +75,41 @@ class Choices:
             session.show(panel_edits()[word].edit(session.document, panel))
 
     def choose(self, panel: int, shows: Quantity) -> None:
-        """Let a panel show something else, which is a step; the values that a slider passes are one."""
+        """Show another quantity in a panel, as one step; values that a slider passes are one step, too."""
         document = self._context.document
         words = [tuple(part.word for part in each.parts) for each in (document.panel(panel).shows, shows)]
         key = f"{words[0]} in {panel}" if words[0] == words[1] else ""
-        self._context.edit(show_in_row(document, panel, shows), key)
+        self._context.session.show(show_in_row(document, panel, shows), key)
 
-    # ------------------------------------------------------------------ how fields are shown
-    def isolines(self, count: int) -> None:
-        """Draw about so many isolines at round values, 0 for none."""
-        self.isoline.steps(count)
+    # ------------------------------------------------------------------ settings
+    def set(self, setting: Setting, value: Any) -> None:
+        """Change a setting."""
+        context = self._context
+        if setting is THEME:
+            LOOK.choose(value)
+        if setting.is_preference:
+            context.prefer(**{setting.word: value})
+        elif value != setting.value(context):
+            context.session.show(setting.changed(context.document, value))
+        context.choice_changed.emit()
 
-    def shading(self, word: str) -> None:
-        """One of NORMALS."""
-        self._shade(normals=word)
+    def toggle(self, setting: Setting) -> None:
+        """Switch a setting on or off."""
+        self.set(setting, setting.off if setting.is_on(self._context) else setting.on)
 
-    def wireframe(self, is_shown: bool) -> None:
-        """Draw the edges of the faces, or no longer."""
-        self._shade(wireframe=is_shown)
-
-    def ask_crease(self) -> None:
-        """Ask for the angle beyond which an edge is drawn as a crease."""
-        shading = self._context.document.shading
-        words = "Normals are split where faces meet at more than so many degrees:"
-        crease, chosen = QtWidgets.QInputDialog.getDouble(
-            self._context.widget, "Creases", words, shading.crease, LEAST_CREASE, 180 - LEAST_CREASE, 1
+    def ask_feature_angle(self) -> None:
+        """Ask from which angle on an edge is sharp."""
+        session, shading = self._context.session, self._context.document.shading
+        words = "Split normals where faces meet at more than this many degrees:"
+        angle, chosen = QtWidgets.QInputDialog.getDouble(
+            self._context.widget, "Feature angle", words, shading.feature_angle, LEAST_ANGLE, 180 - LEAST_ANGLE, 1
         )
         if chosen:
-            self._shade(crease=crease, normals="creased")
-
-    def _shade(self, **changes: Any) -> None:
-        session = self._context.session
-        session.show(replace(session.document, shading=replace(session.document.shading, **changes)))
+            shading = replace(shading, feature_angle=angle, normals="creased")
+            session.show(replace(session.document, shading=shading))
 
     def style(self, word: str) -> None:
-        """One of the drawing's styles, for the panels and for the figures to come; the map stays as it is."""
+        """Choose a style for panels and later figures; the colour map stays as it is."""
         context = self._context
         chosen = map_word(context.page.style, context.document.colours)
         context.page = replace(context.page, style=word)
@@ -113,21 +126,13 @@ class Choices:
         self._context.choice_changed.emit()
 
     def colour_map(self, word: str) -> None:
-        """One of the drawing's maps; that of the style is not named."""
+        """Choose a colour map; the document does not name that of the style."""
         now = self._context.document.colours
         is_own = word == map_word(self._context.page.style, Colours())
         self._colour(Colours("" if is_own else word, (), now.reversed, now.bands))
 
-    def reverse_colours(self, is_on: bool) -> None:
-        """Run the colour map backwards, or no longer."""
-        self._colour(replace(self._context.document.colours, reversed=is_on))
-
-    def band_colours(self, is_on: bool) -> None:
-        """Fill the space between isolines with one colour, or no longer."""
-        self._colour(replace(self._context.document.colours, bands=is_on))
-
     def ask_colours(self) -> None:
-        """A map from a file."""
+        """Ask for a file with a colour map, and choose that."""
         if path := self._ask_path("Colours from a file", COLOUR_FILES):
             self.take_colours(path)
 
@@ -136,7 +141,7 @@ class Choices:
         return str(QtWidgets.QFileDialog.getOpenFileName(context.widget, title, context.folder, files)[0])
 
     def take_colours(self, path: str) -> None:
-        """The map in a file, or a sentence why there is none."""
+        """Choose the colour map in a file, or tell why it cannot be read."""
         now = self._context.document.colours
         try:
             self._colour(Colours(Path(path).stem, read_stops(path), now.reversed, now.bands))
@@ -144,44 +149,32 @@ class Choices:
             self._context.fail(error)
 
     # ------------------------------------------------------------------ ranges
-    def range(self, word: str) -> None:
-        """One of RANGES."""
-        session = self._context.session
-        session.show(with_range(session.document, word))
-        self._context.choice_changed.emit()
-
     def end_at(self, panel: int, end: float | None) -> None:
-        """Where a panel's colour bar ends, its own maximum if None."""
+        """Let a panel's colour bar end at a value, its own maximum if None."""
         session = self._context.session
         session.show(end_at(session.document, panel, end))
 
     def ask_end(self) -> None:
-        """Let the active panel's be typed."""
+        """Let the end of the active panel's colour bar be typed."""
         panel = self._context.active
         if panel is not None:
             panel.ask_end()
         self._context.choice_changed.emit()  # nothing has been chosen yet
 
     def ask_ends(self) -> None:
-        """Those of a session or recipe."""
+        """Ask for a session or recipe, and take its colour limits."""
         if path := self._ask_path("Ranges from a session or recipe", "Sessions and recipes (*.json)"):
             self.ends.take(path)
 
     # ------------------------------------------------------------------ the window
-    def theme(self, word: str) -> None:
-        """ "light", "dark" or "desktop"."""
-        LOOK.choose(word)
-        self._context.prefer(theme=word)
-        self._context.choice_changed.emit()
-
     def toggle_full_screen(self) -> None:
-        """Panels and their bars only, in larger letters; and back."""
+        """Show only panels and their bars, in larger text, or leave the full screen."""
         state, full = self._context.widget.windowState(), QtCore.Qt.WindowState.WindowFullScreen
         self._show_full_screen(not self.is_full_screen)
         self._context.widget.setWindowState(state | full if self.is_full_screen else state & ~full)
 
     def window_state_changed(self) -> None:
-        """The desktop may end it, too."""
+        """Leave the full screen where the desktop has ended it."""
         if self.is_full_screen and not self._context.widget.isFullScreen():
             self._show_full_screen(False)
 
@@ -191,12 +184,13 @@ class Choices:
         for bar in (context.widget.menuBar(), *bars, context.status):
             bar.setVisible(not is_full)
         LOOK.enlarge(TALK if is_full else 1.0)
-        context.actions["full screen"].setChecked(is_full)
+        context.choice_changed.emit()
 
     def remember_place(self) -> None:
-        """Where the window stands, for the next start."""
+        """Remember the window's place and the open docks for the next start."""
         if not self.is_full_screen:
-            self._context.prefer(geometry=bytes(self._context.widget.saveGeometry()))
+            geometry = bytes(self._context.widget.saveGeometry())
+            self._context.prefer(geometry=geometry, docks=",".join(self._context.document.docks))
 
     def ask_preferences(self) -> None:
         """Open the dialog of preferences."""
@@ -208,12 +202,5 @@ class Choices:
         dialog.open()
 
     def _take(self, preferences: Preferences) -> None:
-        context = self._context
-        has_switched = preferences.snap != context.preferences.snap
-        context.prefer(**vars(preferences))
-        if has_switched:
-            context.session.keep_snapping(preferences.snap)
-        self.theme(preferences.theme)
-        if context.is_built:
-            context.grid.turn_wheel(-1.0 if preferences.wheel_reversed else 1.0)
-            context.grid.turn_upright(preferences.turntable)
+        self._context.prefer(**vars(preferences))
+        self.set(THEME, preferences.theme)

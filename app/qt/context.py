@@ -1,20 +1,22 @@
-"""What docks, gestures, dialogs and file actions are handed of the window: what is shown, and whom to tell."""
+"""The context of a window for docks, gestures, dialogs and file actions: what is shown, and whom to tell."""
 
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from qtpy import QtCore, QtWidgets
 
+from bihdist_core import BihdistError
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.progress import Progress
 
 from ..document.document import Document
 from ..document.page import Page
+from ..document.settings import Preferences
 from ..session.session import Session
 from .background import Background
-from .preferences import Preferences, save
+from .preferences import save
 from .status_bar import StatusBar
 
 if TYPE_CHECKING:
@@ -26,12 +28,24 @@ Kind = TypeVar("Kind")
 
 
 class Context(QtCore.QObject):
-    """One for each window; `context[Brushing]` is the one `Brushing` of the window, made when it is first asked for.
+    """The state that the parts of a window share.
 
-    widget: the window, which dialogs stand over and docks are put in.  page: of the recipe that was opened last, for
-    the figures that are exported.  actions: by the words of their acts.  quiet: no questions and no messages.
-    remembers: recent files, preferences and, in case of a crash, what is shown.  hit: what is under the pointer, in the
-    panel hit_in.
+    `context[Brushing]` is the window's one `Brushing`, made when it is first asked for.
+
+    Attributes
+    ----------
+    widget
+        The window, which dialogs stand over and docks are put in.
+    page
+        The page of the recipe that was opened last, for the figures that are exported.
+    actions
+        The actions of the window, by the words of their `Action`.
+    quiet
+        Whether no questions are asked and no messages shown.
+    remembers
+        Whether recent files, preferences and, in case of a crash, what is shown are kept.
+    hit, hit_in
+        The hit under the pointer, and the panel that it is in.
     """
 
     document_changed = QtCore.Signal(object)  # from the document before
@@ -42,6 +56,7 @@ class Context(QtCore.QObject):
     page_changed = QtCore.Signal()
     style_changed = QtCore.Signal()  # of the page or the theme: what is shown looks otherwise at once
     choice_changed = QtCore.Signal()  # or may have: menus and buttons have to say what it is
+    preferred = QtCore.Signal(object)  # from the preferences before
     picked = QtCore.Signal(int, object)  # a panel, and the `Hit` that was clicked in it, before anything is done
     refused = QtCore.Signal(str)  # a message the user was shown
     failed = QtCore.Signal(str)  # a message that the user is to be shown
@@ -75,12 +90,8 @@ class Context(QtCore.QObject):
     # ------------------------------------------------------------------ what is shown
     @property
     def document(self) -> Document:
-        """What is shown now."""
+        """The document that is shown now."""
         return self.session.document
-
-    def edit(self, document: Document, key: str = "", live: bool = False) -> None:
-        """Show another document: a step of the history, see `Session.show`."""
-        self.session.show(document, key, live=live)
 
     def take_page(self, page: Page) -> None:
         """Look as figures on this page do, from the next change of the document on."""
@@ -96,7 +107,7 @@ class Context(QtCore.QObject):
     # ------------------------------------------------------------------ the panels
     @property
     def is_built(self) -> bool:
-        """Whether there are panels: the window is shown before what draws has been imported."""
+        """Return whether there are panels: the window is shown before what draws has been imported."""
         return self._grid is not None
 
     @property
@@ -107,7 +118,7 @@ class Context(QtCore.QObject):
         return self._grid
 
     def build(self, grid: "PanelGrid", kinds: Iterable[type]) -> None:
-        """These are the panels, and nothing is waited for any more; kinds: what else is there from now on."""
+        """Take the panels, and call what waited for them; from now on there is one of each of these kinds, too."""
         self._grid = grid
         for kind in kinds:
             self[kind]
@@ -129,47 +140,75 @@ class Context(QtCore.QObject):
             self.found_changed.emit(kind)
 
     def found(self, panel: int, kind: type[Kind]) -> Kind | None:
-        """What has been found for a panel, by its type; None as long as nothing is, and for a panel that is gone."""
+        """Return the finding of a type for a panel; None for nothing, and for a panel that is gone."""
         return next((shown.marks.found.get(kind) for shown in self.grid.panels if shown.id == panel), None)
 
     @property
     def active(self) -> "DistancePanel | None":
         """The panel that the keys go to."""
         grid = self._grid
-        return None if grid is None or self.session.surface is None or grid.active < 0 else grid.panel(grid.active)
+        return None if grid is None or self.session.loaded() is None or grid.active < 0 else grid.panel(grid.active)
 
     def focus_panels(self) -> None:
-        """Give them the keys."""
+        """Give the panels the keys."""
         if self._grid is not None:
             self._grid.focus()
 
     # ------------------------------------------------------------------ the user
     def tell(self, text: str, holds: Callable[[], bool] | None = None) -> None:
-        """In the status bar, for a while; holds: whether it is true, asked as the document changes."""
+        """Show a text in the status bar for a while, as long as `holds`, asked as the document changes."""
         self.status.say(text, holds)
+
+    def copy(self, text: str, told: str) -> None:
+        """Put a text on the clipboard, and tell the user so."""
+        QtWidgets.QApplication.clipboard().setText(text)
+        self.tell(told)
 
     def fail(self, error: Exception | str) -> None:
         """Say why something cannot be done."""
         self.failed.emit(error if isinstance(error, str) else failure_in_words(error))
 
+    @contextmanager
+    def errors_shown(self) -> Iterator[None]:
+        """Show the user an error of what is done within, which ends there."""
+        try:
+            yield
+        except BihdistError as error:
+            self.fail(error)
+
     def prefer(self, **changes: object) -> None:
-        """Other values of some preferences, also at the next start."""
-        self.preferences = replace(self.preferences, **cast("dict[str, Any]", changes))
+        """Change some preferences, also for the next start."""
+        before = self.preferences
+        self.preferences = replace(before, **cast("dict[str, Any]", changes))
+        self.preferred.emit(before)
         if self.remembers:
             save(self.preferences)
 
     @property
     def folder(self) -> str:
-        """Where a file was opened or saved last."""
+        """The folder of the file that was opened or saved last."""
         return self.preferences.last_folder
 
     @folder.setter
     def folder(self, folder: str) -> None:
         self.preferences = replace(self.preferences, last_folder=folder)
 
-    def background(self, name: str, compute: Callable[[Any, Progress], Iterator[Any]]) -> Background:
-        """What computes beside the window's thread, until the window is closed."""
+    def background(
+        self,
+        name: str,
+        compute: Callable[[Any, Progress], Iterator[Any]],
+        answered: Callable[[Any, Any], object] | None = None,
+        failed: Callable[[Any, str], object] | None = None,
+        progressed: Callable[[Any], object] | None = None,
+    ) -> Background:
+        """Return a `Background` that computes beside the window's thread, until the window is closed.
+
+        The functions take its signals.
+        """
         made = Background(name, compute, self)
+        for signal, take in ((made.answered, answered), (made.failed, failed), (made.progressed, progressed)):
+            if take is not None:
+                signal.connect(take)
         self.closed.connect(made.close)
         return made
 

@@ -1,9 +1,10 @@
-"""What the mouse and some keys do on the panels: the base class of what a tool makes of them."""
+"""The base class of a tool's gestures: what the mouse and some keys do on the panels."""
 
 from typing import TYPE_CHECKING, ClassVar
 
 from qtpy import QtCore, QtWidgets
 
+from ..document.document import Document
 from .context import Context
 
 if TYPE_CHECKING:
@@ -15,11 +16,17 @@ FIRST, LAST = -1, 1
 
 
 class Gesture(QtCore.QObject):
-    """One for each window, from its beginning on; a tool's row names it (`gesture`).
+    """The handling of clicks and drags by a tool, whose row names it (`gesture`); each window has one from its start.
 
-    tool: the word of the one whose pin markers can be dragged, "" for none.  turn: FIRST if what it takes is meant for
-    no other tool, whatever the panel shows, LAST if it takes what no other does.  follows: what it moves may be led by
-    the pointer, without a button.
+    Attributes
+    ----------
+    tool
+        The name of the tool whose pin markers can be dragged, "" for none.
+    turn
+        FIRST if it handles what is meant for no other tool, whatever the panel shows; LAST if it handles what no other
+        does.
+    follows
+        Whether what it moves may follow the pointer without a button held.
     """
 
     tool: ClassVar[str] = ""
@@ -30,47 +37,52 @@ class Gesture(QtCore.QObject):
         super().__init__(context)
         self.context = context
 
+    @property
+    def document(self) -> Document:
+        """The document that is shown now."""
+        return self.context.document
+
     def is_on(self, panel: int) -> bool:
-        """Whether what is done in a panel, by its id, is meant for the tool."""
+        """Return whether what is done in a panel, by its id, is meant for the tool."""
         return False
 
     def begin(self) -> None:
-        """Another surface is there."""
+        """Start on another surface."""
 
     # ------------------------------------------------------------------ the mouse
     def takes(self, panel: int, click: "Click") -> bool:
-        """Whether a click is meant for the tool."""
+        """Return whether a click is meant for the tool."""
         return click.is_plain and self.is_on(panel)
 
     def click(self, panel: int, click: "Click") -> None:
-        """On a surface."""
+        """Handle a click on a surface."""
 
     def click_mark(self, panel: int, number: int, has_ctrl: bool) -> None:
-        """On one of the tool's pin markers."""
+        """Handle a click on one of the tool's pin markers."""
 
     def drag(self, panel: int, number: int, hit: "Hit") -> None:
-        """One of the tool's pin markers, or of the marks of what the panel starts from, is over a place."""
+        """Handle a drag of one of the tool's pin markers, or of the source's marks, to a place."""
 
     def release(self) -> None:
-        """What was dragged, or led by the pointer, has arrived."""
+        """End a drag, or a source's way after the pointer."""
 
     def follow(self, panel: int, hit: "Hit") -> None:
-        """The pointer leads what the tool moves."""
+        """Move what the tool moves to where the pointer is."""
 
     def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
-        """In the menu of a place, where the tool is on."""
+        """Add entries to the menu of a place, where the tool is on."""
 
     def offer_always(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit | None", where: QtCore.QPoint) -> None:
-        """The same whatever tool is on, also beside the surface; where: on the screen."""
+        """Add entries whatever tool is on, also beside the surface; `where` is on the screen."""
 
     # ------------------------------------------------------------------ the keys
-    def put_down(self) -> bool:
-        """Esc: let the pointer mean what it usually does; whether it has meant something else."""
+    def cancel(self) -> bool:
+        """Handle Esc: cancel what the pointer does besides its usual work; return whether there was anything."""
         return False
 
     def remove_chosen(self) -> bool:
-        """Del: without what stands out; whether there was something."""
+        """Handle Del: remove what is highlighted; return whether there was anything."""
         return False
 
     def accept(self) -> None:
-        """Enter: what is proposed is meant."""
+        """Handle Enter: accept what is proposed."""

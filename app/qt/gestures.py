@@ -1,10 +1,12 @@
-"""What the mouse and the keys mean on the panels: each event goes to the gesture of the tool that is on."""
+"""Gestures on the panels: each event goes to the gesture of the tool that is on."""
 
 from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
+from ..document.document import Document, content
 from ..document.tools import tools
+from ..drawing.numbers import number
 from .context import Context
 from .dragging import Dragging
 from .files.field_files import FieldFiles
@@ -12,22 +14,21 @@ from .files.isoline_files import save_isolines
 from .gesture import Gesture
 from .held_keys import HeldKeys
 from .isoline_choices import IsolineChoices
-from .look.numbers import number
-from .panels.events import Click, Hover, MarkClick, MarkDrag, MarkRelease, MenuWanted
+from .panels.events import Click, Hover, MarkClick, MarkDrag, MarkRelease, MenuWanted, SecondClick
 from .snapping import Snapping
 
 if TYPE_CHECKING:
     from ..scene.picking import Hit
 
 CLOSER = 2.0
-"""By how much "zoom to it" enlarges."""
+"""By how much "zoom in here" enlarges."""
 
 REST_MS = 200
 """How long the pointer has to be still for what it leads to have arrived."""
 
 
 class Gestures(QtCore.QObject):
-    """is_live: whether the source follows the pointer."""
+    """Passes the events of the pointer on to the gestures; `is_live` says whether the source follows the pointer."""
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -39,7 +40,9 @@ class Gestures(QtCore.QObject):
         self._has_followed = False  # what is led, since the pointer leads it
         self._rest_soon = QtCore.QTimer(self, singleShot=True, interval=REST_MS, timeout=self._release)
         events = self._grid.events
+        self._clicked: Document | None = None  # what the last click made of the document
         events.on(Click, self._click)
+        events.on(SecondClick, lambda panel, _: self._take_back_click())
         events.on(MarkClick, self._click_mark)
         events.on(MarkDrag, self._drag)
         events.on(MarkRelease, lambda panel, mark: self._release(mark.tool))
@@ -48,7 +51,7 @@ class Gestures(QtCore.QObject):
         context[HeldKeys].live_key_up.connect(self._live_key_up)
 
     def begin(self) -> None:
-        """Another surface is there."""
+        """Start on another surface."""
         self._context.hit = None
         self._dragging.is_on = False
         self._rest_soon.stop()
@@ -56,18 +59,26 @@ class Gestures(QtCore.QObject):
             gesture.begin()
 
     def _on(self, panel: int) -> Gesture:
-        """That of the tool that is on in a panel."""
+        """Return the gesture of the tool that is on in a panel."""
         return next(gesture for gesture in self._all if gesture.is_on(panel))
 
     def _of(self, tool: str) -> list[Gesture]:
-        """Those of the tool of a pin marker, by its word; with "" those that have none."""
+        """Return the gestures of a pin marker's tool; with "" those without a tool."""
         return [gesture for gesture in self._all if gesture.tool == tool]
 
     # ------------------------------------------------------------------ clicks and drags
     def _click(self, panel: int, click: Click) -> None:
         if click.is_plain:
             self._context.picked.emit(panel, click.hit)
+        before = self._context.document
         next(gesture for gesture in self._all if gesture.takes(panel, click)).click(panel, click)
+        after = self._context.document
+        self._clicked = after if content(after) != content(before) else None
+
+    def _take_back_click(self) -> None:
+        """A double click only centres the view: its first click is undone, unless something else was done since."""
+        if self._clicked is not None and self._clicked == self._context.document:
+            self._context.session.take_back()
 
     def _click_mark(self, panel: int, mark: MarkClick) -> None:
         for gesture in self._of(mark.tool):
@@ -80,30 +91,30 @@ class Gestures(QtCore.QObject):
             gesture.drag(panel, mark.number, mark.hit)
 
     def _release(self, tool: str = "") -> None:
-        """It has arrived: now all is answered, and what is late is said to be."""
+        """End a drag: ask for every final answer, and say which panels are late."""
         if not tool:
             self._rest_soon.stop()
             self._dragging.is_on = False
         for gesture in self._of(tool):
             gesture.release()
-        self._context.edit(self._context.document)
+        self._context.session.show(self._context.document)
 
     # ------------------------------------------------------------------ the keys
-    def put_down(self) -> bool:
-        """Let the pointer mean what it usually does; whether it has meant something else."""
-        if any(gesture.put_down() for gesture in self._all if gesture.turn):
+    def cancel(self) -> bool:
+        """Return the pointer to its usual work; False if it did that already."""
+        if any(gesture.cancel() for gesture in self._all if gesture.turn):
             return True
         if self.is_live:
             self._context.actions["live"].trigger()
             return True
-        return any(gesture.put_down() for gesture in self._all if not gesture.turn)
+        return any(gesture.cancel() for gesture in self._all if not gesture.turn)
 
     def remove_chosen(self) -> None:
-        """Remove the mark that stands out."""
+        """Remove the highlighted mark."""
         any(gesture.remove_chosen() for gesture in reversed(self._all))
 
     def accept(self) -> None:
-        """What is proposed is meant."""
+        """Accept what is proposed."""
         for gesture in self._all:
             gesture.accept()
 
@@ -130,7 +141,7 @@ class Gestures(QtCore.QObject):
         context.hit, context.hit_in = hit, panel
         vertex = self.hovered
         is_beside = vertex is None and before is None and not pointing.is_on
-        if context.session.surface is None or is_beside:
+        if context.session.loaded() is None or is_beside:
             return
         if not self._grid.has(panel):  # it has gone from under the pointer
             context.hit = None
@@ -139,7 +150,7 @@ class Gestures(QtCore.QObject):
             context.status.show_place(None, None)
             return
         pointing.show(panel, vertex)
-        widget, surface = self._grid.panel(panel), context.session.surface_in(panel)
+        widget, surface = self._grid.panel(panel), context.session.mesh(panel).surface
         context.pointed.emit(vertex, widget.surface)
         context.status.show_place(vertex, None if vertex is None else surface.vertices[vertex], widget.head.letter)
         gesture, snapping = self._on(panel), context[Snapping]
@@ -147,17 +158,17 @@ class Gestures(QtCore.QObject):
         is_elsewhere = last is None or panel != last_in or at != was
         if self.is_live and gesture.follows and hit is not None and is_elsewhere:
             self._dragging.is_on = self._has_followed = True
-            self._dragging.set_off()
+            self._dragging.begin()
             gesture.follow(panel, hit)
             self._rest_soon.start()
 
     def centre_here(self) -> None:
-        """What is under the pointer comes into the middle, and is turned about."""
+        """Centre what is under the pointer, and turn about it."""
         if self._context.hit is not None:
             self._grid.panel(self._context.hit_in).view.centre(self._context.hit.position)
 
     def zoom_here(self) -> None:
-        """What is under the pointer, in the middle and larger."""
+        """Centre and enlarge what is under the pointer."""
         if self._context.hit is not None:
             self._zoom_to(self._context.hit_in, self._context.hit)
 
@@ -168,7 +179,7 @@ class Gestures(QtCore.QObject):
 
     # ------------------------------------------------------------------ the menu
     def _open_menu(self, panel: int, wanted: MenuWanted) -> None:
-        """On the surface: what can be done with the place; beside it, with the view."""
+        """Open the menu of a place on the surface, or of the view beside it."""
         context, actions, hit = self._context, self._context.actions, wanted.hit
         menu = QtWidgets.QMenu(context.widget)
         if hit is not None:
@@ -196,19 +207,19 @@ class Gestures(QtCore.QObject):
         menu.addAction("Save isolines…", lambda: save_isolines(context, panel))
         menu.addAction("Save field…", lambda: context[FieldFiles].save(panel))
         menu.addSeparator()
-        menu.addAction("Centre the view here\tC", lambda: view.centre(hit.position))
-        menu.addAction("Zoom to it\tZ", lambda: self._zoom_to(panel, hit))
+        menu.addAction("Centre view here\tC", lambda: view.centre(hit.position))
+        menu.addAction("Zoom in here\tZ", lambda: self._zoom_to(panel, hit))
         menu.addSeparator()
         menu.addAction(f"Copy vertex id {vertex}", lambda: _copy(str(vertex)))
         menu.addAction("Copy position", lambda: _copy(" ".join(f"{x:.9g}" for x in self._place(panel, vertex))))
         menu.addAction("Copy values", lambda: _copy(self._values(panel, vertex)))
 
     def _place(self, panel: int, vertex: int) -> list[float]:
-        place: list[float] = self._context.session.surface_in(panel).vertices[vertex].tolist()
+        place: list[float] = self._context.session.mesh(panel).surface.vertices[vertex].tolist()
         return place
 
     def _values(self, id: int, vertex: int) -> str:
-        """What every panel of the same surface has there."""
+        """Return the values of all panels of the same surface at a vertex, a line each."""
         place = " ".join(number(x) for x in self._place(id, vertex))
         name = self._grid.panel(id).surface
         lines = [panel.words_at(vertex) for panel in self._grid.panels if panel.surface == name]

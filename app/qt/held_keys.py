@@ -1,18 +1,18 @@
-"""Keys that mean something as long as they are held, whichever widget has the focus."""
+"""Keys that act while they are held, whichever widget has the focus."""
 
 from qtpy import QtCore, QtWidgets
 
 from .context import Context
 
 BRUSH, LIVE = QtCore.Qt.Key.Key_B, QtCore.Qt.Key.Key_L
-"""Held, a drag paints a selection; held, the source follows the pointer."""
+"""The key with which drags paint a selection, and the key with which the source follows the pointer."""
 
 TEXTS = (QtWidgets.QLineEdit, QtWidgets.QTextEdit, QtWidgets.QPlainTextEdit)
-"""What letters are typed into."""
+"""Widgets in which keys are typed text."""
 
 
 class HeldKeys(QtCore.QObject):
-    """Looks at the keys before any widget of the window gets them."""
+    """Sees the keys before any widget of the window does."""
 
     brush_held = QtCore.Signal(bool)  # its key is down, or up again
     live_key_up = QtCore.Signal()
@@ -23,7 +23,7 @@ class HeldKeys(QtCore.QObject):
         self.watch(context.widget)
 
     def watch(self, widget: QtWidgets.QWidget) -> None:
-        """The keys of a window, or of a dock that floats over it."""
+        """Watch the keys of a window, or of a dock that floats over it."""
         widget.winId()  # from now on it has one
         self._widgets[widget.windowHandle()] = widget
         widget.windowHandle().installEventFilter(self)

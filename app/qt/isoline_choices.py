@@ -1,4 +1,4 @@
-"""What the user chooses of isolines."""
+"""Choices of isolines."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -8,13 +8,10 @@ from qtpy import QtWidgets
 
 from bihdist_core import ParameterError
 
-from ..document.isoline_edits import pass_through, pass_through_none
+from ..document.edits import pass_through, pass_through_none
 from ..document.looks import MOST_ISOLINES
 from ..scene.levels import levels, too_many
 from .context import Context
-
-BOLD = 5
-"""Every so many are bolder, once some are."""
 
 IN_UNIT = "in each panel's unit (0.05 for 5 % of a difference)"
 
@@ -26,7 +23,7 @@ class IsolineChoices:
         self._context = context
 
     def steps(self, count: int) -> None:
-        """About so many, at round values, or as many equal steps."""
+        """Choose about how many isolines there are, at round values, or the number of equal steps."""
         self._change("isolines", count=count, spacing=None, values=())
 
     def ask_steps(self) -> None:
@@ -46,7 +43,7 @@ class IsolineChoices:
         self._ask(question, "" if now is None else f"{now:.6g}", self.spacing)
 
     def spacing(self, text: str) -> None:
-        """A typed one; ParameterError if it makes more lines than can be drawn."""
+        """Choose a typed spacing; ParameterError if it makes more lines than can be drawn."""
         session = self._context.session
         wanted = replace(session.document.isolines, spacing=_number(text), values=())
         for shown in session.shown.values():
@@ -63,7 +60,7 @@ class IsolineChoices:
         self._ask(question, " ".join(f"{value:.6g}" for value in now), self.values)
 
     def values(self, text: str) -> None:
-        """Typed ones."""
+        """Choose typed values."""
         words = text.replace(";", " ").replace(", ", " ").split()
         if len(words) == 1 and words[0].count(",") > 1:
             words = words[0].split(",")
@@ -72,21 +69,9 @@ class IsolineChoices:
             raise ParameterError("Isolines at values need one value at least, such as 0.5.")
         self._change("", spacing=None, values=values)
 
-    def equal(self, is_on: bool) -> None:
-        """Equal steps from 0 to each panel's maximum, or round values."""
-        self._change("", round=not is_on)
-
-    def bold(self, is_on: bool) -> None:
-        """Draw every fifth isoline bold, or none."""
-        self._change("", bold=BOLD if is_on else 0)
-
-    def labels(self, is_on: bool) -> None:
-        """Write values on isolines, or none."""
-        self._change("", labels=is_on)
-
     # ------------------------------------------------------------------ through points
     def pass_through(self, panel: int, vertex: int) -> None:
-        """One more, through a vertex of a panel's surface, in all panels of that."""
+        """Add an isoline through a vertex of a panel's surface, in all panels of that surface."""
         session = self._context.session
         surface = session.document.panel(panel).surface
         session.show(pass_through(session.document, (vertex,), surface))
@@ -104,7 +89,7 @@ class IsolineChoices:
         self._context.choice_changed.emit()
 
     def _ask(self, question: str, now: str, take: Callable[[str], None]) -> None:
-        """For a text, until it is one that can be taken."""
+        """Ask for a text until it can be read, or the user cancels."""
         dialog = QtWidgets.QInputDialog(self._context.widget)
         dialog.setWindowTitle("Isolines")
         dialog.setTextValue(now)

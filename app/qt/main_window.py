@@ -13,7 +13,10 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core import BihdistError, errors
 
 from ..document.document import Document
+from ..document.history import LONGEST, MOST_BYTES, History
+from ..document.on_surface import item_counts
 from ..document.page import Page, Recipe
+from ..document.settings import Preferences
 from ..document.tools import tools
 from ..scene.prepared import prepare
 from ..scene.style import STYLES
@@ -29,7 +32,7 @@ from .changes import Changes
 from .choices import Choices
 from .context import Context
 from .dragging import Dragging
-from .files.exports import ExportChip, Exports
+from .files.exports import ExportBadge, Exports
 from .files.field_files import FieldFiles
 from .files.files import Files
 from .files.session_actions import SessionFile
@@ -38,8 +41,8 @@ from .held_keys import HeldKeys
 from .look.icons import window_icon
 from .look.layouts import in_column, quiet_label
 from .look.look import LOOK
-from .pages.messages import Notice, tell
-from .preferences import Preferences, fit_to_screen
+from .pages.messages import Notice, Question, tell
+from .preferences import fit_to_screen
 from .progress_display import ProgressDisplay
 from .status_bar import StatusBar, unseen
 from .unexpected_errors import UnexpectedErrors
@@ -54,11 +57,16 @@ LONGEST_NOTICE = 160
 
 NOTICE_SECONDS = 20
 
+DISCARDED = f"The oldest steps can no longer be undone: {LONGEST:,} steps or {MOST_BYTES / 1e6:.0f} MB are kept."
+
+PLACE_MS = 2000
+"""The window's size is remembered so long after it has changed."""
+
 
 class MainWindow(QtWidgets.QMainWindow):
-    """Of its parts, others know its `context`.
+    """The window of the program; other parts know its `context`.
 
-    undrawable: takes the reason where panels cannot be drawn; without, that is raised.
+    `undrawable` is called with the reason where panels cannot be drawn; without it, that is raised.
     """
 
     def __init__(self, document: Document | None = None, preferences: Preferences | None = None) -> None:
@@ -74,8 +82,9 @@ class MainWindow(QtWidgets.QMainWindow):
         self.menus = Menus(context)
         self.tool_bar = ToolBar(context, self.menus)
         self.addToolBar(self.tool_bar)
-        self._ticks = Ticks(context, self.menus, self.tool_bar)
-        self.status.insert(ExportChip(context[Exports]))
+        self._ticks = Ticks(context, self.actions_by_word, self.menus, self.tool_bar)
+        self.status.insert(ExportBadge(context[Exports]))
+        self.status.marks_wanted.connect(context.actions["dock surface"].trigger)
         context.failed.connect(self.failed)
         context[Files].dropping.connect(self._show_dropping)
         _ = context[UnexpectedErrors]
@@ -87,8 +96,12 @@ class MainWindow(QtWidgets.QMainWindow):
         display.nothing_open.connect(self.show_start)
         self.undrawable: Callable[[str], None] | None = None
         self._start_page: StartPage | None = None
+        self._shortened: History | None = None  # of whose discarded steps the user knows
         self.notice = Notice()
-        self._opening = quiet_label("Opening…")
+        # Not only at the end, which may come without a word.
+        self._place_soon = QtCore.QTimer(self, singleShot=True, interval=PLACE_MS)
+        self._place_soon.timeout.connect(lambda: context[Choices].remember_place())
+        self._opening = quiet_label()
         self._opening.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
         # However long a file's name is, the window may be narrow.
         self._opening.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Preferred)
@@ -100,6 +113,7 @@ class MainWindow(QtWidgets.QMainWindow):
         LOOK.apply_theme(self)
         LOOK.follow(self, context.style_changed.emit)
         context.opening.connect(self.notice.clear)
+        context[SessionFile].left_unsaved.connect(self._offer_undo)
         fit_to_screen(self)
         self.setMinimumSize(320, 240)
         self._allow(False)
@@ -114,7 +128,6 @@ class MainWindow(QtWidgets.QMainWindow):
         from .docks.brushing import Brushing
         from .docks.docks import Docks
         from .gestures import Gestures
-        from .panels.events import BarEnded, Cancelled, EditChosen, QuantityChosen, Retried, SaveWanted
         from .panels.grid import PanelGrid
 
         try:
@@ -125,8 +138,8 @@ class MainWindow(QtWidgets.QMainWindow):
             self.undrawable(str(error))
             raise errors.Cancelled("Nothing can be drawn.") from None
         grid.keys = self.actions_by_word.key_of_view
-        grid.wheel_factor = -1.0 if context.preferences.wheel_reversed else 1.0
-        grid.eye.is_turntable = context.preferences.turntable
+        grid.follow_preferences(context.preferences)
+        context.preferred.connect(lambda _: grid.follow_preferences(context.preferences))
         self._scroll = QtWidgets.QScrollArea(widgetResizable=True)
         self._scroll.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._scroll.setFocusPolicy(QtCore.Qt.FocusPolicy.NoFocus)
@@ -140,14 +153,14 @@ class MainWindow(QtWidgets.QMainWindow):
         self._docks, self._gestures = context[Docks], context[Gestures]
         choices, display = context[Choices], context[ProgressDisplay]
         grid.looked.connect(context[Views].moved)
-        grid.events.on(QuantityChosen, lambda panel, event: choices.choose(panel, event.shows))
-        grid.events.on(EditChosen, lambda panel, event: choices.edit_panel(panel, event.word))
-        grid.events.on(BarEnded, lambda panel, event: choices.end_at(panel, event.end))
-        grid.events.on(SaveWanted, lambda panel, _: context[FieldFiles].save(panel))
-        grid.events.on(Cancelled, lambda panel, _: display.stop(panel))
-        grid.events.on(Retried, lambda panel, _: display.retry(panel))
+        grid.quantity_chosen.connect(choices.choose)
+        grid.edit_chosen.connect(choices.edit_panel)
+        grid.bar_ended.connect(choices.end_at)
+        grid.save_wanted.connect(context[FieldFiles].save)
+        grid.cancelled.connect(display.stop)
+        grid.retried.connect(display.retry)
         context.style_changed.emit()
-        if self.session.surface is None and not self.session.is_opening:
+        if self.session.loaded() is None and not self.session.is_opening:
             self.show_start()
 
     @property
@@ -156,19 +169,19 @@ class MainWindow(QtWidgets.QMainWindow):
         return self.context.grid
 
     def show_document(
-        self, document: Document, page: Page | None = None, arrived: Callable[[], None] = lambda: None
+        self, document: Document, page: Page | None = None, on_done: Callable[[], None] = lambda: None
     ) -> None:
         """Show a document from elsewhere, see `SessionFile.show_document`."""
-        self.context[SessionFile].show_document(document, page, arrived)
+        self.context[SessionFile].show_document(document, page, on_done)
 
     def show_opening(self, words: str) -> None:
-        """The first mesh is being read."""
+        """Say that the first mesh is being read."""
         room, cut = self._stack.width() - 48, QtCore.Qt.TextElideMode.ElideMiddle
         self._opening.setText(self._opening.fontMetrics().elidedText(words, cut, room))
         self._stack.setCurrentWidget(self._opening)
 
     def show_start(self) -> "StartPage":
-        """Nothing is open: how to begin."""
+        """Show the start page: how to begin."""
         if self._start_page is None:
             from .pages.start_page import StartPage
 
@@ -176,8 +189,7 @@ class MainWindow(QtWidgets.QMainWindow):
             files, guide = self.context[Files], self.context[Guide]
             self._start_page.open_wanted.connect(files.choose)
             self._start_page.chosen.connect(files.open)
-            self._start_page.tour_wanted.connect(guide.start_tour)
-            self._start_page.commands_wanted.connect(guide.show_commands)
+            self._start_page.guide_wanted.connect(guide.open_guide)
             self._stack.addWidget(self._start_page)
         self._stack.setCurrentWidget(self._start_page)
         return self._start_page
@@ -188,6 +200,7 @@ class MainWindow(QtWidgets.QMainWindow):
             event.ignore()
             return
         context[SessionFile].forget()
+        self._place_soon.stop()
         if context.remembers:
             choices.remember_place()
         self.hide()  # what is still being computed may take a moment to end
@@ -202,11 +215,16 @@ class MainWindow(QtWidgets.QMainWindow):
         self.closed.emit()
 
     def _ask_about_changes(self, question: str) -> str:
-        button = QtWidgets.QMessageBox.StandardButton
-        answer = QtWidgets.QMessageBox.question(
-            self, "Biharmonic distance", question, button.Save | button.Discard | button.Cancel, button.Save
-        )
-        return {button.Save: "save", button.Discard: "discard"}.get(answer, "cancel")
+        role = QtWidgets.QMessageBox.ButtonRole
+        buttons = {"Save": role.AcceptRole, "Discard": role.DestructiveRole, "Cancel": role.RejectRole}
+        box = Question(question, buttons, self, "save")
+        box.exec()
+        return box.chosen.lower() or "cancel"
+
+    def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
+        super().resizeEvent(event)
+        if self.context.remembers:
+            self._place_soon.start()
 
     def changeEvent(self, event: QtCore.QEvent) -> None:
         super().changeEvent(event)
@@ -217,18 +235,40 @@ class MainWindow(QtWidgets.QMainWindow):
     def document_changed(self, before: Document) -> None:
         """Show the session's document, where the one before is shown."""
         self.build_panels()
-        self._stack.setCurrentWidget(self._scroll)
         context = self.context
-        context[Changes].show(before)
+        context[SessionFile].follow_origin()
+        if self.notice.kind == "plain":
+            self.notice.clear()  # its Undo would take back something else
+        if self.session.loaded() is None:
+            self._show_closed()
+        else:
+            self._stack.setCurrentWidget(self._scroll)
+            context[Changes].show(before)
         self._offer_steps()
         self._ticks.show()
         context.document_changed.emit(before)
         self.status.document_changed()
+        self.status.show_marks(*item_counts(self.session.document))
         context[ProgressDisplay].expect(before)
-        context[SessionFile].document_changed()
+        context[SessionFile].document_changed(before)
+        history = self.session.history
+        if history.discarded and self._shortened is not history:
+            self._shortened = history
+            context.tell(DISCARDED)
+
+    def _show_closed(self) -> None:
+        """Show the start page again, when all meshes have been closed."""
+        self.context[Changes].show_none()
+        self._gestures.begin()
+        self._allow(False)
+        self.status.show_surface(None)
+        self.show_start().refresh()
 
     def _show_surfaces(self, loaded: tuple[LoadedMesh, ...], is_remade: bool) -> None:
-        """Others come into the panels; is_remade: from the first, which stays, so that whoever made them goes on."""
+        """Show other surfaces in the panels.
+
+        With `is_remade` they are made from the first, which stays, so that whoever made them goes on.
+        """
         context, first, beside = self.context, loaded[0], loaded[1:]
         if not is_remade:
             self._allow(True)
@@ -272,7 +312,7 @@ class MainWindow(QtWidgets.QMainWindow):
     def failed(self, message: str) -> None:
         """Say why something could not be opened or done."""
         self.refused.emit(message)
-        if self.session.surface is None and self.context.is_built:
+        if self.session.loaded() is None and self.context.is_built:
             self.context[ProgressDisplay].end()
             self.show_start().show_message(message)
         elif not (self.context.quiet or self.context[UnexpectedErrors].are_telling(message)):
@@ -285,6 +325,11 @@ class MainWindow(QtWidgets.QMainWindow):
         else:
             copy = partial(QtWidgets.QApplication.clipboard().setText, message)
             self.notice.show_text(message, "error", ("Copy", copy), NOTICE_SECONDS)
+
+    def _offer_undo(self, sentence: str) -> None:
+        """Another mesh was opened: say what only undo still has."""
+        if not self.context.quiet:
+            self.notice.show_text(sentence, action=("Undo", self.session.undo), seconds=NOTICE_SECONDS)
 
     def announce_soon(self) -> None:
         """Once the repaints that are queued have been done."""
@@ -311,6 +356,6 @@ class MainWindow(QtWidgets.QMainWindow):
         return bool(super().focusNextPrevChild(is_next))
 
     def _show_dropping(self, is_dropping: bool) -> None:
-        """Whether something is held over the window that may be dropped."""
+        """Set whether something is held over the window that may be dropped."""
         if self._start_page is not None:
             self._start_page.set_dropping(is_dropping)

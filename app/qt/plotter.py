@@ -1,4 +1,4 @@
-"""From the viewer into PyVista: the mesh, and the fields on it, in a window of PyVista's own."""
+"""PyVista's own window, with the mesh and the fields on it."""
 
 from collections.abc import Mapping
 

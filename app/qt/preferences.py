@@ -1,25 +1,23 @@
-"""What the user prefers, from one start to the next, in `preferences.ini` in the user's folder for application data.
+"""The user's preferences, kept from one start to the next in `preferences.ini` in the folder for application data.
 
 Whatever stands there, the program starts: each value is checked by itself, and a file that cannot be read is put aside.
 """
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, fields
+from dataclasses import Field, fields
 from pathlib import Path
 from typing import Any
 
 from qtpy import QtCore, QtWidgets
 
-from ..document.looks import MOST_ISOLINES
+from ..document.settings import Preferences, Setting
+from ..document.tools import docked_tools
 from . import remembered
 
 VERSION = 1
 """Of the file; one of a newer program is left alone."""
-
-CHOICES = ("desktop", "light", "dark")
-
 
 FIRST_SIZE = QtCore.QSize(1400, 860)
 """Of the window, in logical pixels, where the screen has room for it."""
@@ -31,33 +29,17 @@ REACHABLE = QtCore.QSize(120, 12)
 """So much of a window's top has to be on a screen for the user to get hold of it."""
 
 
-@dataclass(frozen=True)
-class Preferences:
-    """theme: one of CHOICES.  isolines: about how many a mesh has that is opened anew.  wheel_reversed: turning the
-    wheel does the opposite.  geometry: where the window was, in Qt's own words; empty if nowhere.  last_folder: where a
-    file was opened last; empty if nowhere.  turntable: what is up stays upright while the surface turns.  snap: the
-    pointer puts sources on vertices."""
-
-    theme: str = "desktop"
-    isolines: int = 20
-    wheel_reversed: bool = False
-    geometry: bytes = b""
-    last_folder: str = ""
-    turntable: bool = False
-    snap: bool = True
-
-
 def path() -> Path:
-    """Where the preferences are kept."""
+    """Return the path of the file with the preferences."""
     return remembered.folder() / "preferences.ini"
 
 
 def load() -> Preferences:
-    """What was saved; what is missing or makes no sense is as at first."""
+    """Load the preferences; what is missing or makes no sense is as at first."""
     with _file() as settings:
         if settings is None:
             return Preferences()
-        read = {field.name: _READ[field.name](_value(settings, field.name)) for field in fields(Preferences)}
+        read = {field.name: _read(field, _value(settings, field.name)) for field in fields(Preferences)}
         return Preferences(**{name: value for name, value in read.items() if value is not None})
 
 
@@ -91,7 +73,7 @@ def _version(settings: QtCore.QSettings) -> int | None:
 
 
 def _put_aside_if_damaged() -> None:
-    """What is there and is no file of ours is kept beside it."""
+    """Put a file aside that is there and is none of ours."""
     here = path()
     if os.path.lexists(here) and not (here.is_file() and _is_ours(here)):
         with suppress(OSError):
@@ -111,7 +93,7 @@ def _is_ours(here: Path) -> bool:
 
 # ---------------------------------------------------------------------- values
 def _value(settings: QtCore.QSettings, name: str) -> Any:
-    """As it stands in the file; None for what Qt cannot read."""
+    """Return a value as it stands in the file; None for what Qt cannot read."""
     try:
         return settings.value(name)
     except Exception:  # whatever reading an object of some other program raises
@@ -126,8 +108,11 @@ def _whole(value: Any, low: int, high: int) -> int | None:
     return found if found is not None and low <= found <= high else None
 
 
-def _flag(value: Any) -> bool | None:
-    return {"true": True, "false": False}.get(str(value).lower())
+def _docks(value: Any) -> str | None:
+    """Return the docks that there still are; one with commas comes from Qt as a list."""
+    words = value if isinstance(value, list) else str(value or "").split(",")
+    known = (str(word).strip() for word in words)
+    return ",".join(dict.fromkeys(word for word in known if word in docked_tools()))
 
 
 def _hexadecimal(value: Any) -> bytes | None:
@@ -137,16 +122,19 @@ def _hexadecimal(value: Any) -> bytes | None:
         return None
 
 
-_READ: dict[str, Callable[[Any], Any]] = {
-    "theme": lambda value: value if value in CHOICES else None,
-    "isolines": lambda value: _whole(value, 0, MOST_ISOLINES),
-    "wheel_reversed": _flag,
-    "geometry": _hexadecimal,
-    "last_folder": lambda value: value if isinstance(value, str) else None,
-    "turntable": _flag,
-    "snap": _flag,
-}
-"""From what stands in the file to the value; None if it is none."""
+def _read(field: "Field[Any]", value: Any) -> Any:
+    """Return a preference from what stands in the file for it; None if that is none."""
+    setting: Setting | None = field.metadata.get("setting")
+    if field.name == "docks":
+        return _docks(value)
+    if isinstance(field.default, bool):
+        return {"true": True, "false": False}.get(str(value).lower())
+    if isinstance(field.default, int):
+        return _whole(value, 0, setting.most if setting else 10**9)
+    if isinstance(field.default, bytes):
+        return _hexadecimal(value)
+    is_known = isinstance(value, str) and not (setting and setting.choices and value not in setting.choices)
+    return value if is_known else None
 
 
 # ---------------------------------------------------------------------- where the window is
@@ -171,14 +159,14 @@ def restore_geometry(window: QtWidgets.QWidget, preferences: Preferences) -> Non
 
 
 def first_place(available: QtCore.QRect) -> QtCore.QRect:
-    """In the middle of what a screen has."""
+    """Return the place in the middle of what a screen has."""
     return _centred(FIRST_SIZE, available)
 
 
 def brought_back(place: QtCore.QRect, screens: list[QtCore.QRect]) -> QtCore.QRect:
-    """A place that can be seen and reached: the same if it can, else on the first screen.
+    """Return a place that can be seen and reached: the same if it can, else one on the first screen.
 
-    screens: what is available of each.
+    `screens` has the available part of each screen.
     """
     top = QtCore.QRect(place.topLeft(), QtCore.QSize(place.width(), 2 * REACHABLE.height()))
     for available in screens:

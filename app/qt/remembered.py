@@ -1,5 +1,4 @@
-"""What is remembered from one start to the next: recent files, which way meshes point up, and the state of a window
-that did not end as it should.
+"""Memory from one start to the next: recent files, which way meshes point up, and windows that ended by a crash.
 
 It stands in the user's folder for application data; where that cannot be written nothing is remembered.
 """
@@ -16,7 +15,7 @@ from qtpy import QtCore
 
 from bihdist_core import BihdistError
 from bihdist_core.file_content import file_json, file_text
-from bihdist_core.whole_file import sweep_half_written, whole_file
+from bihdist_core.file_output import atomic_write, remove_stale
 
 from ..document.looks import UPS
 from ..session.recipe_file import sweep_arrays
@@ -25,11 +24,11 @@ MOST_RECENT = 10
 MOST_UPS = 1000
 
 SESSION = ".session"
-"""Of the file, beside what a window shows, that says which session that is."""
+"""Extension of the file that names the session of kept work."""
 
 
 def folder() -> Path:
-    """Of this program's data for the user."""
+    """Return the folder of the program's data for the user."""
     location = QtCore.QStandardPaths.StandardLocation.GenericDataLocation
     return Path(QtCore.QStandardPaths.writableLocation(location)) / "bihdist"
 
@@ -37,21 +36,21 @@ def folder() -> Path:
 # ---------------------------------------------------------------------- recent files
 @dataclass(frozen=True)
 class Recent:
-    """A file that was opened; when, in local time, is unknown of those remembered without it."""
+    """A file that was opened, with the local time if that is known."""
 
     path: str
     opened_at: datetime | None
 
 
 def recent_files() -> list[Recent]:
-    """Meshes and sessions opened last, the last first, as far as they are still there."""
+    """Return the meshes and sessions opened last that still exist, the last first."""
     entries = _read("recent.json")
     files = [_file_of(entry) for entry in entries] if isinstance(entries, list) else []
     return [file for file in files if file is not None and os.path.exists(file.path)]
 
 
 def recent() -> list[str]:
-    """The paths of `recent_files`."""
+    """Return the paths of `recent_files`."""
     return [file.path for file in recent_files()]
 
 
@@ -64,7 +63,7 @@ def remember(path: str) -> None:
 
 
 def _file_of(entry: object) -> Recent | None:
-    """An entry of the list: a path with its time, or, as it used to be, a path alone."""
+    """Return the file of an entry: a path with its time, or a path alone in old lists."""
     path, opened_at = (entry.get("path"), entry.get("opened")) if isinstance(entry, dict) else (entry, None)
     if not isinstance(path, str):
         return None
@@ -76,13 +75,13 @@ def _file_of(entry: object) -> Recent | None:
 
 # ---------------------------------------------------------------------- which way is up
 def up_of(sha256: str) -> str:
-    """The axis that points up as it was chosen for a mesh, by its checksum; "" if none was."""
+    """Return the up axis that was chosen for a mesh, by its checksum; "" if none was."""
     up = _chosen_ups().get(sha256, "")
     return up if up in UPS and up != "auto" else ""
 
 
 def remember_up(sha256: str, up: str) -> None:
-    """It was chosen for a mesh; the choices made longest ago are forgotten."""
+    """Remember the up axis chosen for a mesh, and forget the oldest choices."""
     ups = {known: other for known, other in _chosen_ups().items() if known != sha256} | {sha256: up}
     _write("up.json", dict(list(ups.items())[-MOST_UPS:]))
 
@@ -94,46 +93,47 @@ def _chosen_ups() -> dict[str, object]:
 
 # ---------------------------------------------------------------------- the state of windows that are open
 def own_state() -> Path:
-    """Where this process keeps what its window shows."""
+    """Return the folder in which this process keeps the unsaved work of its window."""
     return folder() / f"open-{os.getpid()}.json"
 
 
 def keep_state(write: Callable[[Path], None], session: str | None) -> bool:
-    """Keep what the window shows, to be offered after a crash; whether that was possible.
+    """Keep unsaved work, to be offered after a crash, and return whether that was possible.
 
-    write: writes it as a recipe at a path.  session: the path of the session's file, None if it has none yet.
+    `write` writes it as a recipe at a path; `session` is the path of the session's file, None if it has none yet.
     """
-    is_kept = False
+    is_kept, path = False, own_state()
     with suppress(OSError, BihdistError):
         folder().mkdir(parents=True, exist_ok=True)
-        write(own_state())
-        with whole_file(own_state().with_suffix(SESSION)) as temporary:
+        write(path)
+        with atomic_write(path.with_suffix(SESSION)) as temporary:
             temporary.write_text(os.path.abspath(session) if session else "", encoding="utf-8")
         is_kept = True
-    if own_state() not in _held and own_state().exists():
-        lock = _lock(own_state())
+    if path not in _held and path.exists():
+        lock = _lock(path)
         lock.tryLock(0)
-        _held[own_state()] = lock
+        _held[path] = lock
     return is_kept
 
 
 def forget_state() -> None:
-    """The window ends as it should."""
-    remove_state(own_state())
-    lock = _held.pop(own_state(), None)
+    """Remove what this process keeps, as nothing would be lost."""
+    path = own_state()
+    remove_state(path)
+    lock = _held.pop(path, None)
     if lock is not None:
         lock.unlock()
 
 
 def session_of(path: Path) -> str | None:
-    """The path of the session's file, of what a window showed; None if it had none."""
+    """Return the path of the session's file of kept work; None if it had none."""
     with suppress(BihdistError):
         return file_text(path.with_suffix(SESSION), "session's name") or None
     return None
 
 
 def remove_state(path: Path) -> None:
-    """What a window showed, with its arrays."""
+    """Remove kept work, with its arrays."""
     for part in (path, path.with_suffix(SESSION)):
         with suppress(OSError):
             part.unlink()
@@ -141,9 +141,9 @@ def remove_state(path: Path) -> None:
 
 
 def lost_states() -> list[Path]:
-    """What windows showed whose processes are no longer there, the newest first."""
+    """Return the kept work of processes that are gone, the newest first."""
     found = []
-    sweep_half_written(folder())
+    remove_stale(folder())
     with suppress(OSError):
         for path in folder().glob("open-*.json"):
             lock = _lock(path)
@@ -159,14 +159,14 @@ _held: dict[Path, QtCore.QLockFile] = {}
 
 
 def _lock(path: Path) -> QtCore.QLockFile:
-    """A file beside it that says which process it belongs to."""
+    """Return the lock of kept work, which tells whose it is."""
     lock = QtCore.QLockFile(f"{path}.lock")
     lock.setStaleLockTime(0)
     return lock
 
 
 def _read(name: str) -> object:
-    """What a JSON file of the folder holds; None if there is none, or what is no JSON."""
+    """Return the content of a JSON file of the folder; None if it is missing or not JSON."""
     with suppress(BihdistError):
         return file_json(folder() / name, "list", "a list")
     return None
@@ -175,5 +175,5 @@ def _read(name: str) -> object:
 def _write(name: str, data: object) -> None:
     with suppress(OSError, BihdistError):
         folder().mkdir(parents=True, exist_ok=True)
-        with whole_file(folder() / name) as temporary:
+        with atomic_write(folder() / name) as temporary:
             temporary.write_text(json.dumps(data, indent=1), encoding="utf-8")

@@ -14,18 +14,18 @@ from importlib.util import find_spec
 from bihdist_core.errors import BihdistError
 
 DRAWING = ("libEGL.so.1", "libGL.so.1")
-"""What VTK opens by itself."""
+"""Libraries that VTK opens by itself."""
 
 PACKAGES = (
     "libegl1 libgl1 libglib2.0-0 libfontconfig1 libdbus-1-3 libxkbcommon-x11-0 libxcb-icccm4 libxcb-image0 "
     "libxcb-keysyms1 libxcb-render-util0 libxcb-shape0 libxcb-xinerama0 libxcursor1"
 )
-"""Of Debian and Ubuntu: what the libraries in the wheels of VTK and Qt need."""
+"""Packages of Debian and Ubuntu that the wheels of VTK and Qt need."""
 
 WITHOUT_ONE = "`bihdist figure` draws without one, and in notebooks `bihdist.widget` shows it"
 
 ANSWER_S = 10.0
-"""A display that has not answered by then is not there."""
+"""Time after which a display that does not answer is taken as missing."""
 
 _held: dict[str, int] = {}
 """A connection to each display that has answered: a server such as Xvfb starts anew, and for a moment lets nobody in,
@@ -35,13 +35,13 @@ _BINDINGS = ("PyQt5", "PySide6", "PyQt6", "PySide2")
 
 
 def check_screen() -> None:
-    """BihdistError where there is no display, or one that does not answer, or a library is missing."""
+    """Raise BihdistError where a display or a library is missing, or the display does not answer."""
     check_display()
     check_libraries()
 
 
 def check_display() -> None:
-    """BihdistError where there is no display, or where it does not answer."""
+    """Raise BihdistError where there is no display, or where it does not answer."""
     if not sys.platform.startswith("linux"):
         return
     display = os.environ.get("DISPLAY", "")
@@ -54,7 +54,7 @@ def check_display() -> None:
 
 
 def check_libraries() -> None:
-    """BihdistError, with what to install, where Qt or what draws lacks libraries of the system."""
+    """Raise BihdistError, with what to install, where Qt or VTK lacks libraries of the system."""
     is_linux = sys.platform.startswith("linux")
     try:
         for library in DRAWING if is_linux else ():
@@ -76,13 +76,13 @@ def check_libraries() -> None:
 
 
 def _uses_x() -> bool:
-    """Whether Qt will show its windows through X."""
+    """Return whether Qt will show its windows through X."""
     platform = os.environ.get("QT_QPA_PLATFORM", "")
     return platform.startswith("xcb") if platform else bool(os.environ.get("DISPLAY"))
 
 
 def _answers(display: str) -> bool:
-    """Whether an X server lets this user in."""
+    """Return whether an X server lets this user in."""
     try:
         xcb = ctypes.CDLL("libxcb.so.1")
     except OSError:
@@ -106,7 +106,7 @@ def _answers(display: str) -> bool:
 
 
 def _check_platform() -> None:
-    """BihdistError where Qt has no plug-in for its platform, which it would not survive."""
+    """Raise BihdistError where Qt has no plug-in for its platform, which would end the process."""
     asked = os.environ.get("QT_QPA_PLATFORM") or ("xcb" if _uses_x() else "wayland")
     wanted = [word.partition(":")[0] for word in asked.split(";")]
     folders = [*os.environ.get("QT_QPA_PLATFORM_PLUGIN_PATH", "").split(":"), _platforms()]
@@ -114,26 +114,26 @@ def _check_platform() -> None:
     # Some have names such as libqwayland-generic.so.
     if not any(name.startswith(f"libq{word}") for name in files for word in wanted):
         there = ", ".join(sorted(name[4:-3] for name in files if name.startswith("libq") and name.endswith(".so")))
-        remedy = f"there are {there}; choose one by QT_QPA_PLATFORM" if there else f"there is none in {_platforms()}"
+        remedy = f"there are {there}; choose one with QT_QPA_PLATFORM" if there else f"there is none in {_platforms()}"
         raise BihdistError(f"The window needs Qt, which has no plug-in for the platform {asked}: {remedy}.")
 
 
 def _platforms() -> str:
-    """Where Qt's own plug-ins for platforms are."""
+    """Return the folder of Qt's plug-ins for platforms."""
     info = import_module("qtpy.QtCore").QLibraryInfo
     kinds = getattr(info, "LibraryPath", None) or getattr(info, "LibraryLocation", info)
     return os.path.join((getattr(info, "path", None) or info.location)(kinds.PluginsPath), "platforms")
 
 
 def _load_x_plugin() -> None:
-    """OSError, which names the library, where Qt's own plugin for X cannot be loaded."""
+    """Raise OSError, which names the library, where Qt's plug-in for X cannot be loaded."""
     plugin = os.path.join(_platforms(), "libqxcb.so")
     if os.path.exists(plugin):
         ctypes.CDLL(plugin)
 
 
 def _reason(error: Exception) -> str:
-    """Why an import failed; of several bindings, of which none can be imported, the first that is installed."""
+    """Return the reason for which an import failed; if no binding can be imported, that of the first installed one."""
     if type(error).__name__ == "QtBindingsNotFoundError":
         for binding in _BINDINGS:
             if find_spec(binding):

@@ -24,13 +24,13 @@ from bihdist_core import BihdistError, ParameterError
 from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.sources.source import Source, checked_source
 
-from ..document.beside_edits import MOST_SHOWN
 from ..document.document import Document, Point
 from ..document.edits import move_source
 from ..document.quantities import Quantity
 from ..document.repairs import with_repairs
+from ..document.second_mesh_edits import MOST_SHOWN
 from ..scene.style import map_of
-from ..session.array_store import Mesh, comparison_of_arrays, with_beside
+from ..session.array_store import Mesh, comparison_of_arrays, with_second_mesh
 from ..session.loaded_mesh import checked_path
 from ..session.questions import source_at
 from .application import application, check_screen, interrupts_noted, run_until
@@ -54,10 +54,21 @@ WAKE_MS = 100
 class Pick:
     """A click on the surface.
 
-    panel: the id of the panel that was clicked.  vertex: the nearest corner of the face.  position: (3,) where the face
-    was met, in mesh units (of a height field, on the raised surface), and weights: (3,) of its corners there.  values:
-    by panel of that surface, what it showed at the vertex when that was clicked, before the source went there; NaN
-    where that is nothing.
+    Attributes
+    ----------
+    panel
+        The id of the panel that was clicked.
+    vertex
+        The nearest corner of the face.
+    position
+        Where the face was met, (3,), in mesh units; on a height field, on the raised surface.
+    face
+        The face.
+    weights
+        The weights (3,) of its corners there.
+    values
+        What each panel of that surface showed at the vertex when it was clicked, before the source went there, by
+        panel; NaN where that is nothing.
     """
 
     panel: int
@@ -70,12 +81,25 @@ class Pick:
 
 @dataclass(frozen=True, eq=False)
 class ShownPanel:
-    """What a panel shows: field (n,) in the unit given, NaN where undefined; or None, and the failure in words.
+    """The content of a panel.
 
-    plotter: the panel as a `pyvista.BasePlotter`.  What is put there by `add_mesh`, `add_points`, `add_lines` or
-    `add_arrows` turns with the surface and is in pictures of the window, until `remove_actor` takes it away or the
-    panel shows another surface; after other changes of it, such as of its points, call `render`.  Clicks go through it.
-    Figures are made from the document alone, and do not show it.
+    Attributes
+    ----------
+    id
+        The panel's id.
+    quantity, label
+        The quantity in words, and its label.
+    unit
+        The unit of the field.
+    field
+        The field (n,), NaN where undefined; None where it failed.
+    failure
+        Why it failed, in words.
+    plotter
+        The panel as a `pyvista.BasePlotter`. What is put there by `add_mesh`, `add_points`, `add_lines` or `add_arrows`
+        turns with the surface and is in pictures of the window, until `remove_actor` takes it away or the panel shows
+        another surface; after other changes of it, such as of its points, call `render`. Clicks go through it. Figures
+        are made from the document alone, and do not show it.
     """
 
     id: int
@@ -124,7 +148,7 @@ class Viewer:
 
     @property
     def source(self) -> Source | None:
-        """Where the first panel's field starts; None if it starts nowhere.  Set, it moves there.
+        """The source of the first panel's field; None if it starts nowhere.  Setting it moves the source.
 
         A vertex, or a `SurfacePoint`, `BoundaryLoop`, `Curve` or `SourceSet`; words such as "12+40" do, too.
         VertexError or ParameterError for one that there is not.
@@ -135,11 +159,10 @@ class Viewer:
     @source.setter
     def source(self, source: Source | str) -> None:
         started = self._started
-        loaded = self._session.loaded(None if started is None else started.surface)
-        source = source_at(checked_source(source), loaded.surface)
         with_source = [panel.id for panel in self.document.panels if panel.shows.points]
-        if not with_source:
-            raise BihdistError("No panel shows a field that starts anywhere.")
+        if started is None or not with_source:
+            raise BihdistError("No panel shows a field with a source.")
+        source = source_at(checked_source(source), self._session.loaded(started.surface).surface)
         self.document = move_source(self.document, with_source[0], source)
 
     @property
@@ -151,18 +174,18 @@ class Viewer:
 
     @property
     def panels(self) -> tuple[ShownPanel, ...]:
-        """What the panels show; waits until all of it has been computed."""
+        """The contents of the panels; waits until all of it has been computed."""
         self._complete()
         found = []
         for panel in self.document.panels:
             shown, name = self._session.shown.get(panel.id), str(panel.shows)
             if shown is None or shown.is_preview:
-                result = name, "", None, "It was stopped."
+                result = name, "", None, "The computation was cancelled."
             else:
                 answer = shown.answer
                 result = answer.label, answer.unit, answer.field, answer.failure
             view = self._there.grid.panel(panel.id).view
-            found.append(ShownPanel(panel.id, name, *result, view.plotter, view.scene.mesh))
+            found.append(ShownPanel(panel.id, name, *result, view.plotter, view.scene.field_actor.mesh))
         return tuple(found)
 
     def screenshot(self, path: str | os.PathLike[str]) -> Path:
@@ -182,7 +205,7 @@ class Viewer:
         first = {panel.id for panel in self.document.panels_of()}
         shown = [panel for panel in self.panels if panel.id in first]
         fields = {panel.quantity: panel.field for panel in shown if panel.field is not None}
-        return background_plotter(self._session.surface, fields)
+        return background_plotter(self._session.mesh().surface, fields)
 
     def close(self) -> None:
         """Close the window, without questions; nothing happens if it is closed already."""
@@ -196,10 +219,11 @@ class Viewer:
         return self._window is not None
 
     def __repr__(self) -> str:
-        if self._window is None or self._session.surface is None:
+        loaded = None if self._window is None else self._session.loaded()
+        if loaded is None:
             return "Viewer(closed)" if self._window is None else "Viewer(empty)"
         shown = ", ".join(str(panel.shows) for panel in self.document.panels)
-        return f"Viewer({shown}, of {self._session.surface.name})"
+        return f"Viewer({shown}, of {loaded.surface.name})"
 
     # ------------------------------------------------------------------ how
     @property
@@ -218,23 +242,24 @@ class Viewer:
         def is_done() -> bool:
             window = self._there
             session = window.session
-            return not session.progress and (session.is_complete or session.is_stopped)
+            is_empty = session.loaded() is None and not session.is_opening
+            return not session.progress and (session.is_complete or session.is_stopped or is_empty)
 
         run_until(is_done)
 
     def _show(self, document: Document) -> None:
         """Show a document and wait for it; BihdistError with what the user would be told, or if it was stopped."""
         if not isinstance(document, Document) or not 1 <= len(document.surfaces) <= MOST_SHOWN:
-            raise ParameterError("The window shows a Document with one mesh or two, and this is none.")
+            raise ParameterError("The window shows a Document with one mesh or two.")
         map_of(document.colours)
         window = self._there
         refusals: list[str] = []
-        arrived: list[bool] = []
+        shown: list[bool] = []
         was_quiet, window.context.quiet = window.context.quiet, True
         window.refused.connect(refusals.append)
         try:
-            window.show_document(document, arrived=lambda: arrived.append(True))
-            run_until(lambda: bool(arrived or refusals) or self._window is None or not window.session.is_opening)
+            window.show_document(document, on_done=lambda: shown.append(True))
+            run_until(lambda: bool(shown or refusals) or self._window is None or not window.session.is_opening)
         finally:
             if self._window is not None:
                 window.refused.disconnect(refusals.append)
@@ -243,8 +268,8 @@ class Viewer:
             raise BihdistError("The window was closed.")
         if refusals:
             raise BihdistError(refusals[0])
-        if not arrived:
-            raise BihdistError("It was stopped, or something else was opened meanwhile.")
+        if not shown:
+            raise BihdistError("Opening was cancelled, or something else was opened meanwhile.")
 
     def _picked(self, panel: int, hit: Hit) -> None:
         if self._on_pick is None:
@@ -286,27 +311,55 @@ def show(
     areas: str = "voronoi",
     cut: str | os.PathLike[str] = "",
     merge: float | None = None,
-    up: str = "auto",
-    beside: Mesh | None = None,
+    viewup: str = "auto",
+    second_mesh: Mesh | None = None,
     on_pick: Callable[[Pick], object] | None = None,
     block: bool | None = None,
 ) -> Viewer:
-    """Open the window; returns what it can be asked and told through.
+    """Open the window.
 
-    mesh: a file, a sample, a Surface, or vertices (n, 3) and faces (m, 3).  distances: a panel each, in words:
-    "diffusion(t=1/4)", "biharmonic - geodesic".  fields: your own by name, (n,) with NaN where undefined; each has a
-    panel, coloured from 0 (from minus its largest absolute value, if it has negative values), or is named in
-    `distances` like one: "biharmonic - mine".  source: a vertex, the highest if None, or what else `figure` takes.
-    cut: a file with 1 for each vertex that stays and 0 for each that goes with its faces ({name} is the mesh's name);
-    merge: make vertices one that are no farther apart, after that.  up: which axis is, "z" or "-z"; "auto" for what was
-    chosen for the mesh before, or a guess.  beside: a second mesh, with panels of the same distances from its highest
-    vertex, and a camera of its own.  on_pick: called with a `Pick` for each click on a surface,
-    once the source is there.  block: wait until the window is closed; if None, in scripts, but not in IPython,
-    notebooks and Python's own prompt, where the window lives while you go on.
+    Parameters
+    ----------
+    mesh : str, path, Surface, mesh of another library or (vertices, faces)
+        A file, the name of a sample, or the mesh itself.
+    distances : sequence of str
+        A panel each, such as ``"diffusion(t=1/4)"`` or ``"biharmonic - geodesic"``.
+    fields : mapping of str to (n,) array_like, optional
+        Fields of one's own, NaN where undefined.  Each has a panel, coloured from 0 (from minus its largest absolute
+        value, if it has negative values), or is named in `distances` like a distance: ``"biharmonic - mine"``.
+    source : int, str or Source, optional
+        A vertex, by default the highest, or where else distances start (``"12+40"``).
+    areas : {"voronoi", "barycentric"}
+        Vertex areas.
+    cut : str or path
+        File with 1 for each vertex that stays and 0 for each that is cut out; ``{name}`` in it is the mesh's name.
+    merge : float, optional
+        Merge vertices that are no farther apart, after `cut`.
+    viewup : str
+        Axis that points up, ``"z"`` or ``"-z"``; ``"auto"`` for what was chosen for the mesh before, or a guess.
+    second_mesh : like mesh, optional
+        Another mesh, with panels of the same distances from its highest vertex, and a camera of its own.
+    on_pick : callable, optional
+        Called with a `Pick` for each click on a surface, once the source is there.
+    block : bool, optional
+        Wait until the window is closed.  By default in scripts, but not in IPython, notebooks and Python's own prompt,
+        where the window lives while you go on.
 
-    Raises BihdistError: for input that cannot be shown, and where there is no display; there `bihdist.widget` shows it
-    in a notebook, and `bihdist.figure` draws.
+    Returns
+    -------
+    Viewer
+        The open window.
 
+    Raises
+    ------
+    ParameterError
+        If an argument makes no sense.
+    BihdistError
+        If something cannot be read or shown, or if there is no display: there `bihdist.widget` shows it in a notebook,
+        and `bihdist.figure` draws.
+
+    Examples
+    --------
     >>> import bihdist
     >>> viewer = bihdist.show("hand", ["biharmonic", "geodesic"], source=12, block=False)
     >>> viewer
@@ -318,11 +371,11 @@ def show(
     >>> viewer.close()
     """
     if on_pick is not None and not callable(on_pick):
-        raise ParameterError(f"on_pick is a function, not {on_pick!r}.")
+        raise ParameterError(f"on_pick must be a function, not {on_pick!r}.")
     document, given = comparison_of_arrays(mesh, distances, {} if fields is None else fields, (source,), areas)
-    document = replace(document, up=up)
-    if beside is not None:
-        document = with_beside(document, given, beside)
+    document = replace(document, up=viewup)
+    if second_mesh is not None:
+        document = with_second_mesh(document, given, second_mesh)
     document = with_repairs(document, os.fspath(cut) or None, merge)
     for each in document.surfaces:
         checked_path(each)

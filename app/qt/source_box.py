@@ -1,4 +1,4 @@
-"""The box for what the first panel's field starts from, in words."""
+"""The box for the source of the first panel."""
 
 import re
 
@@ -12,19 +12,19 @@ from ..document.source_edits import members_of
 from .look.look import LOOK
 from .look.text_box import TextBox, mark_wrong
 
-WIDTH, WIDER = 76, 164
-"""Of a vertex, and of all other words."""
+PAD = 9
+"""Pixels at each side of the words: the style sheet's border and padding, and two that Qt leaves in every line."""
 
 WIDEST_SENTENCE = 420
 
 WHAT = "12, 12+40+7, f311:0.2,0.5, loop:0 or curve.json"
 SHOWN_MS = 6000
-"""For how long it is said what is wrong."""
+"""Time for which an error is shown."""
 
 
 class SourceBox(TextBox):
-    """`chosen(source, files)` by Enter, with the files its curves were read from; what is no source is said under the
-    box, with those that there are.
+    """`chosen(source, files)` by Enter, with the files its curves were read from; what is not a source is said
+    under the box, with those that there are.
     """
 
     chosen = QtCore.Signal(object, object)
@@ -44,10 +44,9 @@ class SourceBox(TextBox):
         self.returnPressed.connect(self._choose)
         self.textEdited.connect(self.forgive)
         self.show_source(None, 0)
-        LOOK.follow(self, self._fit)
 
     def show_source(self, source: Source | None, count: int) -> None:
-        """The present source, None if there is none; count: of vertices, all ids being less."""
+        """Show the source, None if there is none, of a surface with `count` vertices."""
         words = "" if source is None else words_of(source)
         self._source, self._count = source, count
         self.setEnabled(source is not None)
@@ -56,23 +55,41 @@ class SourceBox(TextBox):
         self.setModified(False)
         self.forgive()
         known = f"\nNow: {words if len(words) < 200 else words[:200] + '…'}" if len(words) > 10 else ""
-        self.setToolTip(f"What distances start from: type {WHAT} and press Enter (G){known}")
-        self._fit()
+        self.setToolTip(f"Source (G): what distances start from; type {WHAT} and press Enter{known}")
 
-    def _fit(self) -> None:
-        self.setFixedWidth(round((WIDTH if isinstance(self._source, int | None) else WIDER) * LOOK.scale))
+    @property
+    def _room(self) -> QtCore.QRect:
+        """The rectangle of the text."""
+        margins = self.textMargins()
+        return self.rect().adjusted(margins.left() + PAD, 0, -margins.right() - PAD, 0)
+
+    @property
+    def seen(self) -> str:
+        """The text as it is painted while nobody types, cut short where it has no room."""
+        cut = QtCore.Qt.TextElideMode.ElideRight
+        return str(self.fontMetrics().elidedText(self.text(), cut, self._room.width()))
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        if self.hasFocus() or self.seen == self.text():
+            super().paintEvent(event)
+            return
+        painter, option = QtGui.QPainter(self), QtWidgets.QStyleOptionFrame()
+        self.initStyleOption(option)
+        self.style().drawPrimitive(QtWidgets.QStyle.PrimitiveElement.PE_PanelLineEdit, option, painter, self)
+        painter.setPen(QtGui.QColor(LOOK.theme.text if self.isEnabled() else LOOK.theme.disabled))
+        painter.drawText(self._room, QtCore.Qt.AlignmentFlag.AlignVCenter, self.seen)
 
     def value(self) -> Source:
-        """The source that is shown; -1 if there is none."""
+        """Return the source that is shown, -1 if there is none."""
         return -1 if self._source is None else self._source
 
     def ask(self) -> None:
-        """Have the keys, for another vertex."""
+        """Take the keyboard focus with the text selected."""
         self.setFocus(QtCore.Qt.FocusReason.ShortcutFocusReason)
         self.selectAll()
 
     def refuse(self, sentence: str) -> None:
-        """Say under the box what is wrong."""
+        """Show an error under the box."""
         mark_wrong(self, True)
         theme = LOOK.theme
         self.wrong.setStyleSheet(
@@ -88,13 +105,13 @@ class SourceBox(TextBox):
         self._hide_soon.start()
 
     def forgive(self) -> None:
-        """Nothing is wrong."""
+        """Hide the error."""
         self._hide_soon.stop()
         self.wrong.hide()
         mark_wrong(self, False)
 
     def give_up(self) -> None:
-        """What was typed is not meant."""
+        """Discard what was typed."""
         self.show_source(self._source, self._count)
 
     def _choose(self) -> None:

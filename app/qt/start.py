@@ -1,4 +1,4 @@
-"""Start Qt, show the window, open a mesh."""
+"""Start of the viewer: Qt, the window, the mesh."""
 
 import ctypes
 import gc
@@ -13,6 +13,7 @@ from bihdist_core import BihdistError
 
 from ..document.document import Document
 from ..document.looks import Isolines
+from ..document.settings import Preferences
 from ..samples import SAMPLES
 from .application import application, check_screen
 from .files.files import Files
@@ -20,17 +21,21 @@ from .files.session_actions import SessionFile, offer_lost_state
 from .look.look import LOOK
 from .look.own_folder import remove_own_folder
 from .main_window import MainWindow
-from .preferences import Preferences, load, restore_geometry
+from .preferences import load, restore_geometry
 from .unexpected_errors import take_all_exceptions
 
 PAINTED_MS = 50
 
-M_ARENA_MAX = -8
-"""The GNU C library's word for the number of arenas."""
+ALLOCATION = (
+    ("MALLOC_ARENA_MAX", -8, 1),
+    ("MALLOC_MMAP_THRESHOLD_", -3, 1 << 20),
+    ("MALLOC_TRIM_THRESHOLD_", -1, 4 << 20),
+)
+"""Options of the GNU C library: the environment variable, the number and the viewer's value of each."""
 
 
 _alive: list[object] = []
-"""The window, which must not be taken down when `run_viewer` returns."""
+"""The window, which has to outlive `run_viewer`."""
 
 
 def run_viewer(
@@ -40,14 +45,13 @@ def run_viewer(
     save_session: str | None = None,
     theme: str = "",
 ) -> int:
-    """Show a document, or a session's file, in the window until that is closed, or until its picture is saved.
+    """Show a document, or a session's file, in the window until it is closed, or until its picture is saved.
 
-    is_empty: the document's mesh is chosen in the window.  theme: "light", "dark" or "desktop"; "" for what the user
-    prefers.
-    Returns the exit status.
+    With `is_empty` the document's mesh is chosen in the window. `theme` is "light", "dark" or "desktop"; "" for the
+    user's preference. Returns the exit status.
     """
     check_screen()
-    share_arenas()
+    set_up_allocation()
     app = application()
     take_all_exceptions()
     preferences = Preferences(theme="light") if screenshot else load()
@@ -88,7 +92,9 @@ def run_viewer(
     # The mesh is read while the panels are made.
     if isinstance(shown, str):
         window.context[Files].open(shown)
-    elif not is_empty:
+    elif is_empty:
+        window.show_start()  # which needs nothing that draws
+    else:
         window.show_document(shown)
     window.show()
     # Once the window has been painted: the imports take a second.
@@ -106,31 +112,38 @@ def run_viewer(
 
 
 def as_preferred(document: Document, preferences: Preferences) -> Document:
-    """A document as the user wants what is opened anew."""
-    return replace(document, isolines=Isolines(preferences.isolines), snap=preferences.snap)
+    """Return a document with the user's preferences for new meshes."""
+    docks = tuple(dict.fromkeys(word for word in (*document.docks, *preferences.docks.split(",")) if word))
+    return replace(document, isolines=Isolines(preferences.isolines), snap=preferences.snap, docks=docks)
 
 
 def beginning_at(preferences: Preferences, shown: Document | str) -> Preferences:
-    """With dialogs that begin at the folder of a document's mesh, or of a session, unless that is a sample."""
+    """Begin file dialogs at the folder of the mesh or session, unless it is a sample."""
     path = shown if isinstance(shown, str) else "".join(mesh.path for mesh in shown.surfaces[:1])
     folder = os.path.dirname(os.path.abspath(path))
     is_own = os.path.isfile(path) and folder != str(SAMPLES)
     return replace(preferences, last_folder=folder) if is_own else preferences
 
 
-def share_arenas() -> None:
-    """Let all threads have memory from one arena of the C library's.
+def set_up_allocation() -> None:
+    """Let the C library return memory to the system when it is freed.
 
-    Each panel works on a thread of its own; what these leave in arenas of their own is seldom used again, and the
-    process grows by a hundred megabytes in a few hundred clicks.
+    All threads share one arena: each panel works on a thread of its own; what these leave in arenas of their own is
+    seldom used again, and the process grows by a hundred megabytes in a few hundred clicks.
+
+    Blocks of a megabyte or more, such as pictures, are mapped by themselves.  Without a fixed threshold the library
+    raises it to the largest block that was freed, and the next ones leave gaps between small blocks that stay.
     """
-    if sys.platform == "linux" and "MALLOC_ARENA_MAX" not in os.environ:
+    if sys.platform == "linux":
         with suppress(OSError, AttributeError):  # another C library
-            ctypes.CDLL(None).mallopt(M_ARENA_MAX, 1)
+            set_option = ctypes.CDLL(None).mallopt
+            for variable, option, value in ALLOCATION:
+                if variable not in os.environ:
+                    set_option(option, value)
 
 
 def save_once(window: MainWindow, path: str) -> None:
-    """Save the session as soon as the window is complete; from then on it is the session's file."""
+    """Save the session as soon as the window is complete."""
 
     def save() -> None:
         window.complete.disconnect(save)

@@ -9,37 +9,47 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import Surface
 from bihdist_core.analysis.surface_notes import surface_notes
+from bihdist_core.counts import counted
 from bihdist_core.distances.answers import Answer
 
 from ..document.page import Recipe
+from ..drawing.numbers import number
+from ..drawing.painters.qt import number_width, paint_number
 from ..scene.style import Style
 from .look.icons import pixmap
 from .look.layouts import in_row
 from .look.look import LOOK
-from .look.numbers import number, number_width, paint_number
 from .look.painting import paint_rounded, smooth_painter
 
 HEIGHT = 28
 SAID_MS = 8000
 LISTED = 20
-"""Sentences of a chip's list at most, as a higher menu would go into columns; all of them can be copied."""
+"""Sentences of a badge's list at most, as a higher menu would go into columns; all of them can be copied."""
 
 WIDEST_PLACE = "−0.00000"
-"""A coordinate as wide as they get, most often; wider ones are cut at the left."""
+"""A coordinate of the usual width; wider ones are cut at the left."""
 
 
 class StatusBar(QtWidgets.QStatusBar):
+    """The status bar; `marks_wanted` is emitted by a click on the badge of marks."""
+
+    marks_wanted = QtCore.Signal()
+
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self.setSizeGripEnabled(False)
         self.counts = Words("quiet")
-        self.notes = Chip(("warning", "warnings"), ("repair", "repairs"), ("fact", "facts"))
-        self.accuracy = Chip(("panel not exact", "panels not exact"))
+        self.notes = ListBadge(("note", "notes"), ("Warnings", "Repairs", "Facts"))
+        self.accuracy = ListBadge(("panel not exact", "panels not exact"), ("",))
+        self.marks = StatusBadge("eye")
+        self.marks.clicked.connect(lambda *_: self.marks_wanted.emit())
+        self.time = Words("quiet", is_meant=True)
         self.message = Words("quiet")
         self.progress = Words("quiet", is_meant=True)
         self.vertex, self.place = Words("text", is_right=True), Words("text", is_right=True)
         self._row = QtWidgets.QWidget()
-        left, right = (self.counts, self.notes, self.accuracy), (self.progress, self.vertex, self.place)
+        left = self.counts, self.notes, self.accuracy, self.marks, self.time
+        right = self.progress, self.vertex, self.place
         in_row(*left, (self.message, 1), *right, of=self._row, spacing=12, margins=(12, 0, 12, 0))
         self._row.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
         self.addPermanentWidget(self._row, 1)
@@ -51,22 +61,26 @@ class StatusBar(QtWidgets.QStatusBar):
         self._fit()
 
     def insert(self, widget: QtWidgets.QWidget) -> None:
-        """Something of its own, left of what the pointer is at."""
+        """Insert a widget left of the position of the pointer."""
         layout = self._row.layout()
         layout.insertWidget(layout.indexOf(self.vertex), widget)
 
     # ------------------------------------------------------------------ what is said
     def show_surface(self, surface: Surface | None, more: Sequence[str] = (), beside: Sequence[Surface] = ()) -> None:
-        """Its counts and its notes, and those of surfaces beside it; more: other facts."""
+        """Show the counts and notes of the surfaces, and `more` facts."""
         if surface is None:
             self._vertices, self._faces = "No mesh", ""
+            self.show_time("")
             self.notes.show_lists()
         else:
-            self._vertices, self._faces = f"{len(surface.vertices):,} vertices", f"{len(surface.faces):,} faces"
+            self._vertices = counted(len(surface.vertices), "vertex", "vertices")
+            self._faces = counted(len(surface.faces), "face")
             lettered = [("", surface)]
             if beside:
                 lettered = list(zip("ABCDEFGH", (surface, *beside), strict=False))
-                self._vertices = "   ".join(f"{k}  {len(each.vertices):,} vertices" for k, each in lettered)
+                self._vertices = "   ".join(
+                    f"{k}  {counted(len(each.vertices), 'vertex', 'vertices')}" for k, each in lettered
+                )
                 self._faces = ""
             notes = [(f"{letter}: " if letter else "", surface_notes(each)) for letter, each in lettered]
             self.notes.show_lists(
@@ -79,30 +93,40 @@ class StatusBar(QtWidgets.QStatusBar):
         self._fit()
 
     def show_inexact(self, answers: Sequence[Answer]) -> None:
-        """Which of the panels' answers are not exact, and by how much."""
+        """Show which answers are not exact, and their accuracy."""
         poor = dict.fromkeys(f"{a.label}: only {a.accuracy.text}" for a in answers if a.accuracy.is_poor)
         self.accuracy.show_lists(list(poor))
 
+    def show_time(self, text: str) -> None:
+        """Show how long the last fields took, "" for nothing."""
+        self.time.show_text(text)
+        self.time.updateGeometry()
+
+    def show_marks(self, shown: int, hidden: int) -> None:
+        """Show how many things are on the surface besides the source, and how many are hidden."""
+        words = [f"{shown:,} on the surface"] * bool(shown) + [f"{hidden:,} hidden"] * bool(hidden)
+        self.marks.show_words(", ".join(words), "click for the list (A)")
+
     def show_place(self, vertex: int | None, position: Sequence[float] | None, letter: str = "") -> None:
-        """letter: of the surface, where there are two."""
+        """Show the vertex under the pointer and its position, with the letter of its surface where there are two."""
         where = f" on {letter}" if letter else ""
         self.vertex.show_text("" if vertex is None else f"vertex {vertex}{where}")
         self.place.show_text("" if position is None else "  ".join(number(x) for x in position))
 
     def say(self, text: str, holds: Callable[[], bool] | None = None) -> None:
-        """For a while; holds: whether it is true, asked as the document changes."""
+        """Show a message for a while, but only as long as `holds()` after changes of the document."""
         self._holds = holds
         self.message.show_text(text)
         self._forget_soon.start()
 
     def document_changed(self) -> None:
-        """What was said of the document before may no longer hold."""
+        """Hide a message that no longer holds."""
         if self._holds is not None and not self._holds():
             self._forget_soon.stop()
             self._forget()
 
     def show_rate(self, text: str) -> None:
-        """How quickly fields follow, as long as they do; "" afterwards."""
+        """Show how fast fields follow the source, "" for nothing."""
         self._forget_soon.stop()
         self._holds = None
         self.message.show_text(text)
@@ -112,7 +136,7 @@ class StatusBar(QtWidgets.QStatusBar):
         self.message.show_text("")
 
     def show_progress(self, text: str) -> None:
-        """What goes on beside the panels."""
+        """Show work that is not a panel's."""
         self.progress.show_text(text)
         self.progress.updateGeometry()
 
@@ -122,7 +146,7 @@ class StatusBar(QtWidgets.QStatusBar):
         self._fit()
 
     def _fit(self) -> None:
-        """In a narrow window the faces, then the message, then the position go."""
+        """Hide the time, then the faces, then the message, then the position where there is no room."""
         font = LOOK.font(12.5)
         self.setFixedHeight(round(HEIGHT * LOOK.scale))
         self._row.setFixedHeight(self.height() - 2)
@@ -134,6 +158,7 @@ class StatusBar(QtWidgets.QStatusBar):
         self.vertex.fix(number_width(font, f"vertex 0000000{on}"))
         self.place.fix(3 * number_width(font, WIDEST_PLACE) + 2 * number_width(font, "  "))
         self.place.setVisible(width >= 640 * LOOK.scale)
+        self.time.setVisible(width >= 1000 * LOOK.scale)
         self.progress.setMaximumWidth(width // 3)
 
     def minimumSizeHint(self) -> QtCore.QSize:
@@ -143,7 +168,7 @@ class StatusBar(QtWidgets.QStatusBar):
 class Words(QtWidgets.QWidget):
     """A line of words that takes the room it gets: what does not fit ends in dots and is in the tooltip.
 
-    is_meant: it asks for the room that it needs.
+    With `is_meant` it asks for the room that it needs.
     """
 
     def __init__(self, colour: str, is_right: bool = False, is_meant: bool = False) -> None:
@@ -161,7 +186,7 @@ class Words(QtWidgets.QWidget):
             self.update()
 
     def fix(self, width: float) -> None:
-        """Always have this width."""
+        """Keep a fixed width."""
         self.setFixedWidth(round(width))
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Fixed, QtWidgets.QSizePolicy.Policy.Preferred)
 
@@ -170,7 +195,7 @@ class Words(QtWidgets.QWidget):
 
     @property
     def fitting(self) -> str:
-        """What there is room for, with dots for the rest."""
+        """Return the text cut short to the width."""
         font = LOOK.font(12.5)
         metrics, width = QtGui.QFontMetrics(font), number_width(font, self.text)
         if width <= self.width():
@@ -190,38 +215,24 @@ class Words(QtWidgets.QWidget):
         paint_number(painter, self.width() - width if self._is_right else 0.0, baseline, text)
 
 
-class Chip(QtWidgets.QToolButton):
-    """ "2 warnings, 1 repair": a click lists them; hidden while there are none."""
+class StatusBadge(QtWidgets.QToolButton):
+    """A few words with an icon, to be clicked; hidden while there are none."""
 
-    def __init__(self, *kinds: tuple[str, str]) -> None:
-        """kinds: what one and several sentences of a kind are called; those of the first are warnings."""
+    def __init__(self, icon: str) -> None:
         super().__init__()
-        self._kinds = kinds
-        self._lists: list[list[str]] = [[] for _ in kinds]
+        self.words, self.is_warning, self._icon = "", False, icon
         self.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
         self.setCursor(QtCore.Qt.CursorShape.PointingHandCursor)
-        self.clicked.connect(self._list)
         self.hide()
 
-    def show_lists(self, *lists: list[str]) -> None:
-        """Sentences of each kind; of those at the end that are left out there are none."""
-        self._lists = [*lists, *([] for _ in self._kinds[len(lists) :])]
-        self.setVisible(any(lists))
-        self.setAccessibleName(self.words)
-        self.setToolTip(f"{self.words}: click for the list")
+    def show_words(self, words: str, tip: str) -> None:
+        """Show words, "" for none; the tip tells what a click does."""
+        self.words = words
+        self.setVisible(bool(words))
+        self.setAccessibleName(words)
+        self.setToolTip(f"{words}: {tip}")
         self.updateGeometry()
         self.update()
-
-    @property
-    def sentences(self) -> list[str]:
-        """All that is to be told, a sentence each."""
-        return [sentence for some in self._lists for sentence in some]
-
-    @property
-    def words(self) -> str:
-        """How many there are of each kind, in a few words."""
-        counted = zip(self._lists, self._kinds, strict=True)
-        return ", ".join(f"{len(some):,} {one if len(some) == 1 else many}" for some, (one, many) in counted if some)
 
     def sizeHint(self) -> QtCore.QSize:
         return QtCore.QSize(QtGui.QFontMetrics(LOOK.font(12)).horizontalAdvance(self.words) + 42, 20)
@@ -229,13 +240,49 @@ class Chip(QtWidgets.QToolButton):
     def minimumSizeHint(self) -> QtCore.QSize:
         return QtCore.QSize(30, 20)
 
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        theme, painter = LOOK.theme, smooth_painter(self)
+        box = QtCore.QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
+        ground, line = theme.warning_ground if self.is_warning else theme.hover, theme.accent if self.hasFocus() else ""
+        paint_rounded(painter, box, min(10, box.height() / 2), ground, line, 2)
+        colour = theme.warning if self.is_warning else theme.quiet
+        sign = pixmap("warning" if self.is_warning else self._icon, colour, self.devicePixelRatioF(), 14)
+        painter.drawPixmap(QtCore.QPointF(8, (self.height() - 14) / 2), sign)
+        painter.setFont(LOOK.font(12))
+        painter.setPen(QtGui.QColor(colour))
+        room = QtCore.QRectF(27, 0, self.width() - 33, self.height())
+        words = painter.fontMetrics().elidedText(self.words, QtCore.Qt.TextElideMode.ElideRight, int(room.width()) + 1)
+        painter.drawText(room, QtCore.Qt.AlignmentFlag.AlignVCenter, words)
+
+
+class ListBadge(StatusBadge):
+    """A badge with a number of sentences, such as "2 notes", which a click lists."""
+
+    def __init__(self, counted: tuple[str, str], heads: tuple[str, ...]) -> None:
+        """Take the words for one and for several sentences, and headings of kinds of them, of which the first warn."""
+        super().__init__("info")
+        self._counted, self._heads = counted, heads
+        self._lists: list[list[str]] = [[] for _ in heads]
+        self.clicked.connect(self._list)
+
+    def show_lists(self, *lists: list[str]) -> None:
+        """Show the sentences of each kind; kinds at the end can be left out."""
+        self._lists = [*lists, *([] for _ in self._heads[len(lists) :])]
+        self.is_warning = bool(self._lists[0])
+        count = len(self.sentences)
+        self.show_words(f"{count:,} {self._counted[count != 1]}" if count else "", "click for the list")
+
+    @property
+    def sentences(self) -> list[str]:
+        """All sentences, for copying."""
+        return [sentence for some in self._lists for sentence in some]
+
     def _list(self) -> None:
         menu = QtWidgets.QMenu(self, toolTipsVisible=True)
         metrics = QtGui.QFontMetrics(LOOK.font())
-        has_heads = len(self._kinds) > 1
-        for some, (_, many) in zip(self._lists, self._kinds, strict=True):
-            if some and has_heads:
-                menu.addAction(many.capitalize()).setEnabled(False)
+        for some, head in zip(self._lists, self._heads, strict=True):
+            if some and head:
+                menu.addAction(head).setEnabled(False)
             for sentence in some[:LISTED]:
                 shown = metrics.elidedText(sentence, QtCore.Qt.TextElideMode.ElideRight, 560)
                 menu.addAction(shown).setToolTip(sentence)
@@ -246,23 +293,9 @@ class Chip(QtWidgets.QToolButton):
         menu.aboutToHide.connect(menu.deleteLater)
         menu.popup(self.mapToGlobal(QtCore.QPoint(0, -menu.sizeHint().height())))
 
-    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        theme, painter, is_warning = LOOK.theme, smooth_painter(self), bool(self._lists[0])
-        box = QtCore.QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
-        ground, line = theme.warning_ground if is_warning else theme.hover, theme.accent if self.hasFocus() else ""
-        paint_rounded(painter, box, min(10, box.height() / 2), ground, line, 2)
-        colour = theme.warning if is_warning else theme.quiet
-        sign = pixmap("warning" if is_warning else "info", colour, self.devicePixelRatioF(), 14)
-        painter.drawPixmap(QtCore.QPointF(8, (self.height() - 14) / 2), sign)
-        painter.setFont(LOOK.font(12))
-        painter.setPen(QtGui.QColor(colour))
-        room = QtCore.QRectF(27, 0, self.width() - 33, self.height())
-        words = painter.fontMetrics().elidedText(self.words, QtCore.Qt.TextElideMode.ElideRight, int(room.width()) + 1)
-        painter.drawText(room, QtCore.Qt.AlignmentFlag.AlignVCenter, words)
-
 
 def unseen(recipe: Recipe, style: Style) -> list[str]:
-    """What a recipe has that panels do not show."""
+    """Return the parts of a recipe that panels do not show."""
     words = [f"views but the first of {len(recipe.views)}"] if len(recipe.views) > 1 else []
     words += ["outlines"] if style.outline else []
     return [f"in figures only: {', '.join(words)}"] if words else []

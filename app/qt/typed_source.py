@@ -1,10 +1,10 @@
-"""The source in words: what the tool bar's box says."""
+"""The source as typed in the tool bar's box."""
 
 from collections.abc import Mapping
 
 from bihdist_core import BihdistError
 from bihdist_core.sources.source import Curve, Source
-from bihdist_core.sources.words import NONE
+from bihdist_core.sources.words import EMPTY
 
 from ..document.edits import move_source
 from ..session.questions import source_at
@@ -14,7 +14,7 @@ from .source_box import SourceBox
 
 
 class TypedSource:
-    """What the first panel's field starts from.  box: where it is typed."""
+    """The source of the first panel, with the `box` in which it is typed."""
 
     def __init__(self, context: Context) -> None:
         self._context, self.box = context, SourceBox(context.widget)
@@ -22,13 +22,13 @@ class TypedSource:
         self.box.chosen.connect(self.choose)
         self.box.left.connect(context.focus_panels)
 
-    def choose(self, source: Source, files: Mapping[Curve, str] = NONE) -> None:
-        """Let it start there, or say why it cannot.  files: where its curves were read from."""
+    def choose(self, source: Source, files: Mapping[Curve, str] = EMPTY) -> None:
+        """Move the source, or show why that is not possible; `files` are those of its curves."""
         session = self._context.session
         document = session.document
-        if session.surface is not None and document.panels:
+        if session.loaded() is not None and document.panels:
             try:
-                source = source_at(source, session.surface_in(document.panels[0].id))
+                source = source_at(source, session.mesh(document.panels[0].id).surface)
             except BihdistError as error:
                 self._context.refused.emit(str(error))
                 self.box.refuse(str(error))
@@ -38,12 +38,12 @@ class TypedSource:
             self.show()
 
     def ask(self) -> None:
-        """Let it be typed."""
+        """Give the box the keyboard focus."""
         if self.box.isEnabled():
             self.box.ask()
 
     def show(self) -> None:
-        """Let the box say what it is."""
+        """Show the source in the box."""
         session = self._context.session
         document = session.document
         point = next((document.point(name) for panel in document.panels for name in panel.shows.points), None)

@@ -1,4 +1,4 @@
-"""Errors that nothing foresaw, wherever they come from, shown to the user with details to copy."""
+"""Unexpected errors from any thread, shown to the user with details to copy."""
 
 import logging
 import sys
@@ -16,11 +16,11 @@ from .context import Context
 from .pages.messages import Message, tell
 
 STORM_S = 2.0
-"""What fails again within so many seconds, as painting may, is not told again."""
+"""Seconds within which the same error, say of painting, is not shown again."""
 
 
 class UnexpectedErrors(QtCore.QObject):
-    """One for each window, whose errors it shows while that is open; what goes wrong on any thread is among them."""
+    """Shows unexpected errors of any thread in its window, while that is open."""
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -32,11 +32,11 @@ class UnexpectedErrors(QtCore.QObject):
         context.closed.connect(self._leave)
 
     def are_telling(self, sentence: str) -> bool:
-        """Whether a sentence is of an error that is told here."""
+        """Return whether a sentence belongs to an error that is shown here."""
         return sentence in self._known
 
     def _note(self, sentence: str, details: str) -> None:
-        """From any thread."""
+        """Take an error from any thread."""
         last = self._known.get(sentence, ("", -STORM_S))[1]
         self._known[sentence] = details, time.monotonic()
         if time.monotonic() - last >= STORM_S:

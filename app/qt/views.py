@@ -1,23 +1,21 @@
-"""Where the surface is seen from: standard views, which way is up, and where the camera has been, back and forth."""
+"""Views of the surface: standard views, the axis that points up, and the history of the camera, back and forth."""
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
 from bihdist_core import BihdistError
 
-from ..document.beside_edits import stand_beside
 from ..document.camera import Camera, View
 from ..document.camera_text import camera_text, read_camera
 from ..document.document import Document
-from ..document.edits import stand
-from ..document.history import Trail
+from ..document.history import NavigationHistory
+from ..document.second_mesh_edits import set_up_axis
 from .context import Context
 from .remembered import remember_up
 
 if TYPE_CHECKING:
-    from .panels.eye import Eye
+    from .panels.camera_controller import CameraController
 
 Cameras = tuple[tuple[str, View], ...]
 """From where each surface is seen, by its name in the document."""
@@ -37,102 +35,103 @@ class Views(QtCore.QObject):
     def __init__(self, context: Context) -> None:
         super().__init__(context)
         self._context = context
-        self._trail: Trail[Cameras] = Trail()
+        self._visited: NavigationHistory[Cameras] = NavigationHistory()
         self._still = QtCore.QTimer(self, singleShot=True, interval=STILL_MS, timeout=self._remember)
 
     def begin(self) -> None:
-        """Another mesh is there."""
-        self._trail = Trail()
+        """Start on another mesh."""
+        self._visited = NavigationHistory()
         self._offer()
 
     def document_changed(self, before: Document, is_other: bool, is_raised: bool) -> None:
-        """Let the camera see what the document says.  is_other: another mesh is there; is_raised: the height is."""
+        """Set the cameras as the document has them.
+
+        `is_other` says that another mesh is there, `is_raised` that the height field has changed.
+        """
         context, document = self._context, self._context.document
         if context.remembers and not is_other and document.up != before.up:
             remember_up(document.surfaces[0].sha256, document.up)
         context.grid.show_axes(document.axes)
-        for eye in (eye for eye in context.grid.eyes if eye.surface):
-            camera, up = document.camera_of(eye.surface), document.up_of(eye.surface)
-            old_camera, old_up = before.camera_of(eye.surface), before.up_of(eye.surface)
-            is_stood_otherwise = (up, document.projection) != (old_up, before.projection)
+        for controller in (controller for controller in context.grid.camera_controllers if controller.surface):
+            camera, up = document.camera_of(controller.surface), document.up_of(controller.surface)
+            old_camera, old_up = before.camera_of(controller.surface), before.up_of(controller.surface)
+            is_stood_otherwise = (up, document.parallel_projection) != (old_up, before.parallel_projection)
             follows = camera == "source" and document.points != before.points
             if is_other or is_raised or is_stood_otherwise or follows or camera != old_camera:
                 context.grid.turn_upright()
-                eye.look(camera)
-                self.rest_soon()
+                controller.set_view(camera)
+                self.remember_soon()
             if up != old_up and isinstance(camera, Camera) and camera == old_camera:
-                self._see("auto", eye)  # undone and done again it would be askew
+                self._set_view("auto", controller)  # undone and done again it would be askew
 
     def moved(self, view: View, surface: str) -> None:
-        """The camera of a surface sees this now."""
-        self._context.session.look(view, surface)
+        """Take what the camera of a surface sees now."""
+        self._context.session.set_view(view, surface)
         self.changed.emit()
         self._offer()
-        self.rest_soon()
+        self.remember_soon()
 
-    def rest_soon(self) -> None:
-        """The view is one to come back to, if the camera stays."""
+    def remember_soon(self) -> None:
+        """Remember the view, if the camera stays."""
         self._still.start()
 
-    def see(self, view: View) -> None:
+    def set_view(self, view: View) -> None:
         """Let the camera see something else.
 
         Where two are linked, both see the same standard view, and move together to any other.
         """
         grid, document = self._context.grid, self._context.document
-        eye = self._active_eye
-        before = eye.known
-        self._see(view, eye)
-        for other in grid.eyes if document.linked else ():
-            if other is eye or not other.surface:
+        controller = self._active_controller
+        before = controller.known
+        self._set_view(view, controller)
+        for other in grid.camera_controllers if document.linked else ():
+            if other is controller or not other.surface:
                 continue
             if isinstance(view, str):
-                self._see(view, other)
+                self._set_view(view, other)
             elif before is not None:
-                followed = other.follow(before, eye.seen)
+                followed = other.follow(before, controller.seen)
                 if followed is not None:
                     self.moved(followed, other.surface)
         grid.redraw()
 
     def reset(self, view: View = "auto") -> None:
         """See the surface from a standard view, or from where a camera is, if there is one."""
-        if self._context.session.surface is not None:
-            self.see(view)
+        if self._context.session.loaded() is not None:
+            self.set_view(view)
 
-    def _see(self, view: View, eye: "Eye") -> None:
-        view = eye.look(view)
+    def _set_view(self, view: View, controller: "CameraController") -> None:
+        view = controller.set_view(view)
         # From where the source is now; the view does not follow it about.
-        self.moved(eye.seen if view == "source" else view, eye.surface)
+        self.moved(controller.seen if view == "source" else view, controller.surface)
 
     @property
-    def _active_eye(self) -> "Eye":
-        """That of the active panel's surface."""
+    def _active_controller(self) -> "CameraController":
+        """Return the camera of the active panel's surface."""
         grid = self._context.grid
         surfaces = {panel.id: panel.surface for panel in self._context.document.panels}
-        return grid.eye_of(surfaces.get(grid.active, ""))
+        return grid.controller_of(surfaces.get(grid.active, ""))
 
     def link(self) -> None:
-        """As the menu says: two cameras move together from where they are, or each for itself."""
-        is_linked = self._context.actions["link"].isChecked()
-        self._context.session.link(is_linked)
-        self._context.tell("The two cameras move together" if is_linked else "Each mesh is turned for itself")
+        """Let two cameras move together from where they are, or each by itself."""
+        is_linked = not self._context.document.linked
+        self._context.session.set_fields(linked=is_linked)
+        self._context.tell("Both cameras move together" if is_linked else "Each mesh is turned by itself")
 
     def back(self) -> None:
         """Look from where one looked before."""
         self._remember()
-        self._see_again(self._trail.back())
+        self._return_to(self._visited.back())
 
     def on(self) -> None:
         """Look from where one looked afterwards."""
-        self._see_again(self._trail.on())
+        self._return_to(self._visited.forward())
 
     # ------------------------------------------------------------------ what is chosen
-    def stand(self, up: str) -> None:
+    def set_up_axis(self, up: str) -> None:
         """Let an axis, such as "z" or "-z", point up."""
         session, name = self._context.session, self._surface
-        document = session.document
-        is_first = not document.surfaces or name == document.surfaces[0].name
-        session.show(stand(document, up) if is_first else stand_beside(document, up, name), key=f"up of {name}")
+        session.show(set_up_axis(session.document, up, name or None), key=f"up of {name}")
         self._context.choice_changed.emit()
 
     @property
@@ -140,44 +139,27 @@ class Views(QtCore.QObject):
         """That of the active panel, by its name in the document; before there are panels the first."""
         document = self._context.document
         if self._context.is_built:
-            return self._active_eye.surface
+            return self._active_controller.surface
         return document.surfaces[0].name if document.surfaces else ""
 
     @property
     def up(self) -> str:
-        """Which axis of the active panel's surface points up."""
+        """Return which axis of the active panel's surface points up."""
         return self._context.document.up_of(self._surface)
 
     def next_up(self) -> None:
-        """From y to z, from z to x, from x to y."""
-        self.stand({"y": "z", "z": "x", "x": "y"}[self.up[-1]])
+        """Let the next axis point up: z after y, x after z, y after x."""
+        self.set_up_axis({"y": "z", "z": "x", "x": "y"}[self.up[-1]])
 
     def other_end_up(self) -> None:
-        """What was up is down."""
+        """Turn the up axis over."""
         up = self.up
-        self.stand(up[1:] if up.startswith("-") else f"-{up}")
-
-    def project(self) -> None:
-        """As the menu says: nothing gets smaller with distance, or in perspective."""
-        session, is_on = self._context.session, self._context.actions["orthographic"].isChecked()
-        session.show(replace(session.document, projection="orthographic" if is_on else "perspective"))
-
-    def show_axes(self) -> None:
-        """As the menu says."""
-        session = self._context.session
-        session.show(replace(session.document, axes=self._context.actions["axes"].isChecked()))
-
-    def turn_upright(self) -> None:
-        """As the menu says: as on a turntable, or freely."""
-        context, is_on = self._context, self._context.actions["turntable"].isChecked()
-        context.prefer(turntable=is_on)
-        if context.is_built:
-            context.grid.turn_upright(is_on)
+        self.set_up_axis(up[1:] if up.startswith("-") else f"-{up}")
 
     # ------------------------------------------------------------------ the camera as text
     def copy(self) -> None:
-        """The camera, to the clipboard."""
-        QtWidgets.QApplication.clipboard().setText(camera_text(self._active_eye.seen))
+        """Copy the camera to the clipboard."""
+        QtWidgets.QApplication.clipboard().setText(camera_text(self._active_controller.seen))
         self._context.tell("The camera is on the clipboard")
 
     def paste(self) -> None:
@@ -187,28 +169,28 @@ class Views(QtCore.QObject):
         except BihdistError as error:
             self._context.fail(error)
         else:
-            self.see(view)
+            self.set_view(view)
 
     # ------------------------------------------------------------------ where one has been
     def _remember(self) -> None:
-        self._trail.visit(_cameras(self._context.document))
+        self._visited.visit(_cameras(self._context.document))
         self._offer()
 
     def _offer(self) -> None:
-        """What can be gone back to, and on."""
+        """Enable the actions that go back and forward."""
         cameras, actions = _cameras(self._context.document), self._context.actions
-        actions["view before"].setEnabled(not self._trail.is_first(cameras))
-        actions["view after"].setEnabled(not self._trail.is_last(cameras))
+        actions["view before"].setEnabled(not self._visited.is_first(cameras))
+        actions["view after"].setEnabled(not self._visited.is_last(cameras))
 
-    def _see_again(self, cameras: "Cameras | None") -> None:
+    def _return_to(self, cameras: "Cameras | None") -> None:
         known = dict(cameras or ())
-        for eye in self._context.grid.eyes:
-            if eye.surface in known:
-                self._see(known[eye.surface], eye)
+        for controller in self._context.grid.camera_controllers:
+            if controller.surface in known:
+                self._set_view(known[controller.surface], controller)
 
     @property
     def name(self) -> str:
-        """What of the active panel's surface is seen, in a word."""
+        """The view of the active panel's surface, in a word."""
         camera = self._context.document.camera_of(self._surface)
         return camera.capitalize() if isinstance(camera, str) else "Free"
 

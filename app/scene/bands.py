@@ -5,6 +5,7 @@ import numpy as np
 from bihdist_core.arrays import AnyArray, FloatArray
 
 from ..document.looks import Isolines
+from ..drawing.colour_bar import BarColours
 from .levels import levels
 from .style import Colour, Style
 
@@ -13,29 +14,31 @@ BAR_STEPS = 256
 
 
 def band_edges(isolines: Isolines, maximum: float, signed: bool = False) -> FloatArray:
-    """(k,) fractions of the maximum, from 0 or, if signed, -1 to 1, that have an isoline.
+    """Return the fractions (k,) of the maximum, from 0 or, if signed, -1 to 1, that have an isoline.
 
-    Empty where there are none, or more than can be told apart.
+    There are none where more would be there than can be told apart.
     """
     if not maximum > 0:
         return np.empty(0)
     return levels(isolines, maximum, maximum, signed).values / maximum
 
 
-def bar_parts(style: Style, edges: FloatArray, signed: bool = False) -> list[tuple[float, Colour]]:
-    """Where on a colour bar, 0 to 1, a colour begins, from the first to the last; edges: as `band_edges` has them."""
+def bar_colours(
+    style: Style, edges: FloatArray, signed: bool = False, goes_beyond: tuple[bool, bool] = (False, False)
+) -> BarColours:
+    """Return the colours of a bar, in bands that end at `edges` (see `band_edges`) if the style has any."""
     if not (style.bands and len(edges)):
-        starts = np.arange(BAR_STEPS) / BAR_STEPS
-        colours = style.colours(BAR_STEPS, signed)
-    else:
-        places = (edges + 1) / 2 if signed else edges
-        starts = np.append(0.0, places)
-        colours = style.band_colours(edges, signed)
-    return [(float(start), (float(r), float(g), float(b))) for start, (r, g, b) in zip(starts, colours, strict=True)]
+        return BarColours(_triples(style.colours(BAR_STEPS, signed)), (), goes_beyond)
+    starts = 0.0, *((edges + 1) / 2 if signed else edges).tolist()
+    return BarColours(_triples(style.band_colours(edges, signed)), starts, goes_beyond)
+
+
+def _triples(colours: FloatArray) -> tuple[Colour, ...]:
+    return tuple((r, g, b) for r, g, b in colours.tolist())
 
 
 def beyond(field: AnyArray | None, top: float, signed: bool = False) -> tuple[bool, bool]:
-    """Whether a field (n,) goes beyond the ends of a colour bar: below 0 or, if signed, -top; and above top."""
+    """Return whether a field (n,) goes beyond the ends of a colour bar: below 0 or, if signed, -top; and above top."""
     if field is None or not top > 0:
         return False, False
     end = top * (1 + 1e-6)  # by a hair it does not

@@ -1,7 +1,7 @@
-"""Where the camera stands: standard views, fitted closely around the shape, and what it sees of a point."""
+"""Cameras: standard views, fitted closely around the shape, and what they see of a point."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
@@ -10,7 +10,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera
 from bihdist_core import Surface
 from bihdist_core.analysis.first_view import is_flat
 from bihdist_core.analysis.upright import axes_of
-from bihdist_core.analysis.view_directions import FIRST_VIEWS
+from bihdist_core.analysis.view_directions import OBLIQUE_VIEWS
 from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.surface import connected
 
@@ -19,7 +19,7 @@ from ..document.camera import Camera, Vector, checked_view
 VIEW_ANGLE = 25.0
 
 DIRECTIONS = {
-    **{name: (direction, (0, 1, 0)) for name, direction in FIRST_VIEWS.items()},
+    **{name: (direction, (0, 1, 0)) for name, direction in OBLIQUE_VIEWS.items()},
     "front": ((0, 0, 1), (0, 1, 0)),
     "back": ((0, 0, -1), (0, 1, 0)),
     "left": ((-1, 0, 0), (0, 1, 0)),
@@ -37,17 +37,12 @@ SOME = 50_000
 """Faces that tell of a large surface which side is outside."""
 
 
-@dataclass(frozen=True)
-class Margins:
-    """Shares of the panel kept free around the shape."""
-
-    side: float = 0.05
-    top: float = 0.05
-    bottom: float = 0.05
+MARGIN = 0.05
+"""Usual fraction of a panel that is kept free along each side of the shape."""
 
 
 def frame(camera: Camera) -> FloatArray:
-    """(3, 3) columns: right, up, and back to the camera."""
+    """Return the camera's axes as columns (3, 3): right, up, and back to the camera."""
     back = np.subtract(camera.position, camera.focal_point)
     back = back / np.linalg.norm(back)
     right = np.cross(np.array(camera.up) / np.linalg.norm(camera.up), back)
@@ -56,7 +51,7 @@ def frame(camera: Camera) -> FloatArray:
 
 
 def turned(camera: Camera, degrees: float, axis: FloatArray) -> Camera:
-    """The camera gone round its focal point, about an axis (3,)."""
+    """Return the camera gone round its focal point, about an axis (3,)."""
     a, axis = np.radians(degrees), np.asarray(axis, float) / np.linalg.norm(axis)
 
     def turn(arm: AnyArray) -> FloatArray:
@@ -68,11 +63,11 @@ def turned(camera: Camera, degrees: float, axis: FloatArray) -> Camera:
     return replace(camera, position=_vector(np.add(camera.focal_point, arm)), up=_vector(up))
 
 
-def carried(other: Camera, before: Camera, after: Camera) -> Camera:
-    """Where another camera goes when one goes from before to after.
+def follow_camera(other: Camera, before: Camera, after: Camera) -> Camera:
+    """Return another camera after it has followed one that goes from before to after.
 
-    The similarity that carries the one to the other carries it on: both turn alike in their pictures, and what is
-    nearer or aside by a share of one shape's size is so by that of the other's.
+    It moves by the same similarity, seen from where it stands: both turn alike in their pictures, and come nearer or
+    move aside by the same fractions of the sizes of their shapes.
     """
     turn = frame(other) @ frame(before).T
     arms = [np.linalg.norm(np.subtract(each.position, each.focal_point)) for each in (other, before)]
@@ -87,11 +82,25 @@ def carried(other: Camera, before: Camera, after: Camera) -> Camera:
 
 
 class Projection:
-    """What a camera makes of points in a picture of width / height `aspect`.
+    """The projection of points into a picture by a camera.
 
-    A share `free` along each side is left around what the camera is sure to see.  is_parallel: its lines of sight are
-    parallel, and it sees of everything what it sees of its focal point's plane.  matrix: (4, 4) from the camera's
-    coordinates to -1 … 1 in x, y and depth; view: (4, 4) from the world's to the camera's.
+    Parameters
+    ----------
+    aspect
+        Width by height of the picture.
+    points
+        (n, 3) points of the shape, between which and the camera nothing is clipped.
+    free
+        Fraction of each side that is left free around what the camera is sure to see.
+    is_parallel
+        Whether the lines of sight are parallel; everything is then seen as in the focal point's plane.
+
+    Attributes
+    ----------
+    view
+        (4, 4) from the world's to the camera's coordinates.
+    matrix
+        (4, 4) from the camera's coordinates to -1 … 1 in x, y and depth.
     """
 
     def __init__(
@@ -123,7 +132,7 @@ class Projection:
         self._bounds = None if np.isnan(flat).any() else (*flat.min(axis=0), *flat.max(axis=0))
 
     def meets(self, part: tuple[float, float, float, float]) -> bool:
-        """Whether the points' bounding box reaches into a part (left, right, bottom, top) of the picture."""
+        """Return whether the points' bounding box reaches into a part (left, right, bottom, top) of the picture."""
         if self._bounds is None:
             return True
         left, right, bottom, top = part
@@ -131,14 +140,14 @@ class Projection:
         return bool(x <= right and x_end >= left and y <= top and y_end >= bottom)
 
     def __call__(self, points: FloatArray) -> FloatArray:
-        """(n, 3) points to (n, 3): x, y, -1 … 1 inside the picture, and the distance along the line of sight."""
+        """Return x and y of points (n, 3), -1 … 1 inside the picture, and their distance along the line of sight."""
         local = points @ self.view[:3, :3].T + self.view[:3, 3]
         depth = -local[:, 2]
         safe = np.where(depth > 0, 1.0 if self.is_parallel else depth, np.nan)
         return np.column_stack([self.matrix[0, 0] * local[:, 0] / safe, self.matrix[1, 1] * local[:, 1] / safe, depth])
 
     def pixel_at(self, depth: float, width: float) -> float:
-        """How long a pixel of a picture of this width is at a depth."""
+        """Return the length of a pixel of a picture of this width at a depth."""
         return float((1.0 if self.is_parallel else depth) / (self.matrix[0, 0] * width / 2))
 
 
@@ -146,24 +155,32 @@ def standard_camera(
     points: FloatArray,
     aspect: float,
     view: str = "home",
-    margins: Margins | None = None,
     up: str = "y",
     outwards: FloatArray | None = None,
     is_parallel: bool = False,
+    margin: float = MARGIN,
 ) -> Camera:
-    """The camera that sees points (n, 3) from a standard view so that they just fill a panel of this aspect.
+    """Return the camera that sees points (n, 3) from a standard view so that they just fill a panel.
 
-    up: which axis is up.  outwards: (3,) at the source, see `outwards_at`, for the view from there; without one it is
-    that from home, as is a view that is to be chosen.
+    Parameters
+    ----------
+    aspect
+        Width by height of the panel.
+    up
+        The axis that is up.
+    outwards
+        (3,) normal at the source, see `outwards_at`, for the view from there; without it the source is seen from home.
+    margin
+        Fraction of the panel that is kept free along each side.
     """
     direction, upright = directions(view, up, outwards)
     if view == "home" and is_flat(points) and up[-1] != "z":
         direction = np.array([0.0, 0, 1])  # a flat domain is looked at straight
-    return aimed(points, aspect, direction, upright, margins or Margins(), is_parallel)
+    return aimed(points, aspect, direction, upright, margin, is_parallel)
 
 
 def directions(view: str, up: str = "y", outwards: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
-    """(3,) from the shape to the camera, and (3,) what is up in the picture, for a standard view."""
+    """Return, for a standard view, the direction (3,) from the shape to the camera, and what is up (3,)."""
     checked_view(view)
     if view == "relief":
         return np.array(DIRECTIONS[view][0], float), np.array(DIRECTIONS[view][1], float)
@@ -178,7 +195,7 @@ def directions(view: str, up: str = "y", outwards: FloatArray | None = None) -> 
 
 
 def outwards_at(surface: Surface, vertex: int) -> FloatArray | None:
-    """(3,) the unit normal that points out of a surface, averaged about a vertex; None where there is none."""
+    """Return the unit normal (3,) that points out of a surface, averaged about a vertex; None where there is none."""
     x, faces = surface.vertices, surface.faces
     used = x[surface.component_of_vertex >= 0]
     reach = NEIGHBOURHOOD * float(np.linalg.norm(np.ptp(used, axis=0)))
@@ -201,35 +218,47 @@ def outwards_at(surface: Surface, vertex: int) -> FloatArray | None:
 
 
 def _area_normals(corners: FloatArray) -> FloatArray:
-    """(m, 3) normals of faces (m, 3, 3), twice as long as the faces are large."""
+    """Return normals (m, 3) of faces (m, 3, 3), twice as long as the faces' areas."""
     return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
 
 class SeenNow:
-    """What the window's camera, as it stands now, makes of points in a picture of this aspect; else as `Projection`."""
+    """The positions of points in a picture of this aspect by the window's present camera; else as `Projection`."""
 
     def __init__(self, camera: vtkCamera, aspect: float) -> None:
         self.view = array_of(camera.GetViewTransformMatrix())
         self.matrix = array_of(camera.GetProjectionTransformMatrix(aspect, -1, 1))
 
+    def in_picture(self, points: FloatArray) -> FloatArray:
+        """Return the positions of points (n, 3) in the picture and in depth, -1 to 1; NaN behind the camera."""
+        flat = np.column_stack([points, np.ones(len(points))]) @ (self.matrix @ self.view).T
+        return flat[:, :3] / np.where(flat[:, 3] > 0, flat[:, 3], np.nan)[:, None]
+
     def __call__(self, points: FloatArray) -> FloatArray:
-        """(n, 3) points to (n, 3), see `Projection`; x and y are NaN behind the camera."""
-        local = np.column_stack([points, np.ones(len(points))]) @ self.view.T
-        flat = local @ self.matrix.T
-        ahead = np.where(flat[:, 3] > 0, flat[:, 3], np.nan)
-        return np.column_stack([flat[:, :2] / ahead[:, None], -local[:, 2]])
+        """Return x, y and depth (n, 3) of points (n, 3), see `Projection`; x and y are NaN behind the camera."""
+        return np.column_stack([self.in_picture(points)[:, :2], -points @ self.view[2, :3] - self.view[2, 3]])
 
 
 def array_of(matrix: vtkMatrix4x4) -> FloatArray:
-    """(4, 4)."""
+    """Return a matrix of VTK as an array (4, 4)."""
     return np.array([[matrix.GetElement(row, column) for column in range(4)] for row in range(4)])
 
 
-def camera_seen(camera: vtkCamera, aspect: float, margins: Margins | None = None) -> Camera:
-    """The window's camera written down; it is sure to see what lies between the panel's margins."""
-    margins = margins or Margins()
+def see_part(camera: vtkCamera, projection: FloatArray, part: tuple[float, float, float, float]) -> None:
+    """Let a camera see a part (left, right, bottom, top) of what a projection matrix (4, 4) shows from -1 to 1."""
+    left, right, bottom, top = part
+    enlarge = np.diag([2 / (right - left), 2 / (top - bottom), 1.0, 1.0])
+    enlarge[0, 3], enlarge[1, 3] = -(right + left) / (right - left), -(top + bottom) / (top - bottom)
+    matrix = vtkMatrix4x4()
+    matrix.DeepCopy((enlarge @ projection).ravel().tolist())
+    camera.UseExplicitProjectionTransformMatrixOn()
+    camera.SetExplicitProjectionTransformMatrix(matrix)
+
+
+def camera_seen(camera: vtkCamera, aspect: float) -> Camera:
+    """Return the window's camera written down; it is sure to see what lies between the panel's margins."""
     slope = np.tan(np.radians(camera.GetViewAngle() / 2))
-    extent = slope * aspect * (1 - 2 * margins.side), slope * (1 - margins.top - margins.bottom)
+    extent = slope * aspect * (1 - 2 * MARGIN), slope * (1 - 2 * MARGIN)
     focal_point = np.array(camera.GetFocalPoint())
     arm = np.array(camera.GetPosition()) - focal_point
     if camera.GetParallelProjection():
@@ -238,17 +267,12 @@ def camera_seen(camera: vtkCamera, aspect: float, margins: Margins | None = None
     return Camera(_vector(focal_point + arm), _vector(focal_point), _vector(camera.GetViewUp()), _pair(extent))
 
 
-def show_camera(
-    camera: vtkCamera, shown: Camera, aspect: float, margins: Margins | None = None, is_parallel: bool = False
-) -> None:
+def show_camera(camera: vtkCamera, shown: Camera, aspect: float, is_parallel: bool = False) -> None:
     """Let the window's camera, in a panel of this aspect, see at least what another was sure to see."""
-    margins = margins or Margins()
-    high = shown.extent[1] / (1 - margins.top - margins.bottom)
-    slope = max(high, shown.extent[0] / (aspect * (1 - 2 * margins.side)))
+    slope = max(shown.extent[1], shown.extent[0] / aspect) / (1 - 2 * MARGIN)
     camera.SetFocalPoint(*shown.focal_point)
     camera.SetPosition(*shown.position)
     camera.SetViewUp(*shown.up)
-    camera.SetWindowCenter(0, margins.top - margins.bottom)
     camera.SetViewAngle(float(np.degrees(2 * np.arctan(slope))))
     camera.SetParallelProjection(is_parallel)
     camera.SetParallelScale(slope * float(np.linalg.norm(np.subtract(shown.position, shown.focal_point))))
@@ -277,7 +301,7 @@ def aimed(
     aspect: float,
     direction: FloatArray,
     up: FloatArray,
-    margins: Margins,
+    margin: float,
     is_parallel: bool = False,
 ) -> Camera:
     """Look at points (n, 3) along -direction, as near as they fit."""
@@ -289,8 +313,7 @@ def aimed(
     # Each coordinate for itself: over contiguous memory every step is several times faster.
     local = np.ascontiguousarray((points @ frame).T)
     slope = np.tan(np.radians(VIEW_ANGLE / 2))
-    wide = slope * aspect * (1 - 2 * margins.side)
-    high = slope * (1 - margins.top - margins.bottom)
+    wide, high = slope * aspect * (1 - 2 * margin), slope * (1 - 2 * margin)
     centre = (local.min(axis=1) + local.max(axis=1)) / 2
     half = np.ptp(local, axis=1) / 2
     distance = max(half[0] / wide, half[1] / high, 1e-12)

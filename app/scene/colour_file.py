@@ -12,6 +12,7 @@ from bihdist_core.file_content import file_text, json_value
 from bihdist_core.sentences import shortened
 
 from ..document.looks import Colours, Stops
+from ..document.synonyms import COLOUR_MAPS
 from .colour_maps import MAPS
 
 MOST_COLOURS = 1024
@@ -24,8 +25,11 @@ READ_AS = 'rows of "red green blue" (0 to 1, or 0 to 255) or "place red green bl
 
 
 def colours_named(text: str, now: Colours | None = None) -> Colours:
-    """The map that a word or a file means, reversed and in bands as now; ParameterError if it is neither."""
+    """Return the map that a word or a file means, reversed and in bands as now; ParameterError if it is neither."""
     now = now or Colours()
+    base = text.lower().removesuffix("_r")
+    if base in COLOUR_MAPS:
+        return Colours(COLOUR_MAPS[base], (), now.reversed or text.lower() != base, now.bands)
     if text in MAPS or not text:
         return Colours(text, (), now.reversed, now.bands)
     if not os.path.exists(text):
@@ -34,7 +38,7 @@ def colours_named(text: str, now: Colours | None = None) -> Colours:
 
 
 def read_stops(path: str | os.PathLike[str]) -> Stops:
-    """The stops in a file; ParameterError that names the file, the line and what is wrong there."""
+    """Return the stops in a file; ParameterError that names the file, the line and what is wrong there."""
     text = file_text(path, "colours", MOST_BYTES)
     try:
         return _of_json(text) if str(path).lower().endswith(".json") else _of_rows(text)
@@ -76,7 +80,7 @@ def _number(word: str) -> float | None:
 
 
 def _stops(rows: list[tuple[int, list[float]]]) -> Stops:
-    """Of lines by their numbers, each with three or four values."""
+    """Return the stops from lines by their numbers, each with three or four values."""
     if not 2 <= len(rows) <= MOST_COLOURS:
         raise ParameterError(f": there are {len(rows)} colours; a map has 2 to {MOST_COLOURS}, as {READ_AS}.")
     largest = max(max(values[-3:]) for _, values in rows)
@@ -85,7 +89,7 @@ def _stops(rows: list[tuple[int, list[float]]]) -> Stops:
     for number, values in rows:
         for value in values[-3:]:
             if not 0 <= value <= whole:
-                raise ParameterError(f", line {number}: {value:g} is no part of a colour, 0 to {whole:g}.")
+                raise ParameterError(f", line {number}: {value:g} is not a part of a colour, from 0 to {whole:g}.")
     if len(rows[0][1]) == 3:
         places = np.linspace(0, 1, len(rows)).tolist()
     else:
@@ -126,7 +130,7 @@ def _of_json(text: str) -> Stops:
 
 
 def _along(stops: Stops, space: str) -> Stops:
-    """With colours between, where the way from stop to stop is straight in another space."""
+    """Add colours between stops, where the interpolation is linear in another colour space."""
     if space == "RGB":
         return stops
     from vtkmodules.vtkRenderingCore import vtkColorTransferFunction
@@ -134,7 +138,7 @@ def _along(stops: Stops, space: str) -> Stops:
     way = vtkColorTransferFunction()
     choose = getattr(way, f"SetColorSpaceTo{space}", None) if space.isalnum() else None
     if choose is None:
-        raise ParameterError(f": the ColorSpace {space!r} is none of ParaView's.")
+        raise ParameterError(f": the ColorSpace {space!r} is not one of ParaView's.")
     choose()
     for place, colour in stops:
         way.AddRGBPoint(place, *colour)

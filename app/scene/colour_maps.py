@@ -19,7 +19,7 @@ SEEN_ON_DARK = 0.36
 
 @dataclass(frozen=True)
 class ColourMap:
-    """name and hint: for the user."""
+    """A colour map, with a name and a hint for the user."""
 
     name: str
     hint: str
@@ -27,7 +27,7 @@ class ColourMap:
 
 
 def _stops(colours: FloatArray, low: float = 0.0) -> Stops:
-    """Colours (k, 3) at equal distances from `low` to 1."""
+    """Return stops for colours (k, 3) at equal distances from `low` to 1."""
     places = np.linspace(low, 1, len(colours))
     return tuple(
         (float(place), (float(r), float(g), float(b))) for place, (r, g, b) in zip(places, colours, strict=True)
@@ -35,19 +35,19 @@ def _stops(colours: FloatArray, low: float = 0.0) -> Stops:
 
 
 def _hex(*words: str) -> FloatArray:
-    """(k, 3)"""
+    """Return colours such as "#10265F" as RGB (k, 3)."""
     return np.array([[int(word[k : k + 2], 16) / 255 for k in (1, 3, 5)] for word in words])
 
 
 def _straight(first: str, last: str) -> Stops:
-    """The straight way from colour to colour, on which lightness, too, goes evenly."""
+    """Return the straight way from colour to colour, on which lightness, too, goes evenly."""
     ends = oklab(_hex(first, last))
     share = np.linspace(0, 1, STOPS)[:, None]
     return _stops(srgb(ends[:1] + share * (ends[1:] - ends[:1])))
 
 
 def _arc() -> Stops:
-    """Evenly lighter and evenly on in hue, dark violet to light yellow by way of red: steps of one size."""
+    """Return a map of equal steps in lightness and hue, from dark violet through red to light yellow."""
     share = np.linspace(0, 1, STOPS)
     lightness, hue = 0.24 + 0.59 * share, np.radians(-55 + 148 * share)
     colour = 0.165 * np.sin(np.pi * (0.2 + 0.6 * share))
@@ -55,7 +55,7 @@ def _arc() -> Stops:
 
 
 def _both_ways(below: str, middle: str, above: str) -> Stops:
-    """From the middle, at 0, to both ends, at -1 and 1: evenly darker, and soon coloured."""
+    """Return a map from the middle, at 0, to both ends, at -1 and 1: evenly darker, and soon coloured."""
     sides = []
     for end in (below, above):
         start, stop = oklab(_hex(middle, end))
@@ -132,25 +132,25 @@ MAPS = {
 
 
 def lightened(stops: Stops) -> Stops:
-    """The map without what is too dark at its beginning to be seen on a dark ground."""
+    """Return the map without what is too dark at its beginning to be seen on a dark ground."""
     places = np.linspace(0, 1, 257)
     light = np.flatnonzero(oklab(colours_at(stops, places))[:, 0] >= SEEN_ON_DARK)
     return _stops(colours_at(stops, np.linspace(places[light[0]], 1, STOPS)))
 
 
 def goes_both_ways(stops: Stops) -> bool:
-    """Whether the middle is much lighter, or much darker, than both ends: such a map also shows what is signed."""
+    """Return whether the middle is much lighter or darker than both ends, so that the map also suits signed fields."""
     first, middle, last = oklab(colours_at(stops, np.array([0.0, 0.5, 1.0])))[:, 0]
     return bool(middle > max(first, last) + 0.15 or middle < min(first, last) - 0.15)
 
 
 def colours_at(stops: Stops, shares: FloatArray) -> FloatArray:
-    """(k, 3) the colours at shares (k,)."""
+    """Return the colours (k, 3) at fractions (k,)."""
     places, colours = (np.array(each) for each in zip(*stops, strict=True))
     return np.stack([np.interp(shares, places, each) for each in colours.T], 1)
 
 
 def backwards(stops: Stops) -> Stops:
-    """The same from the end."""
+    """Return the same from the end."""
     first, last = stops[0][0], stops[-1][0]
     return tuple((first + last - place, colour) for place, colour in reversed(stops))

@@ -1,4 +1,4 @@
-"""Where insets stand in a view, and the lines that join them to what they enlarge: one rule for window and figures.
+"""Places of insets in a view, and the lines that join them to what they enlarge, for window and figures alike.
 
 Boxes are left, right, bottom, top, in pixels of the view, y up.
 """
@@ -9,7 +9,7 @@ import numpy as np
 
 from bihdist_core.arrays import AnyArray, BoolArray, FloatArray
 
-from ..document.document import Zoom
+from ..document.document import Inset
 
 SIDE = 0.40
 """Of an inset, as a share of the shorter side of its view."""
@@ -30,7 +30,7 @@ Rectangle = tuple[float, float, float, float]
 
 
 def corner_boxes(size: tuple[float, float], side: float, gap: float) -> dict[str, Rectangle]:
-    """By name: where an inset in a corner of a view stands."""
+    """Return the box of an inset in each corner of a view, by name."""
     width, height = size
     right, top = (width - gap - side, width - gap), (height - gap - side, height - gap)
     left, bottom = (gap, gap + side), (gap, gap + side)
@@ -42,28 +42,37 @@ def corner_boxes(size: tuple[float, float], side: float, gap: float) -> dict[str
     }
 
 
-def source_box(place: FloatArray, side: float, zoom: Zoom) -> Rectangle:
-    """What an inset enlarges, around a place (2,)."""
-    half = side / zoom.factor / 2
+def source_box(place: FloatArray, side: float, inset: Inset) -> Rectangle:
+    """Return the box around a place (2,) that an inset enlarges."""
+    half = side / inset.factor / 2
     x, y = map(float, place)
     return x - half, x + half, y - half, y + half
 
 
 def chosen_corners(
-    zooms: Sequence[Zoom],
+    insets: Sequence[Inset],
     boxes: dict[str, Rectangle],
     sources: Sequence[Rectangle],
     surface: FloatArray,
     marks: FloatArray,
 ) -> list[str]:
-    """A corner for each zoom: its own, or the one that hides the least.
+    """Return a corner for each inset: its own, or the one that hides the least.
 
-    surface: (k, 2) places all over the surface; marks: (k, 2) places that must be seen, as what is enlarged must.
+    Parameters
+    ----------
+    boxes
+        Boxes of the corners by name.
+    sources
+        What the insets enlarge.
+    surface
+        (k, 2) places all over the surface.
+    marks
+        (k, 2) places that must be seen, as what is enlarged must.
     """
     taken, found = list(sources), []
     wide = max(max(box) for box in boxes.values())
-    for zoom, source in zip(zooms, sources, strict=True):
-        if zoom.corner == "auto":
+    for inset, source in zip(insets, sources, strict=True):
+        if inset.corner == "auto":
             hidden = {
                 name: cover(box, surface)
                 + _meetings(box, taken)
@@ -74,13 +83,13 @@ def chosen_corners(
             }
             found.append(min(boxes, key=lambda name: hidden[name]))
         else:
-            found.append(zoom.corner)
+            found.append(inset.corner)
         taken.append(boxes[found[-1]])
     return found
 
 
 def cover(box: Rectangle, places: FloatArray) -> float:
-    """The share of a box where the surface is seen; places: (k, 2) all over it, NaN for unseen ones."""
+    """Return the fraction of a box where the surface is seen; `places` (k, 2) are all over it, NaN for unseen ones."""
     left, right, bottom, top = box
     cells = np.floor((places - (left, bottom)) / (right - left, top - bottom) * CELLS)
     within = cells[((cells >= 0) & (cells < CELLS)).all(axis=1)]
@@ -88,9 +97,11 @@ def cover(box: Rectangle, places: FloatArray) -> float:
 
 
 def joins(source: Rectangle, box: Rectangle, is_taken: Callable[[FloatArray], BoolArray]) -> list[AnyArray]:
-    """Lines (2, 2) between equal corners of an inset and of what it enlarges that run through neither.
+    """Return lines (2, 2) between equal corners of an inset and of what it enlarges that run through neither.
 
-    is_taken: which of places (k, 2) are on the surface or another inset; a line that crosses these is left out.
+    Lines that cross much of what is taken are left out; `is_taken` tells which of places (k, 2) lie on the surface or
+    on
+    another inset.
     """
     found = []
     for x in (0, 1):
@@ -105,7 +116,7 @@ def joins(source: Rectangle, box: Rectangle, is_taken: Callable[[FloatArray], Bo
 def taken_by(
     places: FloatArray, size: tuple[float, float], boxes: Sequence[Rectangle]
 ) -> Callable[[FloatArray], BoolArray]:
-    """Which of points (k, 2) lie near one of many places (m, 2) of a view of this size, or in one of the boxes."""
+    """Return a function that tells which of points (k, 2) lie near places (m, 2) of a view, or in one of the boxes."""
     cell = max(min(size), 1) / FINE_CELLS
     known = places[np.isfinite(places).all(axis=1)]
     taken = {tuple(each) for each in np.unique(np.floor(known / cell).astype(int), axis=0).tolist()}
@@ -120,12 +131,12 @@ def taken_by(
 
 
 def inside(points: FloatArray, box: Rectangle) -> BoolArray:
-    """Which of points (k, 2) lie in a box."""
+    """Return which of points (k, 2) lie in a box."""
     x, y = points.T
     is_inside: BoolArray = (box[0] < x) & (x < box[1]) & (box[2] < y) & (y < box[3])
     return is_inside
 
 
 def _meetings(box: Rectangle, others: Sequence[Rectangle]) -> int:
-    """How many of the others a box meets."""
+    """Return the number of other boxes that a box meets."""
     return sum(box[0] < b[1] and b[0] < box[1] and box[2] < b[3] and b[2] < box[3] for b in others)

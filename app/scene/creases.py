@@ -21,14 +21,22 @@ a car and an aeroplane."""
 
 @dataclass(frozen=True, eq=False)
 class Split:
-    """faces: (m, 3) ids of what is drawn: the surface's own, and from n on copies of its vertices (k,)."""
+    """Faces with copies of vertices on each side of creases.
+
+    Attributes
+    ----------
+    faces
+        (m, 3) points of what is drawn; those from n on are copies.
+    copies
+        (k,) vertices that are copied.
+    """
 
     faces: IntArray
     copies: IntArray
 
 
 def face_normals(vertices: FloatArray, faces: IntArray) -> list[FloatArray]:
-    """Three (m,), the coordinates of normals, whose lengths are twice the faces' areas."""
+    """Return the x, y and z (m,) of normals that are twice as long as the faces' areas."""
     x = np.ascontiguousarray(vertices.T)
     p, q, r = (x.take(faces[:, k], axis=1) for k in range(3))
     a, b = q - p, r - p
@@ -36,7 +44,7 @@ def face_normals(vertices: FloatArray, faces: IntArray) -> list[FloatArray]:
 
 
 def point_normals(normals: list[FloatArray], faces: IntArray, n: int) -> AnyArray:
-    """(n, 3) float32 of length 1, 0 at no face: along the mean of the normals, three (m,), of a vertex' faces."""
+    """Return unit normals (n, 3) float32 along the mean of those of a vertex' faces; 0 for a vertex of no face."""
     corners = np.ascontiguousarray(faces.T)
     sums = [np.zeros(n) for _ in normals]
     for ids in corners:
@@ -47,9 +55,9 @@ def point_normals(normals: list[FloatArray], faces: IntArray, n: int) -> AnyArra
 
 
 def bends(normals: list[FloatArray], wound: Winding) -> FloatArray:
-    """(e,) the cosines of the angles at which faces meet at the edges of two; 1 where one has no area.
+    """Return the cosines (e,) of the angles at which two faces meet; 1 where one has no area.
 
-    normals: of length 1, of the faces as they are to be wound.
+    The normals are of unit length, of the faces as they are to be wound.
     """
     m = len(wound.turn)
     f, g = wound.left % m, wound.right % m
@@ -62,8 +70,10 @@ def bends(normals: list[FloatArray], wound: Winding) -> FloatArray:
 
 
 def has_creases(surface: Surface, edges: IntArray, cosines: FloatArray, crease: float) -> bool:
-    """Whether edges (e,), with cosines (e,), are those of a made thing: with creases of more than so many degrees and
-    little that is nearly one."""
+    """Return whether edges (e,) with cosines (e,) are those of a made thing.
+
+    It has creases of more than so many degrees, and few edges that are nearly creases.
+    """
     bent = np.flatnonzero(cosines < np.cos(np.radians(NEARLY * crease)))
     i, j = surface.edges[edges[bent]].T
     lengths = np.linalg.norm(surface.vertices[i] - surface.vertices[j], axis=1)
@@ -73,9 +83,9 @@ def has_creases(surface: Surface, edges: IntArray, cosines: FloatArray, crease: 
 
 
 def split(surface: Surface, wound: Winding, is_cut: BoolArray) -> Split:
-    """The surface's faces with vertices of their own on each side of the edges that are cut; is_cut: (e,) of all edges.
+    """Return the surface's faces with separate vertices on each side of the edges (e,) that are cut.
 
-    At an end of a cut, faces stay together that can be reached from each other without crossing one.
+    At an end of a cut, faces that can be reached from each other without crossing one stay together.
     """
     faces, m, n, ends = surface.faces, len(surface.faces), len(surface.vertices), surface.edges
     cut = ends[is_cut]
@@ -107,7 +117,7 @@ def split(surface: Surface, wound: Winding, is_cut: BoolArray) -> Split:
 
 
 def _ends(side: IntArray, corner: IntArray, m: int) -> tuple[IntArray, IntArray]:
-    """The corners (face + m * corner) at the two ends of sides, that of the smaller vertex first."""
+    """Return the corners (face + m * corner) at the two ends of sides, that of the smaller vertex first."""
     a, b = side, side % m + (side // m + 1) % 3 * m
     swap = corner.take(a) > corner.take(b)
     return np.where(swap, b, a), np.where(swap, a, b)

@@ -20,7 +20,7 @@ RGB = tuple[int, int, int]
 
 
 def cell_size(count: int) -> int:
-    """Pixels that a cell is wide for so many points."""
+    """Return the width of a cell in pixels for so many points."""
     return next((size for most, size in COARSE if count <= most), 1)
 
 
@@ -30,10 +30,14 @@ def density_picture(
     ink: RGB,
     selections: Sequence[tuple[AnyArray, RGB]] = (),
 ) -> ByteArray:
-    """(rows, columns, 4) uint8 colours and alpha, the uppermost row first.
+    """Return a picture (rows, columns, 4) uint8, in which a cell is as dark as the logarithm of its number of points.
 
-    grid: columns, rows, and the ends of both axes.  A cell is as dark as the logarithm of how many points are in it.
-    selections: vertices (k,), each with a colour that their cells have, the last on top.
+    Parameters
+    ----------
+    grid
+        Columns, rows, and the ends of both axes.
+    selections
+        Vertices (k,), each with a colour for their cells, the last on top.
     """
     columns, rows = grid[:2]
     cell, there = scatter.cells(*grid)
@@ -51,7 +55,7 @@ def density_picture(
 
 
 def axis_ends(scatter: FieldScatter, is_common: bool) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Where both axes end, with room beside the outermost points; is_common: at the same values."""
+    """Return the ends of both axes, with room beside the outermost points; with `is_common` the same for both."""
     across, up = scatter.ends
     if is_common:
         across = up = min(across[0], up[0]), max(across[1], up[1])

@@ -1,5 +1,7 @@
 """A surface as VTK draws it: with normals, in the surface's own vertex ids, and copies of those at creases."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -10,30 +12,27 @@ from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 
 from ..document.looks import AS_IT_IS, Shading
 from .creases import bends, face_normals, has_creases, point_normals, split, to_length_one
-from .winding import winding
+from .winding import Winding, winding
 
 _COPIES, _BACKS = "copies", "backs"
 
 
 def drawable(surface: Surface, shading: Shading = AS_IT_IS) -> vtkPolyData:
-    """The surface with point normals; its memory is shared where no face has to be turned over and nothing is split.
+    """Return the surface for VTK, with point normals.
 
     The faces are the surface's, in their order.  Vertex k of the surface is point k; points from n on are `copies_of`
-    vertices.  Flat shading needs no normals of its own.  Safe to call on a background thread.
+    vertices.  The memory is shared where no face has to be turned over and nothing is split.  Flat shading needs no
+    normals
+    of its own.  Safe to call on a background thread.
     """
-    normals = face_normals(surface.vertices, surface.faces)
-    wound = winding(surface, normals)
-    to_length_one(normals)
-    if wound.turn.any():
-        for x in normals:
-            np.negative(x, out=x, where=wound.turn)
+    wound, normals = _wound(surface)
     is_cut = np.zeros(len(surface.edges), bool)
     # Faces wound against each other have normals that point to opposite sides.
     is_cut[wound.edges] = wound.is_turned
     if shading.normals in ("auto", "creased"):
         cosines = bends(normals, wound)
-        if shading.normals == "creased" or has_creases(surface, wound.edges, cosines, shading.crease):
-            is_cut[wound.edges] |= cosines < np.cos(np.radians(shading.crease))
+        if shading.normals == "creased" or has_creases(surface, wound.edges, cosines, shading.feature_angle):
+            is_cut[wound.edges] |= cosines < np.cos(np.radians(shading.feature_angle))
             is_cut |= surface.faces_per_edge > 2
     drawn = split(surface, wound, is_cut)
     vertices, faces = surface.vertices, wound.faces(drawn.faces)
@@ -49,32 +48,39 @@ def drawable(surface: Surface, shading: Shading = AS_IT_IS) -> vtkPolyData:
     return mesh
 
 
+def _wound(surface: Surface) -> tuple[Winding, list[FloatArray]]:
+    """Return the winding of the faces, and their normals as three arrays (m,), of length 1, wound so."""
+    normals = face_normals(surface.vertices, surface.faces)
+    wound = winding(surface, normals)
+    to_length_one(normals)
+    if wound.turn.any():
+        for x in normals:
+            np.negative(x, out=x, where=wound.turn)
+    return wound, normals
+
+
 def crease_of(surface: Surface, shading: Shading) -> float | None:
-    """The degrees from which on faces that meet are drawn with an edge: 0 for all of them, None for none."""
+    """Return the degrees from which on faces that meet are drawn with an edge: 0 for all of them, None for none."""
     if shading.normals == "smooth":
         return None
     if shading.normals == "flat":
         return 0.0
-    normals = face_normals(surface.vertices, surface.faces)
-    wound = winding(surface, normals)
-    to_length_one(normals)
-    for x in normals:
-        np.negative(x, out=x, where=wound.turn)
+    wound, normals = _wound(surface)
     is_creased = shading.normals == "creased" or has_creases(
-        surface, wound.edges, bends(normals, wound), shading.crease
+        surface, wound.edges, bends(normals, wound), shading.feature_angle
     )
-    return shading.crease if is_creased else None
+    return shading.feature_angle if is_creased else None
 
 
 def normals_shading(shading: Shading) -> Shading:
-    """The same for all kinds of shading that `drawable` makes the same mesh for."""
+    """Return the same for all kinds of shading that `drawable` makes the same mesh for."""
     if shading.normals in ("smooth", "flat"):
         return Shading("smooth")
-    return Shading(shading.normals, shading.crease)
+    return Shading(shading.normals, shading.feature_angle)
 
 
 def poly_data(vertices: FloatArray, faces: IntArray, normals: AnyArray) -> vtkPolyData:
-    """Vertices (n, 3) with normals (n, 3), and faces (m, 3), in their own memory."""
+    """Return vertices (n, 3), normals (n, 3) and faces (m, 3) for VTK, which shares their memory."""
     points = vtkPoints()
     points.SetData(numpy_to_vtk(vertices))
     cells = vtkCellArray()
@@ -88,13 +94,13 @@ def poly_data(vertices: FloatArray, faces: IntArray, normals: AnyArray) -> vtkPo
 
 
 def copies_of(mesh: vtkPolyData) -> IntArray:
-    """(k,) of which vertices of the surface the points behind its own are copies."""
+    """Return the vertices (k,) of the surface of which the points after its own are copies."""
     array = mesh.GetFieldData().GetArray(_COPIES)
     return np.empty(0, np.int64) if array is None or not array.GetNumberOfTuples() else vtk_to_numpy(array)
 
 
 def faces_of(mesh: vtkPolyData) -> IntArray:
-    """(m, 3) the points of its faces."""
+    """Return the points (m, 3) of a mesh's faces."""
     faces: IntArray = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
     return faces
 
@@ -107,20 +113,35 @@ def with_backs_of(mesh: vtkPolyData, other: vtkPolyData) -> None:
 
 
 def has_backs(mesh: vtkPolyData) -> bool:
-    """Whether the inside of a body can be seen."""
+    """Return whether the inside of a body can be seen."""
     array = mesh.GetFieldData().GetArray(_BACKS)
     return array is not None and bool(array.GetValue(0))
 
 
 def outward_faces(mesh: vtkPolyData) -> IntArray | None:
-    """(m, 3) vertices of the surface's faces, wound so that they go round to the left seen from outside.
-
-    None if no inside can be seen.
-    """
+    """Return the vertices (m, 3) of faces, counter-clockwise seen from outside; None if no inside can be seen."""
     return vertex_faces(mesh) if has_backs(mesh) else None
 
 
 def vertex_faces(mesh: vtkPolyData) -> IntArray:
-    """(m, 3) vertices of the surface's faces, wound as they are drawn."""
+    """Return the surface's vertices (m, 3) of faces as they are drawn."""
     copies = copies_of(mesh)
     return np.append(np.arange(mesh.GetNumberOfPoints() - len(copies)), copies)[faces_of(mesh)]
+
+
+def warp_by_scalar(surface: Surface, field: FloatArray, top: float, up: float) -> Surface:
+    """Return a flat surface raised along z by a field (n,), by `up` where that is `top`, and not where it is NaN."""
+    x = surface.vertices
+    share = np.clip(np.nan_to_num(field / top), -1, 1) if top > 0 else np.zeros(len(x))
+    return Surface(np.column_stack([x[:, :2], x[:, 2] + up * share]), surface.faces, surface.name)
+
+
+def bounds_of(points: FloatArray) -> list[float]:
+    """Return the bounds (x, x, y, y, z, z) of points (n, 3)."""
+    bounds: list[float] = np.stack([points.min(axis=0), points.max(axis=0)], axis=1).ravel().tolist()
+    return bounds
+
+
+def rise(bounds: Sequence[float], height: float) -> float:
+    """Return the height of a height field: a fraction of the longest side of bounds (x, x, y, y, z, z)."""
+    return height * max(high - low for low, high in zip(bounds[::2], bounds[1::2], strict=True))

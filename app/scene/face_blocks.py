@@ -1,16 +1,16 @@
-"""Where a straight way first meets a surface: the faces in blocks of neighbours, and a box around each block.
+"""Search for the face that a ray meets first: the faces in blocks of neighbours, and a box around each block.
 
 Only NumPy, whose sorts, gathers and sums release the interpreter lock, so that the window stays awake while another
 thread makes the blocks of a large mesh.  VTK's locators hold the lock for as long as they are built, 0.4 s for a
 million vertices; figures, drawn in a process of their own, use one (`figures.hidden_lines`), whose rays are quicker.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from bihdist_core import Surface
-from bihdist_core.arrays import FloatArray, IntArray
-
-from .z_order import z_order
+from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 
 BLOCK = 128
 """Faces in a block: looking at all boxes of a million faces then costs about as much as looking into those that a
@@ -36,10 +36,11 @@ class FaceBlocks:
         self._largest = float(np.abs(self._centres).max() + self._halves.max())
 
     def first_hit(self, start: FloatArray, end: FloatArray) -> tuple[int, FloatArray, FloatArray] | None:
-        """The face met first on the way from start (3,) to end (3,), its corners' weights (3,), and the point (3,) met.
+        """Return the first face on the way from start (3,) to end (3,), the weights (3,) of its corners, and the place.
 
-        None if there is none.  No way slips through between two faces with a common edge: both decide about it by the
-        same numbers.  Faces seen edge-on are not met.
+        None if there is none.  No way slips through between two faces with a common edge, as both decide by the same
+        numbers.
+        Faces seen edge-on are not met.
         """
         length = float(np.linalg.norm(end - start))
         if length == 0:
@@ -67,8 +68,13 @@ class FaceBlocks:
         face = int(faces[inside[first]])
         return face, weights[:, first], self._x[:, self._faces[face]] @ weights[:, first]
 
+    def sees(self, eye: FloatArray, point: FloatArray, slack: float) -> bool:
+        """Return whether an eye (3,) sees a point (3,) of the surface; faces within `slack` of that hide nothing."""
+        hit = self.first_hit(eye, point)
+        return hit is None or bool(np.linalg.norm(hit[2] - point) <= slack)
+
     def _boxes(self) -> tuple[FloatArray, FloatArray]:
-        """(3, b) centres of the blocks' boxes and (3, b) halves of their sides."""
+        """Return the centres (3, b) of the blocks' boxes, and halves (3, b) of their sides."""
         low, high = np.empty((3, len(self._blocks))), np.empty((3, len(self._blocks)))
         for begin in range(0, len(self._blocks), BLOCKS_AT_ONCE):
             part = slice(begin, begin + BLOCKS_AT_ONCE)
@@ -80,7 +86,7 @@ class FaceBlocks:
 
 
 def _along_a_curve(x: FloatArray, faces: IntArray) -> IntArray:
-    """(m,) the faces in the order in which Morton's curve meets the cells of their first corners; x (3, n)."""
+    """Return the faces (m,) in the order of their first corners' cells along Morton's curve; x is (3, n)."""
     first = x.take(faces[:, 0], axis=1)
     low = first.min(axis=1)
     longest = float((first.max(axis=1) - low).max()) or 1.0
@@ -94,9 +100,24 @@ def _along_a_curve(x: FloatArray, faces: IntArray) -> IntArray:
 
 
 def _across(along: FloatArray) -> FloatArray:
-    """(2, 3) two unit vectors at right angles to a unit vector (3,) and to each other."""
+    """Return two unit vectors (2, 3) at right angles to a unit vector (3,) and to each other."""
     axis = np.zeros(3)
     axis[np.abs(along).argmin()] = 1
     first = np.cross(along, axis)
     first /= np.linalg.norm(first)
     return np.stack([first, np.cross(along, first)])
+
+
+def z_order(cells: Sequence[AnyArray], bits: int) -> AnyArray:
+    """Return the numbers (n,) of cells along Morton's curve, in the smallest type that holds them.
+
+    The cells have a whole number (n,) from 0 to 2 ** bits - 1 on each axis.
+    """
+    count = len(cells)
+    dtype = np.min_scalar_type((1 << count * bits) - 1)
+    cell = np.arange(1 << bits)
+    spread = np.sum([(cell >> bit & 1) << count * bit for bit in range(bits)], axis=0).astype(dtype)
+    codes: AnyArray = np.bitwise_or.reduce(
+        [spread.take(of_axis) << dtype.type(axis) for axis, of_axis in enumerate(cells)]
+    )
+    return codes

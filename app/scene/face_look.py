@@ -1,6 +1,7 @@
 """How faces look before light falls on them: whose side they show, and their edges; as pieces of VTK's shaders."""
 
-from vtkmodules.vtkRenderingCore import vtkShaderProperty
+from vtkmodules.vtkCommonDataModel import vtkDataObject
+from vtkmodules.vtkRenderingCore import vtkPolyDataMapper, vtkShaderProperty
 
 EDGE_WIDTH = 0.8
 """Pixels of an edge of the mesh, at scale 1."""
@@ -54,11 +55,22 @@ _EDGES = f"""
 """
 
 
-def put_face_look(shader: vtkShaderProperty, has_edges: bool, has_colours: bool = False) -> None:
-    """Let faces look like this; the uniforms are `hasBacks`, `backColour`, `edgeColour`, `edgeOnDark`, `edgeScale`.
+def map_attribute(mapper: vtkPolyDataMapper, attribute: str, array: str) -> None:
+    """Hand an array of the points to the vertex shader under a name."""
+    mapper.MapDataArrayToVertexAttribute(attribute, array, vtkDataObject.FIELD_ASSOCIATION_POINTS, -1)
 
-    has_edges: needs the property's EdgeVisibilityOn, and EdgeOpacity 0, so that VTK's own edges are not seen.
-    has_colours: with the attribute `coloursAt`, colours multiplied by alpha.
+
+def put_face_look(shader: vtkShaderProperty, has_edges: bool, has_colours: bool = False) -> None:
+    """Add the look of faces to a shader.
+
+    Its uniforms are `hasBacks`, `backColour`, `edgeColour`, `edgeOnDark` and `edgeScale`.
+
+    Parameters
+    ----------
+    has_edges
+        Whether edges are drawn; the property needs EdgeVisibilityOn, and EdgeOpacity 0 to hide VTK's own edges.
+    has_colours
+        Whether there is an attribute `coloursAt`, of colours multiplied by alpha.
     """
     own = (_CARRIED if has_colours else f"{_COLOUR}\n") + _BACK.removeprefix(f"{_COLOUR}\n")
     shader.AddFragmentShaderReplacement(_COLOUR, True, own, False)
@@ -66,9 +78,11 @@ def put_face_look(shader: vtkShaderProperty, has_edges: bool, has_colours: bool 
 
 
 def pass_on(shader: vtkShaderProperty, *attributes: tuple[str, str, str]) -> None:
-    """Hand vertex attributes to the fragment shader, also past a geometry shader: all in one call, as the last counts.
+    """Hand vertex attributes to the fragment shader, also past a geometry shader, in one call, as the last one counts.
 
-    attributes: each with its name there, and its kind in GLSL.  VTK renames what ends in VSOut where there is one.
+    Each attribute comes with its name there and its type in GLSL.  VTK renames what ends in VSOut where there is a
+    geometry
+    shader.
     """
     lines: dict[str, list[str]] = {part: [] for part in ("vertex", "set", "geometry", "copy", "fragment")}
     for attribute, name, kind in attributes:

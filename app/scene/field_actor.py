@@ -7,18 +7,18 @@ of a value that has a line, measured in pixels.  Lines so drawn have the same wi
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkLookupTable
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
 from bihdist_core.arrays import AnyArray, ByteArray, FloatArray
 
 from ..document.looks import MOST_ISOLINES, NO_LINES, TWENTY_STEPS, Isolines, Shading
 from .drawable import copies_of, has_backs
-from .face_look import pass_on, put_face_look
+from .face_look import map_attribute, pass_on, put_face_look
 from .levels import BOLD, ZERO, Levels, levels, too_many
 from .selected import PAINT_SELECTED
 from .stand_in import StandInActor
-from .style import RIM, Style
+from .style import CASING, RIM, Style
 
 UNDEFINED = -1000.0
 """Stands for NaN in the scalars: shares are never negative, and the shader needs a number.  As far from them as VTK
@@ -33,9 +33,6 @@ TINTS = ("selected", "colours")
 _LIT = "//VTK::Light::Impl"
 MOST_LINES = 2 * MOST_ISOLINES + 64
 """That the shader has room for: on both sides of 0, and through points."""
-
-CASING = 1.2
-"""Pixels, at scale 1, of the dark rim of a line through a point."""
 
 # Values are in order.  Of the two lines nearest in value, one below and one above, the wider is painted last.
 _PAINT = """
@@ -82,7 +79,10 @@ _PAINT = """
 
 
 class FieldActor:
-    """One surface with one field, for any VTK renderer.  `scale`: device pixels per pixel of the style's widths."""
+    """A surface with a field, for any VTK renderer.
+
+    `scale` is the number of device pixels in a pixel of the style's widths.
+    """
 
     def __init__(self, style: Style, scale: float = 1.0) -> None:
         self.style = style
@@ -92,7 +92,7 @@ class FieldActor:
         self.maximum = 1.0
         self.mesh = vtkPolyData()
         self._mapper = vtkPolyDataMapper()
-        self._isolines = TWENTY_STEPS
+        self.isolines = TWENTY_STEPS
         self._through: tuple[float, ...] = ()
         self._edges = np.empty(0)
         self._own_maximum, self._has_lines = 1.0, True
@@ -103,7 +103,7 @@ class FieldActor:
         self._passed_on: set[str] = set()  # of these, what reaches the shader
         self._make()
         self.stand_in = StandInActor(self.actor)
-        self.show_isolines(self._isolines, self._through)
+        self.show_isolines(self.isolines, self._through)
         self.set_scale(scale)
         self.actor.VisibilityOff()
 
@@ -113,7 +113,7 @@ class FieldActor:
         self._put_mesh(mesh, np.full(count, UNDEFINED, np.float32))
 
     def show_normals(self, mesh: vtkPolyData) -> None:
-        """The same surface, made by `drawable` with another shading; its field stays."""
+        """Show the same surface, made by `drawable` with another shading; its field stays."""
         count = mesh.GetNumberOfPoints() - len(copies_of(mesh))
         self._put_mesh(mesh, self._values[:count])
 
@@ -136,11 +136,11 @@ class FieldActor:
         self.actor.VisibilityOn()
 
     def show_selected(self, colours: ByteArray | None) -> None:
-        """Vertices that stand out: (n, 4) uint8, see `selected_colours`; None for no such."""
+        """Tint vertices that stand out with colours (n, 4) uint8, see `selected_colours`; None for none."""
         self._tint("selected", colours)
 
     def show_colours(self, colours: FloatArray) -> None:
-        """Colours (n, 3) of its own, from 0 to 1, instead of a field; grey where they are NaN."""
+        """Show colours (n, 3) from 0 to 1 instead of a field, grey where they are NaN."""
         self.show_bare()
         known = np.isfinite(colours).all(axis=1)
         tint = np.zeros((len(colours), 4), np.uint8)
@@ -160,12 +160,10 @@ class FieldActor:
         self._pass_tints(set(self._tints))
 
     def _pass_tints(self, names: set[str]) -> None:
-        """Which of these arrays reach the shader, and are painted."""
+        """Hand those of TINTS that are named to the shader, which paints them."""
         for name in TINTS:
             if name in names:
-                self._mapper.MapDataArrayToVertexAttribute(
-                    f"{name}Attribute", name, vtkDataObject.FIELD_ASSOCIATION_POINTS, -1
-                )
+                map_attribute(self._mapper, f"{name}Attribute", name)
             else:
                 self._mapper.RemoveVertexAttributeMapping(f"{name}Attribute")
         if names != self._passed_on:
@@ -175,9 +173,7 @@ class FieldActor:
     def _draw(self, own: vtkPolyData) -> None:
         self._own = own
         self._mapper.SetInputData(own)
-        self._mapper.MapDataArrayToVertexAttribute(
-            "isolineAttribute", "distance", vtkDataObject.FIELD_ASSOCIATION_POINTS, -1
-        )
+        map_attribute(self._mapper, "isolineAttribute", "distance")
 
     def follow(self, other: "FieldActor", isolines: Isolines) -> None:
         """Show what another one shows now, from the same memory, with isolines of its own."""
@@ -197,7 +193,7 @@ class FieldActor:
             self._pass_tints(other._passed_on)
         if self.stand_in.stand_in is not other.stand_in.stand_in:
             self.stand_in.take(other.stand_in.stand_in)
-        self.show_stand_in(bool(other.stand_in.actor.GetVisibility()))
+        self.show_stand_in(other.stand_in.is_shown)
         self.actor.SetVisibility(other.actor.GetVisibility())
         shown = (isolines, other._through, other.maximum, other._own_maximum, other.is_signed, other._has_lines)
         if shown != self._followed:
@@ -208,9 +204,16 @@ class FieldActor:
     def show_field(
         self, field: AnyArray, maximum: float | None = None, signed: bool = False, has_lines: bool = True
     ) -> None:
-        """Colour the surface by a field (n,), 0 to `maximum` (the field's own if not given); NaN is grey.
+        """Colour the surface by a field (n,); NaN is grey.
 
-        signed: from -maximum to maximum, in the diverging colours, with a bold line at 0.  has_lines: with isolines.
+        Parameters
+        ----------
+        maximum
+            Upper colour limit, the field's own maximum if None.
+        signed
+            Whether colours go from -maximum to maximum, in the diverging map, with a line of its own at 0.
+        has_lines
+            Whether there are isolines.
         """
         if "colours" in self._tints:
             self._tint("colours", None)
@@ -226,17 +229,17 @@ class FieldActor:
         if signed != self.is_signed:
             self.is_signed = signed
             self._set_colours()
-        self.show_isolines(self._isolines, self._through)
+        self.show_isolines(self.isolines, self._through)
 
     def show_bare(self, is_plain: bool = False) -> None:
-        """All of the surface grey; is_plain: as one that is meant to have no field."""
+        """Show the surface in grey; `is_plain` for one that is meant to have no field."""
         self._be_plain(is_plain)
         if "colours" in self._tints:
             self._tint("colours", None)
         self._values[:] = UNDEFINED
         self._array.Modified()
         self.maximum = self._own_maximum = 0.0
-        self.show_isolines(self._isolines, self._through)
+        self.show_isolines(self.isolines, self._through)
 
     def _be_plain(self, is_plain: bool) -> None:
         if is_plain != self._is_plain:
@@ -244,8 +247,8 @@ class FieldActor:
             self._set_colours()
 
     def show_isolines(self, isolines: Isolines, through: tuple[float, ...] = ()) -> None:
-        """These, and one of each value `through`, which stands out."""
-        self._isolines, self._through = isolines, through
+        """Show these isolines, and one at each value `through`, which stands out."""
+        self.isolines, self._through = isolines, through
         found = self.levels
         shares = found.values / self.maximum if self.maximum > 0 else found.values
         at = (shares + 1) / 2 if self.is_signed else shares
@@ -261,14 +264,14 @@ class FieldActor:
             self._uniforms.SetUniform1fv(name, MOST_LINES, padded.tolist())
 
     def show_bands(self, edges: FloatArray) -> None:
-        """Where bands, if the style has any, end: shares (k,) of the maximum."""
+        """Show bands that end at fractions (k,) of the maximum, if the style has any."""
         if not np.array_equal(edges, self._edges):
             self._edges = edges
             if self.style.bands:
                 self._set_colours()
 
     def _set_colours(self) -> None:
-        """The field has another sign, or other bands."""
+        """Take the colours of the style for the sign of the field and its bands."""
         self.table = lookup_table(self.style, self.is_signed, self._edges)
         if self._is_plain:
             self.table.SetBelowRangeColor(*self.style.plain, 1)
@@ -276,9 +279,9 @@ class FieldActor:
 
     def _take_table(self) -> None:
         self._mapper.SetLookupTable(self.table)
-        rim = self.style.rim(self.is_signed, 1.0) or (0.0, 0.0, 0.0, 0.0)
+        rim = self.style.isoline_ink(self.is_signed).rim or (0.0, 0.0, 0.0, 0.0)
         self._uniforms.SetUniform3f("isolineColour", self.style.isoline)
-        self._uniforms.SetUniform3f("isolineZeroColour", self.style.line(self.is_signed))
+        self._uniforms.SetUniform3f("isolineZeroColour", self.style.isoline_ink(self.is_signed, 0.0).colour[:3])
         self._uniforms.SetUniform3f("isolineRimColour", rim[:3])
         self._uniforms.SetUniformf("isolineRimOpacity", rim[3])
         self._uniforms.SetUniform3f("isolineThroughColour", self.style.source)
@@ -286,31 +289,26 @@ class FieldActor:
         self._uniforms.SetUniformf("isolineSigned", float(self.is_signed))
 
     @property
-    def isolines(self) -> Isolines:
-        """What says where they are."""
-        return self._isolines
-
-    @property
     def levels(self) -> Levels:
         """The values that have a line."""
-        isolines = self._isolines if self._has_lines else NO_LINES
+        isolines = self.isolines if self._has_lines else NO_LINES
         return levels(isolines, self.maximum, self._own_maximum, self.is_signed, self._through)
 
     @property
     def too_many(self) -> str:
         """A sentence where a spacing makes more lines than are drawn, so that none are; else ""."""
-        return too_many(self.levels, self._isolines, self._own_maximum)
+        return too_many(self.levels, self.isolines, self._own_maximum)
 
     def show_shading(self, shading: Shading) -> None:
-        """Whether faces are flat, and edges drawn; where normals are split, `drawable` has done."""
+        """Set whether faces are flat, and edges drawn; where normals are split, `drawable` has done."""
         look = self.actor.GetProperty()
         if shading.normals == "flat":
             look.SetInterpolationToFlat()
         else:
             look.SetInterpolationToGouraud()
-        if bool(look.GetEdgeVisibility()) != shading.wireframe:
-            look.SetEdgeVisibility(shading.wireframe)
-            self._put_shaders(shading.wireframe)
+        if bool(look.GetEdgeVisibility()) != shading.show_edges:
+            look.SetEdgeVisibility(shading.show_edges)
+            self._put_shaders(shading.show_edges)
 
     def show_stand_in(self, is_shown: bool) -> None:
         """Draw what `stand_in` has taken instead of the surface, if it has anything, or the surface again."""
@@ -318,14 +316,14 @@ class FieldActor:
         self.stand_in.show(is_shown, self._array, UNDEFINED, {name: data.GetArray(name) for name in self._passed_on})
 
     def set_scale(self, scale: float, share: float = 1.0) -> None:
-        """Device pixels per pixel have changed, or the share of their usual width that isolines have."""
+        """Set the device pixels per pixel of line widths, and the fraction of their usual width that isolines have."""
         self._uniforms.SetUniformf("edgeScale", scale)
         self._uniforms.SetUniformf("isolineCasing", CASING * scale * share)
         self._uniforms.SetUniformf("isolineRimWidth", RIM * scale * share)
         self._uniforms.SetUniformf("isolineHalfWidth", self.style.isoline_width / 2 * scale * share)
 
     def set_origin(self, x: float, y: float) -> None:
-        """Where the picture begins, in pixels of a whole of which it is a part: hatching goes on from part to part."""
+        """Set where the picture begins in a whole of which it is a part, so that hatching goes on from part to part."""
         self._uniforms.SetUniform2f("hatchOrigin", (x, y))
 
     def _make(self) -> None:
@@ -372,9 +370,12 @@ class FieldActor:
 
 
 def lookup_table(style: Style, signed: bool = False, edges: FloatArray | None = None) -> vtkLookupTable:
-    """The style's colours from 0 to 1, or those of a signed field, and what is undefined below.
+    """Return the style's colours from 0 to 1, or those of a signed field, and the colour of what is undefined.
 
-    edges: (k,) fractions of the maximum at which, where the style has bands, one ends and the next begins.
+    Parameters
+    ----------
+    edges
+        (k,) fractions of the maximum at which bands end, if the style has any.
     """
     if style.bands and edges is not None and len(edges):
         # Each colour stands for a part of the range, not for its beginning.
@@ -394,7 +395,7 @@ def lookup_table(style: Style, signed: bool = False, edges: FloatArray | None = 
 
 
 def light(renderer: vtkRenderer) -> None:
-    """A key light from the upper left of the camera and a weak fill, so that form reads without dark sides."""
+    """Add a key light from the upper left of the camera and a weak fill, so that form reads without dark sides."""
     renderer.RemoveAllLights()
     renderer.AutomaticLightCreationOff()
     for position, intensity in [((-0.5, 0.6, 1.0), 0.85), ((0.8, -0.2, 0.7), 0.42)]:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkRenderingCore import (
     vtkActor,
     vtkActor2D,
@@ -20,8 +19,8 @@ from vtkmodules.vtkRenderingCore import (
 
 from bihdist_core.arrays import FloatArray
 
-from ..document.document import Zoom, isolines_in
-from .camera import array_of
+from ..document.document import Inset, isolines_in
+from .camera import SeenNow, see_part
 from .corners import SIDE, Rectangle, chosen_corners, corner_boxes, joins, source_box, taken_by
 from .field_actor import FieldActor, light
 from .levels import Levels
@@ -36,7 +35,7 @@ GAP = 4.0
 
 @dataclass(frozen=True, eq=False)
 class InsetPart:
-    """Where an inset stands, and what it enlarges, in device pixels with y up; its isolines."""
+    """The place of an inset, and what it enlarges, in device pixels with y up; its isolines."""
 
     box: Rectangle
     source: Rectangle
@@ -44,9 +43,9 @@ class InsetPart:
 
 
 class Insets:
-    """Shows `actors` of a panel, its field and what others have added to its plotter once more for each zoom.
+    """Shows `actors` of a panel, its field and what others have added to its plotter once more for each inset.
 
-    scale: device pixels per pixel.
+    `scale` is the number of device pixels in a pixel.
     """
 
     def __init__(
@@ -54,9 +53,9 @@ class Insets:
     ) -> None:
         self._plotter, self._main = plotter, plotter.renderer
         self._actors, self._style, self._scale = actors, style, scale
-        self._zooms: tuple[Zoom, ...] = ()
+        self._insets: tuple[Inset, ...] = ()
         self._positions = np.empty((0, 3))
-        self._corners: list[str] = []
+        self.corners: list[str] = []  # in which insets stand
         self._samples, self._marks = np.empty((0, 3)), np.empty((0, 3))
         self._is_settled = True
         self.renderers: list[vtkRenderer] = []
@@ -69,23 +68,23 @@ class Insets:
         plotter.add_own(self._frames)
         self._observer = self._main.AddObserver("StartEvent", lambda *_: self._place())
 
-    def show(self, zooms: tuple[Zoom, ...], vertices: FloatArray) -> None:
-        """These and no others; vertices (n, 3) of the surface."""
-        if zooms != self._zooms:
-            self._corners = [zoom.corner if zoom.corner != "auto" else "top right" for zoom in zooms]
-        self._zooms = zooms
-        self._positions = vertices[[zoom.vertex for zoom in zooms]] if zooms else np.empty((0, 3))
+    def show(self, insets: tuple[Inset, ...], vertices: FloatArray) -> None:
+        """Show these insets and no others on a surface with vertices (n, 3)."""
+        if insets != self._insets:
+            self.corners = [inset.corner if inset.corner != "auto" else "top right" for inset in insets]
+        self._insets = insets
+        self._positions = vertices[[inset.vertex for inset in insets]] if insets else np.empty((0, 3))
         window = self._main.GetRenderWindow()
-        while len(self.renderers) > len(zooms):
+        while len(self.renderers) > len(insets):
             window.RemoveRenderer(self.renderers.pop())
-        while len(self.renderers) < len(zooms):
+        while len(self.renderers) < len(insets):
             self.renderers.append(self._new_renderer())
             window.AddRenderer(self.renderers[-1])
-        self._own += [None] * (len(zooms) - len(self._own))
-        del self._own[len(zooms) :]
-        for number, zoom in enumerate(zooms):
-            self._let_own(number, zoom.isolines is not None)
-        self._frames.SetVisibility(bool(zooms))
+        self._own += [None] * (len(insets) - len(self._own))
+        del self._own[len(insets) :]
+        for number, inset in enumerate(insets):
+            self._let_own(number, inset.isolines is not None)
+        self._frames.SetVisibility(bool(insets))
 
     def _let_own(self, number: int, is_own: bool) -> None:
         """Let an inset draw the panel's field, or one that follows it with isolines of its own."""
@@ -100,9 +99,6 @@ class Insets:
             for actor in (each.actor, each.stand_in.actor):
                 renderer.AddActor(actor) if is_drawn else renderer.RemoveActor(actor)
 
-    def _levels(self, number: int) -> Levels:
-        return (self._own[number] or self._field).levels
-
     def set_proportion(self, share: float) -> None:
         """Let isolines of their own be of this share of their usual width."""
         self._proportion = share
@@ -111,96 +107,87 @@ class Insets:
                 own.set_scale(self._scale, share)
 
     @property
-    def corners(self) -> tuple[str, ...]:
-        """Where they stand."""
-        return tuple(self._corners)
-
-    @property
     def parts(self) -> list[InsetPart]:
-        """Those that are in sight, as in the last picture."""
+        """The insets in sight, as in the last picture."""
         boxes = self._boxes()
-        found = enumerate(zip(self._corners, self._sources(), self._in_sight, strict=False)) if self._zooms else ()
+        found = enumerate(zip(self.corners, self._sources(), self._in_sight, strict=False)) if self._insets else ()
         return [
-            InsetPart(boxes[corner], source, self._levels(number))
+            InsetPart(boxes[corner], source, (self._own[number] or self._field).levels)
             for number, (corner, source, is_seen) in found
             if is_seen
         ]
 
     def remove(self) -> None:
-        """They are gone for good."""
+        """Remove all insets for good."""
         self.show((), self._positions)
         self._main.RemoveObserver(self._observer)
 
     def settle(self, samples: FloatArray, marks: FloatArray) -> None:
-        """Put those that may stand in any corner where they hide the least.
+        """Put insets that may stand in any corner where they hide the least, before the next picture.
 
-        samples: (k, 3) all over the surface; marks: (k, 3) the marked places.  Called where the view is set, and not
-        while it turns: insets would jump.  Done before the next picture, when the view has its size.
+        This is called where the view is set, and not while it turns, as insets would jump.
+
+        Parameters
+        ----------
+        samples
+            (k, 3) places all over the surface.
+        marks
+            (k, 3) marked places.
         """
         self._samples, self._marks, self._is_settled = samples, marks, False
 
     def renderer_at(self, x: float, y: float) -> vtkRenderer:
-        """Whose picture is at a device pixel, y up: that of an inset, or of the panel."""
-        for renderer, is_seen in zip(self.renderers, self._in_sight, strict=False):
-            left, bottom = renderer.GetOrigin()
-            width, height = renderer.GetSize()
-            if is_seen and left <= x < left + width and bottom <= y < bottom + height:
+        """Return the renderer whose picture is at a device pixel, y up: that of an inset, or of the panel."""
+        for renderer, (left, bottom, width, height) in self.placed.items():
+            if left <= x < left + width and bottom <= y < bottom + height:
                 return renderer
         return self._main
 
     @property
     def placed(self) -> dict[vtkRenderer, tuple[int, int, int, int]]:
-        """(left, bottom, width, height) in device pixels of those that are seen."""
+        """The places of insets that are seen: (left, bottom, width, height) in device pixels."""
         seen = [r for r, is_seen in zip(self.renderers, self._in_sight, strict=False) if is_seen]
         return {renderer: (*renderer.GetOrigin(), *renderer.GetSize()) for renderer in seen}
 
     # ------------------------------------------------------------------ where they are
     def _boxes(self) -> dict[str, Rectangle]:
-        """By name: where an inset in a corner stands."""
+        """Return the box of an inset in each corner, by name."""
         size = self._main.GetSize()
         return corner_boxes(size, round(SIDE * min(size)), GAP * self._scale)
 
     def _sources(self) -> list[Rectangle]:
-        """What is enlarged."""
+        """Return the boxes that are enlarged."""
         side = round(SIDE * min(self._main.GetSize()))
         places = self._pixels(self._positions)
-        return [source_box(place, side, zoom) for place, zoom in zip(places, self._zooms, strict=True)]
+        return [source_box(place, side, inset) for place, inset in zip(places, self._insets, strict=True)]
 
     def _pixels(self, points: FloatArray) -> FloatArray:
-        """(k, 2) where points (k, 3) are seen; NaN behind the camera."""
-        width, height = self._main.GetSize()
-        local = np.column_stack([points, np.ones(len(points))]) @ self._matrix().T
-        ahead = np.where(local[:, 3] > 0, local[:, 3], np.nan)
-        pixels: FloatArray = (local[:, :2] / ahead[:, None] + 1) / 2 * (width, height)
+        """Return the pixels (k, 2) of points (k, 3); NaN behind the camera."""
+        pixels: FloatArray = (self._seen().in_picture(points)[:, :2] + 1) / 2 * self._main.GetSize()
         return pixels
 
-    def _matrix(self) -> FloatArray:
-        """(4, 4) from the world to -1 … 1 in the view."""
-        camera = self._main.GetActiveCamera()
-        return self._projection() @ array_of(camera.GetViewTransformMatrix())
-
-    def _projection(self) -> FloatArray:
+    def _seen(self) -> SeenNow:
         width, height = self._main.GetSize()
-        return array_of(self._main.GetActiveCamera().GetProjectionTransformMatrix(width / max(height, 1), -1, 1))
+        return SeenNow(self._main.GetActiveCamera(), width / max(height, 1))
 
     # ------------------------------------------------------------------ drawing
     def _place(self) -> None:
-        """Before each picture: see what the panel's camera sees now, of each place."""
-        if not self._zooms or not all(self._main.GetSize()):
+        """Let each inset see its place as the panel's camera sees it now; called before each picture."""
+        if not self._insets or not all(self._main.GetSize()):
             return
         width, height = self._main.GetSize()
         boxes, sources, surface = self._boxes(), self._sources(), self._pixels(self._samples)
         if not self._is_settled:
             marks = self._pixels(self._marks)
-            self._corners, self._is_settled = chosen_corners(self._zooms, boxes, sources, surface, marks), True
+            self.corners, self._is_settled = chosen_corners(self._insets, boxes, sources, surface, marks), True
         self._follow_added()
-        projection, loops = self._projection(), []
-        is_taken = taken_by(surface, (width, height), [boxes[corner] for corner in self._corners])
+        projection, loops = self._seen().matrix, []
+        is_taken = taken_by(surface, (width, height), [boxes[corner] for corner in self.corners])
         self._in_sight = []
-        for zoom, own in zip(self._zooms, self._own, strict=True):
+        for inset, own in zip(self._insets, self._own, strict=True):
             if own is not None:
-                own.follow(self._field, isolines_in(zoom, self._field.isolines))
-        for renderer, corner, source in zip(self.renderers, self._corners, sources, strict=True):
+                own.follow(self._field, isolines_in(inset, self._field.isolines))
+        for renderer, corner, source in zip(self.renderers, self.corners, sources, strict=True):
             left, right, bottom, top = source
             is_seen = bool(left < width and right > 0 and bottom < height and top > 0)
             self._in_sight.append(is_seen)
@@ -242,7 +229,7 @@ class Insets:
         return renderer
 
     def _lines(self, normalized: bool = False) -> vtkActor2D:
-        """Lines on a view, in its pixels, or in shares of it."""
+        """Return an actor for lines on a view, in pixels or in fractions of it."""
         mapper, where = vtkPolyDataMapper2D(), vtkCoordinate()
         if normalized:
             where.SetCoordinateSystemToNormalizedViewport()
@@ -263,20 +250,15 @@ def _enlarge(
     """Let a camera see a part of what another sees in a view of this size."""
     left, right, bottom, top = source
     width, height = size
-    x, y = (left + right) / width - 1, (bottom + top) / height - 1
-    enlarge = np.diag([width / (right - left), height / (top - bottom), 1.0, 1.0])
-    enlarge[0, 3], enlarge[1, 3] = -enlarge[0, 0] * x, -enlarge[1, 1] * y
-    matrix = vtkMatrix4x4()
-    matrix.DeepCopy((enlarge @ projection).ravel().tolist())
     camera.SetPosition(*main.GetPosition())
     camera.SetFocalPoint(*main.GetFocalPoint())
     camera.SetViewUp(*main.GetViewUp())
-    camera.UseExplicitProjectionTransformMatrixOn()
-    camera.SetExplicitProjectionTransformMatrix(matrix)
+    part = 2 * left / width - 1, 2 * right / width - 1, 2 * bottom / height - 1, 2 * top / height - 1
+    see_part(camera, projection, part)
 
 
 def _rectangles(*boxes: Rectangle) -> list[FloatArray]:
-    """Their sides, as lines (5, 2)."""
+    """Return the outlines of boxes as lines (5, 2)."""
     return [np.array([[a, c], [b, c], [b, d], [a, d], [a, c]]) for a, b, c, d in boxes]
 
 

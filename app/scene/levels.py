@@ -19,10 +19,18 @@ ZERO = 1.1
 
 @dataclass(frozen=True, eq=False)
 class Levels:
-    """values: (k,) in order; is_bold, is_through: (k,), the latter for those through a point.
+    """Values that have an isoline.
 
-    wanted: how many there would be but for those through points; of a spacing that makes too many, none are.
-    step: from one line to the next, 0 where they are at given values.
+    Attributes
+    ----------
+    values
+        (k,) in order.
+    is_bold, is_through
+        (k,) whether a line is bold, and whether it passes through a point.
+    wanted
+        Number of lines but for those through points; where a spacing makes too many, there are none.
+    step
+        From one line to the next; 0 for given values.
     """
 
     values: FloatArray
@@ -33,17 +41,25 @@ class Levels:
 
     @property
     def widths(self) -> FloatArray:
-        """(k,) in those of a usual line."""
+        """The widths (k,) of the lines in those of a usual line."""
         return np.where(self.is_bold | self.is_through, BOLD, 1.0)
 
 
 def levels(
     isolines: Isolines, maximum: float, own: float, signed: bool = False, through: Sequence[float] = ()
 ) -> Levels:
-    """Those of a field that goes up to `own`, from 0 or, if signed, -own, where the colour bar ends at `maximum`.
+    """Return the isolines of a field that goes up to `own`, from 0 or, if signed, from -own.
 
-    Multiples of a step lie above 0 and below the field's own maximum; if signed, 0 has a line, which is bold, and equal
-    steps from -maximum to maximum are an even number.  through: the field's values at points, NaN for none.
+    Multiples of a step lie above 0 and below the field's own maximum.  If signed, 0 has a line, which is bold, and
+    equal
+    steps from -maximum to maximum are an even number.
+
+    Parameters
+    ----------
+    maximum
+        Upper end of the colour bar.
+    through
+        Values of the field at points, NaN for none.
     """
     if not (maximum > 0 and own > 0):
         return _merged(np.empty(0), np.empty(0, bool), np.empty(0), 0)
@@ -90,7 +106,7 @@ def _merged(values: FloatArray, is_bold: BoolArray, through: FloatArray, wanted:
 
 
 def width_of(isolines: Isolines, is_bold: bool, is_zero: bool) -> float:
-    """The width of a line in those of a usual one; is_zero: at 0 of a signed field."""
+    """Return the width of a line in those of a usual one; `is_zero` is true for the line at 0 of a signed field."""
     if is_zero and not isolines.bold:
         return ZERO
     return BOLD if is_bold else 1.0
@@ -104,7 +120,7 @@ SMALLEST = 1e-290
 
 
 def round_step(top: float, steps: int) -> float:
-    """The round step of which so many lead from 0 to the top as nearly as can be, in proportion."""
+    """Return the round step of which so many lead from 0 to the top as nearly as can be, in proportion."""
     size = top / steps
     if size < SMALLEST:
         return size
@@ -115,9 +131,9 @@ def round_step(top: float, steps: int) -> float:
 
 
 def in_unit(isolines: Isolines, scale: float, in_shares: bool, signed: bool) -> Isolines:
-    """Those of a document as those of a field in which its fractions are so many times as large.
+    """Return a document's isolines as those of a field in which its fractions are `scale` times as large.
 
-    in_shares: what is round are percentages of the maximum; these divide it into equal steps.
+    If `in_shares`, round values are percentages of the maximum, which divide it into equal steps.
     """
     isolines = isolines.scaled(scale)
     if not (in_shares and isolines.round and isolines.count):
@@ -127,9 +143,9 @@ def in_unit(isolines: Isolines, scale: float, in_shares: bool, signed: bool) -> 
 
 
 def with_kept_step(isolines: Isolines, step: float, maximum: float, own: float, signed: bool) -> Isolines:
-    """The same at multiples of the step they had before, unless that makes less than half or more than twice as many.
+    """Return isolines at the step they had before, unless that makes less than half or more than twice as many.
 
-    While the maximum changes a little at a time the lines then do not change back and forth between two round steps.
+    While the maximum changes a little at a time, the lines then do not jump back and forth between two round steps.
     """
     if isolines.spacing is not None or isolines.values or not (isolines.round and isolines.count and step > 0):
         return isolines
@@ -138,17 +154,12 @@ def with_kept_step(isolines: Isolines, step: float, maximum: float, own: float, 
 
 
 def steps_to_top(isolines: Isolines, signed: bool) -> int:
-    """Steps that are wanted from 0 to the maximum."""
-    return half_steps(isolines.count) if signed else isolines.count
-
-
-def half_steps(count: int) -> int:
-    """Steps on each side of 0."""
-    return max(1, round(count / 2))
+    """Return the number of steps that are wanted from 0 to the maximum."""
+    return max(1, round(isolines.count / 2)) if signed else isolines.count
 
 
 def too_many(found: Levels, isolines: Isolines, own: float) -> str:
-    """What to say where a spacing makes more lines than are drawn; "" where it does not."""
+    """Return a sentence where a spacing makes more lines than are drawn; "" where it does not."""
     if isolines.spacing is None or found.wanted <= MOST_ISOLINES:
         return ""
     return (

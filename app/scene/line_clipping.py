@@ -4,16 +4,16 @@ import numpy as np
 
 from bihdist_core.arrays import AnyArray, FloatArray
 
-from .corners import Rectangle
+from ..drawing.shapes import Box
 
 Line = tuple[FloatArray, bool]
 """Points (k, 2) in a picture, y down, and whether the last joins the first."""
 
 
-def clipped(line: Line, box: Rectangle) -> list[Line]:
-    """What of a line is in a box: left, right, top, bottom."""
+def clipped(line: Line, box: Box) -> list[Line]:
+    """Return the parts of a line that lie in a box."""
     points, closed = line
-    low, high = np.reshape(box, (2, 2)).T
+    low, high = np.array([box.x, box.y]), np.array([box.right, box.bottom])
     is_inside = ((points >= low) & (points <= high)).all(axis=1)
     if is_inside.all():
         return [line]
@@ -34,7 +34,7 @@ def clipped(line: Line, box: Rectangle) -> list[Line]:
 
 
 def _inside(a: FloatArray, step: FloatArray, low: AnyArray, high: AnyArray) -> tuple[FloatArray, FloatArray]:
-    """From which share of it to which (s,) each of the pieces a + share * step (s, 2) is inside; none: stop ≤ start."""
+    """Return the fractions (s,) between which each piece a + fraction * step (s, 2) is inside; stop ≤ start: none."""
     with np.errstate(divide="ignore", invalid="ignore"):
         ends = np.stack([low - a, high - a]) / step
     # Not a number: a piece along a side of the box, or one with an end that is no place.

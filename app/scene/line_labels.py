@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.ndimage import maximum_filter, minimum_filter
@@ -9,6 +10,7 @@ from scipy.spatial import cKDTree
 
 from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
 
+from ..drawing.shapes import Box
 from .line_clipping import Line
 
 EVERY = 3.0
@@ -53,7 +55,7 @@ class Label:
 
 
 def value_text(value: float) -> str:
-    """Three digits, or all before the point."""
+    """Return a value in three digits, or in all digits before the point."""
     if value and not 1e-4 <= abs(value) < 1e6:
         return f"{value:.3g}".replace("-", "\N{MINUS SIGN}")
     digits = max(0, 2 - int(np.floor(np.log10(abs(value))))) if value else 0
@@ -64,25 +66,35 @@ def value_text(value: float) -> str:
 
 def labelled(
     contours: Sequence[Contour],
-    box: tuple[float, float, float, float],
+    box: Box,
     size: float,
     width: Callable[[str], float],
     is_covered: Callable[[FloatArray], BoolArray],
     marked: FloatArray,
     apart: float,
     written: Sequence[tuple[float, float]] = (),
+    clear: float = CLEAR,
 ) -> tuple[list[Contour], list[Label]]:
-    """Isolines with gaps, and what stands in them: one label for each value that has room somewhere.
+    """Return isolines with gaps, and the labels in them, one for each value that has room somewhere.
 
-    box: left, top, width and height of the picture; size: of the letters; width: of a text in them; is_covered: which
-    of places (k, 2) are on the shape, and words may stand there; apart: how far they keep from marked places (k, 2);
-    written: middles of single signs that stand in the picture.
+    Parameters
+    ----------
+    box
+        Of the picture.
+    size
+        Of the letters.
+    width
+        Returns the width of a text.
+    is_covered
+        Returns which of places (k, 2) are on the shape, where labels may stand.
+    marked, apart
+        Marked places (k, 2), and how far labels keep from them.
+    written
+        Middles of single signs that stand in the picture.
+    clear
+        Distance of other lines from a label's middle line, in letter sizes.
     """
-    dense = [[_along(part, 1.0)[0] for part in line.parts] for line in contours]
-    points = np.concatenate([np.empty((0, 2)), *(p for parts in dense for p in parts)])
-    owner = np.concatenate([np.empty(0, int), *(np.full(len(p), k) for k, ps in enumerate(dense) for p in ps)])
-    tree, taken = cKDTree(points) if len(points) else None, [(np.array(place), size / 2) for place in written]
-    crowded = _crowded(box, points, owner, CLEAR * size)
+    places = _LabelPlaces(contours, box, size, is_covered, marked, apart, written, clear)
     lines, labels = list(contours), []
     done: set[float] = set()
     # Those that stand out come first, then the values from the largest: near the source lines are close.
@@ -93,24 +105,15 @@ def labelled(
             continue
         text = value_text(line.value)
         wide = width(text) + 2 * PAD
-        best: Room | None = None
-        for number, part in enumerate(line.parts):
-            best = max(
-                [
-                    best,
-                    *_places(
-                        is_covered, part, number, wide, size, tree, points, owner, k, marked, apart, taken, crowded
-                    ),
-                ],
-                key=lambda place: -np.inf if place is None else place[0],
-            )
+        rooms = (room for number, part in enumerate(line.parts) for room in places.on(part, number, k, wide))
+        best = max(rooms, key=lambda room: room[0], default=None)
         if best is None:
             continue
         _, number, start, stop, middle, way = best
         angle = float(np.degrees(np.arctan2(-way[1], way[0])))
         angle = angle - 180 if angle > 90 else angle + 180 if angle <= -90 else angle
         labels.append(Label(text, float(middle[0]), float(middle[1]), angle, k))
-        taken.append((middle, wide / 2))
+        places.taken.append((middle, wide / 2))
         parts = list(line.parts)
         parts[number : number + 1] = _without(parts[number], start, stop)
         lines[k] = replace(line, parts=parts)
@@ -118,67 +121,83 @@ def labelled(
     return lines, labels
 
 
-def _places(
-    is_covered: Callable[[FloatArray], BoolArray],
-    part: Line,
-    number: int,
-    wide: float,
-    size: float,
-    tree: cKDTree,
-    points: FloatArray,
-    owner: IntArray,
-    k: int,
-    marked: FloatArray,
-    apart: float,
-    taken: Sequence[tuple[FloatArray, float]],
-    crowded: Callable[[FloatArray], BoolArray],
-) -> list[Room]:
-    """Places on a part of a line that have room: how good, the part, from where to where, the middle and the way."""
-    at, length = _along(part, 1.0)
-    starts = np.arange(0.0, length[-1] - wide, EVERY)
-    first, last = (np.stack([np.interp(s, length, at[:, i]) for i in (0, 1)], 1) for s in (starts, starts + wide))
-    # First what is found out at once for all places.
-    chords = np.hypot(*(last - first).T)
-    ways = (last - first) / np.maximum(chords, 1e-9)[:, None]
-    middles = (first + last) / 2
-    is_free = (chords >= 0.96 * wide) & ~crowded(middles)
-    for s in (-1, -0.5, 0, 0.5, 1):
-        for t in (-1, 1):
-            corner = middles + s * wide / 2 * ways + t * EDGE * size * np.stack([-ways[:, 1], ways[:, 0]], 1)
-            is_free &= is_covered(corner)
-    for other, half in taken:
-        is_free &= np.hypot(*(middles - other).T) >= half + wide / 2 + size
-    for mark in marked:
-        is_free &= np.hypot(*(middles - mark).T) >= apart + wide / 2
-    found = []
-    for place in np.flatnonzero(is_free):
-        start, stop, a, b, way, middle, chord = (
-            each[place] for each in (starts, starts + wide, first, last, ways, middles, chords)
-        )
-        inner = at[(length > start) & (length < stop)]
-        off = np.abs((inner - a) @ [-way[1], way[0]]).max(initial=0.0)
-        if off > STRAIGHT * size:
-            continue
-        near = np.array(tree.query_ball_point(middle, wide / 2 + size), int)
-        others = near[(owner[near] != k) | ~_is_between(points[near], a, way, chord)]
-        room = _least_distance(points[others], a, b)
-        if room >= CLEAR * size:
-            found.append((min(room, 2 * size) / size - off / size, number, start, stop, middle, way))
-    return found
+class _LabelPlaces:
+    """Finds places for labels on isolines, off everything else; see `labelled`.
+
+    Attributes
+    ----------
+    taken
+        Middles of labels that have a place, and half their widths.
+    """
+
+    def __init__(
+        self,
+        contours: Sequence[Contour],
+        box: Box,
+        size: float,
+        is_covered: Callable[[FloatArray], BoolArray],
+        marked: FloatArray,
+        apart: float,
+        written: Sequence[tuple[float, float]],
+        clear: float,
+    ) -> None:
+        self._size, self._is_covered, self._marked, self._apart, self._clear = size, is_covered, marked, apart, clear
+        dense = [[_along(part, 1.0)[0] for part in line.parts] for line in contours]
+        self._points = np.concatenate([np.empty((0, 2)), *(p for parts in dense for p in parts)])
+        owners = (np.full(len(p), k) for k, parts in enumerate(dense) for p in parts)
+        self._owner = np.concatenate([np.empty(0, int), *owners])
+        self._tree: Any = cKDTree(self._points) if len(self._points) else None
+        self._crowded = _crowded(box, self._points, self._owner, clear * size)
+        self.taken = [(np.array(place), size / 2) for place in written]
+
+    def on(self, part: Line, number: int, k: int, wide: float) -> list[Room]:
+        """Return places on a part, by its number, of line k that have room for a label of this width."""
+        size = self._size
+        at, length = _along(part, 1.0)
+        starts = np.arange(0.0, length[-1] - wide, EVERY)
+        first, last = (np.stack([np.interp(s, length, at[:, i]) for i in (0, 1)], 1) for s in (starts, starts + wide))
+        # First what is found out at once for all places.
+        chords = np.hypot(*(last - first).T)
+        ways = (last - first) / np.maximum(chords, 1e-9)[:, None]
+        middles = (first + last) / 2
+        is_free = (chords >= 0.96 * wide) & ~self._crowded(middles)
+        for s in (-1, -0.5, 0, 0.5, 1):
+            for t in (-1, 1):
+                corner = middles + s * wide / 2 * ways + t * EDGE * size * np.stack([-ways[:, 1], ways[:, 0]], 1)
+                is_free &= self._is_covered(corner)
+        for other, half in self.taken:
+            is_free &= np.hypot(*(middles - other).T) >= half + wide / 2 + size
+        for mark in self._marked:
+            is_free &= np.hypot(*(middles - mark).T) >= self._apart + wide / 2
+        found = []
+        for place in np.flatnonzero(is_free):
+            start, stop, a, b, way, middle, chord = (
+                each[place] for each in (starts, starts + wide, first, last, ways, middles, chords)
+            )
+            inner = at[(length > start) & (length < stop)]
+            off = np.abs((inner - a) @ [-way[1], way[0]]).max(initial=0.0)
+            if off > STRAIGHT * size:
+                continue
+            near = np.array(self._tree.query_ball_point(middle, wide / 2 + size), int)
+            others = near[(self._owner[near] != k) | ~_is_between(self._points[near], a, way, chord)]
+            room = _least_distance(self._points[others], a, b)
+            if room >= self._clear * size:
+                found.append((min(room, 2 * size) / size - off / size, number, start, stop, middle, way))
+        return found
 
 
-def _crowded(
-    box: tuple[float, float, float, float], points: FloatArray, owner: IntArray, clear: float
-) -> Callable[[FloatArray], BoolArray]:
-    """Says of places (k, 2) on lines whether another line is nearer than `clear` for sure.
+def _crowded(box: Box, points: FloatArray, owner: IntArray, clear: float) -> Callable[[FloatArray], BoolArray]:
+    """Return a function that tells of places (k, 2) on lines whether another line is surely nearer than `clear`.
 
-    points: (n, 2) of all lines, owner: (n,) which line each is of.
+    Parameters
+    ----------
+    points, owner
+        (n, 2) points of all lines, and the line (n,) that each is of.
     """
     reach = int(clear / np.sqrt(2) - 1.5)  # of a square inside the circle, whose units are whole
     if reach < 1 or not len(points):
         return lambda places: np.zeros(len(places), bool)
-    left, top, across, down = box
-    corner, shape = np.array([left, top]), (int(down) + 2, int(across) + 2)
+    corner, shape = np.array([box.x, box.y]), (int(box.height) + 2, int(box.width) + 2)
 
     def cells(places: FloatArray) -> tuple[AnyArray, AnyArray]:
         column, row = np.floor(places - corner).astype(int).T
@@ -192,14 +211,14 @@ def _crowded(
 
 
 def _is_between(points: FloatArray, a: FloatArray, way: FloatArray, chord: float) -> BoolArray:
-    """(k,) whether points (k, 2) of the line itself are the part under the words, or go on from it."""
+    """Return whether points (k, 2) of the line itself lie under the label, or continue from it."""
     along, across = (points - a) @ way, np.abs((points - a) @ [-way[1], way[0]])
     is_between: BoolArray = (across < min(0.5 * chord, 4.0)) | (along < 0) | (along > chord)
     return is_between
 
 
 def _least_distance(points: FloatArray, a: FloatArray, b: FloatArray) -> float:
-    """From points (k, 2) to the segment from a to b."""
+    """Return the least distance from points (k, 2) to the segment from a to b."""
     if not len(points):
         return np.inf
     t = np.clip((points - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)
@@ -211,7 +230,7 @@ def _length(line: Contour) -> float:
 
 
 def _along(part: Line, step: float) -> tuple[FloatArray, FloatArray]:
-    """(k, 2) points along a line, no farther apart than `step`, and their lengths (k,) from its start."""
+    """Return points (k, 2) along a line, no farther apart than `step`, and their lengths (k,) from its start."""
     points, closed = part
     ring = np.concatenate([points, points[:1]]) if closed else points
     length = np.append(0.0, np.cumsum(np.hypot(*np.diff(ring, axis=0).T)))
@@ -223,7 +242,7 @@ def _along(part: Line, step: float) -> tuple[FloatArray, FloatArray]:
 
 
 def _without(part: Line, start: float, stop: float) -> list[Line]:
-    """What is left of a line without the part from one length to another."""
+    """Return the rest of a line without the part from one length to another."""
     ring, length = _along(part, np.inf)
 
     def cut(a: float, b: float) -> FloatArray:

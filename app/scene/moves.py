@@ -13,9 +13,9 @@ STEEPEST = 89.0
 
 
 def turn(camera: vtkCamera, dx: float, dy: float, size: tuple[float, float], upright: FloatArray | None = None) -> None:
-    """Round the focal point, for a move by (dx, dy), y up, across a view of this size.
+    """Turn a camera round its focal point, for a move by (dx, dy), y up, across a view of this size.
 
-    upright: (3,) the unit vector that stays upright in the picture, as on a turntable; without one it turns freely.
+    The unit vector `upright` (3,) stays upright in the picture, as on a turntable; without one the camera turns freely.
     """
     across, along = -TURN * dx / max(size[0], 1), -TURN * dy / max(size[1], 1)
     if upright is not None:
@@ -27,7 +27,7 @@ def turn(camera: vtkCamera, dx: float, dy: float, size: tuple[float, float], upr
 
 
 def _turn_upright(camera: vtkCamera, across: float, along: float, upright: FloatArray) -> None:
-    """By degrees about the upright axis, and up along the meridian as far as that goes."""
+    """Turn by degrees about the upright axis, and up along the meridian as far as that goes."""
     focal_point = np.array(camera.GetFocalPoint())
     arm = np.array(camera.GetPosition()) - focal_point
     length = float(np.linalg.norm(arm))
@@ -49,7 +49,7 @@ def _turn_upright(camera: vtkCamera, across: float, along: float, upright: Float
 
 
 def shift(camera: vtkCamera, dx: float, dy: float, height: float) -> None:
-    """What lies at the depth of the focal point follows a move by (dx, dy), y up, in a view of this height."""
+    """Pan so that what is as deep as the focal point follows a move by (dx, dy), y up, in a view of this height."""
     half = np.tan(np.radians(camera.GetViewAngle() / 2)) * camera.GetDistance()
     if camera.GetParallelProjection():
         half = camera.GetParallelScale()
@@ -58,11 +58,13 @@ def shift(camera: vtkCamera, dx: float, dy: float, height: float) -> None:
     along = np.array(camera.GetDirectionOfProjection())
     right = np.cross(along, up)
     right /= np.linalg.norm(right)
-    _move(camera, -per_pixel * (dx * right + dy * np.cross(right, along)))
+    step = -per_pixel * (dx * right + dy * np.cross(right, along))
+    camera.SetPosition(*(np.array(camera.GetPosition()) + step))
+    camera.SetFocalPoint(*(np.array(camera.GetFocalPoint()) + step))
 
 
 def zoom(camera: vtkCamera, factor: float, about: FloatArray) -> None:
-    """Nearer by a factor; a point (3,) stays where it is seen."""
+    """Move a camera nearer by a factor; a point (3,) stays where it is seen."""
     for get, put in (
         (camera.GetPosition, camera.SetPosition),
         (camera.GetFocalPoint, camera.SetFocalPoint),
@@ -82,15 +84,10 @@ def centre(camera: vtkCamera, point: FloatArray) -> None:
 
 
 def at_focal_depth(renderer: vtkRenderer, x: float, y: float) -> FloatArray:
-    """(3,) the place at device pixel (x, y), y up, that is as far as the focal point."""
+    """Return the place (3,) at device pixel (x, y), y up, that is as deep as the focal point."""
     renderer.SetWorldPoint(*renderer.GetActiveCamera().GetFocalPoint(), 1.0)
     renderer.WorldToDisplay()
     renderer.SetDisplayPoint(x, y, renderer.GetDisplayPoint()[2])
     renderer.DisplayToWorld()
     *place, weight = renderer.GetWorldPoint()
     return np.array(place) / weight
-
-
-def _move(camera: vtkCamera, by: FloatArray) -> None:
-    camera.SetPosition(*(np.array(camera.GetPosition()) + by))
-    camera.SetFocalPoint(*(np.array(camera.GetFocalPoint()) + by))

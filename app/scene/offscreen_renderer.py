@@ -24,9 +24,14 @@ if TYPE_CHECKING:
 
 
 class OffscreenRenderer:
-    """Made and used on one thread; BihdistError where there is no OpenGL.
+    """An off-screen window, made and used on one thread; raises BihdistError where there is no OpenGL.
 
-    pictures: how many have been drawn; seconds: how long that has taken since `begin`.
+    Attributes
+    ----------
+    pictures
+        Number of pictures that have been drawn.
+    seconds
+        Time that has taken since `begin`.
     """
 
     def __init__(self) -> None:
@@ -40,19 +45,19 @@ class OffscreenRenderer:
         self._read = vtkUnsignedCharArray()
 
     def new_plotter(self, redraw: Callable[[], None] = lambda: None) -> "PanelPlotter":
-        """A panel's plotter; redraw: called when something was added to it or removed."""
+        """Return a panel's plotter, which calls `redraw` when something was added to it or removed."""
         from .panel_plotter import PanelPlotter  # with the first panel: the window opens before PyVista is imported
 
         return PanelPlotter(self._window, redraw)
 
     def new_scene(self, style: Style = PAPER, scale: float = 1.0, plotter: "PanelPlotter | None" = None) -> PanelScene:
-        """A scene that is drawn here until it is removed, by a plotter of its own if none is given."""
+        """Return a scene that is drawn here until it is removed, by a plotter of its own if none is given."""
         scene = PanelScene(plotter or self.new_plotter(), style, scale)
         self._scenes.append(scene)
         return scene
 
     def remove(self, scene: PanelScene) -> None:
-        """It is drawn no longer; its plotter is left for another, with what others have added to it."""
+        """Draw a scene no longer; its plotter is left for another, with what others have added to it."""
         scene.remove()
         self._scenes.remove(scene)
 
@@ -66,7 +71,7 @@ class OffscreenRenderer:
         self.seconds = 0.0
 
     def picture(self, scene: PanelScene, size: tuple[int, int]) -> ByteArray:
-        """(height, width, 4) uint8, upright."""
+        """Draw a scene and return its picture (height, width, 4) uint8, upright."""
         self.fit(size)
         for other in self._scenes:
             for renderer in other.renderers:
@@ -82,14 +87,14 @@ class OffscreenRenderer:
         self._window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, self._read, 0)
         took = perf_counter() - start
         self.seconds += took
-        if not scene.is_stand_in:
+        if not scene.field_actor.stand_in.is_shown:
             scene.seconds = took
         picture = np.ascontiguousarray(vtk_to_numpy(self._read).reshape(height, width, 4)[::-1])
         picture[..., 3] = 255  # what smoothing leaves there means nothing
         return picture
 
     def depths(self) -> FloatArray:
-        """(height, width) of the picture that was drawn last: 0 nearest to the camera, 1 for nothing; upright."""
+        """Return the depths (height, width) of the last picture, upright: 0 nearest to the camera, 1 for nothing."""
         width, height = self._window.GetSize()
         read = vtkFloatArray()
         self._window.GetZbufferData(0, 0, width - 1, height - 1, read)

@@ -25,13 +25,13 @@ _FROM_CONES, _FROM_LAB = np.linalg.inv(_CONES), np.linalg.inv(_LAB)
 
 
 def oklab(srgb: FloatArray) -> FloatArray:
-    """(k, 3) lightness from 0 to 1, green to red, and blue to yellow, of sRGB colours (k, 3) from 0 to 1."""
+    """Return lightness (0 to 1), green to red, and blue to yellow (k, 3) of sRGB colours (k, 3) from 0 to 1."""
     light = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
     lab: FloatArray = np.cbrt(light @ _CONES.T) @ _LAB.T
     return lab
 
 
 def srgb(lab: FloatArray) -> FloatArray:
-    """(k, 3) sRGB colours from 0 to 1; what no screen can show is cut off."""
+    """Return sRGB colours (k, 3) from 0 to 1, as near as a screen can show them."""
     light = np.clip((lab @ _FROM_LAB.T) ** 3 @ _FROM_CONES.T, 0, 1)
     return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)

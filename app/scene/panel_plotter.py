@@ -18,7 +18,7 @@ from .drawable import copies_of, vertex_faces
 
 
 def mesh_of(drawn: vtkPolyData, fields: Mapping[str, AnyArray]) -> pyvista.PolyData:
-    """A surface as it is drawn, in memory of its own: vertex k is point k; fields (n,) by name are its arrays."""
+    """Return a copy of a surface as it is drawn, with fields (n,) as arrays by their names; vertex k is point k."""
     points = vtk_to_numpy(drawn.GetPoints().GetData())
     vertices = points[: len(points) - len(copies_of(drawn))].copy()
     mesh: pyvista.PolyData = pyvista.PolyData.from_regular_faces(vertices, vertex_faces(drawn).astype(int, copy=False))
@@ -59,7 +59,7 @@ class PanelPlotter(pyvista.BasePlotter):
 
     @property
     def added(self) -> list[vtkProp3D]:
-        """What others have put beside the surface; not what they have put on the picture, such as a scalar bar."""
+        """The actors that others have put beside the surface, but not on the picture, such as a scalar bar."""
         return [actor for actor in self._others() if isinstance(actor, vtkProp3D)]
 
     def _others(self) -> list[vtkProp]:
@@ -91,7 +91,7 @@ class PanelPlotter(pyvista.BasePlotter):
         self.clear()
 
     def leave(self) -> None:
-        """The window is closed: nothing is drawn any more."""
+        """Draw no more, as the window is closed."""
         self.redraw, self.ren_win = lambda: None, None
         super().close()
 

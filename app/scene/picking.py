@@ -1,7 +1,7 @@
-"""From a point of the screen to a vertex: a ray, the first face it meets, that face's nearest corner."""
+"""Picking: a ray from a point of the screen, the first face it meets, that face's nearest corner."""
 
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
 
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
@@ -14,9 +14,16 @@ from .face_blocks import FaceBlocks
 
 @dataclass(frozen=True, eq=False)
 class Hit:
-    """Where a ray first meets a surface.
+    """The place where a ray first meets a surface.
 
-    position: (3,) in a face; weights: (3,) of its corners there, which add up to 1; vertex: the corner nearest to it.
+    Attributes
+    ----------
+    weights
+        (3,) barycentric weights of the face's corners.
+    position
+        (3,) the place.
+    vertex
+        The corner nearest to it.
     """
 
     face: int
@@ -26,15 +33,20 @@ class Hit:
 
 
 class Picker:
-    """Made once for a surface, on any thread; a pick takes about a millisecond."""
+    """Finds what is under a point of the screen; a pick takes about a millisecond."""
 
     def __init__(self, surface: Surface) -> None:
         self._surface = surface
-        self._blocks = FaceBlocks(surface)
+
+    @cached_property
+    def blocks(self) -> FaceBlocks:
+        """The faces in blocks, made when they are first asked for, on any thread."""
+        return FaceBlocks(self._surface)
 
     def pick(self, renderer: vtkRenderer, x: float, y: float) -> Hit | None:
-        """Where the surface is met at device pixel (x, y), y up; None beside the surface."""
-        hit = self._first_hit(renderer, x, y)
+        """Return the hit on the surface at device pixel (x, y), y up; None beside the surface."""
+        ends = _ray(renderer, x, y)
+        hit = None if ends is None else self.blocks.first_hit(*ends)
         if hit is None:
             return None
         face, weights, position = hit
@@ -43,54 +55,27 @@ class Picker:
         return Hit(face, weights, position, int(ids[nearest]))
 
     def sees(self, renderer: vtkRenderer, point: FloatArray) -> bool:
-        """Whether nothing but faces about it stands before a point (3,) of the surface."""
-        hit = self._first_hit(renderer, *pixel_of(renderer, point))
-        if hit is None:
-            return True  # at a silhouette the way may pass it by
-        camera = renderer.GetActiveCamera()
-        eye = np.array(camera.GetPosition())
-        nearer = np.linalg.norm(point - eye) - np.linalg.norm(hit[2] - eye)
-        if camera.GetParallelProjection():
-            nearer = (point - hit[2]) @ np.array(camera.GetDirectionOfProjection())
-        return bool(nearer <= 2 * self._surface.mean_edge_length)
-
-    def _first_hit(self, renderer: vtkRenderer, x: float, y: float) -> tuple[int, FloatArray, FloatArray] | None:
-        ends = []
-        for depth in (0.0, 1.0):
-            renderer.SetDisplayPoint(x, y, depth)
-            renderer.DisplayToWorld()
-            *point, weight = renderer.GetWorldPoint()
-            if weight == 0:
-                return None
-            ends.append(np.array(point) / weight)
-        return self._blocks.first_hit(*ends)
-
-
-class LatePicker:
-    """A picker that is made when it is needed."""
-
-    def __init__(self, surface: Surface) -> None:
-        self._surface = surface
-        self._made: Picker | None = None
-
-    @property
-    def _picker(self) -> Picker:
-        if self._made is None:
-            self._made = Picker(self._surface)
-        return self._made
-
-    def pick(self, *where: Any) -> Hit | None:
-        """What `Picker.pick` finds, once the picker has been built."""
-        return self._picker.pick(*where)
-
-    def sees(self, *where: Any) -> bool:
-        """What `Picker.sees` finds, once the picker has been built."""
-        return self._picker.sees(*where)
+        """Return whether nothing but faces about it stands before a point (3,) of the surface."""
+        ends = _ray(renderer, *pixel_of(renderer, point))
+        return ends is None or self.blocks.sees(ends[0], point, 2 * self._surface.mean_edge_length)
 
 
 def pixel_of(renderer: vtkRenderer, point: FloatArray) -> tuple[float, float]:
-    """Where a point (3,) is drawn: device pixels, y up."""
+    """Return the device pixel of a point (3,), y up."""
     renderer.SetWorldPoint([*point, 1.0])
     renderer.WorldToDisplay()
     x, y, _ = renderer.GetDisplayPoint()
     return x, y
+
+
+def _ray(renderer: vtkRenderer, x: float, y: float) -> tuple[FloatArray, FloatArray] | None:
+    """Return the ends (3,) of the line of sight through a device pixel, the near one first; None if there is none."""
+    ends = []
+    for depth in (0.0, 1.0):
+        renderer.SetDisplayPoint(x, y, depth)
+        renderer.DisplayToWorld()
+        *point, weight = renderer.GetWorldPoint()
+        if weight == 0:
+            return None
+        ends.append(np.array(point) / weight)
+    return ends[0], ends[1]

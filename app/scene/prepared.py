@@ -1,4 +1,4 @@
-"""What the window's panels need of a surface, all made in the background when a mesh is loaded.
+"""Data that the window's panels need of a surface, all made in the background when a mesh is loaded.
 
 Without VTK at the top: the window opens before that is imported.
 """
@@ -22,11 +22,18 @@ SAMPLES = 5_000
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """Meshes to draw and a picker.
+    """Meshes to draw, a picker, and what the camera needs to know of a surface.
 
-    meshes: by shading, that which is chosen by itself ready.
-    points: (k, 3) of the vertices that have a face, to fit the camera to, and their bounds (x, x, y, y, z, z).
-    samples: (SAMPLES, 3) on the faces, as many for equal areas.  is_flat: whether it can become a height field.
+    Attributes
+    ----------
+    meshes
+        By shading; the usual one is ready.
+    points, bounds
+        (k, 3) vertices of faces, to which the camera is fitted, and their bounds (x, x, y, y, z, z).
+    samples
+        (SAMPLES, 3) places on the faces, as many for equal areas.
+    is_flat
+        Whether it can become a height field.
     """
 
     meshes: "Meshes"
@@ -38,9 +45,9 @@ class Prepared:
 
 
 class Meshes:
-    """What is drawn of a surface for each shading, with what stands in for it.  Two are kept: the usual and the last.
+    """The meshes of a surface by shading, each with its stand-in; the usual one and the last are kept.
 
-    Asked and kept on the view's thread, made on any.
+    They are asked for and kept on the view's thread, and made on any.
     """
 
     def __init__(self, surface: Surface) -> None:
@@ -49,21 +56,21 @@ class Meshes:
         self._last = self.usual
 
     def ready(self, shading: Shading) -> "Drawn | None":
-        """None if it has not been made."""
+        """Return the mesh for a shading, None if it has not been made."""
         key = _key(shading)
         return next((made for made in (self.usual, self._last) if made.shading == key), None)
 
     def make(self, shading: Shading) -> "Drawn":
-        """Now, if it is not ready."""
+        """Return the mesh for a shading, made now if it is not ready."""
         return self.ready(shading) or self.keep(self.made(shading))
 
     def keep(self, drawn: "Drawn") -> "Drawn":
-        """What was made elsewhere is ready from now on."""
+        """Keep and return a mesh that was made elsewhere."""
         self._last = drawn
         return drawn
 
     def made(self, shading: Shading) -> "Drawn":
-        """Without keeping it."""
+        """Make the mesh for a shading without keeping it."""
         from .drawable import drawable
         from .stand_in import stand_in
 
@@ -87,7 +94,7 @@ def _key(shading: Shading) -> Shading:
 
 
 def prepare(surface: Surface) -> Prepared:
-    """What the panels need of the surface; on any thread."""
+    """Prepare a surface for the panels; on any thread."""
     from bihdist_core.analysis.first_view import is_flat
 
     from .picking import Picker
@@ -96,11 +103,13 @@ def prepare(surface: Surface) -> Prepared:
     bounds = tuple(float(end) for x in shown.T for end in (x.min(), x.max()))
     # The camera is fitted on the window's thread: some of the points of a large mesh do as well.
     points = shown[:: max(1, len(shown) // FITTED)]
-    return Prepared(Meshes(surface), Picker(surface), points, bounds, _samples(surface), is_flat(shown))
+    picker = Picker(surface)
+    _ = picker.blocks  # made here, and not at the first pick
+    return Prepared(Meshes(surface), picker, points, bounds, _samples(surface), is_flat(shown))
 
 
 def _samples(surface: Surface) -> FloatArray:
-    """(SAMPLES, 3) places on the faces."""
+    """Return places (SAMPLES, 3) on the faces."""
     random = np.random.default_rng(0)
     upto = np.cumsum(surface.face_areas)
     faces = np.searchsorted(upto, random.uniform(0, upto[-1], SAMPLES))

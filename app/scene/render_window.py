@@ -17,7 +17,7 @@ OSMESA = ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")
 
 
 def offscreen_window() -> vtkRenderWindow:
-    """A window off the screen; BihdistError, with what to install, where there is no OpenGL for it."""
+    """Return a window off the screen; BihdistError, with what to install, where there is no OpenGL for it."""
     if sys.platform.startswith("linux") and not os.environ.get("DISPLAY"):
         # VTK would otherwise try an X server first, and complain that there is none.
         os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")

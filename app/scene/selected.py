@@ -1,4 +1,4 @@
-"""What is selected on a surface: a rim around it and hatching in it, between whose lines the field stays to be read."""
+"""Selections on a surface: a rim around them and hatching in them, between whose lines the field can be read."""
 
 from collections.abc import Sequence
 
@@ -40,10 +40,7 @@ PAINT_SELECTED = f"""
 
 
 def selected_colours(areas: Sequence[AreaMark], count: int) -> ByteArray | None:
-    """(n,) vertices in the colours of the areas they are in, the last on top, as (n, 4) uint8; 0 where there is none.
-
-    None if nothing is marked.
-    """
+    """Return colours (n, 4) uint8 of vertices by the areas they are in, the last on top; None for no areas."""
     colours = np.zeros((count, 4), np.uint8)
     for area in areas:
         inside = area.vertices[area.vertices < count]

@@ -1,4 +1,4 @@
-"""What is drawn instead of a large surface while the camera moves: a point for each cluster of near ones.
+"""Stand-ins for large surfaces while the camera moves: a point for each cluster of near vertices.
 
 Clusters are the cells of a grid, each parted where the surface turns away, so that two sheets in one cell stay two.
 Made in a third of a second for a million vertices, by NumPy, most of which releases the interpreter lock.
@@ -10,12 +10,13 @@ from types import MappingProxyType
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 
 from .drawable import copies_of, faces_of, poly_data, with_backs_of
+from .face_look import map_attribute
 
 CLUSTERS = 40_000
 """About how many there are."""
@@ -36,14 +37,14 @@ MOST_CELLS = 1 << 20
 
 
 class StandIn:
-    """mesh: the clusters (k,) as points with normals, and the faces whose corners lie in three of them."""
+    """Clusters (k,) of a surface's points, with normals, and the faces whose corners lie in three of them."""
 
     def __init__(self, mesh: vtkPolyData, of_point: IntArray, count: int) -> None:
         self.mesh = mesh
         self._of_point, self._count = of_point, count
 
     def averaged(self, values: AnyArray, undefined: float) -> AnyArray:
-        """(k,) float32 means over each cluster of values (n,) of all points; `undefined` where all of its are."""
+        """Return means (k,) float32 of values (n,) over each cluster; `undefined` where all of its values are."""
         known = values != undefined
         if known.all():
             points, known_values = self._of_point, values
@@ -56,7 +57,7 @@ class StandIn:
 
 
 def stand_in(mesh: vtkPolyData, clusters: int = CLUSTERS) -> StandIn | None:
-    """For a mesh made by `drawable`; None if it is too small, or has no area.  On any thread."""
+    """Make the stand-in of a mesh made by `drawable`, on any thread; None if that is small or has no area."""
     x, faces = vtk_to_numpy(mesh.GetPoints().GetData()), faces_of(mesh)
     used = np.zeros(len(x), bool)
     used[faces.ravel()] = True
@@ -84,7 +85,7 @@ def stand_in(mesh: vtkPolyData, clusters: int = CLUSTERS) -> StandIn | None:
 
 
 def _side(x: FloatArray, faces: IntArray, clusters: int) -> float:
-    """Of a cell, so that the surface passes through about as many as there are to be clusters."""
+    """Return the side of a cell, such that the surface passes through about as many cells as clusters are wanted."""
     # Some of the faces tell the area well enough.
     some = faces[:: max(1, len(faces) // 100_000)]
     a, b, c = (x[some[:, k]] for k in range(3))
@@ -93,7 +94,11 @@ def _side(x: FloatArray, faces: IntArray, clusters: int) -> float:
 
 
 def _clusters(x: list[FloatArray], normals: AnyArray, side: float, least: float) -> IntArray:
-    """(n,) the cluster of each point, from 0; least: the cosine to its cell's first normal that parts it from that."""
+    """Return the cluster (n,) of each point.
+
+    The points of a cell whose normals have less than the `least` cosine with its first normal are a cluster of their
+    own.
+    """
     lows = [float(each.min()) for each in x]
     longest = max(float(each.max()) - low for each, low in zip(x, lows, strict=True))
     side = max(side, longest / (MOST_CELLS - 1), np.finfo(float).tiny)
@@ -119,7 +124,7 @@ def _clusters(x: list[FloatArray], normals: AnyArray, side: float, least: float)
 
 
 def _faces(of_point: IntArray, faces: IntArray, centres: FloatArray, normals: FloatArray) -> IntArray:
-    """(m, 3) those with corners in three clusters, each once; not those that clustering has turned over."""
+    """Return the faces (m, 3) with corners in three clusters, each once, without those that are turned over."""
     a, b, c = (of_point.take(faces[:, k]) for k in range(3))
     whole = np.flatnonzero((a != b) & (b != c) & (c != a))
     found = np.stack([a[whole], b[whole], c[whole]], 1)
@@ -140,7 +145,7 @@ class StandInActor:
 
     def __init__(self, full: vtkActor) -> None:
         self._full = full
-        self._stand_in: StandIn | None = None
+        self.stand_in: StandIn | None = None
         self._values = np.empty(0, np.float32)
         self._array = numpy_to_vtk(self._values)
         self._tints: dict[str, vtkDataArray] = {}
@@ -153,9 +158,9 @@ class StandInActor:
         self.actor.VisibilityOff()
 
     def take(self, stand_in: StandIn | None) -> None:
-        """Stand in for another surface; None if there is nothing that could."""
+        """Stand in for another surface; None if nothing can."""
         self.show(False)
-        self._stand_in, self._averaged, self._tints = stand_in, None, {}
+        self.stand_in, self._averaged, self._tints = stand_in, None, {}
         if stand_in is None:
             self._mapper.SetInputData(vtkPolyData())
             return
@@ -167,14 +172,9 @@ class StandInActor:
         self._mapper.SetInputData(own)
 
     @property
-    def stand_in(self) -> StandIn | None:
-        """What has been taken."""
-        return self._stand_in
-
-    @property
-    def can_stand_in(self) -> bool:
-        """Whether there is a coarser surface."""
-        return self._stand_in is not None
+    def is_shown(self) -> bool:
+        """True if the next picture is of the stand-in."""
+        return bool(self.actor.GetVisibility())
 
     def show(
         self,
@@ -183,17 +183,21 @@ class StandInActor:
         undefined: float = 0.0,
         tints: Mapping[str, vtkDataArray] = NONE,
     ) -> None:
-        """Let this be drawn instead of the other actor, or that again.
+        """Draw this instead of the other actor, or that again.
 
-        values: (n,) of all points of the surface, under the name that they have there; tints: (n, 4) the same, of each
-        of its colours that the shader knows.
+        Parameters
+        ----------
+        values
+            (n,) of all points of the surface, under the name that they have there.
+        tints
+            (n, 4) colours, by the names that the shader knows.
         """
-        if is_shown and self._stand_in is not None and values is not None:
-            self._follow(self._stand_in, values, undefined)
-            self._follow_tints(self._stand_in, tints)
+        if is_shown and self.stand_in is not None and values is not None:
+            self._follow(self.stand_in, values, undefined)
+            self._follow_tints(self.stand_in, tints)
         else:
             is_shown = False
-        if is_shown != bool(self.actor.GetVisibility()):
+        if is_shown != self.is_shown:
             self.actor.SetVisibility(is_shown)
             self._full.SetVisibility(not is_shown)
 
@@ -212,15 +216,13 @@ class StandInActor:
             self._mapper.SetScalarModeToUsePointFieldData()
             self._mapper.SelectColorArray(name)
             self._mapper.InterpolateScalarsBeforeMappingOn()
-            self._mapper.MapDataArrayToVertexAttribute(
-                "isolineAttribute", name, vtkDataObject.FIELD_ASSOCIATION_POINTS, -1
-            )
+            map_attribute(self._mapper, "isolineAttribute", name)
         self._averaged = state
         self._values[:] = stand_in.averaged(vtk_to_numpy(values), undefined)
         self._array.Modified()
 
     def _follow_tints(self, stand_in: StandIn, tints: Mapping[str, vtkDataArray]) -> None:
-        """A cluster has the mean of its points' colours: it is selected by the share of them that are."""
+        """Give each cluster the mean colour of its points, so that it is selected by the fraction of them that are."""
         for name in [name for name in self._tints if name not in tints]:
             del self._tints[name]
             self._mapper.RemoveVertexAttributeMapping(f"{name}Attribute")
@@ -234,6 +236,4 @@ class StandInActor:
             own = self._mapper.GetInput()
             own.GetPointData().AddArray(array)
             own.Modified()
-            self._mapper.MapDataArrayToVertexAttribute(
-                f"{name}Attribute", name, vtkDataObject.FIELD_ASSOCIATION_POINTS, -1
-            )
+            map_attribute(self._mapper, f"{name}Attribute", name)

@@ -1,19 +1,20 @@
-"""What pictures look like: the one place where colours and line widths are defined."""
+"""Styles of pictures: the one place where colours and line widths are defined."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bihdist_core.arrays import FloatArray
+from bihdist_core.arrays import ByteArray, FloatArray
 from bihdist_core.errors import ParameterError
 
 from ..document.looks import OF_THE_STYLE, Colours, Stops
+from ..drawing.shapes import RGBA, opaque
 from . import colour_maps
 from .colour_maps import MAPS, backwards, colours_at, goes_both_ways, lightened
 from .oklab import oklab
 
 Colour = tuple[float, float, float]
-RGBA = tuple[float, float, float, float]
 
 WHITE, INK = (1.0, 1.0, 1.0), (0.08, 0.085, 0.1)
 
@@ -23,20 +24,44 @@ LINES_ON_COLOURS = (WHITE, INK, (1.0, 0.45, 0.0), (0.0, 0.75, 0.3))
 RIM_OPACITY, RIM = 0.6, 0.8
 """Of the rim beside isolines of signed fields, and its width on each side in pixels at scale 1."""
 
+CASING = 1.2
+"""Pixels, at scale 1, of the dark rim on each side of an isoline through a point."""
+
 STANDS_OUT = 0.12
 """Distances in Oklab from which on a line is seen well."""
 
 
 @dataclass(frozen=True)
-class Style:
-    """Colours are RGB from 0 to 1; widths are in pixels at scale 1, which are 1/96 of an inch.
+class IsolineInk:
+    """The colour of an isoline and, if it has one, of the rim on each side, so wide in pixels at scale 1."""
 
-    outline: width of the line around the shape and along its folds; 0 for none.  Without `shading` the colours are
-    drawn as they are, and without `coloured` isolines alone tell the field.  back: of the inside of a surface, where
-    it is seen; edge, edge_on_dark: of the wireframe, on light and on dark colours.
-    plain: of a surface that is meant to have no field.
-    bands: one colour from isoline to isoline.  signed_isoline: of that at 0 of a signed field; the others have one
-    colour in all panels, and on a signed field, which is light in its middle, a faint rim, see `rim`.
+    colour: RGBA
+    rim: RGBA | None = None
+    rim_width: float = 0.0
+
+
+@dataclass(frozen=True)
+class Style:
+    """A look: colours are RGB from 0 to 1, widths in pixels at scale 1, which are 1/96 of an inch.
+
+    Attributes
+    ----------
+    outline
+        Width of the line around the shape and along its folds; 0 for none.
+    shading
+        Whether surfaces are lit; if not, colours are drawn as they are.
+    coloured
+        Whether surfaces are coloured; if not, isolines alone show the field.
+    plain
+        Colour of a surface that is meant to have no field.
+    back
+        Colour of the inside of a surface.
+    edge, edge_on_dark
+        Colours of mesh edges on light and on dark colours.
+    signed_isoline
+        Colour of the isoline at 0 of a signed field; see `isoline_ink`.
+    bands
+        Whether there is one colour from each isoline to the next.
     """
 
     stops: Stops
@@ -55,7 +80,6 @@ class Style:
     edge: Colour = (0.05, 0.06, 0.08)
     edge_on_dark: Colour = (0.62, 0.65, 0.70)
     source: Colour = (1.0, 0.86, 0.1)
-    pointer: Colour = (1, 1, 1)
     largest: Colour = (0.10, 0.72, 0.50)
     marker_size: float = 15.0
     mark_edge: Colour = (0.1, 0.1, 0.12)
@@ -64,47 +88,60 @@ class Style:
     bands: bool = False
 
     def colours(self, count: int = 512, signed: bool = False) -> FloatArray:
-        """(count, 3) the colour map from 0 to the maximum; signed: from -maximum to maximum."""
+        """Return the colour map (count, 3) from 0 to the maximum or, if signed, from -maximum to maximum."""
         return self.colours_at(np.linspace(-1 if signed else 0, 1, count), signed)
 
     def band_colours(self, edges: FloatArray, signed: bool = False) -> FloatArray:
-        """(k + 1, 3) the colours of bands, each that of its middle; edges: (k,) fractions of the maximum, going up."""
+        """Return the colours (k + 1, 3) of bands that end at fractions (k,) of the maximum, each that of its middle."""
         ends = np.concatenate([[-1.0 if signed else 0.0], edges, [1.0]])
         return self.colours_at((ends[1:] + ends[:-1]) / 2, signed)
 
     def colours_at(self, shares: FloatArray, signed: bool = False) -> FloatArray:
-        """(k, 3) colours of values given as shares (k,) of the maximum, 0 to 1, or -1 to 1 if signed."""
+        """Return the colours (k, 3) at fractions (k,) of the maximum, 0 to 1, or -1 to 1 if signed."""
         return colours_at(self.diverging if signed else self.stops, shares)
 
-    def bin_colours(self, ends: FloatArray, top: float, signed: bool = False) -> FloatArray:
-        """(b, 3) of the bins of a histogram with ends (b + 1,), each that of its middle, where colours end at `top`."""
-        middle = (ends[1:] + ends[:-1]) / 2
-        return self.colours_at(np.clip(middle / top if top > 0 else 0 * middle, -1 if signed else 0, 1), signed)
+    def value_colours(self, values: FloatArray, top: float, signed: bool = False) -> FloatArray:
+        """Return the colours (k, 3) of values (k,), where colours end at `top`; what is undefined is grey."""
+        is_defined = np.isfinite(values)
+        shares = np.clip(values[is_defined] / top, -1 if signed else 0, 1) if top > 0 else np.zeros(is_defined.sum())
+        colours = np.tile(self.undefined, (len(values), 1))
+        colours[is_defined] = self.colours_at(shares, signed)
+        return colours
 
-    def colour_of(self, value: float, top: float, signed: bool = False) -> Colour | FloatArray:
-        """The colour of one value where `top` is the end of the colour bar; what is undefined is grey."""
-        if np.isnan(value):
-            return self.undefined
-        share = np.clip(value / top, -1 if signed else 0, 1) if top > 0 else 0.0
-        colour: FloatArray = self.colours_at(np.array([share]), signed)[0]
-        return colour
+    def bin_colours(self, ends: FloatArray, top: float, signed: bool = False) -> FloatArray:
+        """Return the colours (b, 3) of the middles of bins with ends (b + 1,), where colours end at `top`."""
+        return self.value_colours((ends[1:] + ends[:-1]) / 2, top, signed)
+
+    def vertex_colours(self, field: FloatArray, top: float, signed: bool = False) -> ByteArray:
+        """Return the colours (n, 3) uint8 of values (n,), where colours end at `top`; what is undefined is grey."""
+        rounded: ByteArray = np.rint(255 * self.value_colours(field, top, signed)).astype(np.uint8)
+        return rounded
 
     def named(self, name: str) -> Colour:
-        """A colour such as "#1F7A3D", "white", or that of one of the fields, such as "source"."""
+        """Return a colour such as "#1F7A3D", "white", or that of one of the fields, such as "source"."""
         if name.startswith("#"):
             red, green, blue = (int(name[k : k + 2], 16) / 255 for k in (1, 3, 5))
             return red, green, blue
         return WHITE if name == "white" else getattr(self, name)
 
-    def line(self, signed: bool = False, share: float = 0.0) -> Colour:
-        """The colour of the isoline at a fraction of the maximum."""
-        return self.signed_isoline if signed and share == 0 else self.isoline
+    def named_for(self, own: str) -> Callable[[str], Colour]:
+        """Return `named` for a mark whose own colour is meant by "own"."""
+        return lambda name: self.named(own if name == "own" else name)
 
-    def rim(self, signed: bool, share: float) -> RGBA | None:
-        """Red, green, blue and opacity of what is beside that isoline, so that it is seen; None for nothing."""
-        if not (signed and self.coloured) or share == 0:
-            return None
-        return (*(INK if sum(self.isoline) > 1.5 else WHITE), RIM_OPACITY)
+    def isoline_ink(self, signed: bool = False, value: float = 1.0, is_through: bool = False) -> IsolineInk:
+        """Return the colours of an isoline; of its value it only matters whether it is 0.
+
+        Isolines have one colour in all panels, but for that at 0 of a signed field and those through points.  On a
+        signed field, which is light in its middle, they have a faint rim.
+        """
+        if is_through:
+            return IsolineInk(opaque(self.source), opaque(self.mark_edge), CASING)
+        if not signed or value == 0:
+            return IsolineInk(opaque(self.signed_isoline if signed else self.isoline))
+        if not self.coloured:
+            return IsolineInk(opaque(self.isoline))
+        rim = opaque(INK if sum(self.isoline) > 1.5 else WHITE, RIM_OPACITY)
+        return IsolineInk(opaque(self.isoline), rim, RIM)
 
 
 CURVES = ("#0A7358", "#B45309", "#6D4AC7", "#1D2125", "#8A3A78", "#5F6B00")
@@ -172,12 +209,12 @@ STYLES = {"paper": PAPER, "uniform": UNIFORM, "lines": LINES, "dark": DARK}
 
 
 def curve_colours(style: Style) -> tuple[str, ...]:
-    """The colours of curves that go with a style's ground."""
+    """Return the colours of curves that go with a style's ground."""
     return CURVES if sum(style.background) > 1.5 else CURVES_ON_DARK
 
 
 def style_of(word: str, colours: Colours = OF_THE_STYLE) -> Style:
-    """A style, with a document's colours where it names any; ParameterError for a style or a map that is not there.
+    """Return a style with the colours that a document names; raise ParameterError for an unknown style or map.
 
     The style of lines only has no colours, and stays as it is.
     """
@@ -199,7 +236,7 @@ def style_of(word: str, colours: Colours = OF_THE_STYLE) -> Style:
 
 
 def map_of(colours: Colours) -> Stops:
-    """The map that colours name, empty for that of the style; ParameterError if there is none."""
+    """Return the map that colours name, empty for that of the style; ParameterError if there is none."""
     if colours.stops or not colours.map:
         return colours.stops
     if colours.map not in MAPS:
@@ -208,14 +245,14 @@ def map_of(colours: Colours) -> Stops:
 
 
 def line_on(stops: Stops) -> Colour:
-    """The colour of isolines that are seen on all of a map's colours; the best there is where none stands out."""
+    """Return the colour of isolines that stands out from all of a map's colours, or the best if none does."""
     ground = oklab(colours_at(stops, np.linspace(0, 1, 256)))
     apart = [np.linalg.norm(ground - oklab(np.array([line])), axis=1).min() for line in LINES_ON_COLOURS]
     return LINES_ON_COLOURS[next((k for k, far in enumerate(apart) if far > STANDS_OUT), int(np.argmax(apart)))]
 
 
 def _with_diverging(style: Style, stops: Stops) -> Style:
-    """The style with another map for what is signed; the line at 0 is dark where that is light, and the reverse."""
+    """Return the style with another map for signed fields, and a line at 0 that stands out from its middle."""
     is_light = oklab(colours_at(stops, np.zeros(1)))[0, 0] > MIDDLE
     return replace(style, diverging=stops, signed_isoline=INK if is_light else WHITE)
 

@@ -19,10 +19,22 @@ HOLLOW = 0.005
 
 @dataclass(frozen=True, eq=False)
 class Winding:
-    """turn: (m,) the faces to turn over so that the outside sees all counter-clockwise, where there is an outside, and
-    each is wound as its neighbours, where that is possible.  edges: (e,) those of two faces; left, right: (e,) their
-    sides there (face + m * corner); is_turned: (e,) whether these are then wound against each other, as somewhere on a
-    Möbius strip.  has_backs: whether an inside can be seen.
+    """The orientation of faces.
+
+    Attributes
+    ----------
+    turn
+        (m,) faces to turn over, so that the outside sees all counter-clockwise, where there is an outside, and
+        neighbours
+        are wound alike, where that is possible.
+    edges
+        (e,) edges of two faces.
+    left, right
+        (e,) their sides there, as face + m * corner.
+    is_turned
+        (e,) whether these are still wound against each other, as somewhere on a Möbius strip.
+    has_backs
+        Whether an inside can be seen.
     """
 
     turn: BoolArray
@@ -33,7 +45,7 @@ class Winding:
     has_backs: bool
 
     def faces(self, faces: IntArray) -> IntArray:
-        """(m, 3) faces with those turned over that are to be."""
+        """Return faces (m, 3), turned over where they are to be."""
         if not self.turn.any():
             return faces
         if self.turn.all():
@@ -42,9 +54,14 @@ class Winding:
 
 
 def winding(surface: Surface, normals: list[FloatArray]) -> Winding:
-    """normals: three (m,), the coordinates of the faces' normals, whose lengths are twice their areas.
+    """Return the winding that the faces of a surface are to have.
 
-    In NumPy, most of which releases the interpreter lock; half a second for a million vertices.
+    It is NumPy, most of which releases the interpreter lock, and takes half a second for a million vertices.
+
+    Parameters
+    ----------
+    normals
+        x, y and z (m,) of the faces' normals, twice as long as their areas.
     """
     faces, m = surface.faces, len(surface.faces)
     of_side, count = surface.edge_of_side, surface.faces_per_edge
@@ -65,10 +82,11 @@ def winding(surface: Surface, normals: list[FloatArray]) -> Winding:
 
 
 def _alike(one: IntArray, other: IntArray, is_turned: BoolArray, m: int) -> tuple[AnyArray, ...]:
-    """(m,) which faces to turn over, (m,) the patch of each, and (e,) where neighbours are still against each other.
+    """Return which faces to turn over (m,), the patch of each (m,), and where neighbours still disagree (e,).
 
-    Each face is there twice, as it is and turned over, and joined to its neighbours as they then fit.  What hangs
-    together of that is one way to wind a patch; of the two ways, that which turns fewer faces over.
+    Each face is a node twice, as it is and turned over, joined to its neighbours as they then fit.  Each connected
+    component
+    is one way to wind a patch; of a patch's two ways, the one that turns fewer faces over is taken.
     """
     ahead, behind = np.stack([one, one + m]), np.where(is_turned, other + m, other)
     behind = np.stack([behind, np.where(is_turned, other, other + m)])
@@ -82,9 +100,9 @@ def _alike(one: IntArray, other: IntArray, is_turned: BoolArray, m: int) -> tupl
 def _insides(
     surface: Surface, normals: list[FloatArray], turn: BoolArray, patch: IntArray, one_sided: IntArray
 ) -> tuple[BoolArray, bool]:
-    """(m,) which faces are those of a patch that is wound inwards, and whether the inside of a patch can be seen.
+    """Return the faces (m,) of patches that are wound inwards, and whether the inside of a patch can be seen.
 
-    one_sided: (k,) the patches that have only one side.
+    The patches `one_sided` (k,) have only one side.
     """
     m, patches = len(patch), int(patch.max()) + 1
     area = np.bincount(patch, np.sqrt(dots(normals, normals)) / 2, patches)

@@ -1,1 +1,1 @@
-"""What is open and asked: questions, answers, and the lanes that work on them.  Neither Qt nor VTK."""
+"""Open meshes, questions and answers, and the workers that compute these.  Neither Qt nor VTK."""

@@ -3,7 +3,9 @@
 `ask` is called on the view's thread, and answers come back to it through `post`.
 """
 
+import threading
 import time
+from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Protocol
@@ -12,7 +14,6 @@ from bihdist_core import SolverError
 from bihdist_core.distances.answers import Answer, failed
 from bihdist_core.progress import Progress, part
 
-from .answer_cache import AnswerCache
 from .latest_request_worker import LatestRequestWorker
 from .loaded_mesh import LoadedMesh
 from .questions import Question, are_about_the_same
@@ -37,12 +38,12 @@ class AnswerView(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """What a panel shows: the answer to a question.
+    """The answer that a panel shows, and its question.
 
-    asked: what the panel was asked, which is another question while a quick stand-in is shown (`is_preview`).
+    `question` is what the panel was asked; a preview answers a similar one sooner.
     """
 
-    asked: Question
+    question: Question
     answer: Answer
     serial: int
     is_preview: bool = False
@@ -50,7 +51,10 @@ class Shown:
 
 @dataclass(frozen=True, eq=False)
 class _Request:
-    """A question for a lane.  live: a drag goes on, so a stand-in will do and nobody is in the way of the next."""
+    """A question for the worker of a panel.
+
+    While a drag goes on (`live`), a preview will do, and work on a similar question is finished before it.
+    """
 
     question: Question
     loaded: LoadedMesh
@@ -59,10 +63,18 @@ class _Request:
 
 
 class Answering:
-    """See the module.
+    """Answers the questions of all panels, each on a worker of its own.
 
-    shown: what each panel shows; progress: what is going on for it, as a share done and a text; stopped: the panels
-    for which the user has cancelled what was asked last.
+    Attributes
+    ----------
+    questions
+        The question of each panel, by its id.
+    shown
+        What each panel shows.
+    progress
+        The progress of what is computed for a panel: the fraction done, and a text.
+    stopped
+        The panels for which the user has cancelled the last question.
     """
 
     def __init__(self, view: AnswerView, post: Callable[[Callable[[], None]], None]) -> None:
@@ -71,7 +83,7 @@ class Answering:
         self.stopped: set[int] = set()
         self._view = view
         self._post = post
-        self._asked: dict[int, Question] = {}
+        self.questions: dict[int, Question] = {}
         self._kept = AnswerCache()
         self._serial = 0
         self._workers: dict[int, LatestRequestWorker[_Request]] = {}
@@ -79,9 +91,9 @@ class Answering:
 
     # ------------------------------------------------------------------ asking
     def ask(self, asked: Mapping[int, tuple[Question, LoadedMesh]], live: bool) -> None:
-        """The questions of all panels, each with its surface: from now on nobody wants any others.
+        """Ask the questions of all panels, each with its mesh; from now on no others are wanted.
 
-        live: a drag goes on; stand-ins will do, and what is computed is shown though it is late.
+        While a drag goes on (`live`), previews will do, and what is computed is shown even if it is late.
         """
         for id, (question, loaded) in asked.items():
             self._serial += 1
@@ -101,27 +113,29 @@ class Answering:
             self._workers[id].submit(_Request(question, loaded, self._serial, live))
 
     def keep(self, question: Question, answer: Answer) -> None:
-        """What somebody else has found out, on any thread."""
+        """Keep an answer that was computed elsewhere, on any thread."""
         self._kept.put(question, answer)
 
-    def expect(self, asked: Mapping[int, Question]) -> None:
-        """These are the panels and their questions now; what is shown of other panels or meshes is forgotten."""
-        self._asked = dict(asked)
+    def expect(self, asked: dict[int, Question]) -> None:
+        """Take the questions of all panels; what is shown of other panels or meshes is forgotten."""
+        self.questions = asked
         for id in self._workers.keys() - asked.keys():
             self._workers.pop(id).end()
             self.progress.pop(id, None)
         self.stopped &= asked.keys()
-        self.shown = {id: s for id, s in self.shown.items() if id in asked and s.asked.mesh == asked[id].mesh}
+        self.shown = {id: s for id, s in self.shown.items() if id in asked and s.question.mesh == asked[id].mesh}
 
     def is_answered(self, panel: int) -> bool:
-        """Whether a panel shows the final answer to its question, be its accuracy known or not."""
-        shown = self.shown.get(panel)
-        return shown is not None and not shown.is_preview and shown.asked == self._asked.get(panel)
+        """Return whether a panel shows the final answer to its question, be its accuracy known or not."""
+        return self._answers(panel) and not self.shown[panel].is_preview
 
-    def is_quick_look(self, panel: int) -> bool:
-        """Whether a panel shows a stand-in for the answer to its question."""
+    def is_preview(self, panel: int) -> bool:
+        """Return whether a panel shows a preview of the answer to its question."""
+        return self._answers(panel) and self.shown[panel].is_preview
+
+    def _answers(self, panel: int) -> bool:
         shown = self.shown.get(panel)
-        return shown is not None and shown.is_preview and shown.asked == self._asked.get(panel)
+        return shown is not None and shown.question == self.questions.get(panel)
 
     def cancel(self, panel: int | None = None) -> None:
         """Stop what is going on for a panel, for all if none is named; what is asked next is answered."""
@@ -136,7 +150,7 @@ class Answering:
             worker.end()
 
     def close(self) -> None:
-        """The same, and wait for it."""
+        """Stop everything, and wait for the threads."""
         for worker in self._workers.values():
             worker.close()
 
@@ -180,18 +194,18 @@ class Answering:
             loaded.distances(question.areas).get(spec, part(preparing, 0, 0.9))
         asking(0.9, str(question))
         at_hand = question.is_at_hand(loaded)
-        stand_ins = (loaded.distances(question.areas).stand_in(spec) or spec for spec in question.specs)
-        quick = question.with_specs(tuple(stand_ins))
+        specs = tuple(loaded.distances(question.areas).preview(spec) or spec for spec in question.specs)
+        preview = question.with_specs(specs)
         if (
-            quick != question
+            preview != question
             and not at_hand
-            and self._is_quicker(request, quick, preparing)
-            and self._preview(id, request, quick, preparing, asking)
+            and self._is_preview_wanted(request, preview, preparing)
+            and self._show_preview(id, request, preview, preparing, asking)
             and request.live
         ):
             self._took[id] = time.monotonic() - begun
             return
-        answer = loaded.answer(question, asking, at_once=lambda first: self._deliver(id, request, first))
+        answer = question.answer(loaded, asking, lambda first: self._deliver(id, request, first))
         self._kept.put(question, answer)
         self._deliver(id, request, answer)
         if request.live:
@@ -199,15 +213,17 @@ class Answering:
         else:
             self._took.pop(id, None)
 
-    def _is_quicker(self, request: _Request, quick: Question, preparing: Progress) -> bool:
-        """Whether stand-ins come before the answer: but for drags, those that are made, and all where it takes long."""
-        distances = request.loaded.distances(quick.areas)
-        if request.live or all(distances.is_ready(spec) for spec in quick.specs):
+    def _is_preview_wanted(self, request: _Request, preview: Question, preparing: Progress) -> bool:
+        """Return whether a preview comes first: in drags, where it is ready, and where the answer takes long."""
+        distances = request.loaded.distances(preview.areas)
+        if request.live or all(distances.is_ready(spec) for spec in preview.specs):
             return True
-        return any(distances.get(spec).takes_long(preparing) for spec in request.question.specs)
+        return any(distances.get(spec).is_slow(preparing) for spec in request.question.specs)
 
-    def _preview(self, id: int, request: _Request, question: Question, preparing: Progress, asking: Progress) -> bool:
-        """Hand on what quick distances answer; whether they did: their failure must not cost the answer."""
+    def _show_preview(
+        self, id: int, request: _Request, question: Question, preparing: Progress, asking: Progress
+    ) -> bool:
+        """Deliver a preview and return whether there is one: its failure must not cost the answer."""
         answer = self._kept.get(question)
         if answer is None:
             try:
@@ -216,7 +232,7 @@ class Answering:
             except (SolverError, MemoryError):
                 return False
             # How accurate a stand-in is nobody asks.
-            answer = request.loaded.answer(question, asking, at_once=lambda first: True)
+            answer = question.answer(request.loaded, asking, lambda first: True)
             if answer.is_final:
                 self._kept.put(question, answer)
         if not answer.failure:
@@ -230,12 +246,14 @@ class Answering:
 
     def _answered(self, id: int, new: Shown, live: bool) -> None:
         """Show an answer unless nobody asks for it any more, or something newer is shown."""
-        now = self._asked.get(id)
+        now = self.questions.get(id)
         # What was under way when the user stopped it may be done all the same.
-        if now is None or id in self.stopped or not (new.asked == now or (live and are_about_the_same(new.asked, now))):
+        if now is None or id in self.stopped:
+            return
+        if new.question != now and not (live and are_about_the_same(new.question, now)):
             return
         old = self.shown.get(id)
-        if old is None or not are_about_the_same(old.asked, new.asked) or old.serial <= new.serial:
+        if old is None or not are_about_the_same(old.question, new.question) or old.serial <= new.serial:
             self._show(id, new)
 
     def _show(self, id: int, new: Shown) -> None:
@@ -260,3 +278,45 @@ class Answering:
             self._post(note)
 
         return report
+
+
+MEMORY = 256_000_000
+"""Bytes of fields that are kept: 320 of 100,000 vertices, 32 of a million."""
+
+MOST = 250
+"""Answers that are kept: of small meshes those before are found again sooner than anybody notices, while a session that
+kept thousands would grow for hours."""
+
+
+class AnswerCache:
+    """The final answers given last, for any thread: what comes back, by undo or in another panel, costs nothing."""
+
+    def __init__(self, memory: int = MEMORY) -> None:
+        self._memory = memory
+        self._bytes = 0
+        self._answers: OrderedDict[Question, Answer] = OrderedDict()
+        self._lock = threading.Lock()
+
+    def get(self, question: Question) -> Answer | None:
+        """Return the answer to a question, None if it is not held."""
+        with self._lock:
+            if question in self._answers:
+                self._answers.move_to_end(question)
+            return self._answers.get(question)
+
+    def put(self, question: Question, answer: Answer) -> None:
+        """Keep an answer with a field or colours; those not asked for the longest go."""
+        if not _size(answer):
+            return
+        with self._lock:
+            old = self._answers.pop(question, None)
+            self._bytes += _size(answer) - (0 if old is None else _size(old))
+            self._answers[question] = answer
+            while len(self._answers) > (MOST if self._bytes <= self._memory else 1):
+                _, gone = self._answers.popitem(last=False)
+                self._bytes -= _size(gone)
+
+
+def _size(answer: Answer) -> int:
+    """Bytes of its arrays."""
+    return sum(each.nbytes for each in (answer.field, answer.colours, answer.leads_to) if each is not None)

@@ -1,4 +1,4 @@
-"""What comes from Python instead of files: surfaces and fields, by the checksums that documents name them by.
+"""Surfaces and fields from Python instead of files, by the checksums that documents name them by.
 
 They are saved as an .npz archive of plain arrays: `surface/A/vertices`, `surface/A/faces` and `surface/A/name` of a
 surface A, and `field/height` of a field.
@@ -24,10 +24,10 @@ from bihdist_core.formats.array_file import array_in
 from bihdist_core.mesh_like import MeshLike
 from bihdist_core.sources.source import Source, checked_source
 
-from ..document.beside_edits import open_beside
 from ..document.document import Document, FieldArray, MeshFile, comparison
 from ..document.page import Recipe
 from ..document.quantities import Quantity, quantity
+from ..document.second_mesh_edits import open_second_mesh
 
 Mesh = MeshLike
 """A file or the name of a sample, or what else `Surface.of` takes."""
@@ -62,7 +62,7 @@ class ArrayStore:
                 raise TypeError
             array = array.astype(np.float64)
         except (TypeError, ValueError):
-            raise ParameterError(f"The field {name!r} is no array of real numbers.") from None
+            raise ParameterError(f"The field {name!r} is not an array of real numbers.") from None
         if array.ndim != 1:
             raise ParameterError(f"The field {name!r} has the shape {array.shape}; it needs one value for each vertex.")
         if np.isinf(array).any():
@@ -76,15 +76,15 @@ class ArrayStore:
         return field
 
     def surface(self, mesh: MeshFile) -> Surface:
-        """The surface a document means; ParameterError if it was never given."""
+        """Return the surface a document means; ParameterError if it was never given."""
         if mesh.sha256 not in self._surfaces:
-            raise ParameterError(f"The surface {mesh.name!r} was given from Python, and is not there any more.")
+            raise ParameterError(f"The surface {mesh.name!r} was given from Python, and is no longer available.")
         return self._surfaces[mesh.sha256]
 
     def field(self, sha256: str, name: str) -> FloatArray:
-        """(n,) the values of a field; ParameterError if they were never given."""
+        """Return the values (n,) of a field; ParameterError if they were never given."""
         if sha256 not in self._fields:
-            raise ParameterError(f"The field {name!r} was given from Python, and is not there any more.")
+            raise ParameterError(f"The field {name!r} was given from Python, and is no longer available.")
         return self._fields[sha256]
 
     def update(self, other: ArrayStore) -> None:
@@ -94,7 +94,7 @@ class ArrayStore:
 
     # ------------------------------------------------------------------ files
     def arrays(self, document: Document) -> dict[str, AnyArray]:
-        """What a document needs, by the names that it has in an archive."""
+        """Return the arrays that a document needs, by their names in an archive."""
         arrays: dict[str, AnyArray] = {}
         for mesh in document.surfaces:
             if not mesh.path and mesh.change is None:
@@ -105,7 +105,7 @@ class ArrayStore:
 
     @classmethod
     def read(cls, recipe: Recipe) -> ArrayStore:
-        """What the document of a recipe needs, from the recipe's archive.
+        """Read the arrays that the document of a recipe needs, from the recipe's archive.
 
         Raises ParameterError if the archive is missing, is none, lacks something, or holds something else.
         """
@@ -113,7 +113,7 @@ class ArrayStore:
         if not holds_arrays(document):
             return given
         if not os.path.isfile(path):
-            raise ParameterError(f"What came from Python is not there: {path or 'no archive is named'}.")
+            raise ParameterError(f"The arrays given from Python are missing: {path or 'no archive is named'}.")
         with _opened(path) as archive:
             for mesh in document.surfaces:
                 if not mesh.path and mesh.change is None:
@@ -131,12 +131,12 @@ ENCRYPTED = 1
 
 
 def holds_arrays(document: Document) -> bool:
-    """Whether a document names anything that stands in no file of its own."""
+    """Return whether a document names anything that stands in no file of its own."""
     return bool(document.fields) or any(not mesh.path for mesh in document.surfaces)
 
 
 def is_archive(path: str | os.PathLike[str]) -> bool:
-    """Whether a file holds arrays that were given: whether it may be replaced by such a one."""
+    """Return whether a file holds arrays that were given: whether it may be replaced by such a one."""
     try:
         with _opened(path) as archive:
             return all(name.startswith(("surface/", "field/")) for name in archive.namelist())
@@ -151,9 +151,9 @@ def comparison_of_arrays(
     sources: tuple[Source | str | None, ...],
     areas: str = "voronoi",
 ) -> tuple[Document, ArrayStore]:
-    """A mesh with a panel for each distance from each source, and one for each field that none of them names."""
+    """Return a mesh with a panel for each distance from each source, and one for each field that none of them names."""
     if isinstance(distances, str):
-        raise ParameterError(f"The distances are a list, such as [{distances!r}], not a text.")
+        raise ParameterError(f"Distances are given as a list, such as [{distances!r}], not a text.")
     if not isinstance(fields, Mapping):
         raise ParameterError(f"The fields are given by name, as a dict of arrays, not as {type(fields).__name__}.")
     given = ArrayStore()
@@ -163,9 +163,9 @@ def comparison_of_arrays(
     return replace(comparison(entry.path, shows, sources, areas, own), surfaces=(entry,)), given
 
 
-def with_beside(document: Document, given: ArrayStore, mesh: Mesh, at: Source | str | None = None) -> Document:
-    """A document with a second mesh beside the first, kept as the first one is.  at: where its distances start."""
-    return open_beside(document, _entry(mesh, given), None if at is None else checked_source(at))
+def with_second_mesh(document: Document, given: ArrayStore, mesh: Mesh, at: Source | str | None = None) -> Document:
+    """Return a document with a second mesh, whose distances start `at` a source, kept as the first one is."""
+    return open_second_mesh(document, _entry(mesh, given), None if at is None else checked_source(at))
 
 
 def _entry(mesh: Mesh, given: ArrayStore) -> MeshFile:
@@ -176,7 +176,7 @@ def _quantity(shows: Any, fields: Mapping[str, npt.ArrayLike]) -> Quantity:
     if isinstance(shows, str):
         return quantity(shows, fields=fields)
     if not isinstance(shows, Quantity):
-        raise ParameterError(f"{shows!r} is no distance; write it in words, such as 'diffusion(t=1/4)'.")
+        raise ParameterError(f"{shows!r} is not a distance; write it in words, such as 'diffusion(t=1/4)'.")
     return shows
 
 
@@ -194,7 +194,7 @@ def _opened(path: str | os.PathLike[str]) -> Iterator[zipfile.ZipFile]:
         try:
             archive = files.enter_context(zipfile.ZipFile(file))
         except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile):
-            raise ParameterError(f"{path} is no archive of arrays.") from None
+            raise ParameterError(f"{path} is not an archive of arrays.") from None
         yield archive
 
 
@@ -205,7 +205,7 @@ def _array(archive: zipfile.ZipFile, name: str, path: str | os.PathLike[str]) ->
         raise ParameterError(f"{path} has no {name!r}.") from None
     # Packed, a small file may hold more than there is memory for; ours are not.
     if entry.compress_type != zipfile.ZIP_STORED or entry.flag_bits & ENCRYPTED:
-        raise ParameterError(f"{path}: {name!r} is packed, and arrays are written as they are.")
+        raise ParameterError(f"{path}: {name!r} is compressed; arrays are written uncompressed.")
     try:
         with archive.open(entry) as file:
             return array_in(file, entry.file_size)  # type: ignore[arg-type]
@@ -219,4 +219,4 @@ def _array(archive: zipfile.ZipFile, name: str, path: str | os.PathLike[str]) ->
 
 def _check(found: MeshFile | FieldArray, wanted: MeshFile | FieldArray, path: str | os.PathLike[str]) -> None:
     if found.sha256 != wanted.sha256:
-        raise ParameterError(f"{path}: {wanted.name!r} is not what it was when it was saved (its checksum differs).")
+        raise ParameterError(f"{path}: {wanted.name!r} has changed since its checksum was recorded.")

@@ -1,4 +1,4 @@
-"""Where the colour bars of a document's panels end."""
+"""Ends of the colour bars of a document's panels."""
 
 from collections.abc import Callable, Mapping
 
@@ -15,9 +15,9 @@ from .loaded_mesh import LoadedMesh
 def bar_end(
     document: Document, shown: Mapping[int, Shown], id: int, loaded: Callable[[str], LoadedMesh | None]
 ) -> float | None:
-    """Of a panel, by its id and by what all of them show; None for the field's own maximum.
+    """Return the end of a panel's colour bar, by what all panels show; None for the field's own maximum.
 
-    opened: as in `own_end`.
+    `loaded` returns a surface by its name in the document.
     """
     answers = {other: each.answer for other, each in shown.items()}
     answer = answers[id]
@@ -35,12 +35,12 @@ def bar_end(
 
 
 def is_shared(document: Document, answer: Answer) -> bool:
-    """Whether all panels of the unit end alike; differences do, too, where distances are in fractions."""
-    return document.range == "shared" or (document.range == "shares" and answer.signs is not None)
+    """Return whether all panels of the unit end alike; differences do, too, where distances are in fractions."""
+    return document.range == "shared" or (document.range == "fraction" and answer.signs is not None)
 
 
 def typed_end(document: Document, id: int, answer: Answer) -> float | None:
-    """Where the colour bar of a panel was told to end, in the unit of its answer; None if it was not."""
+    """Return the end that the user typed for a panel's colour bar, in the unit of its answer; None for none."""
     end = document.panel(id).maximum
     return None if end is None else end * answer.scale
 
@@ -48,10 +48,10 @@ def typed_end(document: Document, id: int, answer: Answer) -> float | None:
 def own_end(
     document: Document, answers: Mapping[int, Answer], id: int, loaded: Callable[[str], LoadedMesh | None]
 ) -> float | None:
-    """The same where each panel has its own: what a distance is before and after a change has one end.
+    """Return the end of a panel's colour bar if each panel has its own end.
 
-    That is of vertices that are there before, and of these alone: a thin handle may be far from everything else.
-    opened: a surface by its name in the document.
+    A distance before and after a change has one end: that of the vertices that are there before, and of these alone, as
+    a thin handle may be far from everything else. `loaded` returns a surface by its name in the document.
     """
     panel = document.panel(id)
     other = partner(document, panel) if panel.maximum is None else None
@@ -72,7 +72,7 @@ def _old_maximum(answer: Answer, loaded: LoadedMesh | None) -> float:
 
 
 def ends_with(document: Document, shown: Mapping[int, Shown], id: int) -> list[int]:
-    """The panels, by their ids, whose bars may end elsewhere when a panel shows another answer; itself, too."""
+    """Return the panels, by their ids, whose bars may end elsewhere when a panel shows another answer; itself, too."""
     if is_shared(document, shown[id].answer):
         return list(shown)
     other = partner(document, document.panel(id)) if document.range == "own" else None

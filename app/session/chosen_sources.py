@@ -13,10 +13,10 @@ from bihdist_core.analysis.sampling import farthest_points, starts_of
 from bihdist_core.analysis.upright import guess_up
 from bihdist_core.arrays import BoolArray
 from bihdist_core.distances.answers import Distances
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.errors import ParameterError
 from bihdist_core.file_content import file_text
-from bihdist_core.formats.freesurfer_label import is_label
+from bihdist_core.formats.freesurfer import is_label
 from bihdist_core.formats.mesh_names import mesh_format, mesh_name
 from bihdist_core.formats.pins import Pins, picked_from, pins_format, placed
 from bihdist_core.formats.vertex_values import is_vertex_values, read_label_vertices
@@ -38,19 +38,28 @@ STANDARD_INPUT = "standard input"
 
 @dataclass(frozen=True)
 class Chosen:
-    """sources: at least one, in order.  pins: what they are in a file of pins, None for those from elsewhere; path: of
-    the file, "" for none."""
+    """The sources that were chosen on a mesh.
+
+    Attributes
+    ----------
+    sources
+        The sources, at least one, in order.
+    pins
+        The pins of a file that they are; None for sources from elsewhere.
+    path
+        The path of that file, "" for none.
+    """
 
     sources: list[Source]
     pins: Pins | None = None
     path: str = ""
 
     def one(self) -> Source:
-        """The only one; ParameterError for several."""
+        """Return the only one; ParameterError for several."""
         if len(self.sources) > 1:
             raise ParameterError(
-                f"This starts from one source, and --sources names {len(self.sources):,}; join vertices of which the "
-                "nearest counts by a plus: 12+40."
+                f"This starts from one source, and --sources names {len(self.sources):,}; to measure from "
+                "the nearest of several vertices, join them by +: 12+40."
             )
         return self.sources[0]
 
@@ -58,7 +67,7 @@ class Chosen:
         """Their ids; ParameterError, which speaks of `what` is among vertices, for a source that is no vertex."""
         for each in self.sources:
             if not isinstance(each, int):
-                raise ParameterError(f"{what} are those of vertices, and {short_words_of(each)} is none.")
+                raise ParameterError(f"{what} need vertices, and {short_words_of(each)} is not one.")
         return self.sources  # type: ignore[return-value]
 
 
@@ -71,11 +80,29 @@ def chosen_sources(
     highest: Callable[[], int] | None = None,
     progress: Progress | None = None,
 ) -> Chosen:
-    """The sources on a surface, at least one.
+    """Return the sources on a surface, at least one.
 
-    distance: makes the one by which points are farthest, and is called for these alone.  name: what stands for {name}
-    in a file's path.  among: (n,) which vertices rules choose from, all of faces if None.  highest: finds where to
-    start where nothing is said.  VertexError or ParameterError for what is not on the surface.
+    Parameters
+    ----------
+    asked
+        The choice of sources.
+    surface
+        The surface.
+    distance
+        Makes the distance by which points are farthest; called for these alone.
+    name
+        The text that stands for {name} in a file's path.
+    among
+        The vertices that rules choose from, a mask (n,); None for all vertices of faces.
+    highest
+        Finds the vertex to start from where nothing else is said.
+    progress
+        Called with the progress of farthest points.
+
+    Raises
+    ------
+    VertexError, ParameterError
+        For a source that is not on the surface.
     """
     highest = highest or (lambda: first_source(surface, guess_up(surface, mesh_format(surface.name))))
     if asked.rule == FILE:
@@ -108,7 +135,7 @@ def chosen_sources(
 def chosen_on(
     asked: Sources, mesh: MeshFile, spec: Spec, areas: str, progress: Progress | None = None, name: str = ""
 ) -> Chosen:
-    """The sources on the mesh of a document; a list is not looked at."""
+    """Return the sources on the mesh of a document; a list is not looked at."""
     if asked.rule == LISTED and asked.members:
         return Chosen([*asked.members])
     surface = read_repaired(mesh_path(mesh.path), mesh.repairs)
@@ -122,12 +149,12 @@ def chosen_on(
 
 
 def parts_of(line: str) -> list[str]:
-    """What blanks stand between in a line without its remark."""
+    """Return the words of a line without its remark."""
     return [part for each in line.partition("#")[0].split() if (part := each.strip(","))]
 
 
 def _source(word: str) -> Source:
-    """From words, or from a vertex id that is written as a float is."""
+    """Read a source from words, or from a vertex id that is written as a float is."""
     with suppress(ValueError):
         if (number := float(word)).is_integer() and 0 <= number < 1e15:
             return int(number)
@@ -135,7 +162,7 @@ def _source(word: str) -> Source:
 
 
 def _read(path: str, text: str, surface: Surface) -> Chosen:
-    """Those in a file: vertex ids in a .npy or a label, pins, or lines of what a list has, with remarks after #."""
+    """Read a file: vertex ids in a .npy or a label, pins, or lines of what a list has, with remarks after #."""
     if is_label(path):
         found: list[Any] = surface.check_vertices(read_label_vertices(path, surface.n_vertices)).tolist()
     elif is_vertex_values(path):
@@ -154,5 +181,5 @@ def _read(path: str, text: str, surface: Surface) -> Chosen:
             except ParameterError as error:
                 raise ParameterError(f"{path}, line {number}: {error}") from None
     if not found:
-        raise ParameterError(f"There is no source in {path}.")
+        raise ParameterError(f"{path} names no source.")
     return Chosen(found, path=path)

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from .loaded_mesh import LoadedMesh
 
 
-def carried(at: Source, loaded: "LoadedMesh") -> Source:
-    """Where a place of the surface that another is made from is on that: its vertices, or the nearest that are left.
+def map_to_derived(at: Source, loaded: "LoadedMesh") -> Source:
+    """Map a place of the surface that another is made from to that: its vertices, or the nearest that are left.
 
     ParameterError for what is not of vertices, VertexError for one that is not there.
     """
@@ -32,16 +32,14 @@ def carried(at: Source, loaded: "LoadedMesh") -> Source:
     images: dict[int, None] = {}
     for member in members_of(at):
         if not isinstance(member, int):
-            raise ParameterError(
-                "A source that is followed onto a mesh with other faces is a vertex or several, not a place or a curve."
-            )
+            raise ParameterError("Only vertices carry over to a mesh with other faces, not places in faces or curves.")
         images[image_of(loaded.origin.surface, loaded.ids, member, loaded.surface)] = None
     found = tuple(images)
     return found[0] if len(found) == 1 else SourceSet(found)
 
 
 def counterpart(vertex: int | None, here: "LoadedMesh | None", there: "LoadedMesh | None") -> int | None:
-    """The vertex of another surface that one of this is, where one is made from the other; None if there is none."""
+    """Return a vertex's counterpart on another surface, where one is made from the other; None if there is none."""
     if vertex is None or here is None or there is None:
         return None
     if there.origin is here:
@@ -52,8 +50,8 @@ def counterpart(vertex: int | None, here: "LoadedMesh | None", there: "LoadedMes
     return None
 
 
-def led(document: Document, before: Document, loaded: "LoadedMesh") -> Document:
-    """Where a point on a changed surface has been moved there, what it is the image of moves, and it follows.
+def propagate_source(document: Document, before: Document, loaded: "LoadedMesh") -> Document:
+    """Move the original of a point that was moved on a changed surface, so that the point follows.
 
     Onto what is new there it does not move at all.
     """
@@ -77,16 +75,16 @@ def led(document: Document, before: Document, loaded: "LoadedMesh") -> Document:
 def answers_ahead(
     document: Document, found: Sequence["LoadedMesh"], there: Sequence["LoadedMesh"], progress: Progress
 ) -> Iterator[tuple[Question, Answer]]:
-    """What a document asks of surfaces that are not shown yet: so none is ever seen without its fields.
+    """Answer what a document asks of surfaces that are not shown yet, so that none is ever seen without its fields.
 
-    found: these; there: those that are.
+    `found` holds these surfaces, `there` those that are shown.
     """
     by_name = {}
     for mesh in document.surfaces:
         matching = [loaded for loaded in (*found, *there) if loaded.is_of(mesh)]
         if matching:
             by_name[mesh.name] = matching[0]
-            document = matching[0].settled(document)
+            document = matching[0].resolve_points(document)
     surfaces = {panel.id: by_name.get(panel.surface) for panel in document.panels}
     asked = [(question, surfaces[id]) for id, question in questions(document).items()]
     new = [(question, loaded) for question, loaded in asked if loaded is not None and loaded in found]

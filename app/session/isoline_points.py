@@ -9,27 +9,31 @@ from bihdist_core.distances.answers import Answer
 from bihdist_core.sources.source import SurfacePoint
 
 from ..document.document import Document, Point
+from ..document.on_surface import ISOLINES, Hidden
 from .loaded_mesh import LoadedMesh
 from .questions import vertex_at
 
 
 @dataclass(frozen=True)
 class IsolinePoint:
-    """Where a line passes: vertices of one face with weights that add up to 1; value: the field's, NaN for none."""
+    """A point of an isoline: vertices of one face with weights that add up to 1.
+
+    `value` is the field's there, NaN for none.
+    """
 
     vertices: tuple[int, ...]
     weights: tuple[float, ...]
     value: float
 
     def of(self, field: FloatArray) -> FloatArray:
-        """A field (n,) or positions (n, 3) there, linear in the face."""
+        """Return a field (n,) or positions (n, 3) there, linear in the face."""
         value: FloatArray = np.array(self.weights) @ field[list(self.vertices)]
         return value
 
 
 def passed(document: Document, surface: str, loaded: LoadedMesh, answer: Answer | None) -> tuple[IsolinePoint, ...]:
-    """The points of a surface, with the values of an answer's field; none where that has none."""
-    if answer is None or answer.field is None:
+    """Return a surface's points with the values of an answer's field; none where that has none, or they are hidden."""
+    if answer is None or answer.field is None or ISOLINES in document[Hidden].hidden:
         return ()
     points = [document.point(name) for name in document.isolines.through]
     return tuple(_passed(point, loaded, answer.field) for point in points if point.surface == surface)

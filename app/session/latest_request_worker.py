@@ -21,22 +21,23 @@ NICE = 10
 
 
 class LatestRequestWorker(Generic[Request]):
-    """Runs `work(request, lane)` for the latest request on a thread of its own.
+    """Runs `work(request, worker)` for the latest request on a thread of its own, which starts with the first.
 
-    Work that takes long calls `lane.progress(is_wanted)` for its progress callback: it forwards reports to
-    `report(fraction, text)` and raises Cancelled as soon as `is_wanted(latest request)` is false.  Exceptions other
-    than Cancelled go to `failed(request, exception)`.  `report` and `failed` are called on the lane's thread.
+    Work that takes long calls `worker.progress(is_wanted)` for its progress callback: it forwards reports to
+    `report(fraction, text)` and raises Cancelled as soon as `is_wanted(latest request)` is false. Exceptions other than
+    Cancelled go to `failed(request, exception)`. `report` and `failed` are called on the worker's thread.
 
-    leaves: whether the next request is worked on at once, on a fresh thread, when work is no longer wanted; what was
-    given up ends on the old thread when it asks next, and is not heard of any more.  Then two may work at a time.
+    With `leaves`, the next request is worked on at once, on a new thread, when the present work is no longer wanted;
+    that work ends on the old thread when it asks next, and is not heard of any more. Two threads may work at a time
+    then.
     """
 
     def __init__(
         self,
         name: str,
         work: Callable[[Request, "LatestRequestWorker[Request]"], None],
-        report: Callable[[float | None, str], None],
-        failed: Callable[[Request, Exception], None],
+        report: Callable[[float | None, str], None] = lambda fraction, text: None,
+        failed: Callable[[Request, Exception], None] = lambda request, error: None,
         leaves: bool = False,
     ) -> None:
         self._name, self._leaves = name, leaves
@@ -46,15 +47,17 @@ class LatestRequestWorker(Generic[Request]):
         self._serial = self._taken = 0
         self._closed = self._is_working = False
         self._is_wanted: Callable[[Request], bool] | None = None  # of what goes on, as it asked last
+        self._thread: threading.Thread | None = None  # once something is asked for
         self._threads: list[threading.Thread] = []
-        self._start()
 
     def submit(self, request: Request | None) -> None:
         """Make this the latest request; None cancels what is going on."""
         with self._changed:
             self._latest = request
             self._serial += 1
-            if self._leaves and self._is_working and not self._closed and not self._goes_on_for(request):
+            is_left = self._leaves and self._is_working and not self._goes_on_for(request)
+            is_first = self._thread is None and request is not None
+            if (is_first or is_left) and not self._closed:
                 self._start()
             self._changed.notify_all()
 
@@ -69,7 +72,7 @@ class LatestRequestWorker(Generic[Request]):
         self._thread.start()
 
     def progress(self, is_wanted: Callable[[Request], bool], quiet: float = QUIET_SECONDS) -> Progress:
-        """A progress callback for the work on this lane (see the class), silent for the first `quiet` seconds."""
+        """Return a progress callback for this worker's work (see the class), silent for the first `quiet` seconds."""
         last = time.monotonic() + quiet - 1 / REPORTS_PER_SECOND
         mine = threading.current_thread()
         with self._changed:
@@ -98,7 +101,7 @@ class LatestRequestWorker(Generic[Request]):
             self._changed.notify_all()
 
     def close(self, timeout: float = 5.0) -> None:
-        """The same, and wait for it."""
+        """End the work, and wait for the threads."""
         self.end()
         until = time.monotonic() + timeout
         for thread in self._threads:

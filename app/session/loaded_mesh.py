@@ -3,7 +3,8 @@
 import hashlib
 import os
 import threading
-from collections.abc import Callable, Collection
+import weakref
+from collections.abc import Collection, Iterable
 from dataclasses import replace
 from functools import cached_property
 from typing import Any, Protocol, TypeVar
@@ -17,7 +18,7 @@ from bihdist_core.applications.changes import Perturbation
 from bihdist_core.applications.perturbation import perturbed
 from bihdist_core.arrays import FloatArray, IntArray
 from bihdist_core.distances.answers import Answer, Distances
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.formats.mesh_io import mesh_content, surface_in
 from bihdist_core.formats.mesh_names import mesh_format
 from bihdist_core.progress import Progress
@@ -29,7 +30,7 @@ from ..document.edits import put_point
 from ..document.file import checksum
 from ..samples import mesh_path
 from .array_store import ArrayStore
-from .derived_surfaces import carried
+from .derived_surfaces import map_to_derived
 from .questions import Question, source_at
 from .repaired_surface import repaired
 
@@ -38,7 +39,7 @@ REMEMBERED = 8
 
 
 class Memory(Protocol):
-    """What questions of one kind remember of a surface, for any thread."""
+    """The memory of a surface that questions of one kind have, for any thread."""
 
     def keep(self, areas: str, wanted: set[Spec]) -> None:
         """Forget what was found with other areas, or is of no use for these distances."""
@@ -48,10 +49,18 @@ MemoryKind = TypeVar("MemoryKind", bound=Memory)
 
 
 class LoadedMesh:
-    """A surface that is there.  given: fields of the user's own; prepared: what whoever shows it has made of it.
+    """A surface that has been read or made, with what is known of it.
 
-    origin: what it is made from, if from another; ids: (n,) the vertices of that which its own are, -1 for new ones.
-    new_ids: the id here of each vertex of the file, None where all keep theirs.
+    Attributes
+    ----------
+    prepared
+        What the view has made of it.
+    origin
+        The surface that it is made from, if it is made from another.
+    ids
+        The vertices (n,) of the origin that its own are, -1 for new ones.
+    new_ids
+        The id here of each vertex of the file; None where all keep theirs.
     """
 
     def __init__(
@@ -74,16 +83,16 @@ class LoadedMesh:
         self._distances: dict[str, Distances] = {}
         self._memories: dict[type, Any] = {}
         self._last: dict[Question, Answer] = {}
-        self.beside: tuple[LoadedMesh, ...] = ()  # what is shown with it
+        self._shown_with: tuple[weakref.ref[LoadedMesh], ...] = ()
         self._lock = threading.Lock()
 
     def is_of(self, mesh: MeshFile) -> bool:
-        """Whether this is the surface of a mesh."""
+        """Return whether this is the surface of a mesh."""
         return is_same(mesh, self.mesh)
 
     @cached_property
     def has_faces_of_origin(self) -> bool:
-        """Whether it differs from what it is made from in the places of its vertices alone."""
+        """Return whether it differs from what it is made from in the places of its vertices alone."""
         return self.origin is not None and np.array_equal(self.surface.faces, self.origin.surface.faces)
 
     @cached_property
@@ -92,48 +101,46 @@ class LoadedMesh:
         return self.guessed_up()
 
     def guessed_up(self, progress: Progress | None = None) -> str:
-        """The axis that points up: guessed, or that of what it is made from."""
+        """Return the axis that points up: guessed, or that of what it is made from."""
         if self.origin is not None:
             return self.origin.up
         return guess_up(self.surface, mesh_format(self.mesh.path and mesh_path(self.mesh.path)), progress)
 
     def first_look(self, up: str) -> FirstLook:
-        """From where it is seen first with an axis up, and where a field starts; what is made from it is seen alike."""
+        """Return the first view with an axis up, and where a field starts; what is made from it is seen alike."""
         if up not in self._looks:
             look = first_look(self.surface, up)
             self._looks[up] = look if self.origin is None else replace(look, view=self.origin.first_look(up).view)
         return self._looks[up]
 
     def view_of(self, view: View, up: str) -> View:
-        """The view, or that which "auto" stands for with an axis up."""
+        """Return the view, or that which "auto" stands for with an axis up."""
         return self.first_look(up).view if view == "auto" else view
 
     def distances(self, areas: str) -> Distances:
-        """All distances on it with these vertex areas, each built once for whoever asks."""
+        """Return all distances on it with these vertex areas, each built once for whoever asks."""
         with self._lock:
             if areas not in self._distances:
                 self._distances[areas] = Distances(Laplacian(self.surface, areas))
             return self._distances[areas]
 
-    def answer(
-        self,
-        question: Question,
-        progress: Progress | None = None,
-        at_once: Callable[[Answer], object] | None = None,
-    ) -> Answer:
-        """See `Question.answer`."""
-        return question.answer(self, progress, at_once)
+    def set_shown_with(self, others: Iterable["LoadedMesh"]) -> None:
+        """Set the surfaces that are shown with this one, which whoever shows them keeps."""
+        self._shown_with = tuple(map(weakref.ref, others))
 
-    def standing_beside(self, mesh: MeshFile | None) -> "LoadedMesh | None":
-        """A surface that is shown with this one, or itself; None if it is not there."""
-        return next((each for each in (*self.beside, self) if mesh is not None and is_same(mesh, each.mesh)), None)
+    def shown_with(self, mesh: MeshFile | None) -> "LoadedMesh | None":
+        """Return a surface that is shown with this one, or itself; None if it is not there."""
+        for each in (*(ref() for ref in self._shown_with), self):
+            if mesh is not None and each is not None and is_same(mesh, each.mesh):
+                return each
+        return None
 
     def answer_once(self, question: Question, progress: Progress | None = None) -> Answer:
-        """The same; the last few are kept, for fields that are compared with others again and again."""
+        """Return the answer to a question; the last few are kept, for fields that are compared again and again."""
         with self._lock:
             known = self._last.get(question)
         if known is None:
-            known = self.answer(question, progress)
+            known = question.answer(self, progress)
             with self._lock:
                 if known.field is not None:
                     self._last[question] = known
@@ -142,17 +149,17 @@ class LoadedMesh:
         return known
 
     def own_field(self, field: FieldArray) -> FloatArray:
-        """(n,) a field of the user's own."""
+        """Return the values (n,) of a field of the user's own."""
         return self._given.field(field.sha256, field.name)
 
     def memory(self, kind: type[MemoryKind]) -> MemoryKind:
-        """What questions of one kind remember of this surface, empty at first."""
+        """Return the memory that questions of one kind have of this surface, empty at first."""
         with self._lock:
             found: MemoryKind = self._memories.setdefault(kind, kind())
             return found
 
-    def settled(self, document: Document) -> Document:
-        """The document with this surface's checksum, and its points on it.
+    def resolve_points(self, document: Document) -> Document:
+        """Return the document with this surface's checksum, and its points on it.
 
         Which way is up, and from where it is seen, are those of the first surface, where they were left to be chosen.
 
@@ -161,7 +168,7 @@ class LoadedMesh:
         """
         mine = {mesh.name for mesh in document.surfaces if is_same(mesh, self.mesh)}
         if mine and self.origin is None:
-            self.surface.check_vertices([zoom.vertex for zoom in document.zooms])
+            self.surface.check_vertices([inset.vertex for inset in document.insets])
         if document.surfaces and document.surfaces[0].name in mine:
             up = self._up_in(document, document.surfaces[0].name)
             document = replace(document, up=up, camera=self.view_of(document.camera, up))
@@ -172,12 +179,12 @@ class LoadedMesh:
                     f"The field {field.name!r} has {count:,} values, and {self.surface.name} has "
                     f"{len(self.surface.vertices):,} vertices."
                 )
-        beside = []
-        for each in document.beside:
+        views = []
+        for each in document.second_views:
             up = self.up if each.up == "auto" else each.up
             is_mine = each.surface in mine
-            beside.append(replace(each, up=up, camera=self.view_of(each.camera, up)) if is_mine else each)
-        document = replace(document, beside=tuple(beside))
+            views.append(replace(each, up=up, camera=self.view_of(each.camera, up)) if is_mine else each)
+        document = replace(document, second_views=tuple(views))
         found, change = self.mesh.sha256, self.mesh.change
         meshes = (
             replace(m, sha256=found, change=change, repairs=self.mesh.repairs) if m.name in mine else m
@@ -198,7 +205,7 @@ class LoadedMesh:
         return replace(document, surfaces=tuple(meshes), points=tuple(points))
 
     def _image(self, at: Source) -> Source:
-        return at if self.origin is None else carried(at, self)
+        return at if self.origin is None else map_to_derived(at, self)
 
     def _up_in(self, document: Document, name: str) -> str:
         up = document.up_of(name)
@@ -216,7 +223,7 @@ class LoadedMesh:
 
 
 def is_same(asked: MeshFile, there: MeshFile) -> bool:
-    """Whether what is there will do for what is asked for."""
+    """Return whether what is there will do for what is asked for."""
     if (asked.path, asked.sha256 or there.sha256) != (there.path, there.sha256):
         return False
     if not asked.repairs.is_same(there.repairs):
@@ -226,8 +233,8 @@ def is_same(asked: MeshFile, there: MeshFile) -> bool:
     return replace(asked.change, pose_sha256=asked.change.pose_sha256 or there.change.pose_sha256) == there.change
 
 
-def started_alike(document: Document, name: str, first: LoadedMesh, loaded: LoadedMesh) -> Document:
-    """With the sources of a surface beside the first, where nobody has put them, at the first's vertices.
+def match_sources(document: Document, name: str, first: LoadedMesh, loaded: LoadedMesh) -> Document:
+    """Put the sources of a second mesh, where nobody has put them, at the vertices of the first's sources.
 
     That is done for two poses of one shape, which have the same faces; others are left as they are.
     """
@@ -249,10 +256,27 @@ def open_mesh(
     there: Collection[LoadedMesh] = (),
     progress: Progress | None = None,
 ) -> LoadedMesh:
-    """Read the file, or take what was given.  remedy: what to do, in a sentence, where a file is not the one meant.
+    """Read a mesh's file, or take its arrays from those given.
 
-    there: surfaces that are open, for one that is made from another; progress: of its making.
-    Raises ParameterError if it is missing, or has changed since the checksum was taken; MeshError if it is no mesh.
+    Parameters
+    ----------
+    mesh
+        The mesh.
+    given
+        The surfaces and fields from Python.
+    remedy
+        A sentence on what to do where a file is not the one meant.
+    there
+        Surfaces that are open, for one that is made from another.
+    progress
+        Called with the progress of making it.
+
+    Raises
+    ------
+    ParameterError
+        If the file is missing, or has changed since the checksum was taken.
+    MeshError
+        If it is no mesh.
     """
     if mesh.change is not None:
         itself = replace(mesh, change=None)
@@ -269,23 +293,23 @@ def open_mesh(
 
 
 def unmerged(mesh: MeshFile, given: ArrayStore) -> Surface:
-    """The surface of a mesh before vertices are merged; the errors of `open_mesh`."""
+    """Return the surface of a mesh before vertices are merged; the errors of `open_mesh`."""
     return open_mesh(replace(mesh, repairs=replace(mesh.repairs, merge=None)), given).surface
 
 
 def _read(mesh: MeshFile, remedy: str) -> tuple[Surface, str]:
-    """What a file holds, and its checksum."""
+    """Read the surface in a file, and the file's checksum."""
     path = checked_path(mesh, remedy)
     content = mesh_content(path)
     surface, found = surface_in(content, os.path.basename(path)), hashlib.sha256(content).hexdigest()
     if mesh.sha256 and found != mesh.sha256:
-        sentence = f"The mesh {mesh.path} is not what it was when it was written down (its checksum differs). {remedy}"
+        sentence = f"The mesh {mesh.path} has changed since its checksum was recorded. {remedy}"
         raise ParameterError(sentence.strip())
     return surface, found
 
 
 def _with_pose(change: Perturbation, remedy: str) -> tuple[Perturbation, Surface | None]:
-    """A change with the checksum of its other pose, and that; None if there is none."""
+    """Return a change with the checksum of its other pose, and that; None if there is none."""
     if not change.pose:
         return change, None
     pose, found = _read(MeshFile("", change.pose, change.pose_sha256), remedy)
@@ -293,7 +317,7 @@ def _with_pose(change: Perturbation, remedy: str) -> tuple[Perturbation, Surface
 
 
 def checked_path(mesh: MeshFile, remedy: str = "") -> str:
-    """The path of a mesh's file, empty for a surface in memory; ParameterError if it is missing."""
+    """Return the path of a mesh's file, empty for a surface in memory; ParameterError if it is missing."""
     path = mesh_path(mesh.path) if mesh.path else ""
     if path and not os.path.exists(path):
         raise ParameterError(f"The mesh {mesh.path} is not there. {remedy}".strip())

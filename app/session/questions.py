@@ -1,4 +1,4 @@
-"""From a document to its questions: for each panel all that its answer depends on, and nothing else."""
+"""Questions of a document: for each panel all that its answer depends on, and nothing else."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable
@@ -14,7 +14,7 @@ from bihdist_core.analysis.quality import apparent_source
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, difference_of
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.pieces import Pieces, pieces_of
 from bihdist_core.sources.source import Source, SourceSet
@@ -22,6 +22,7 @@ from bihdist_core.sources.source import Source, SourceSet
 from ..document.document import Document, FieldArray, MeshFile
 from ..document.quantities import Difference, DistanceFrom, OwnField
 from ..document.source_edits import members_of
+from ..document.tools import tools
 
 if TYPE_CHECKING:
     from .loaded_mesh import LoadedMesh
@@ -31,9 +32,14 @@ Asked = TypeVar("Asked", bound="Question")
 
 
 class Question(ABC):
-    """What a panel asks of a surface; subclasses are frozen dataclasses, and equal questions have equal answers.
+    """A panel's question on a surface; subclasses are frozen dataclasses, and equal questions have equal answers.
 
-    mesh: the surface, by path and checksum; areas: of its operators.
+    Attributes
+    ----------
+    mesh
+        The surface, by path and checksum.
+    areas
+        The vertex areas of its operators.
     """
 
     mesh: MeshFile
@@ -59,12 +65,12 @@ class Question(ABC):
         return ()
 
     def with_specs(self: Asked, specs: tuple[Spec, ...]) -> Asked:
-        """By as many other distances."""
+        """Return the question by as many other distances."""
         return self
 
     @property
     def about(self) -> Hashable:
-        """What two questions have in common that ask for one thing from two places."""
+        """The value that two questions share if they ask for one thing from two places."""
         return self
 
     @property
@@ -83,16 +89,16 @@ class Question(ABC):
         """
 
     def is_at_hand(self, loaded: "LoadedMesh") -> bool:
-        """Whether nothing has to be solved for the answer."""
+        """Return whether nothing has to be solved for the answer."""
         return False
 
     def start(self, field: FloatArray, surface: Surface) -> Source | None:
-        """Where the field (n,) of the answer starts; VertexError or ParameterError for a point not on the surface."""
+        """Return the source of the answer's field (n,); VertexError or ParameterError for one not on the surface."""
         return apparent_source(field)
 
 
 class ByDistance(Question):
-    """What is answered by one distance; subclasses have the fields mesh, areas and spec."""
+    """A question that one distance answers; subclasses have the fields mesh, areas and spec."""
 
     spec: Spec
 
@@ -210,33 +216,39 @@ class DifferenceQuestion(Question):
         return answered(None)
 
     def start(self, field: FloatArray, surface: Surface) -> Source | None:
-        """All that the distances start from that it is made of."""
+        """Return all that the distances start from that it is made of."""
         starts = [each.start(field, surface) for each in self.parts if each.starts_at_point]
         members = tuple(dict.fromkeys(member for start in starts if start is not None for member in members_of(start)))
         return SourceSet(members) if len(members) > 1 else next(iter(members), None)
 
 
 def are_about_the_same(one: Question, other: Question) -> bool:
-    """Whether they ask for the same on the same surface, perhaps from elsewhere."""
+    """Return whether they ask for the same on the same surface, perhaps from elsewhere."""
     return one.about == other.about
 
 
 def asks_of(question: Question, mesh: MeshFile) -> bool:
-    """Whether an answer depends on distances on this surface, too, on which it is not."""
+    """Return whether an answer depends on distances on this surface, too, on which it is not."""
     # Whatever they are called in documents.
     return any(replace(other, name=mesh.name) == mesh for other in question.others)
 
 
 def questions(document: Document) -> dict[int, Question]:
-    """The question of each panel, by the panel's id."""
+    """Return the question of each panel, by the panel's id."""
     return {panel.id: question_of(panel.shows, document, panel.surface) for panel in document.panels}
 
 
 @singledispatch
 def question_of(shows: Any, document: Document, surface: str) -> Question:
-    """What a quantity asks of a document's surface; quantities of tools say so themselves."""
-    question: Question = shows.question(document, surface)
-    return question
+    """Return the question of a quantity on a surface of a document; tools register theirs (`Tool.questions`)."""
+    for tool in tools():
+        if type(shows).__module__.startswith(f"{tool.package}."):
+            for module in tool.questions:
+                tool.load(module)
+    registered = question_of.dispatch(type(shows))
+    if registered is question_of.dispatch(object):
+        raise TypeError(f"No question is registered for {type(shows).__name__}.")
+    return registered(shows, document, surface)
 
 
 @question_of.register
@@ -256,7 +268,7 @@ def _(shows: Difference, document: Document, surface: str) -> Question:
 
 
 def source_at(at: Source | None, surface: Surface, up: str = "y") -> Source:
-    """Where a point is: None is the first source, with `up` up.
+    """Return the source of a point; None stands for the first source, with `up` up.
 
     VertexError or ParameterError if that is not on this surface.
     """
@@ -269,7 +281,7 @@ def source_at(at: Source | None, surface: Surface, up: str = "y") -> Source:
 
 
 def pieces_at(at: Source | None, surface: Surface) -> Pieces:
-    """What a point is made of on a surface; the same errors."""
+    """Return the pieces of a source on a surface; errors as in `source_at`."""
     return pieces_of(source_at(at, surface), surface)
 
 
@@ -286,5 +298,5 @@ def vertex_at(at: Source | None, surface: Surface) -> int:
 
 
 def first_source(surface: Surface, up: str = "y") -> int:
-    """Where to start with an axis up: a vertex of the largest component that is seen, see `first_look`."""
+    """Return the vertex to start from with an axis up: one of the largest component that is seen, see `first_look`."""
     return first_look(surface, up).source

@@ -17,27 +17,27 @@ import numpy as np
 
 from bihdist_core import OutputError, ParameterError
 from bihdist_core.file_content import open_regular
-from bihdist_core.whole_file import FIRST, check_output, sweep_half_written, whole_file
+from bihdist_core.file_output import KEPT_CHARACTERS, atomic_write, check_output, remove_stale
 
 from ..document.document import Document
 from ..document.file import is_recipe, read_recipe, recipe_text, with_meshes_from
 from ..document.page import FORMATS, Recipe
 from .array_store import ArrayStore, holds_arrays, is_archive
 
-LONGEST = FIRST - 17
+LONGEST = KEPT_CHARACTERS - 17
 """Letters of a recipe's name that its archive's begins with."""
 HEAD = 4096
 """Bytes of a recipe among which its archive is named: names of files have at most 255."""
 
 
 def recipe_paths(figure: str | os.PathLike[str]) -> tuple[Path, Path]:
-    """Where the recipe of a figure may stand: `hand.json`, or where that is something else's `hand.pdf.json`."""
+    """Return the paths that the recipe of a figure may have: `hand.json`, or if that is taken `hand.pdf.json`."""
     figure = Path(figure)
     return figure.with_suffix(".json"), figure.with_name(f"{figure.name}.json")
 
 
 def written_recipe(figure: str | os.PathLike[str]) -> Path:
-    """Where the recipe of a figure that has been written is."""
+    """Return the path of the recipe of a figure that has been written."""
     usual, own = recipe_paths(figure)
     return own if own.exists() else usual
 
@@ -54,7 +54,7 @@ def check_recipe_beside(document: Document, figure: str | os.PathLike[str]) -> N
 
 
 def place_beside(figure: str | os.PathLike[str], recipe: Recipe) -> tuple[Path, str]:
-    """Where a figure's recipe is to be written, and for which format it is written there.
+    """Return the path for a figure's recipe, and the format for which it is written there.
 
     A recipe that is there already is replaced if it says the same, for whatever format, or if it is this figure's and
     no other's.  OutputError if there is no such place.
@@ -78,7 +78,7 @@ def place_beside(figure: str | os.PathLike[str], recipe: Recipe) -> tuple[Path, 
 
 
 def _may_be_shared(figure: Path) -> bool:
-    """Whether there is a figure of the same stem in another format that has no recipe to itself."""
+    """Return whether there is a figure of the same stem in another format that has no recipe to itself."""
     others = (figure.with_suffix(f".{format}") for format in FORMATS if f".{format}" != figure.suffix.lower())
     return any(other.exists() and not recipe_paths(other)[1].exists() for other in others)
 
@@ -111,8 +111,8 @@ def recipe_written(
 ) -> Iterator[None]:
     """Write a recipe, and the arrays it names; they are there when the block ends, and if that fails, neither is.
 
-    format: of the figure that it belongs to, if any.  stays: the file will not be moved, with its meshes or without
-    them, and names these as the recipe does.
+    `format` is that of the figure that it belongs to, if any. With `stays` the file will not be moved, with its meshes
+    or without them, and names these as the recipe does.
     """
     check_recipe_output(recipe.document, path)
     page = replace(recipe.page, format=format)
@@ -121,10 +121,10 @@ def recipe_written(
     try:
         with ExitStack() as files:
             # The last that is begun is the first that is in its place: the arrays, before anything names them.
-            text = files.enter_context(whole_file(path))
+            text = files.enter_context(atomic_write(path))
             if archive is not None:
                 recipe = replace(recipe, arrays=archive.name)
-                with files.enter_context(whole_file(archive)).open("wb") as file:
+                with files.enter_context(atomic_write(archive)).open("wb") as file:
                     np.savez(file, **given.arrays(recipe.document))  # type: ignore[arg-type]
             text.write_text(recipe_text(recipe, version), encoding="utf-8")
             yield
@@ -133,7 +133,7 @@ def recipe_written(
 
 
 def _archive_of(document: Document, path: str | os.PathLike[str]) -> Path:
-    """Where the arrays of a recipe stand: the name tells what they are, so that no others take their place."""
+    """Return the path of a recipe's arrays: it names the arrays, so that no others take their place."""
     named = [(mesh.name, mesh.sha256) for mesh in document.surfaces if not mesh.path and mesh.change is None]
     named += [(field.name, field.sha256) for field in document.fields]
     content = hashlib.sha256(repr(named).encode()).hexdigest()[:16]
@@ -146,7 +146,7 @@ def sweep_arrays(path: str | os.PathLike[str]) -> None:
     written already or still being written."""
     path = Path(path)
     name = rf"{re.escape(path.stem[:LONGEST])}\.[0-9a-f]{{16}}\.npz"
-    sweep_half_written(path.parent, name)
+    remove_stale(path.parent, name)
     with suppress(OSError):
         archives = [each for each in path.parent.iterdir() if re.fullmatch(name, each.name) and is_archive(each)]
         if archives:
@@ -159,7 +159,7 @@ def sweep_arrays(path: str | os.PathLike[str]) -> None:
 
 
 def _head(path: Path) -> bytes:
-    """The beginning of a file, where a recipe names its archive."""
+    """Return the beginning of a file, where a recipe names its archive."""
     try:
         with open_regular(path, "recipe") as file:
             return file.read(HEAD)

@@ -11,41 +11,56 @@ from dataclasses import replace
 from typing import Any, Protocol
 
 from bihdist_core import BihdistError, Surface
-from bihdist_core.distances.answers import failure_in_words
+from bihdist_core.distances.answers import Answer, failure_in_words
 from bihdist_core.progress import Progress
 
-from ..document.beside_edits import close_beside, open_beside, see
 from ..document.camera import View as CameraView
 from ..document.derived_surfaces import changed_mesh
 from ..document.document import Document, MeshFile, Point, starting_points
-from ..document.edits import open_mesh as with_mesh
-from ..document.history import History, Trail
+from ..document.edits import close_meshes, open_mesh as with_mesh
+from ..document.history import History, NavigationHistory
+from ..document.second_mesh_edits import close_second_mesh, open_second_mesh, set_view
 from .answering import Answering, AnswerView, Shown
 from .array_store import ArrayStore
-from .derived_surfaces import answers_ahead, led
-from .followed_vertices import followed
-from .loaded_mesh import LoadedMesh, started_alike
-from .questions import asks_of, questions
+from .derived_surfaces import answers_ahead, propagate_source
+from .loaded_mesh import LoadedMesh, match_sources
+from .questions import Question, asks_of, questions
 from .surfaces import LoadingView, Opening, Surfaces
+from .vertex_remap import remap_vertices
 
-AHEAD = 60_000
+MOST_PRECOMPUTED = 60_000
 """Vertices up to which a changed mesh takes the place of another only once its fields are there: some seconds."""
 
 
 class View(AnswerView, LoadingView, Protocol):
-    """What the session tells whoever shows it; panels are named by their ids."""
+    """The view of a session, which is told of changes; panels are named by their ids."""
 
     def document_changed(self, before: Document) -> None:
         """Called when another document is shown."""
 
 
 class Session:
-    """See the module.
+    """Shows documents: opens their meshes, keeps their history, and has their questions answered.
 
-    `post(function)` must run the function on the thread of the view, in order.  `prepare(surface)` runs in the
-    background when a mesh is opened, for what the view needs of it; its result is then in `opened().prepared`.
-    `known_up(sha256)`, in the background too, is which way a mesh points up as far as that has been chosen before, or
-    "".  given: surfaces and fields from Python, to be there before a document names them.
+    Parameters
+    ----------
+    view
+        The view that is told of changes.
+    post
+        `post(function)` runs the function on the view's thread, in order.
+    prepare
+        `prepare(surface)` runs in the background when a mesh is opened, and makes what the view needs of it, which is
+        then in `loaded().prepared`.
+    document
+        The document to show first.
+    known_up
+        `known_up(sha256)`, also called in the background, returns the axis of a mesh that was chosen to point up
+        before, or "".
+
+    Attributes
+    ----------
+    given
+        Surfaces and fields from Python, to be there before a document names them.
     """
 
     def __init__(
@@ -62,7 +77,7 @@ class Session:
         self._answering = Answering(view, post)
         self._surfaces = Surfaces(view, post, self.given, prepare, known_up, self._present, self._load_programs)
         self._is_begun = False  # whether a document has been shown
-        self._walk: Trail[tuple[Point, ...]] | None = None
+        self._walk: NavigationHistory[tuple[Point, ...]] | None = None
         self._walk_end: tuple[Point, ...] = ()
 
     # ------------------------------------------------------------------ intents
@@ -70,40 +85,37 @@ class Session:
         """Make this the present document: a step of the history (equal keys in a row are one).
 
         If it has other surfaces they are opened first, in the background, and what is shown stays as it is until they
-        are there.  live: a drag goes on; stand-ins will do, and what is computed is shown though it is late.
+        are there. While a drag goes on (`live`), previews will do, and what is computed is shown even if it is late.
         """
         if not self._is_begun:
             is_edit = document.surfaces == self.document.surfaces and self._surfaces.tried
             self.history = History(document)
             if is_edit:
                 return  # shown with the mesh that is on its way, or with the next
-        missing = self._surfaces.missing(document)
-        if missing:
-            self._surfaces.start(Opening(missing, lambda: self._change(self._wanted(document), key)))
-        else:
-            self._present(lambda: self._change(document, key), live)
+        self._open(document, lambda: self._change(self._wanted(document), key), live=live)
 
-    def show_instead(self, document: Document, arriving: Callable[[], None], arrived: Callable[[], None]) -> None:
-        """The same of a document from elsewhere, a file or a program: nothing else that is being opened is wanted.
+    def show_instead(
+        self, document: Document, on_change: Callable[[], None], on_done: Callable[[], None], is_opened: bool = False
+    ) -> None:
+        """Show a document from elsewhere, a file or a program; nothing else that is being opened is wanted.
 
-        arriving: called when it has become the present document, before the view is told; arrived: afterwards.
+        `on_change` is called when it has become the present document, before the view is told, `on_done` afterwards.
+        With `is_opened` it is no edit of the present document, even if it shows the same meshes.
         """
         self._surfaces.drop()
         if not self._is_begun:
             self.history = History(document)
 
-        def arrive() -> None:
-            self._change(self._wanted(document))
-            arriving()
+        def change() -> None:
+            first, shown = self._surfaces.find(document.surfaces[0]), self.loaded()
+            is_other = first is None or shown is None or first.mesh.sha256 != shown.mesh.sha256
+            self._change(self._wanted(document), is_opened=is_opened or is_other)
+            on_change()
 
-        missing = self._surfaces.missing(document)
-        if missing:
-            self._surfaces.start(Opening(missing, arrive, arrived))
-        elif self._present(arrive):
-            arrived()
+        self._open(document, change, on_done=on_done)
 
     def _wanted(self, document: Document) -> Document:
-        """What was asked for, with what was chosen while its surfaces were on their way to be the first."""
+        """Return the document asked for, with what was chosen while its surfaces were being opened."""
         is_same_mesh = not self._is_begun and self.document.surfaces == document.surfaces
         return self.document if is_same_mesh else document
 
@@ -111,26 +123,27 @@ class Session:
         """Open another mesh in the place of the one that is shown, which stays until the new one is there."""
         names = [mesh.name for mesh in self.document.surfaces]
         mesh = MeshFile(names[0] if names else "A", os.fspath(path))
+        self._open_mesh(mesh, lambda document: with_mesh(document, mesh, source), is_opened=True)
 
-        def arrive() -> None:
-            # Until now the user went on with what is shown.
-            self._change(with_mesh(self.document, mesh, source))
-
-        self._surfaces.start(Opening((mesh,), arrive))
-
-    def open_beside(self, path: str) -> None:
+    def open_second_mesh(self, path: str) -> None:
         """Open a second mesh beside the first, in the place of the one that stands there."""
         mesh = MeshFile("", os.fspath(path))
+        self._open_mesh(mesh, lambda document: open_second_mesh(document, mesh))
 
-        def arrive() -> None:
-            self._change(open_beside(self.document, mesh))
+    def _open_mesh(self, mesh: MeshFile, edit: Callable[[Document], Document], is_opened: bool = False) -> None:
+        """Load a mesh, and edit what the user has made of the document until then."""
+        self._surfaces.start(Opening((mesh,), lambda: self._change(edit(self.document), is_opened=is_opened)))
 
-        self._surfaces.start(Opening((mesh,), arrive))
+    def close_meshes(self) -> None:
+        """Show nothing, as at the start; undo comes back."""
+        self._surfaces.drop()
+        if self.loaded() is not None:
+            self._present(Opening((), lambda: self._change(close_meshes(self.document), is_opened=True)))
 
-    def close_beside(self) -> None:
-        """The first surface alone."""
+    def close_second_mesh(self) -> None:
+        """Close the second mesh, with all that belongs to it."""
         if len(self.document.surfaces) > 1:
-            self.show(close_beside(self.document))
+            self.show(close_second_mesh(self.document))
 
     def apply(self, edit: Callable[[Document], Document], key: str = "") -> None:
         """Show what an edit makes of the document: a step of the history (equal keys in a row are one).
@@ -139,7 +152,7 @@ class Session:
         that is by then; a small one that takes the place of another comes with its fields.
         """
         try:
-            document = self._followed(edit(self.document))
+            document = self._remap_vertices(edit(self.document))
         except BihdistError as error:
             self.view.failed(failure_in_words(error))
             return
@@ -149,52 +162,48 @@ class Session:
             self.show(document, key)
             return
 
-        def arrive() -> None:
-            # Until now the user went on with what is shown.
-            self._change(self._followed(edit(self.document)), key)
-
-        def ahead(found: Sequence[LoadedMesh], progress: Progress) -> None:
+        def precompute(found: Sequence[LoadedMesh], progress: Progress) -> None:
             for question, answer in answers_ahead(document, found, tuple(self._surfaces), progress):
                 self._answering.keep(question, answer)
 
-        is_small = self.surface is not None and len(self.surface.vertices) <= AHEAD
+        first = self.loaded()
+        is_small = first is not None and len(first.surface.vertices) <= MOST_PRECOMPUTED
         is_next = changed_mesh(self.document) is not None and all(mesh.change is not None for mesh in missing)
-        self._surfaces.start(Opening(missing, arrive, ahead=ahead if is_small and is_next else None))
 
-    def look(self, camera: CameraView, surface: str | None = None) -> None:
+        def change() -> None:
+            # Until now the user went on with what is shown.
+            self._change(self._remap_vertices(edit(self.document)), key)
+
+        self._surfaces.start(Opening(missing, change, precompute=precompute if is_small and is_next else None))
+
+    def set_view(self, camera: CameraView, surface: str | None = None) -> None:
         """A surface, the first if none is named, is seen from elsewhere, which is no step of the history."""
         if self._is_begun:
-            self.history.change(see(self.document, camera, surface))
+            self.history.change(set_view(self.document, camera, surface))
 
-    def link(self, is_linked: bool) -> None:
-        """Whether the cameras of two surfaces move together, which is no step of the history."""
+    def set_fields(self, **changes: Any) -> None:
+        """Change fields of the document that are no content: `docks`, `snap`, `linked`.  That is no step to undo."""
         if self._is_begun:
-            self.history.change(replace(self.document, linked=is_linked))
-
-    def keep_open(self, docks: tuple[str, ...]) -> None:
-        """Which docks are open, which is no step of the history."""
-        if self._is_begun:
-            self.history.change(replace(self.document, docks=docks))
-
-    def keep_snapping(self, is_snapping: bool) -> None:
-        """Whether the pointer puts sources on vertices, which is no step of the history."""
-        if self._is_begun:
-            self.history.change(replace(self.document, snap=is_snapping))
+            self.history.change(replace(self.document, **changes))
 
     def undo(self) -> None:
-        """One step back."""
+        """Go one step back."""
         self._step(-1)
 
+    def take_back(self) -> None:
+        """Undo the last step, of the same meshes, as if it had not been taken: it cannot be redone."""
+        self._present(Opening((), self.history.take_back))
+
     def redo(self) -> None:
-        """One step forward again."""
+        """Go one step forward again."""
         self._step(1)
 
     def walk_sources(self, step: int) -> None:
         """To the points before (-1) or after (1) in the history's walk; the walk as a whole is one step."""
         starting = starting_points(self.document)
         if self._walk is None or self._walk_end != starting:
-            self._walk = self.history.trail_of_points()
-        walked = self._walk.back() if step < 0 else self._walk.on()
+            self._walk = self.history.point_history()
+        walked = self._walk.back() if step < 0 else self._walk.forward()
         moved = {point.name: point for point in walked or ()}
         if walked is not None and {point.name for point in starting} <= moved.keys():
             # Pins and other marks stay where they are.
@@ -210,8 +219,8 @@ class Session:
 
     def retry(self, panel: int) -> None:
         """Ask again what was stopped for a panel."""
-        asked = questions(self.document).get(panel)
-        loaded = None if asked is None else self._surfaces.found(asked.mesh)
+        asked = self.questions.get(panel)
+        loaded = None if asked is None else self._surfaces.find(asked.mesh)
         if asked is not None and loaded is not None:
             self._answering.ask({panel: (asked, loaded)}, live=False)
 
@@ -225,71 +234,66 @@ class Session:
     # ------------------------------------------------------------------ what is known
     @property
     def document(self) -> Document:
-        """What is shown."""
+        """The document that is shown."""
         return self.history.present
 
-    def loaded(self, name: str | None = None) -> LoadedMesh | None:
-        """A surface of the document, the first if no name is given; None before there is one."""
-        meshes = [mesh for mesh in self.document.surfaces if name in (None, mesh.name)]
-        return self._surfaces.found(meshes[0]) if meshes and self._is_begun else None
+    def loaded(self, where: str | int | None = None) -> LoadedMesh | None:
+        """Return the mesh of a name in the document, or of a panel's id; the first if None.
 
-    @property
-    def surface(self) -> Surface | None:
-        """The first surface of the document; None before there is one."""
-        loaded = self.loaded()
-        return None if loaded is None else loaded.surface
+        None before it is loaded, and where there is no such mesh or panel.
+        """
+        if isinstance(where, int):
+            where = next((panel.surface for panel in self.document.panels if panel.id == where), "")
+        meshes = [mesh for mesh in self.document.surfaces if where in (None, mesh.name)]
+        return self._surfaces.find(meshes[0]) if meshes and self._is_begun else None
 
-    def loaded_in(self, panel: int) -> LoadedMesh | None:
-        """The surface of a panel; None before it is there, and where there is no such panel."""
-        name = next((each.surface for each in self.document.panels if each.id == panel), None)
-        return None if name is None else self.loaded(name)
-
-    @property
-    def first_surface(self) -> Surface:
-        """The first surface of the document; LookupError before there is one."""
-        return self.mesh().surface
-
-    def mesh(self, name: str | None = None) -> LoadedMesh:
-        """A surface of the document, the first if no name is given; LookupError before it is there."""
-        loaded = self.loaded(name)
+    def mesh(self, where: str | int | None = None) -> LoadedMesh:
+        """Return the same mesh; LookupError where `loaded` returns None."""
+        loaded = self.loaded(where)
         if loaded is None:
-            raise LookupError(f"The surface {name or 'of the document'} is not loaded yet.")
+            raise LookupError(f"The mesh {'of the document' if where is None else repr(where)} is not loaded yet.")
         return loaded
-
-    def surface_in(self, panel: int) -> Surface:
-        """The surface of a panel; LookupError before it is there, and where there is no such panel."""
-        return self.mesh(self.document.panel(panel).surface).surface
 
     @property
     def can_undo(self) -> bool:
-        """Whether there is a document before this one."""
+        """Return whether there is a document before this one."""
         return self.history.at(self._steps_on_their_way - 1) is not None
 
     @property
     def can_redo(self) -> bool:
-        """Whether a document has been left by undo."""
+        """Return whether a document has been left by undo."""
         return self.history.at(self._steps_on_their_way + 1) is not None
 
     @property
     def is_opening(self) -> bool:
-        """Whether a mesh is being read for a document that is still wanted."""
-        return self._surfaces.on_their_way is not None
+        """Return whether a mesh is being read for a document that is still wanted."""
+        return self._surfaces.opening is not None
 
     @property
     def replaced(self) -> set[str]:
         """The names of surfaces in whose places others are being read from files."""
-        opening = self._surfaces.on_their_way
+        opening = self._surfaces.opening
         meshes = opening.meshes if opening is not None and opening.is_wanted() else ()
         return {mesh.name for mesh in meshes if mesh.change is None}
 
     @property
+    def questions(self) -> dict[int, Question]:
+        """The question of each panel, by its id."""
+        return self._answering.questions
+
+    @property
     def shown(self) -> dict[int, Shown]:
-        """What each panel shows, by its id."""
+        """The answers that the panels show, by their ids."""
         return self._answering.shown
+
+    def answer(self, panel: int) -> Answer | None:
+        """Return the answer that a panel shows, None before its first."""
+        shown = self.shown.get(panel)
+        return None if shown is None else shown.answer
 
     @property
     def progress(self) -> dict[str | int, tuple[float, str]]:
-        """What is going on, as a share done and a text: for panels by their ids, and of "load"."""
+        """The progress of panels by their ids, and of "load", as the fraction done and a text."""
         loading = self._surfaces.progress
         going: dict[str | int, tuple[float, str]] = {} if loading is None else {"load": loading}
         going.update(self._answering.progress.items())
@@ -297,26 +301,26 @@ class Session:
 
     @property
     def is_stopped(self) -> bool:
-        """Whether the user has cancelled something of what was asked last."""
+        """Return whether the user has cancelled something of what was asked last."""
         return bool(self._answering.stopped)
 
     def is_stopped_at(self, panel: int) -> bool:
-        """Whether that is for this panel."""
+        """Return whether that is for this panel."""
         return panel in self._answering.stopped
 
-    def is_quick_look(self, panel: int) -> bool:
-        """Whether a panel shows a stand-in for the answer to its present question."""
-        return self._answering.is_quick_look(panel)
+    def is_preview(self, panel: int) -> bool:
+        """Return whether a panel shows a stand-in for the answer to its present question."""
+        return self._answering.is_preview(panel)
 
     def is_answered(self, panel: int) -> bool:
-        """Whether a panel shows the final answer to its present question, be its accuracy known or not."""
+        """Return whether a panel shows the final answer to its present question, be its accuracy known or not."""
         return self._answering.is_answered(panel)
 
     @property
     def is_complete(self) -> bool:
-        """Whether every panel does, and it is known how accurate that is."""
+        """Return whether every panel does, and it is known how accurate that is."""
         ids = [panel.id for panel in self.document.panels]
-        return self.surface is not None and all(self.is_answered(id) and self.shown[id].answer.is_final for id in ids)
+        return self.loaded() is not None and all(self.is_answered(id) and self.shown[id].answer.is_final for id in ids)
 
     # ------------------------------------------------------------------ opening
     def _load_programs(self) -> None:
@@ -329,7 +333,7 @@ class Session:
     @property
     def _steps_on_their_way(self) -> int:
         """Taken to a document whose mesh is still being read, unless something has been done since."""
-        opening = self._surfaces.on_their_way
+        opening = self._surfaces.opening
         return opening.steps if opening is not None and opening.is_wanted() else 0
 
     def _step(self, by: int) -> None:
@@ -338,51 +342,53 @@ class Session:
         if document is None:
             return
         self._surfaces.drop()  # a mesh on its way was a step not yet done
-        missing = self._surfaces.missing(document)
 
-        def step() -> None:
-            self.history.go(steps)
+        def is_wanted() -> bool:
+            return self.history.at(steps) == document  # whatever is done meanwhile takes its place
 
-        if missing:
-            # Whatever is done meanwhile takes its place.
-            wanted = Opening(missing, step, is_wanted=lambda: self.history.at(steps) == document, steps=steps)
-            self._surfaces.start(wanted)
+        self._open(document, lambda: self.history.go(steps), is_wanted=is_wanted, steps=steps)
+
+    def _open(self, document: Document, change: Callable[[], object], live: bool = False, **options: Any) -> None:
+        """Change the document, at once or when the meshes that it needs are loaded; see `Opening`."""
+        opening = Opening(self._surfaces.missing(document), change, **options)
+        if opening.meshes:
+            self._surfaces.start(opening)
         else:
-            self._present(step)
+            self._present(opening, live)
 
-    def _followed(self, document: Document) -> Document:
-        """With all that is at vertices where these are in it, as far as its surfaces are there."""
-        return followed(document, self.document, self._surfaces.found)
+    def _remap_vertices(self, document: Document) -> Document:
+        """Move all that is at vertices to where these are in the document, as far as its surfaces are loaded."""
+        return remap_vertices(document, self.document, self._surfaces.find)
 
-    def _settled(self, document: Document) -> Document:
-        """With the checksums of the surfaces that are there, and points where there is a vertex."""
-        first = self._surfaces.found(document.surfaces[0]) if document.surfaces else None
+    def _resolve_points(self, document: Document) -> Document:
+        """Fill in the checksums of the surfaces that are loaded, and points that have no place yet."""
+        first = self._surfaces.find(document.surfaces[0]) if document.surfaces else None
         for mesh in document.surfaces:
-            loaded = self._surfaces.found(mesh)
+            loaded = self._surfaces.find(mesh)
             if loaded is not None and first is not None:
-                document = started_alike(document, mesh.name, first, loaded)
+                document = match_sources(document, mesh.name, first, loaded)
             if loaded is not None:
-                document = loaded.settled(document)
+                document = loaded.resolve_points(document)
         return document
 
     # ------------------------------------------------------------------ asking
-    def _change(self, document: Document, key: str = "") -> None:
+    def _change(self, document: Document, key: str = "", is_opened: bool = False) -> None:
         """A step of the history; the first document that can be shown is its beginning."""
         for mesh in document.surfaces if self._is_begun else ():
-            loaded = self._surfaces.found(mesh) if mesh.change is not None else None
+            loaded = self._surfaces.find(mesh) if mesh.change is not None else None
             if loaded is not None:
-                document = led(document, self.document, loaded)
-        document = self._settled(document)
+                document = propagate_source(document, self.document, loaded)
+        document = self._resolve_points(document)
         if not self._is_begun:
             self.history, self._is_begun = History(document), True
         else:
-            self.history.change(document, key)
+            self.history.change(document, key, is_opened)
 
-    def _present(self, change: Callable[[], object], live: bool = False) -> bool:
-        """Let the document change, tell the view, and ask what is new; False if there is no such place."""
+    def _present(self, opening: Opening, live: bool = False) -> bool:
+        """Change the document, tell the view, and ask what is new; False if the document cannot be."""
         before = self.document
         try:
-            change()
+            opening.change()
         except Exception as error:  # a source that the mesh does not have, or what nobody foresaw of a file
             self.view.failed(failure_in_words(error))
             return False
@@ -392,10 +398,11 @@ class Session:
             self.view.document_changed(before)
         finally:
             self._ask(live)
+        opening.on_done()
         return True
 
     def _ask(self, live: bool) -> None:
-        asked = {id: (each, self._surfaces.found(each.mesh)) for id, each in questions(self.document).items()}
+        asked = {id: (each, self._surfaces.find(each.mesh)) for id, each in self.questions.items()}
         there = {id: (question, loaded) for id, (question, loaded) in asked.items() if loaded is not None}
         self._answering.ask(there, live)
         for loaded in self._surfaces:

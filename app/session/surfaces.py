@@ -1,11 +1,7 @@
 """The surfaces that are there: read in the background, and kept for undo when they are no longer shown."""
 
-import ctypes
-import gc
 import os
-import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, Protocol
@@ -13,6 +9,7 @@ from typing import Any, Protocol
 from bihdist_core import Surface
 from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.distances.answers import failure_in_words
+from bihdist_core.machine_memory import release_freed
 from bihdist_core.progress import Progress, part
 
 from ..document.document import Document, MeshFile
@@ -42,25 +39,27 @@ class LoadingView(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Opening:
-    """Meshes to be opened, and what becomes of the document once they are there.
+    """A change of the document that waits for meshes: load these, change the document, show it, call `on_done`.
 
-    steps: in the history, where that is all.  ahead(found, progress): in the background, before these are shown.
+    `change` makes the session's document another one, and raises where that cannot be; `steps` is how far it goes in
+    the history, if that is all it does.  `is_wanted` is asked once the meshes are loaded, and
+    `precompute(meshes, progress)` runs in the background before they are shown.
     """
 
     meshes: tuple[MeshFile, ...]
-    arrive: Callable[[], object]
-    arrived: Callable[[], None] = lambda: None
+    change: Callable[[], object]
+    on_done: Callable[[], None] = lambda: None
     is_wanted: Callable[[], bool] = lambda: True
     steps: int = 0
-    ahead: Callable[[Sequence[LoadedMesh], Progress], None] | None = None
+    precompute: Callable[[Sequence[LoadedMesh], Progress], None] | None = None
 
 
 class Surfaces:
     """Called on the view's thread, but for what the lane does.
 
-    prepare, known_up, post: see `Session`.  present(arrive): lets the document change; whether that could be.
-    loaded(): called in the background once surfaces are on their way to the view.
-    on_their_way: what is being read and is still wanted; progress: how far that is, as a share done and a text.
+    `prepare`, `known_up` and `post` are those of the `Session`.  `present(opening)` changes the document and tells
+    whether that could be; `loaded()` is called in the background once surfaces are on their way to the view.
+    `opening` is what is being read and still wanted, and `progress` how far that is, as a fraction and a text.
     """
 
     def __init__(
@@ -70,14 +69,14 @@ class Surfaces:
         given: ArrayStore,
         prepare: Callable[[Surface], Any],
         known_up: Callable[[str], str],
-        present: Callable[[Callable[[], object]], bool],
+        present: Callable[[Opening], bool],
         loaded: Callable[[], None],
     ) -> None:
         self._view, self._post, self._given = view, post, given
         self._prepare, self._known_up = prepare, known_up
         self._present, self._loaded = present, loaded
         self._opened: list[LoadedMesh] = []  # those shown last come last
-        self.on_their_way: Opening | None = None
+        self.opening: Opening | None = None
         self.progress: tuple[float, str] | None = None
         self._dropped = False  # whether surfaces have been forgotten whose memory may still be held
         self.tried = False  # whether surfaces have been asked for
@@ -88,8 +87,8 @@ class Surfaces:
     def __iter__(self) -> Iterator[LoadedMesh]:
         return iter(self._opened)
 
-    def found(self, mesh: MeshFile) -> LoadedMesh | None:
-        """The surface of a mesh; None before it is there."""
+    def find(self, mesh: MeshFile) -> LoadedMesh | None:
+        """Return the surface of a mesh; None before it is there."""
         return next((loaded for loaded in reversed(self._opened) if is_same(mesh, loaded.mesh)), None)
 
     def missing(self, document: Document) -> tuple[MeshFile, ...]:
@@ -97,20 +96,20 @@ class Surfaces:
         return tuple(
             mesh
             for mesh in document.surfaces
-            if not mesh.sha256 or (mesh.repairs.cut and not mesh.repairs.cut_sha256) or self.found(mesh) is None
+            if not mesh.sha256 or (mesh.repairs.cut and not mesh.repairs.cut_sha256) or self.find(mesh) is None
         )
 
     def start(self, opening: Opening) -> None:
         """Read meshes, and nothing else that is on its way."""
-        self.on_their_way, self.tried = opening, True
+        self.opening, self.tried = opening, True
         self._worker.submit(opening)
 
     def drop(self) -> None:
-        """What is on its way is no longer wanted; its reading may go on."""
-        self.on_their_way = None
+        """Give up what is on its way; its reading may go on."""
+        self.opening = None
 
     def cancel(self) -> None:
-        """The same, and the reading stops."""
+        """Give up what is on its way, and stop reading."""
         self.drop()
         self._worker.submit(None)
 
@@ -130,14 +129,14 @@ class Surfaces:
         self._dropped = self._dropped or len(others) + len(shown) < len(self._opened)
         self._opened = [*others, *shown]
         for loaded in self._opened:
-            loaded.beside = tuple(shown) if loaded in shown else ()
+            loaded.set_shown_with(shown if loaded in shown else ())
 
     def end(self) -> None:
         """Stop reading, and soon the thread."""
         self._worker.end()
 
     def close(self) -> None:
-        """The same, and wait for it."""
+        """Stop reading, and wait for the thread."""
         self._worker.close()
 
     def _load(self, opening: Opening, worker: LatestRequestWorker[Opening]) -> None:
@@ -152,17 +151,17 @@ class Surfaces:
             share, words = (k + 0.5) / len(opening.meshes), f"assembling {loaded.surface.name}"
             self._assemble(loaded, partial(report, share, words))
             found.append(loaded)
-        if opening.ahead is not None:
-            opening.ahead(found, part(report, 0.5, 1))
+        if opening.precompute is not None:
+            opening.precompute(found, part(report, 0.5, 1))
         report(1, "")
         self._post(lambda: self._take(opening, found))
         self._loaded()
         if self._dropped:
             self._dropped = False
-            _give_back()  # of one after another, as a slider moves, nobody else would
+            release_freed()  # of one after another, as a slider moves, nobody else would
 
     def _assemble(self, loaded: LoadedMesh, check_wanted: Callable[[], None]) -> None:
-        """What is known of a surface once it is shown.  check_wanted: raises Cancelled once nobody wants it."""
+        """Compute what the view needs of a surface; `check_wanted` raises Cancelled once nobody wants it."""
         check_wanted()
         loaded.prepared = self._prepare(loaded.surface)
         check_wanted()
@@ -176,22 +175,20 @@ class Surfaces:
         _ = loaded.surface.mean_edge_length
 
     def _take(self, opening: Opening, found: list[LoadedMesh]) -> None:
-        if opening is not self.on_their_way:
+        if opening is not self.opening:
             return  # cancelled, or another mesh was asked for, while it was on its way here
-        self.on_their_way = None
+        self.opening = None
         if not opening.is_wanted():
             return
         before = list(self._opened)
         self._opened += found
-        if self._present(opening.arrive):
-            opening.arrived()
-        else:
+        if not self._present(opening):
             self._opened = before
 
     def _failed(self, opening: Opening, error: Exception) -> None:
         def tell() -> None:
-            if opening is self.on_their_way:
-                self.on_their_way = None
+            if opening is self.opening:
+                self.opening = None
                 self._view.failed(failure_in_words(error))
 
         self._post(tell)
@@ -202,14 +199,3 @@ class Surfaces:
             self._view.progress_changed()
 
         self._post(note)
-
-
-def _give_back() -> None:
-    """Let the system have memory that is free, of which glibc keeps hundreds of megabytes for later.
-
-    Operators and their components know each other, so that only the collector frees them.
-    """
-    gc.collect()
-    if sys.platform == "linux":
-        with suppress(AttributeError, OSError):  # another C library
-            ctypes.CDLL(None).malloc_trim(0)

@@ -7,7 +7,7 @@ BEGUN_S = 3.0
 
 
 class TimeLeft:
-    """Of one piece of work after the other: a share done that falls is the beginning of the next."""
+    """The time left of one piece of work after the other; a fraction done that falls begins the next."""
 
     def __init__(self) -> None:
         self._first: tuple[float, float] | None = None

@@ -11,5 +11,6 @@ TOOLS = (
     "interpolation",
     "correspondence",
     "robustness",
+    "surface_list",
 )
-"""The folders, in the order of the tool bar."""
+"""The folders, in the order of their gestures and marks."""

@@ -1,4 +1,4 @@
-"""What the functions `page` and `widget` are told, as a recipe."""
+"""The arguments of the functions `page` and `widget` as a recipe."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from bihdist_core.sources.source import Source
 
 from ..document.page import Recipe
 from ..document.quantities import Quantity
+from ..figures.arguments import option_values
 from ..figures.options import with_options
 from ..session.array_store import ArrayStore, Mesh, comparison_of_arrays
 from .options import page_rows
@@ -23,16 +24,13 @@ def recipe_of(
     distances: Sequence[str | Quantity],
     source: Source | str | None,
     fields: Mapping[str, npt.ArrayLike] | None,
-    options: Mapping[str, Any],
+    arguments: Mapping[str, Any],
     progress: Progress | None = None,
 ) -> tuple[Recipe, ArrayStore]:
-    """What a function of that name shows, with options by their names, and the arrays that it is given.
+    """Return the recipe of a page, and the arrays that it refers to.
 
-    TypeError for an option that pages have not, ParameterError for what makes no sense.
+    Raises TypeError for an unknown argument, with the name of the function, and ParameterError for an invalid value.
     """
-    known = {option.name: option for row in page_rows() for option in row.options}
-    if unknown := options.keys() - known.keys():
-        raise TypeError(f"{function}() got an unexpected keyword argument {min(unknown)!r}")
+    values = option_values(function, page_rows(), arguments)
     document, given = comparison_of_arrays(mesh, distances, {} if fields is None else fields, (source,))
-    values = {name: value for name, value in options.items() if not known[name].is_usual(value)}
     return with_options(Recipe(document), values, progress=progress), given

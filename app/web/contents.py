@@ -1,39 +1,34 @@
-"""What of a document a page can compute: its distances under the page's names, and sentences on what it cannot."""
+"""Contents of a page: the distances of a document under the page's names, and sentences on what it cannot compute."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import BUILT_IN, Spec
 from bihdist_core.errors import ParameterError
+from bihdist_core.sentences import with_and
 from bihdist_core.sources.words import short_words_of
 
 from ..document.document import Document, Panel
+from ..document.on_surface import SOURCE, Hidden
 from ..document.quantities import DistanceFrom, OwnField, Quantity, own_fields
 from ..document.shared_parts.pins import Pins
 
-NAMES = {
-    "biharmonic": "biharmonic",
-    "commute-time": "commute_time",
-    "truncated": "truncated",
-    "diffusion": "diffusion",
-    "geodesic": "geodesic",
-}
-"""What the page's solver calls our distances."""
-
-BY_EIGENPAIRS = ("truncated", "diffusion")
-"""The distances that need eigenpairs, which a page takes along."""
-
-OFFERED = "biharmonic, commute-time, truncated, diffusion and exact geodesic distance, and differences of two of them"
+KNOWN = ", ".join(each.word for each in BUILT_IN if each.on_pages)
+KNOWN += " distance (geodesic exact), and differences of two of them"
 
 
 @dataclass(frozen=True)
 class Contents:
-    """What a page computes.
+    """The distances that a page computes.
 
-    document: with geodesic distances that are exact.  fields: the distances by the names that the solver has for them;
-    of two that differ in a parameter the second is "diffusion_2".  Fields of the user's own go along as they are.
+    Attributes
+    ----------
+    document
+        The document, with geodesic distances that are exact.
+    fields
+        Distances by the solver's names; of two that differ in a parameter the second is "diffusion_2".
     """
 
     document: Document
@@ -41,7 +36,7 @@ class Contents:
 
     @classmethod
     def of(cls, document: Document) -> Contents:
-        """ParameterError for a document of which a page cannot show all panels: which, why, and what to do."""
+        """Return the contents of a page for a document; raise ParameterError if it cannot show all panels."""
         if not document.panels:
             raise ParameterError("There is nothing to show on a page; add a panel.")
         if len(document.surfaces) != 1:
@@ -56,20 +51,24 @@ class Contents:
         return cls(replace(document, panels=panels), _named(specs))
 
     def name_of(self, shows: Quantity) -> str:
-        """The solver's name of a distance or of a field of the user's own."""
+        """Return the solver's name of a distance, or the word of a field of the user's own."""
         if isinstance(shows, OwnField):
             return shows.word
         return next(name for name, each in self.fields.items() if (each,) == shows.specs)
 
     @property
     def own(self) -> tuple[OwnField, ...]:
-        """The fields of the user's own that panels show or are made of."""
+        """The fields of the user's own in the panels."""
         return tuple(dict.fromkeys(field for panel in self.document.panels for field in own_fields(panel.shows)))
 
     @property
     def by_eigenpairs(self) -> dict[str, Spec]:
-        """Those of the distances that need eigenpairs."""
-        return {name: spec for name, spec in self.fields.items() if spec.word in BY_EIGENPAIRS}
+        """The fields whose distances need eigenpairs."""
+        return {name: spec for name, spec in self.fields.items() if spec.distance_type.on_pages == "eigenpairs"}
+
+    def with_offered(self, specs: Iterable[Spec]) -> dict[str, Spec]:
+        """Return the distances by the solver's names, with further ones that readers can choose."""
+        return _named(dict.fromkeys([*self.fields.values(), *specs]))
 
     @property
     def source(self) -> int | None:
@@ -83,9 +82,9 @@ def _check_panel(document: Document, panel: Panel, which: str) -> None:
     for part in panel.shows.parts:
         if isinstance(part, OwnField):
             continue
-        if not isinstance(part, DistanceFrom) or part.spec.word not in NAMES:
+        if not isinstance(part, DistanceFrom) or not part.spec.distance_type.on_pages:
             raise ParameterError(
-                f"{which} cannot be on a page that computes, which has {OFFERED}; leave it out, or draw it with "
+                f"{which} cannot be on a page that computes, which has {KNOWN}; leave it out, or draw it with "
                 "bihdist figure."
             )
         if part.spec.word == "geodesic" and part.spec["method"] not in ("auto", "exact"):
@@ -97,19 +96,19 @@ def _check_panel(document: Document, panel: Panel, which: str) -> None:
 def _check_source(document: Document) -> None:
     if len(document.sources) > 1:
         raise ParameterError(
-            f"The panels start from {len(document.sources)} sources, and those of a page from one, which a click "
+            f"The panels start from {len(document.sources)} sources, and a page has one, which a click "
             "moves; choose one of them."
         )
     at = next(iter(document.sources), None)
     if at is not None and not isinstance(at, int):
         raise ParameterError(
-            f"The panels start from {short_words_of(at)}, and those of a page from one vertex; choose one with "
+            f"The panels start from {short_words_of(at)}, and a page starts from one vertex; choose one with "
             "--sources, or by a click in the window that snaps to vertices."
         )
 
 
 def _exact(shows: Quantity) -> Quantity:
-    """With "auto" made exact: a page knows no other geodesic distance."""
+    """Return a quantity with exact geodesic distances for "auto", as a page knows no others."""
 
     def made_exact(part: Quantity) -> Quantity:
         is_geodesic = any(spec.word == "geodesic" for spec in part.specs)
@@ -121,31 +120,28 @@ def _exact(shows: Quantity) -> Quantity:
 def _named(specs: Iterable[Spec]) -> dict[str, Spec]:
     found: dict[str, Spec] = {}
     for spec in specs:
-        name = NAMES[spec.word]
+        name = spec.word.replace("-", "_")
         count = sum(each.word == spec.word for each in found.values())
         found[f"{name}_{count + 1}" if count else name] = spec
     return found
 
 
 def notes_on(document: Document, page_views: int) -> list[str]:
-    """Sentences on what a page leaves out of what figures and the window show; page_views: how many the page has."""
+    """Return sentences on what a page leaves out of a document; page_views is the number of views in its figure."""
     lines, colours, shading = document.isolines, document.colours, document.shading
     left_out = {
         "isolines through points": bool(lines.through),
         "bold isolines": bool(lines.bold),
         "the values of isolines": lines.labels,
         "bands of one colour": colours.bands,
-        "insets": bool(document.zooms),
+        "insets": bool(document.insets),
         "the triangles at extrema": document.extrema,
-        "the height of a height field": bool(document.height),
-        "the wireframe": shading.wireframe,
+        "the height of a height field": bool(document.warp_factor),
+        "the wireframe": shading.show_edges,
         "directions of axes": document.axes,
         "views but the first": page_views > 1,
-        "what tools mark, but for pins": any(not isinstance(part, Pins) for part in document.parts),
+        "what tools mark, but for pins": any(not isinstance(part, Pins | Hidden) for part in document.parts),
+        "that the source is hidden": SOURCE in document[Hidden].hidden,
     }
     words = [name for name, is_there in left_out.items() if is_there]
-    return [f"The page leaves out {_listed(words)}."] if words else []
-
-
-def _listed(words: list[str]) -> str:
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+    return [f"The page leaves out {with_and(words)}."] if words else []

@@ -1,4 +1,4 @@
-"""A page that computes as a widget of notebooks; imports anywidget, which may be missing."""
+"""The notebook widget; imports anywidget, which may not be installed."""
 
 from __future__ import annotations
 
@@ -14,11 +14,19 @@ from .modules import joined
 
 
 class DistanceWidget(anywidget.AnyWidget):
-    """Linked panels in which a click computes; nothing is asked of Python, nor of a network.
+    """Linked panels in which a click computes in the browser, without Python or a network.
 
-    source: the vertex from which distances are shown.  pins: a dict with the `id` of a vertex and a `name` for each.
-    Both change with what is done in a panel, and the panels with them: `traitlets.link((a, "source"), (b, "source"))`
-    lets two widgets go together.
+    Attributes
+    ----------
+    source : int
+        The vertex from which distances are shown.
+    pins : list of dict
+        With the `id` of a vertex and a `name` each.
+
+    Notes
+    -----
+    Both traits follow the panels, and the panels follow them: ``traitlets.link((a, "source"), (b, "source"))`` lets two
+    widgets share their source.
     """
 
     _esm = joined("widget.js") + "\nexport default { render };\n"
@@ -31,7 +39,18 @@ class DistanceWidget(anywidget.AnyWidget):
 
     @classmethod
     def of(cls, page: Page) -> DistanceWidget:
-        """One that shows what a page does."""
+        """Make a widget that shows a page.
+
+        Parameters
+        ----------
+        page : Page
+            Its content.
+
+        Returns
+        -------
+        DistanceWidget
+            The widget.
+        """
         return cls(
             frozenset(page.mesh.ids.tolist()),
             contents=packed_contents(page.mesh, page.points, page.given),
@@ -58,11 +77,17 @@ class DistanceWidget(anywidget.AnyWidget):
 
     def _held(self, vertex: Any, what: str) -> int:
         if isinstance(vertex, bool) or not hasattr(vertex, "__index__") or int(vertex) not in self._ids:
-            raise traitlets.TraitError(f"{what} is {vertex!r}, which is no vertex that a face has.")
+            raise traitlets.TraitError(f"{what} is {vertex!r}, which is not the vertex of a face.")
         return int(vertex)
 
     def on_pick(self, act: Callable[[int], object]) -> None:
-        """Call with the vertex whenever one is clicked in a panel; not where Python sets the source."""
+        """Call a function with the vertex of each click in a panel, but not when Python sets the source.
+
+        Parameters
+        ----------
+        act : callable
+            Called as ``act(vertex)``.
+        """
 
         def told(_: object, content: Any, __: object) -> None:
             if "picked" in content:

@@ -1,4 +1,4 @@
-"""From a recipe to a page that computes: one HTML file with the mesh, the kernel and what is shown."""
+"""A recipe as an interactive web page: one HTML file with the mesh, the kernel and the viewer."""
 
 from __future__ import annotations
 
@@ -8,43 +8,76 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bihdist_core import Laplacian, ParameterError, Surface
+from bihdist_core import BihdistError, Laplacian, ParameterError, Surface
 from bihdist_core.distances.answers import Distances
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance import Distance
+from bihdist_core.distances.distance_types import BUILT_IN, Spec
 from bihdist_core.distances.spectral import SpectralDistance
 from bihdist_core.distances.unfolding_mesh import UnfoldingMesh
+from bihdist_core.file_output import atomic_write, check_output
+from bihdist_core.formats.vertex_count import announced_vertices
 from bihdist_core.progress import Progress, part
-from bihdist_core.whole_file import check_output, whole_file
 
+from ..document.document import MeshFile
 from ..document.page import Recipe
 from ..figures.export import compute, open_document
 from ..session.array_store import ArrayStore
-from ..session.loaded_mesh import LoadedMesh
+from ..session.loaded_mesh import LoadedMesh, checked_path
 from .contents import Contents
 from .html_file import page_text
-from .points import StoredPoints
-from .scene import Json, scene_of
-from .stored_field import StoredField
+from .scene import Json, offered_panel, scene_of
 from .stored_mesh import StoredMesh
+from .stored_values import StoredField, StoredPoints
 
 FORMATS = (".html",)
 
 MOST_VERTICES = 200_000
-"""Of a page: with more, browsers have no memory for the kernel, or people no patience."""
+"""Largest mesh of a page; beyond it browsers run out of memory, or take minutes."""
 
 SIMPLIFIED = 100_000
 
+SOURCES = 8
+"""Number of sources from which distances on the page's mesh are compared with those on the original. From other sources
+they differ by up to 1.5 times as much on most meshes, and 5 times for commute-time distance on needles."""
+
 BYTES_EACH = 2.6
-"""Of the file, for a coordinate of a vertex in eigenpairs."""
+"""Bytes of the file for one value of an eigenvector."""
+
+EIGENPAIR_BYTES = 1_000_000
+"""Bytes of the file that eigenpairs may take by default."""
+
+FEWEST_EIGENPAIRS = 8
+"""Diffusion distance needs at least about this many eigenpairs; where they do not fit it is not tried."""
+
+OFFERED = tuple(
+    Spec.parse(each.word, method="exact")
+    for way in ("solved", "eigenpairs")
+    for each in BUILT_IN
+    if each.on_pages == way
+)
+"""Distances that readers can choose for a panel, besides those of the page's panels."""
 
 
 @dataclass(frozen=True)
 class Page:
-    """What a page holds.
+    """The content of a page.
 
-    differs: by how much distances differ on the page's mesh from those on the original, as fractions of their maxima,
-    from the source and three vertices far apart; and by how much fields of the user's own do, "field mine", for being
-    kept in single precision.
+    Attributes
+    ----------
+    scene : dict
+        What the viewer shows, as JSON.
+    mesh : StoredMesh
+        The mesh as the page holds it, rounded and packed.
+    points : mapping of str to StoredPoints
+        Eigenpairs, by the names of the distances that need them.
+    labels : tuple of str
+        The labels of the panels.
+    differs : mapping of str to float
+        By how much distances on the page's mesh differ from those on the original, as fractions of their maxima: the
+        largest difference from up to eight sources; from others it may be larger. For fields of the user's own
+        ("field mine") the rounding to single precision, anywhere.
+    given : mapping of str to StoredField
+        Fields of the user's own.
     """
 
     scene: Json
@@ -59,14 +92,30 @@ class Page:
 
     @property
     def eigenpairs(self) -> dict[str, int]:
-        """How many of them distances took along, by the names of these."""
+        """Numbers of stored eigenpairs, by the names of distances."""
         return {name: each.scales.shape[1] for name, each in self.points.items()}
 
     def write(self, path: str | os.PathLike[str]) -> int:
-        """Into a .html file, all or nothing; how many bytes these are.  OutputError."""
+        """Write the page.
+
+        Parameters
+        ----------
+        path : path-like
+            An .html file, which is written completely or not at all.
+
+        Returns
+        -------
+        int
+            Size of the file in bytes.
+
+        Raises
+        ------
+        OutputError
+            If it cannot be written.
+        """
         check_output(path, FORMATS)
         text = page_text(self.scene, self.mesh, self.points, self.given).encode()
-        with whole_file(path) as temporary:
+        with atomic_write(path) as temporary:
             temporary.write_bytes(text)
         return len(text)
 
@@ -75,19 +124,40 @@ def page_of(
     recipe: Recipe,
     given: ArrayStore | None = None,
     precision: str = "24",
-    eigenpairs: int = 0,
+    eigenpairs: int | None = None,
     progress: Progress | None = None,
+    credit: str = "",
 ) -> Page:
-    """Read and compute what a page of a recipe holds.
+    """Read and compute the content of a page.
 
-    eigenpairs: up to so many may go along for each distance that needs them.  ParameterError for what a page cannot
-    show, a mesh of more than MOST_VERTICES vertices, and eigenpairs beyond those allowed.
+    Parameters
+    ----------
+    recipe : Recipe
+        What the page shows.
+    given : ArrayStore, optional
+        Arrays that the recipe refers to; by default they are read from beside it.
+    precision : str
+        Of coordinates, one of `PRECISIONS`.
+    eigenpairs : int, optional
+        The most eigenpairs to store for each distance that needs them. By default as many as fit into
+        `EIGENPAIR_BYTES`, including those of distances that readers can choose.
+    progress : Progress, optional
+        Told of the progress.
+    credit : str
+        A line that the page shows, such as the author of the mesh.
+
+    Raises
+    ------
+    ParameterError
+        If a page cannot show the document, the mesh has more than `MOST_VERTICES` vertices, or a distance needs more
+        eigenpairs than allowed.
     """
     Contents.of(recipe.document)  # before a mesh is read
+    _check_announced(recipe.document.surfaces[0])
     document, surfaces = open_document(recipe, given or ArrayStore.read(recipe))
     contents = Contents.of(document)
     loaded = surfaces[document.surfaces[0].name]
-    check_size(loaded.surface, loaded.mesh.path)
+    check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path)
     _check_eigenpairs(contents, loaded, eigenpairs, part(progress, 0, 0.3))
     recipe = replace(recipe, document=contents.document)
     answers = compute(contents.document, surfaces, part(progress, 0.3, 0.5))
@@ -96,6 +166,8 @@ def page_of(
     distances = Distances(Laplacian(mesh.surface, document.areas))
     differs = _differences(contents, loaded, mesh, distances, part(progress, 0.5, 1))
     points = {name: StoredPoints.of(_spectral(distances, spec)) for name, spec in contents.by_eigenpairs.items()}
+    room = 0 if eigenpairs is not None else EIGENPAIR_BYTES - sum(map(_stored_bytes, points.values()))
+    offered = _offered(contents, distances, room)
     for name, each in points.items():
         maximum = _maximum(loaded, document.areas, contents, name)
         differs[str(contents.fields[name])] += each.error / max(maximum, 1e-300)
@@ -103,21 +175,33 @@ def page_of(
     own = {word: StoredField.of(values, mesh.ids) for word, values in fields.items()}
     differs |= {word: each.error for word, each in own.items()}
     stored = {"bits": 24 if precision == "24" else precision, "backs": mesh.has_backs, "differs": differs}
-    scene = scene_of(recipe, contents, surfaces, answers, stored)
+    stored["sources"] = min(SOURCES, len(mesh.ids))
+    scene = scene_of(recipe, contents, surfaces, answers, stored, credit)
+    named = contents.with_offered(spec for spec, _, _ in offered)
+    for name, (spec, distance, its_points) in zip(list(named)[len(contents.fields) :], offered, strict=True):
+        scene["offered"].append(offered_panel(name, spec, distance, recipe.document.range))
+        points |= {name: its_points} if its_points else {}
     return Page(scene, mesh, points, tuple(answer.label for answer in answers), differs, own)
 
 
-def check_size(surface: Surface, path: str = "") -> None:
-    """ParameterError for a mesh that is too large for a page, with what makes it smaller."""
-    if len(surface.vertices) > MOST_VERTICES:
+def _check_announced(mesh: MeshFile) -> None:
+    """Refuse a file whose header announces too many vertices, unless it is made smaller on reading."""
+    if mesh.path and mesh.change is None and not mesh.repairs.is_any:
+        path = checked_path(mesh)
+        check_size(os.path.basename(path), announced_vertices(path) or 0, mesh.path)
+
+
+def check_size(name: str, vertices: int, path: str = "") -> None:
+    """Raise ParameterError for a mesh that is too large for a page, with what makes it smaller."""
+    if vertices > MOST_VERTICES:
         raise ParameterError(
-            f"{surface.name} has {len(surface.vertices):,} vertices, and a page has up to {MOST_VERTICES:,}; make it "
+            f"{name} has {vertices:,} vertices, and a page has up to {MOST_VERTICES:,}; make it "
             f"smaller with: bihdist perturb {path or 'MESH'} --simplify {SIMPLIFIED} -o smaller.ply"
         )
 
 
 def needed_eigenpairs(contents: Contents, loaded: LoadedMesh, progress: Progress | None = None) -> dict[str, int]:
-    """How many eigenpairs each distance that needs them takes along, by its name; they are computed for that."""
+    """Compute the eigenpairs of the distances that need them, and return their numbers by the distances' names."""
     distances = loaded.distances(contents.document.areas)
     needed = {}
     for name, spec in contents.by_eigenpairs.items():
@@ -127,14 +211,46 @@ def needed_eigenpairs(contents: Contents, loaded: LoadedMesh, progress: Progress
 
 
 def eigenpair_bytes(count: int, vertices: int) -> int:
-    """What so many eigenpairs take of the file, about."""
+    """Estimate the bytes that eigenpairs take in the file."""
     return round(BYTES_EACH * count * vertices)
 
 
-def _check_eigenpairs(contents: Contents, loaded: LoadedMesh, allowed: int, progress: Progress | None) -> None:
-    count = len(loaded.surface.vertices)
+def _stored_bytes(points: StoredPoints) -> int:
+    return eigenpair_bytes(points.scales.shape[1], len(points.coordinates))
+
+
+def _offered(contents: Contents, distances: Distances, room: int) -> list[tuple[Spec, Distance, StoredPoints | None]]:
+    """Return the distances that readers can choose, with their eigenpairs where these fit into `room` bytes."""
+    found: list[tuple[Spec, Distance, StoredPoints | None]] = []
+    for spec in OFFERED:
+        if spec in contents.fields.values():
+            continue
+        points = None
+        try:
+            if spec.distance_type.on_pages == "eigenpairs":
+                if eigenpair_bytes(_fewest_eigenpairs(spec), len(distances.laplacian.surface.vertices)) > room:
+                    continue
+                points = StoredPoints.of(_spectral(distances, spec))
+                if _stored_bytes(points) > room:
+                    continue
+                room -= _stored_bytes(points)
+            elif spec.word == "geodesic" and UnfoldingMesh(distances.laplacian.surface).has_degenerate_faces:
+                continue
+            found.append((spec, distances.get(spec), points))
+        except BihdistError:
+            continue  # the mesh does not have this distance
+    return found
+
+
+def _fewest_eigenpairs(spec: Spec) -> int:
+    return int(spec["k"]) if spec.word == "truncated" else FEWEST_EIGENPAIRS
+
+
+def _check_eigenpairs(contents: Contents, loaded: LoadedMesh, allowed: int | None, progress: Progress | None) -> None:
+    count, room = len(loaded.surface.vertices), EIGENPAIR_BYTES
     for name, needed in needed_eigenpairs(contents, loaded, progress).items():
-        if needed > allowed:
+        room -= eigenpair_bytes(needed, count)
+        if room < 0 if allowed is None else needed > allowed:
             raise ParameterError(
                 f"{contents.fields[name]} needs {needed:,} eigenpairs in the page, some "
                 f"{size_words(eigenpair_bytes(needed, count))}; allow them with --eigenpairs {needed} (in Python "
@@ -143,7 +259,7 @@ def _check_eigenpairs(contents: Contents, loaded: LoadedMesh, allowed: int, prog
 
 
 def _check_geodesic(contents: Contents, mesh: StoredMesh) -> None:
-    """ParameterError where a page would have to unfold faces that have no height."""
+    """Raise ParameterError if a page would have to measure geodesic distance over faces without height."""
     is_geodesic = any(spec.word == "geodesic" for spec in contents.fields.values())
     if is_geodesic and UnfoldingMesh(mesh.surface).has_degenerate_faces:
         raise ParameterError(
@@ -155,28 +271,41 @@ def _check_geodesic(contents: Contents, mesh: StoredMesh) -> None:
 def _differences(
     contents: Contents, loaded: LoadedMesh, mesh: StoredMesh, stored: Distances, progress: Progress | None
 ) -> dict[str, float]:
-    """By the words of distances, the largest difference between the stored and the original mesh's, as a fraction."""
+    """Return the largest relative difference between the stored and the original mesh, by distance."""
     if not contents.fields:
         return {}
     original, n = loaded.distances(contents.document.areas), len(mesh.ids)
     (at,) = np.flatnonzero(mesh.ids == contents.source)
-    sources = list(dict.fromkeys([int(at), 0, n // 2, n - 1]))
-    steps = [(spec, source) for spec in contents.fields.values() for source in sources]
+    first, count = [int(at), *_where_rounding_shows(mesh.surface)], min(SOURCES, n)
     differs = {str(spec): 0.0 for spec in contents.fields.values()}
-    for k, (spec, source) in enumerate(steps):
-        step = part(progress, k / len(steps), (k + 1) / len(steps))
-        answers = original.answer(spec, int(mesh.ids[source]), step), stored.answer(spec, source, step)
-        a, b = (answer.field for answer in answers)
-        if a is None or b is None:
-            raise ParameterError(next(answer.failure for answer in answers if answer.field is None))
-        top = float(np.nanmax(a, initial=0.0))
-        if top > 0:
-            differs[str(spec)] = max(differs[str(spec)], float(np.nanmax(np.abs(a[mesh.ids] - b))) / top)
+    for number, (name, spec) in enumerate(zip(differs, contents.fields.values(), strict=True)):
+        # The next source is the vertex that differs most so far.
+        sources, most = list(dict.fromkeys(first)), np.zeros(n)
+        for k in range(count):
+            step = part(progress, (number + k / count) / len(differs), (number + (k + 1) / count) / len(differs))
+            source = sources[k]
+            answers = original.answer(spec, int(mesh.ids[source]), step), stored.answer(spec, source, step)
+            a, b = (answer.field for answer in answers)
+            if a is None or b is None:
+                raise ParameterError(next(answer.failure for answer in answers if answer.field is None))
+            off, top = np.nan_to_num(np.abs(a[mesh.ids] - b)), float(np.nanmax(a, initial=0.0))
+            if top > 0:
+                differs[name] = max(differs[name], float(off.max()) / top)
+            most = np.maximum(most, off)
+            if k + 1 == len(sources):
+                sources.append(int(np.where(np.isin(np.arange(n), sources), -1, most).argmax()))
     return differs
 
 
+def _where_rounding_shows(surface: Surface) -> tuple[int, int]:
+    """Return an end of the shortest edge and a corner of the flattest face."""
+    ends = surface.vertices[surface.edges]
+    shortest = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).argmin()
+    return int(surface.edges[shortest, 0]), int(surface.faces[surface.face_heights.argmin(), 0])
+
+
 def _maximum(loaded: LoadedMesh, areas: str, contents: Contents, name: str) -> float:
-    """The largest distance from the source by one of the distances."""
+    """Return the maximum of a distance from the source."""
     assert contents.source is not None
     return loaded.distances(areas).answer(contents.fields[name], contents.source).maximum
 
@@ -192,15 +321,16 @@ def write_page(
     path: str | os.PathLike[str],
     given: ArrayStore | None = None,
     precision: str = "24",
-    eigenpairs: int = 0,
+    eigenpairs: int | None = None,
     progress: Progress | None = None,
+    credit: str = "",
 ) -> tuple[Page, int]:
-    """Make a page and write it, see `page_of`; the page, and how many bytes its file has.  OutputError."""
+    """Compute a page with `page_of` and write it; return the page and the size of its file in bytes."""
     check_output(path, FORMATS)
-    page = page_of(recipe, given, precision, eigenpairs, progress)
+    page = page_of(recipe, given, precision, eigenpairs, progress, credit)
     return page, page.write(path)
 
 
 def size_words(size: int) -> str:
-    """How large a file of so many bytes is: "241 kB", "1.2 MB"."""
+    """Return the size of a file in words: "241 kB", "1.2 MB"."""
     return f"{size / 1e6:.1f} MB" if size >= 1e6 else f"{size / 1e3:.0f} kB"

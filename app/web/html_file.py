@@ -1,4 +1,4 @@
-"""One HTML file that computes: the kernel, a mesh, what is shown of it, and the viewer, with nothing to load."""
+"""The HTML file of a page: kernel, mesh, scene and viewer, which loads nothing else."""
 
 from __future__ import annotations
 
@@ -11,29 +11,28 @@ from hashlib import sha256
 from pathlib import Path
 
 from bihdist_core.file_content import file_text
+from bihdist_core.version import VERSION
 
 from .modules import VIEWER, joined, unpadded
-from .points import StoredPoints
-from .stored_field import StoredField
 from .stored_mesh import StoredMesh, deflated
+from .stored_values import StoredField, StoredPoints
 
 KERNEL = Path(__file__).with_name("kernel.wasm")
 MARK = re.compile(r"@([A-Z]+)@")
-NONE_GIVEN: Mapping[str, StoredField] = {}
 
 
 def page_text(
     scene: Mapping[str, object],
     mesh: StoredMesh,
     points: Mapping[str, StoredPoints],
-    given: Mapping[str, StoredField] = NONE_GIVEN,
+    given: Mapping[str, StoredField],
 ) -> str:
-    """The file.  scene: what is shown, with `title`; points, given: by the names that its panels have for them.
+    """Return the HTML of a page; `points` and `given` are keyed by the names that the scene's panels use.
 
-    The page may run its own script only, and fetch nothing (Content-Security-Policy).  ValueError where a number of the
+    Its Content-Security-Policy allows its own script only, and no network. Raises ValueError if a number of the
     scene is not finite.
     """
-    whole = whole_scene(scene, mesh, given)
+    whole = {**whole_scene(scene, mesh, given), "embed": embed_code("PAGE", str(scene["title"]))}
     elements = [
         f'<script type="text/plain" id="{name}">{b64encode(content).decode()}</script>'
         for name, content in packed_contents(mesh, points, given).items()
@@ -42,6 +41,7 @@ def page_text(
     script, its_style = joined("main.js"), style()
     filled = {
         "TITLE": html.escape(str(scene["title"])),
+        "VERSION": VERSION,
         "POLICY": html.escape(_policy(script, its_style)),
         "STYLE": its_style,
         "CONTENT": "\n".join(elements),
@@ -50,18 +50,24 @@ def page_text(
     return MARK.sub(lambda mark: filled[mark[1]], file_text(VIEWER / "page.html", "the frame of pages"))
 
 
-def whole_scene(
-    scene: Mapping[str, object], mesh: StoredMesh, given: Mapping[str, StoredField] = NONE_GIVEN
-) -> dict[str, object]:
-    """With what the solver needs to know of the mesh, and the names of the fields that it is given."""
+def embed_code(address: str, title: str) -> str:
+    """Return the HTML that shows the page at an address inside another page."""
+    return (
+        f'<iframe src="{html.escape(address)}" title="{html.escape(title)}" loading="lazy" allow="clipboard-write" '
+        'style="width:100%;aspect-ratio:16/9;min-height:420px;border:0"></iframe>'
+    )
+
+
+def whole_scene(scene: Mapping[str, object], mesh: StoredMesh, given: Mapping[str, StoredField]) -> dict[str, object]:
+    """Return the scene with what the solver needs of the mesh, and the names of the fields of the user's own."""
     corrections = mesh.corrections(str(scene["areas"]))
     return {**scene, "near": mesh.near, "corrections": corrections, "given": list(given)}
 
 
 def packed_contents(
-    mesh: StoredMesh, points: Mapping[str, StoredPoints], given: Mapping[str, StoredField] = NONE_GIVEN
+    mesh: StoredMesh, points: Mapping[str, StoredPoints], given: Mapping[str, StoredField]
 ) -> dict[str, bytes]:
-    """What the viewer inflates: the kernel, the mesh, points that stand for vertices, and given fields in order."""
+    """Pack what the viewer inflates: the kernel, the mesh, points of spectral distances, and fields in order."""
     return {
         "kernel": deflated(KERNEL.read_bytes()),
         "mesh": deflated(mesh.packed),
@@ -71,12 +77,12 @@ def packed_contents(
 
 
 def style() -> str:
-    """The viewer's."""
+    """Return the style sheet of the viewer."""
     return unpadded(file_text(VIEWER / "page.css", "the style of pages"))
 
 
 def _policy(script: str, style: str) -> str:
-    """What the page may do: only what stands in it, of scripts and styles only these."""
+    """Return a policy that allows this script and this style, and nothing from elsewhere."""
     hashes = [f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'" for text in (script, style)]
     return (
         f"default-src 'none'; script-src {hashes[0]} 'wasm-unsafe-eval'; style-src {hashes[1]}; worker-src blob:; "
@@ -85,5 +91,5 @@ def _policy(script: str, style: str) -> str:
 
 
 def _as_json(value: object) -> str:
-    """JSON in which nothing ends an element, or begins one."""
+    """Return JSON that cannot begin or end an HTML element."""
     return json.dumps(value, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")

@@ -1,4 +1,4 @@
-"""The page's modules as one script: what they import of each other is put before them."""
+"""The JavaScript modules of a page, joined into one script."""
 
 import re
 from pathlib import Path
@@ -13,10 +13,10 @@ PADDING = re.compile(r"^\s*(?://.*\n|/\*(?:[^*]|\*(?!/))*\*/\s*\n)|^\s+", re.M)
 
 
 def joined(entry: str, folder: Path = VIEWER) -> str:
-    """The module `entry` of a folder, behind all that it needs, each once, without indents and lines of comments.
+    """Return a module after all the modules that it imports, without indentation and comment lines.
 
-    A module imports by `import { a, b } from "./other.js";`, at its beginning, and exports functions, classes and
-    constants where they are defined; no two have a name at their top in common.  ValueError where that is not so.
+    A module imports by `import { a, b } from "./other.js";` at its beginning, and exports functions, classes and
+    constants where they are defined. No two modules share a top-level name. Raises ValueError if that is not so.
     """
     texts: dict[str, str] = {}
     _collect(entry, folder, texts, ())
@@ -24,17 +24,17 @@ def joined(entry: str, folder: Path = VIEWER) -> str:
     for module, text in texts.items():
         for name in top_names(text):
             if owner.setdefault(name, module) != module:
-                raise ValueError(f"{module} and {owner[name]} both have {name} at their top.")
+                raise ValueError(f"{module} and {owner[name]} both define {name}.")
     return unpadded("\n".join(texts.values()))
 
 
 def unpadded(text: str) -> str:
-    """A text of scripts or styles without indents, and without comments that have lines of their own."""
+    """Return a script or style sheet without indentation and comment lines."""
     return PADDING.sub("", text)
 
 
 def top_names(text: str) -> list[str]:
-    """What a module defines at its top, as its lines begin."""
+    """Return the top-level names of a module."""
     return [name for found in NAMES.findall(text) for name in re.findall(r"\w+", found)]
 
 

@@ -1,21 +1,24 @@
-"""What pages that compute can be told: those of the options of figures that mean something for them."""
+"""The options of figures that pages have, too."""
 
 from ..document.option import Row
 from ..figures.options import rows
 
 USUAL = ("biharmonic", "geodesic")
-"""The panels where none are named: neither needs eigenpairs."""
+"""The panels by default; neither distance needs eigenpairs."""
 
-NAMES = ("areas", "cut", "isolines", "up", "views", "projection", "colours", "range", "style", "pins")
-"""Of each row the first option."""
+NAMES = (
+    *("areas", "cut", "isolines", "viewup", "cpos", "parallel_projection", "cmap", "flip_scalars", "bands", "clim"),
+    *("style", "pins"),
+)
+"""The first option of each row."""
 
 
 def page_rows() -> tuple[Row, ...]:
-    """The rows of the table of figures' options that pages know."""
+    """Return the rows of figures' options that pages have."""
     return tuple(row for row in rows() if row.options and row.options[0].name in NAMES)
 
 
 def other_names() -> list[str]:
-    """The arguments of figures that pages have not."""
+    """Return the arguments of figures that pages do not have."""
     known = {option.name for row in page_rows() for option in row.options}
     return [option.name for row in rows() for option in row.options if option.name not in known]

@@ -12,6 +12,7 @@ from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
 from ..document.quantities import Quantity
+from ..figures.arguments import IsolineOptions, LayoutOptions, LookOptions, MarkOptions, ViewOptions
 from ..session.array_store import Mesh
 from .arguments import recipe_of
 from .export import Page, write_page
@@ -25,22 +26,70 @@ def page(
     source: Source | str | None = None,
     *,
     fields: Mapping[str, npt.ArrayLike] | None = None,
+    areas: str = "voronoi",
+    cut: str = "",
+    merge: float | None = None,
+    isolines: int | IsolineOptions = 20,
+    look: LookOptions | None = None,
+    view: ViewOptions | None = None,
+    marks: MarkOptions | None = None,
+    layout: LayoutOptions | None = None,
     precision: str = "24",
-    eigenpairs: int = 0,
+    eigenpairs: int | None = None,
+    credit: str = "",
     progress: Progress | None = None,
-    **options: Any,
+    **others: Any,
 ) -> Page:
-    """Write what `bihdist page` writes: one HTML file that computes distances by itself, from wherever one clicks.
+    """Write a web page that computes distances by itself, from wherever one clicks, as `bihdist page` does.
 
-    distances: in words, "geodesic" or "biharmonic - commute-time".  source: the vertex that they start from at first,
-    the highest if None.  fields: your own by name, (n,) with NaN where undefined, which stay as they are whatever the
-    source; each has a panel, or is named in `distances` like one: "biharmonic - mine".  precision: how exactly
-    coordinates are kept, "24" bits of the largest side or "float32".  eigenpairs: up to so many may go into the file
-    for each truncated or diffusion distance.  options: those of `figure` that mean something here: `areas`, `cut`,
-    `merge`, `isolines` and what else is said of these, `views`, `camera`, `up`, `projection`, `colours`, `reversed`,
-    `range`, `style` and `pins`.  Returns what the page holds; `differs` is by how much its distances differ from those
-    on the mesh itself.  Raises BihdistError, as the command says its sentences.
+    Parameters
+    ----------
+    mesh : str, path, Surface, mesh of another library or (vertices, faces)
+        A file, the name of a sample, or the mesh itself.
+    path : str or path
+        The .html file.
+    distances : sequence of str
+        A panel each, such as ``"geodesic"`` or ``"biharmonic - commute-time"``.
+    source : int, str or Source, optional
+        Vertex that distances start from at first, by default the highest.
+    fields : mapping of str to (n,) array_like, optional
+        Fields of one's own, NaN where undefined, which stay as they are whatever the source.
+    areas : {"voronoi", "barycentric"}
+        Vertex areas.
+    cut : str
+        File with 1 for each vertex that stays and 0 for each that is cut out; ``{name}`` in it is the mesh's name.
+    merge : float, optional
+        Merge vertices that are no farther apart.
+    isolines : int or IsolineOptions
+        About how many, at round values, or a dict with ``count``, ``equal``, ``spacing``, ``values`` or ``through``.
+    look, view, marks, layout : dict, optional
+        Of the keys that `figure` takes, ``cmap``, ``flip_scalars``, ``bands`` and ``clim``; ``cpos``, ``camera``,
+        ``viewup`` and ``parallel_projection``; ``pins``; and ``style``.
+    precision : {"24", "float32"}
+        Bits of the largest side that coordinates keep, or single precision.
+    eigenpairs : int, optional
+        How many may go into the file for each truncated or diffusion distance of a panel, and none for those that
+        readers can choose; by default as many as take 1 MB.
+    credit : str
+        A line that the page shows, such as who made the mesh.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
+    **others
+        Not taken; a TypeError says what is probably meant.
 
+    Returns
+    -------
+    Page
+        What the page holds.  Its ``differs`` says by how much its distances differ from those on the mesh itself, from
+        up to eight vertices; from others they may differ more.
+
+    Raises
+    ------
+    BihdistError
+        If something cannot be read, computed, shown on a page or written.
+
+    Examples
+    --------
     >>> import bihdist, os, tempfile
     >>> path = os.path.join(tempfile.mkdtemp(), "hand.html")
     >>> page = bihdist.page("hand", path, ["biharmonic", "biharmonic - geodesic"], source=12)
@@ -49,6 +98,8 @@ def page(
     >>> max(page.differs.values()) < 1e-6
     True
     """
-    recipe, given = recipe_of("page", mesh, distances, source, fields, options, progress)
-    page, _ = write_page(recipe, path, given, precision, eigenpairs, progress)
+    own = {"areas": areas, "cut": cut, "merge": merge, "isolines": isolines}
+    groups = {"look": look, "view": view, "marks": marks, "layout": layout}
+    recipe, given = recipe_of("page", mesh, distances, source, fields, {**own, **groups, **others}, progress)
+    page, _ = write_page(recipe, path, given, precision, eigenpairs, progress, credit)
     return page

@@ -1,4 +1,4 @@
-"""What a page shows, as the JSON that its viewer reads: plain texts, finite numbers, the vertex ids of the file."""
+"""The scene of a page, as the JSON that its viewer reads."""
 
 from __future__ import annotations
 
@@ -12,31 +12,43 @@ from bihdist_core import ParameterError, Surface
 from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
+from bihdist_core.distances.distance import Distance
+from bihdist_core.distances.distance_types import Spec
+from bihdist_core.version import VERSION
 
+from ..citation import bibtex
 from ..document.camera import Camera, View
 from ..document.document import Document, Panel
 from ..document.looks import MOST_ISOLINES, Colours, Isolines
+from ..document.on_surface import Hidden
 from ..document.page import Recipe
 from ..document.quantities import own_fields
 from ..document.shared_parts.pins import Pins
+from ..drawing.glyphs import DISC, PIN, SCREEN_NUMERAL, glyph_shapes
+from ..drawing.painters.page import OWN, to_json
+from ..drawing.pointer import ring_shapes
+from ..drawing.shapes import RGBA, opaque
 from ..figures.description import Figure, FigurePanel
 from ..figures.export import Surfaces, figure_of
 from ..scene.camera import outwards_at, standard_camera
 from ..scene.drawable import crease_of
-from ..scene.style import style_of
+from ..scene.style import PINS, Style, style_of
 from ..session.questions import first_source, vertex_at
 from .contents import Contents, notes_on
 
 Json = dict[str, Any]
 
 COLOURS = 256
-"""Of a map, from one end to the other."""
+"""Number of colours of a colour map."""
 
-BEYOND = 4
-"""Isolines of a given spacing are listed up to so many times the maximum: from other sources it is larger."""
+SOURCE_SIZE = 13.0
+"""Diameter of the source's mark, in logical pixels."""
+
+MAXIMUM_FACTOR = 4
+"""Isolines of a given spacing are listed up to this many times the maximum, which is larger from other sources."""
 
 BY_DAY, BY_NIGHT = {"dark": "paper"}, {"paper": "dark"}
-"""The styles that another one takes the place of on the other ground; the rest stay as they are."""
+"""Styles that are replaced on a light and on a dark page; others stay."""
 
 
 def scene_of(
@@ -45,12 +57,29 @@ def scene_of(
     surfaces: Surfaces,
     answers: Sequence[Answer],
     stored: Mapping[str, object],
+    credit: str = "",
 ) -> Json:
-    """The scene of a recipe whose document is that of the contents, with the answers of its panels.
+    """Return the scene of a recipe.
 
-    stored: what is said of the mesh beside its name and size: `bits`; `backs`, whether an inside can be seen; and
-    `differs`, by how much each distance differs from that on the original, as a fraction of its maximum.
-    ParameterError for a panel without a field, and for a number that is not finite.
+    Parameters
+    ----------
+    recipe : Recipe
+        What to show; its document is that of the contents.
+    contents : Contents
+        The distances under the page's names.
+    surfaces, answers
+        The meshes by name, and the answers of the panels.
+    stored : mapping
+        More about the mesh: `bits` of a coordinate; `backs`, whether its inside can be seen; `differs`, by how much
+        each distance differs from that on the original, as a fraction of its maximum; `sources`, the number of sources
+        for which that was computed.
+    credit : str
+        Shown under the panels.
+
+    Raises
+    ------
+    ParameterError
+        If a panel has no field, or a number is not finite.
     """
     document = recipe.document
     for panel, answer in zip(document.panels, answers, strict=True):
@@ -60,13 +89,16 @@ def scene_of(
     surface = surfaces[document.surfaces[0].name].surface
     source = contents.source if contents.source is not None else first_source(surface, document.up)
     pins, notes = _pins(document, surface)
-    notes += [f"{_text(own.name)} was given as it is: it stays the same from every source." for own in contents.own]
+    notes += [f"{_text(own.name)} is a field of the user's own, the same from every source." for own in contents.own]
     if any(_ends_with_others(figure, k) for k in range(len(figure.panels))):
-        notes.append(f"Colour bars of one unit end where the largest does from vertex {source}.")
+        notes.append(f"Colour bars of one unit end at their largest maximum from vertex {source}.")
     first = next((each for each in figure.panels if not each.signed), figure.panels[0])
     style = style_of(recipe.page.style, document.colours)
     scene = {
         "title": f"Distances on {_text(surface.name)}",
+        "credit": _text(credit),
+        "version": VERSION,
+        "cite": bibtex(),
         "mesh": {
             "name": _text(surface.name),
             "vertices": int((surface.component_of_vertex >= 0).sum()),
@@ -77,8 +109,10 @@ def scene_of(
         "panels": [
             _panel(contents, panel, figure, k, answers[k], first) for k, panel in enumerate(contents.document.panels)
         ],
+        "offered": [],
         "source": source,
         "pins": pins,
+        "marks": _marks(style),
         "camera": _camera(figure.panels[0], surface),
         "colours": _colours(recipe.page.style, document.colours),
         "isolines": {**_isolines(first), "colour": _bytes(style.isoline), "width": style.isoline_width},
@@ -91,13 +125,13 @@ def scene_of(
 
 
 def _of_surface(surface: Surface) -> list[str]:
-    """What was done to the mesh on reading, and what is to be minded about it."""
+    """Return sentences on repairs of the mesh, and warnings about it."""
     found = surface_notes(surface)
     return [f"{_text(surface.name)}: {text}" for text in (*found.repairs, *found.warnings)]
 
 
 def _panel(contents: Contents, panel: Panel, figure: Figure, k: int, answer: Answer, usual: FigurePanel) -> Json:
-    """usual: the panel whose isolines those of the scene are."""
+    """Return the record of panel k; `usual` is the panel whose isolines the scene has."""
     shown = figure.panels[k]
     names = list(map(contents.name_of, panel.shows.parts))
     is_difference = len(names) > 1
@@ -107,7 +141,7 @@ def _panel(contents: Contents, panel: Panel, figure: Figure, k: int, answer: Ans
         "distance": "difference" if is_difference else names[0],
         **({"of": names} if is_difference else {}),
         "label": answer.label,
-        "parameters": {} if is_difference else _parameters(panel),
+        "parameters": {} if is_difference else _parameters(panel.shows.specs),
         "signed": answer.is_signed,
         "note": _note(panel),
         "range": None if end is None else [-end if answer.is_signed else 0.0, end],
@@ -118,12 +152,26 @@ def _panel(contents: Contents, panel: Panel, figure: Figure, k: int, answer: Ans
     }
 
 
-def _parameters(panel: Panel) -> Json:
-    return {"time" if name == "t" else name: value for spec in panel.shows.specs for name, value in spec.values}
+def offered_panel(name: str, spec: Spec, distance: Distance, range: str) -> Json:
+    """Return a panel of a distance that the reader has chosen; its colour bar ends at its own maximum."""
+    return {
+        "distance": name,
+        "label": distance.label,
+        "parameters": _parameters([spec]),
+        "signed": False,
+        "note": "",
+        "range": None,
+        "unit": distance.unit,
+        "shares": range == "fraction",
+    }
+
+
+def _parameters(specs: Iterable[Spec]) -> Json:
+    return {"time" if name == "t" else name: value for spec in specs for name, value in spec.values}
 
 
 def _note(panel: Panel) -> str:
-    """What of a panel does not move with the source."""
+    """Return the note on a panel of which a part does not depend on the source."""
     own = own_fields(panel.shows)
     if not own:
         return ""
@@ -131,11 +179,11 @@ def _note(panel: Panel) -> str:
 
 
 def _end(figure: Figure, k: int) -> float | None:
-    """Where the colour bar ends from any source; None if at the field's own maximum from each."""
+    """Return the upper colour limit from all sources, None for the field's own maximum from each source."""
     shown = figure.panels[k]
     if shown.maximum is not None:
         return shown.maximum
-    return figure.tops()[k] if _ends_with_others(figure, k) else None
+    return figure.upper_limits()[k] if _ends_with_others(figure, k) else None
 
 
 def _ends_with_others(figure: Figure, k: int) -> bool:
@@ -146,10 +194,10 @@ def _ends_with_others(figure: Figure, k: int) -> bool:
 
 
 def _isolines(panel: FigurePanel) -> Json:
-    """About so many, or values; equal: so many equal steps from 0 to the end of the colour bar."""
+    """Return the number of isolines or their values; with `equal`, the number of equal steps up to the colour limit."""
     lines: Isolines = panel.isolines
     if lines.spacing is not None:
-        most = min(math.floor(BEYOND * panel.own_top / lines.spacing), MOST_ISOLINES // 2)
+        most = min(math.floor(MAXIMUM_FACTOR * panel.own_maximum / lines.spacing), MOST_ISOLINES // 2)
         steps = range(-most if panel.signed else 1, most + 1)
         return {"count": None, "values": [float(f"{k * lines.spacing:.12g}") for k in steps], "equal": False}
     if lines.values:
@@ -158,9 +206,12 @@ def _isolines(panel: FigurePanel) -> Json:
 
 
 def _pins(document: Document, surface: Surface) -> tuple[list[Json], list[str]]:
-    """The pins, and sentences on those that stand elsewhere on a page."""
+    """Return the visible pins, and notes on pins that move to a vertex or get another number on a page."""
+    shown = [pin for pin in document[Pins].pins if not document[Hidden].hides(["pins"], pin.point)]
     pins, notes = [], []
-    for number, pin in enumerate(document[Pins].pins, 1):
+    if shown != list(document[Pins].pins[: len(shown)]):
+        notes.append("Pins after those that are hidden have lower numbers on this page.")
+    for number, pin in enumerate(shown, 1):
         at = document.point(pin.point).at
         vertex = vertex_at(at, surface)
         if not isinstance(at, int):
@@ -169,8 +220,22 @@ def _pins(document: Document, surface: Surface) -> tuple[list[Json], list[str]]:
     return pins, notes
 
 
+def _marks(style: Style) -> Json:
+    """Return the shapes of marks about their places, and the colours of pins in turn."""
+
+    def colour_of(name: str) -> RGBA:
+        return OWN if name == "own" else opaque(style.named(name))
+
+    at = 0.0, 0.0
+    source = glyph_shapes(DISC, at, DISC.reach_of(SOURCE_SIZE, 0.0), style.named_for("source"))
+    pin = glyph_shapes(PIN, at, PIN.pixels, colour_of, 1, PIN.screen, numerals=SCREEN_NUMERAL)
+    ring, echo = (ring_shapes(at, is_own) for is_own in (True, False))
+    shapes = {"source": source, "pin": pin, "ring": ring, "echo": echo}
+    return {**{name: to_json(each) for name, each in shapes.items()}, "colours": list(PINS)}
+
+
 def _camera(panel: FigurePanel, surface: Surface) -> Json:
-    """That of the first view; what it is sure to see is seen of a panel of any form."""
+    """Return the camera of the first view; what it shows is visible in a panel of any aspect ratio."""
     view: View = panel.views[0]
     if isinstance(view, str):
         points = surface.vertices[surface.component_of_vertex >= 0]
@@ -189,7 +254,7 @@ def _camera(panel: FigurePanel, surface: Surface) -> Json:
 
 
 def _colours(word: str, colours: Colours) -> Json:
-    """Of the page by day and, where these are others, by night; the ground is that of the reader's system."""
+    """Return the colours of the page in light and, where they differ, in dark; the reader's system chooses."""
     light, dark = (style_of(twins.get(word, word), colours) for twins in (BY_DAY, BY_NIGHT))
     by_day, by_night = (_map(style.colours(COLOURS)) for style in (light, dark))
     return {
@@ -210,16 +275,16 @@ def _map(colours: FloatArray) -> list[list[int]]:
 
 
 def _bytes(colour: Iterable[float]) -> list[int]:
-    return [round(255 * share) for share in colour]
+    return [round(255 * part) for part in colour]
 
 
 def _text(text: str) -> str:
-    """What can be printed of a text."""
-    return "".join(letter if letter.isprintable() else "�" for letter in text)
+    """Return a text with a replacement character for each one that cannot be printed."""
+    return "".join(character if character.isprintable() else "�" for character in text)
 
 
 def _check_numbers(value: object, where: str) -> None:
-    """ParameterError, with the place, for a number that is not finite."""
+    """Raise ParameterError, with the place, for a number that is not finite."""
     if isinstance(value, Mapping):
         for name, each in value.items():
             _check_numbers(each, f"{where}.{name}")
@@ -227,4 +292,4 @@ def _check_numbers(value: object, where: str) -> None:
         for k, each in enumerate(value):
             _check_numbers(each, f"{where}[{k}]")
     elif isinstance(value, float) and not math.isfinite(value):
-        raise ParameterError(f"A page has finite numbers only, and {where} is {value!r}.")
+        raise ParameterError(f"A page needs finite numbers, and {where} is {value!r}.")

@@ -1,4 +1,4 @@
-"""A surface as a page holds it: rounded, renumbered and packed; `viewer/unpack.js` unpacks it."""
+"""A mesh as a page holds it: rounded, renumbered and packed; `viewer/unpack.js` unpacks it."""
 
 from __future__ import annotations
 
@@ -12,26 +12,40 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 from bihdist_core.degenerate_faces import DegenerateFaces
-from bihdist_core.distances.biharmonic import NEAR, NEAR_BY_HEIGHT
 from bihdist_core.errors import ParameterError
 from bihdist_core.operators import vertex_areas
-from bihdist_core.surface import FLAT, Surface
+from bihdist_core.surface import FLAT_RATIO, Surface
 
 from ..scene.creases import face_normals
 from ..scene.winding import winding
 
 FLOAT32 = "float32"
 PRECISIONS = ("24", FLOAT32)
-"""How many bits of a coordinate are kept: 24, as shares of the largest side of the box, or a float's."""
+"""Bits of a coordinate: 24, as a fraction of the largest side of the bounding box, or a single-precision float."""
+
+NEAR, NEAR_BY_HEIGHT = 1e-5, 1e-9
+"""A page computes small distances again as pairs: below the first fraction of the maximum or, on a mesh with thin
+faces, below the second over the height of the thinnest face. For larger ones, rounded coordinates matter more."""
 
 
 @dataclass(frozen=True, eq=False)
 class StoredMesh:
-    """What a page knows of a surface: its vertices with faces, near in number what is near in space, and its faces,
-    turned over where the window turns them: counterclockwise outside, where there is an outside.
+    """The vertices of faces, numbered so that neighbours are close, and the faces, counterclockwise seen from outside.
 
-    surface: with vertices (n, 3) as rounded and faces (m, 3), both by components; ids (n,): the surface's own numbers.
-    first_vertices, first_faces (c + 1,): where each component begins, and n or m.  has_backs: an inside can be seen.
+    Attributes
+    ----------
+    surface : Surface
+        With rounded vertices (n, 3) and faces (m, 3), both ordered by component.
+    ids : (n,) int ndarray
+        The vertex ids of the file.
+    precision : str
+        Of `PRECISIONS`.
+    low, step : (3,) ndarray, float
+        The origin and the step of rounded coordinates.
+    first_vertices, first_faces : (c + 1,) int ndarray
+        Where each component begins, then n and m.
+    has_backs : bool
+        Whether the inside of the surface can be seen.
     """
 
     surface: Surface
@@ -45,7 +59,7 @@ class StoredMesh:
 
     @classmethod
     def of(cls, surface: Surface, precision: str = "24") -> StoredMesh:
-        """Round and renumber a surface; ParameterError for a precision that is not one of PRECISIONS."""
+        """Round and renumber a surface; raise ParameterError for an unknown precision."""
         if precision not in PRECISIONS:
             raise ParameterError(f"Coordinates are kept in one of {', '.join(PRECISIONS)}, not {precision!r}.")
         n, component = len(surface.vertices), surface.component_of_vertex
@@ -67,7 +81,7 @@ class StoredMesh:
 
     @cached_property
     def packed(self) -> bytes:
-        """The numbers of the mesh, mostly as differences, in as few bytes as they take."""
+        """The mesh as bytes, mostly differences in as few bytes as they need."""
         s, exact = self.surface, self.precision == FLOAT32
         head = [len(s.vertices), len(s.faces), len(self.first_vertices) - 1, int(exact)]
         f = s.faces
@@ -85,8 +99,10 @@ class StoredMesh:
 
     @property
     def _differences(self) -> IntArray:
-        """(n, 3) by how many steps vertices differ from the mean of their neighbours with lesser numbers, once for each
-        face, with the sign in the lowest bit."""
+        """Steps (n, 3) from the mean of the neighbours with smaller numbers, the sign in the lowest bit.
+
+        A neighbour counts once for each face.
+        """
         f, n = self.surface.faces, len(self.ids)
         steps = _steps(self.surface.vertices, self.low, self.step)
         ends = np.stack([f.ravel(), np.roll(f, -1, axis=1).ravel()])
@@ -98,13 +114,13 @@ class StoredMesh:
 
     @property
     def near(self) -> list[float]:
-        """Of each component the share of the largest distance below which biharmonic ones are computed as pairs."""
+        """For each component, the fraction of the maximum below which biharmonic distances are computed as pairs."""
         thinnest = np.minimum.reduceat(self.surface.face_heights, self.first_faces[:-1])
-        shares: list[float] = np.maximum(NEAR, NEAR_BY_HEIGHT / np.maximum(thinnest, FLAT)).tolist()
+        shares: list[float] = np.maximum(NEAR, NEAR_BY_HEIGHT / np.maximum(thinnest, FLAT_RATIO)).tolist()
         return shares
 
     def corrections(self, areas: str) -> dict[str, list[list[float]]]:
-        """What a page does not compute of vertex areas of that kind: weights of degenerate faces, and areas beside."""
+        """Return what a page does not compute: weights of degenerate faces, and the vertex areas beside them."""
         s = self.surface
         faces = s.degenerate_faces
         weights, of_vertex, beside = DegenerateFaces.of(s).weights(), vertex_areas(s, areas), np.unique(s.faces[faces])
@@ -115,13 +131,13 @@ class StoredMesh:
 
 
 def deflated(content: bytes) -> bytes:
-    """As the viewer inflates it: raw, without a head."""
+    """Compress bytes to a raw deflate stream, as the viewer inflates it."""
     packer = zlib.compressobj(9, zlib.DEFLATED, -15)
     return packer.compress(content) + packer.flush()
 
 
 def varints(numbers: IntArray) -> bytes:
-    """Whole numbers (k,), 7 bits a byte, least first, with the sign in the lowest bit."""
+    """Pack whole numbers (k,), 7 bits a byte, low bits first, with the sign in the lowest bit."""
     z = ((numbers << 1) ^ (numbers >> 63)).astype(np.uint64)
     count = np.ones(len(z), np.int64)
     for bits in range(7, 63, 7):
@@ -139,7 +155,7 @@ def _steps(x: FloatArray, low: FloatArray, step: float) -> IntArray:
 
 
 def _order(faces: IntArray, n: int) -> IntArray:
-    """The vertices (n,) such that neighbours have numbers near each other."""
+    """Return the vertices (n,) in an order in which neighbours are close."""
     i, j = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
     ends = np.concatenate([i, j]), np.concatenate([j, i])
     graph = sp.csr_matrix((np.ones(len(ends[0]), np.int8), ends), (n, n))
@@ -148,7 +164,7 @@ def _order(faces: IntArray, n: int) -> IntArray:
 
 
 def _sorted(faces: AnyArray) -> IntArray:
-    """Faces (m, 3), each from its least corner on, in the order of these."""
+    """Return faces (m, 3), each from its smallest corner, in the order of these."""
     first = faces.argmin(axis=1)
     turned = np.stack([faces[np.arange(len(faces)), (first + k) % 3] for k in range(3)], axis=1)
     return turned[np.lexsort(turned.T[::-1])]

@@ -12,7 +12,9 @@ from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
 from ..document.quantities import Quantity
+from ..figures.arguments import IsolineOptions, LayoutOptions, LookOptions, MarkOptions, ViewOptions
 from ..session.array_store import Mesh
+from ..version import install_command
 from .arguments import recipe_of
 from .export import page_of
 from .options import USUAL
@@ -28,25 +30,70 @@ def widget(
     *,
     fields: Mapping[str, npt.ArrayLike] | None = None,
     on_pick: Callable[[int], object] | None = None,
+    areas: str = "voronoi",
+    cut: str = "",
+    merge: float | None = None,
+    isolines: int | IsolineOptions = 20,
+    look: LookOptions | None = None,
+    view: ViewOptions | None = None,
+    marks: MarkOptions | None = None,
+    layout: LayoutOptions | None = None,
     precision: str = "24",
-    eigenpairs: int = 0,
+    eigenpairs: int | None = None,
     progress: Progress | None = None,
-    **options: Any,
+    **others: Any,
 ) -> DistanceWidget:
-    """Linked panels of distances in a notebook (Jupyter, VS Code, marimo), in which a click computes, in the browser.
+    """Show linked panels of distances in a notebook (Jupyter, VS Code, marimo); a click computes in the browser.
 
-    mesh: a file, a sample, a Surface, or vertices (n, 3) and faces (m, 3).  distances: a panel each, in words,
-    "geodesic" or "biharmonic - commute-time".  source: a vertex, the highest if None.  fields: your own by name, (n,)
-    with NaN where undefined, which stay as they are whatever the source; each has a panel, or is named in `distances`
-    like one: "biharmonic - mine".  on_pick: called with the vertex of each click.  precision: of coordinates, "24" bits
-    of the largest side or "float32".  eigenpairs: how many may be sent for each truncated or diffusion distance.
-    options: those of `figure` that mean something here: `areas`, `cut`, `merge`, `isolines` and what else is said of
-    these, `views`, `camera`, `up`, `projection`, `colours`, `reversed`, `range`, `style` and `pins`.  The traits
-    `source` and `pins` of what is returned go both ways.  Raises BihdistError, also where the package anywidget is not
-    installed.
+    Parameters
+    ----------
+    mesh : str, path, Surface, mesh of another library or (vertices, faces)
+        A file, the name of a sample, or the mesh itself.
+    distances : sequence of str
+        A panel each, such as ``"geodesic"`` or ``"biharmonic - commute-time"``.
+    source : int, str or Source, optional
+        Vertex that distances start from, by default the highest.
+    fields : mapping of str to (n,) array_like, optional
+        Fields of one's own, NaN where undefined, which stay as they are whatever the source.
+    on_pick : callable, optional
+        Called with the vertex of each click.
+    areas : {"voronoi", "barycentric"}
+        Vertex areas.
+    cut : str
+        File with 1 for each vertex that stays and 0 for each that is cut out; ``{name}`` in it is the mesh's name.
+    merge : float, optional
+        Merge vertices that are no farther apart.
+    isolines : int or IsolineOptions
+        About how many, at round values, or a dict with ``count``, ``equal``, ``spacing``, ``values`` or ``through``.
+    look, view, marks, layout : dict, optional
+        Of the keys that `figure` takes, ``cmap``, ``flip_scalars``, ``bands`` and ``clim``; ``cpos``, ``camera``,
+        ``viewup`` and ``parallel_projection``; ``pins``; and ``style``.
+    precision : {"24", "float32"}
+        Bits of the largest side that coordinates keep, or single precision.
+    eigenpairs : int, optional
+        How many may be sent for each truncated or diffusion distance of a panel, and none for those that readers can
+        choose; by default as many as take 1 MB.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
+    **others
+        Not taken; a TypeError says what is probably meant.
 
+    Returns
+    -------
+    DistanceWidget
+        The panels.  Its traits ``source`` and ``pins`` go both ways.
+
+    Raises
+    ------
+    ParameterError
+        If an argument makes no sense.
+    BihdistError
+        If something cannot be read, computed or shown, or if the package anywidget is not installed.
+
+    Examples
+    --------
     >>> import bihdist
-    >>> shown = bihdist.widget("hand", ["biharmonic", "biharmonic - geodesic"], source=12, pins=[900])
+    >>> shown = bihdist.widget("hand", ["biharmonic", "biharmonic - geodesic"], source=12, marks={"pins": [900]})
     >>> shown.source, shown.pins
     (12, [{'id': 900, 'name': ''}])
     >>> shown.source = 900
@@ -54,8 +101,10 @@ def widget(
     try:
         from .distance_widget import DistanceWidget
     except ImportError:
-        raise ParameterError("Widgets need the package anywidget: pip install 'bihdist[widget]'.") from None
-    recipe, given = recipe_of("widget", mesh, distances, source, fields, options, progress)
+        raise ParameterError(f"Widgets need the package anywidget: {install_command('anywidget')}") from None
+    own = {"areas": areas, "cut": cut, "merge": merge, "isolines": isolines}
+    groups = {"look": look, "view": view, "marks": marks, "layout": layout}
+    recipe, given = recipe_of("widget", mesh, distances, source, fields, {**own, **groups, **others}, progress)
     made = DistanceWidget.of(page_of(recipe, given, precision, eigenpairs, progress))
     if on_pick is not None:
         made.on_pick(on_pick)

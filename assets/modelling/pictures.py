@@ -6,13 +6,11 @@ import numpy as np
 import pyvista
 
 from app.document.looks import Isolines
-from app.scene.camera import Margins, aimed, show_camera
+from app.scene.camera import MARGIN, aimed, show_camera
 from app.scene.drawable import drawable
 from app.scene.field_actor import FieldActor, light
 from app.scene.style import PAPER
 from bihdist_core import Surface
-
-MARGINS = Margins(side=0.04, top=0.04, bottom=0.04)
 
 
 def row(
@@ -47,8 +45,8 @@ def row(
             light(renderer)
             upright = np.array(up) if abs(np.dot(side, up)) < 0.9 * np.linalg.norm(side) else -np.roll(up, 1)
             aspect, back = width / height, np.array(side, float)
-            camera = aimed(surface.vertices, aspect, back, upright.astype(float), MARGINS)
-            show_camera(renderer.GetActiveCamera(), camera, aspect, MARGINS)
+            camera = aimed(surface.vertices, aspect, back, upright.astype(float), MARGIN)
+            show_camera(renderer.GetActiveCamera(), camera, aspect)
             renderer.camera_set = True
         plotter.show(auto_close=False, interactive=False)
         return np.array(plotter.screenshot(return_img=True))[..., :3]

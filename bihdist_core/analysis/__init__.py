@@ -1,1 +1,1 @@
-"""What is made of distances: samples, regions, paths, isolines, statistics, quality, interpolation, all pairs."""
+"""Analysis of distances: samples, regions, paths, isolines, statistics, quality, interpolation, all pairs."""

@@ -25,9 +25,9 @@ import numpy.typing as npt
 from ..arrays import AnyArray, IntArray
 from ..distances.distance import Distance
 from ..errors import OutputError, ParameterError
+from ..file_output import check_output
 from ..machine_memory import check_memory
 from ..progress import Progress, silent
-from ..whole_file import check_output
 
 MEMORY = 5e8
 """Bytes that the arrays of one block may take, unless another number is given."""
@@ -35,12 +35,12 @@ BYTES_PER_VALUE = 40
 """In memory, at once, for each distance of a block: the fields, what they are made from, and their rounded copy."""
 
 
-REMEDY = "let blocks be smaller (--memory), or take a larger machine or a cluster."
+REMEDY = "use smaller blocks (--memory), a larger machine or a cluster."
 
 
 @dataclass(frozen=True)
 class Begun:
-    """What an interrupted computation has left: the file, its bytes, and how many of the n rows are there."""
+    """The file that an interrupted computation has left, its size in bytes, and how many of the n rows it holds."""
 
     path: Path
     bytes: int
@@ -49,7 +49,7 @@ class Begun:
 
 
 def begun(distance: Distance, path: str | os.PathLike[str], dtype: npt.DTypeLike = np.float32) -> Begun | None:
-    """What `write_all_pairs` would go on from with these arguments, if anything."""
+    """Find the unfinished work from which `write_all_pairs` would resume with these arguments, if any."""
     dtype, n = np.dtype(dtype), len(distance.surface.vertices)
     partial = _partial_path(distance, Path(os.path.realpath(path)), dtype)
     rows = _rows_done(partial, _header(n, dtype), n * dtype.itemsize)
@@ -57,7 +57,7 @@ def begun(distance: Distance, path: str | os.PathLike[str], dtype: npt.DTypeLike
 
 
 def left_by_others(distance: Distance, path: str | os.PathLike[str], dtype: npt.DTypeLike = np.float32) -> list[Path]:
-    """Files that interrupted computations of other numbers have left beside this path."""
+    """Return the files that interrupted computations of other numbers have left beside this path."""
     target = Path(os.path.realpath(path))
     mine = _partial_path(distance, target, np.dtype(dtype))
     name = re.compile(rf"\.{re.escape(target.stem[:60])}-[0-9a-f]{{16}}\.npy\.part")
@@ -74,11 +74,28 @@ def write_all_pairs(
 ) -> None:
     """Write the (n, n) array of all distances as .npy; NaN in the rows and columns of vertices that have none.
 
-    dtype: float32 or float64.  memory: bytes for the arrays of a block, besides what the distance itself holds; at
-    least one row is computed at a time.  After an interruption, `Cancelled` from the progress included, the same
-    call goes on with the rows that are missing; `begun` tells which are there, and fresh computes all of them anew.
-    Raises OutputError if the file cannot be written or the disk is too
-    small for it, and NotEnoughMemory where a block has no room, which are looked up first.
+    Parameters
+    ----------
+    distance : Distance
+        The distance.
+    path : str or path-like
+        The .npy file.
+    dtype : str
+        "float32" or "float64".
+    memory : float
+        Bytes for the arrays of a block, besides what the distance itself holds; at least one row is computed at a time.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
+    fresh : bool
+        Compute all rows anew. Otherwise a call after an interruption, `Cancelled` included, computes only the rows that
+        are missing; `begun` tells which are there.
+
+    Raises
+    ------
+    OutputError
+        If the file cannot be written or the disk is too small for it.
+    NotEnoughMemory
+        If there is no memory for a block.
     """
     dtype = np.dtype(dtype)
     if dtype not in (np.float32, np.float64):
@@ -119,7 +136,7 @@ def write_all_pairs(
 
 
 def check_block(n: int, memory: float = MEMORY) -> None:
-    """Before long work: NotEnoughMemory where a block of the pairs of n vertices, of so many bytes, has no room."""
+    """Raise NotEnoughMemory if there is no memory for a block of the pairs of n vertices, of so many bytes."""
     rows = _rows_of_block(n, memory)
     check_memory(rows * n * BYTES_PER_VALUE, f"A block of {rows:,} x {n:,} distances", REMEDY)
 
@@ -129,7 +146,7 @@ def _rows_of_block(n: int, memory: float) -> int:
 
 
 def _fill(rows: AnyArray, distance: Distance, ids: IntArray) -> None:
-    """Distances from k vertices into rows (k, n)."""
+    """Write distances from k vertices into rows (k, n)."""
     used = distance.surface.component_of_vertex[ids] >= 0
     if used.all():
         distance.from_sources(ids, out=rows.T)
@@ -140,8 +157,10 @@ def _fill(rows: AnyArray, distance: Distance, ids: IntArray) -> None:
 
 @contextmanager
 def _alone(partial: Path, target: Path) -> Iterator[BinaryIO]:
-    """The file of what is done, opened for writing, which becomes the target when the block ends well; OutputError
-    while another process has it."""
+    """Open the unfinished file for writing, and rename it to the target when the block ends well.
+
+    Raises OutputError while another process has it.
+    """
     is_posix = os.name == "posix"
     with open(os.open(partial, os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0), 0o666), "r+b") as file:
         if is_posix:
@@ -169,7 +188,7 @@ def _lock(file: BinaryIO, partial: Path, target: Path) -> None:
 
 
 def _header(n: int, dtype: np.dtype) -> bytes:
-    """What an .npy file begins with."""
+    """Return the header of an .npy file."""
     file = BytesIO()
     facts = {"descr": np.lib.format.dtype_to_descr(dtype), "fortran_order": False, "shape": (n, n)}
     np.lib.format.write_array_header_1_0(file, facts)
@@ -177,7 +196,7 @@ def _header(n: int, dtype: np.dtype) -> bytes:
 
 
 def _partial_path(distance: Distance, target: Path, dtype: np.dtype) -> Path:
-    """Where the rows stand until all are there."""
+    """Return the path of the rows until all are there."""
     digest = hashlib.sha256()
     laplacian, surface = distance.laplacian, distance.surface
     # A label rounds its numbers; a spec does not, nor do the distance's own plain attributes where there is none.
@@ -190,7 +209,7 @@ def _partial_path(distance: Distance, target: Path, dtype: np.dtype) -> Path:
 
 
 def _rows_done(partial: Path, header: bytes, row_bytes: int) -> int:
-    """How many whole rows an earlier call has left."""
+    """Count the whole rows that an earlier call has left."""
     if not partial.exists():
         return 0
     with partial.open("rb") as file:

@@ -17,14 +17,25 @@ from .clipping import clipped
 
 @dataclass(frozen=True, eq=False)
 class Band:
-    """The part of a surface where low <= field <= high, the field linear on each face.
+    """The part of a surface where a field, linear on each face, lies between two values.
 
-    surface: the part, as a mesh of its own.  Its vertices (v, 3) lie on edges of the whole surface: ends (v, 2) and
-    parameters t (v,) of (1 - t) x_a + t x_b; a vertex of the whole surface has itself twice and t 0.  parents: (m,) the
-    face of the whole surface that each face is part of.
-    vertices, faces: ids of the vertices of the whole surface in the band, and of its faces that are in it entirely.
-    area: of the part, exact.
+    Attributes
+    ----------
+    surface : Surface
+        The part, as a mesh of its own with v vertices and m faces.
+    ends : (v, 2) int64 ndarray
+        Edge a, b of the whole surface on which each vertex of the part lies; a vertex of the whole surface twice.
+    parameters : (v,) float64 ndarray
+        The t of its position (1 - t) x_a + t x_b; 0 at vertices of the whole surface.
+    parents : (m,) int64 ndarray
+        The face of the whole surface that each face is part of.
+    vertices : (k,) int64 ndarray
+        Vertices of the whole surface in the band.
+    faces : (q,) int64 ndarray
+        Faces of the whole surface that are entirely in the band.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
     >>> strip = bihdist.band(plane, plane.points[:, 0], -0.1, 0.3)
@@ -41,8 +52,10 @@ class Band:
 
     @property
     def area(self) -> float:
-        """Exact area of the part, unit length squared.
+        """Exact area of the part, in the mesh's unit squared.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
         >>> strip = bihdist.band(plane, plane.points[:, 0], -0.1, 0.3)
@@ -52,9 +65,20 @@ class Band:
         return float(self.surface.face_areas.sum())
 
     def along(self, field: npt.ArrayLike) -> FloatArray:
-        """(v,) or (v, d): values (n,) or (n, d) at the vertices of the whole surface, linear on its faces, at the
-        vertices of the part, on whose faces they are linear too.
+        """Interpolate a field at the vertices of the part.
 
+        Parameters
+        ----------
+        field : (n,) or (n, d) array_like
+            Values at the vertices of the whole surface, linear on its faces.
+
+        Returns
+        -------
+        (v,) or (v, d) ndarray
+            Values at the vertices of the part, on whose faces they are linear, too.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
         >>> strip = bihdist.band(plane, plane.points[:, 0], 0.1, 0.3)
@@ -68,11 +92,29 @@ class Band:
 
 
 def band(surface: MeshLike, field: npt.ArrayLike, low: float = -np.inf, high: float = np.inf) -> Band:
-    """The part of a surface where a field (n,) is between two values, either of which may be infinite.
+    """Cut out the part of a surface where a field lies between two values.
 
-    Faces with a corner that is not finite are left out.  Raises ParameterError for a field that is not (n,) numbers,
-    for values that are NaN or not in order, and where nothing lies between them.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    field : (n,) array_like
+        Real numbers at the vertices. Faces with a corner that is not finite are left out.
+    low, high : float
+        The two values; either may be infinite.
 
+    Returns
+    -------
+    Band
+        The part, as a mesh of its own.
+
+    Raises
+    ------
+    ParameterError
+        If the field is not (n,) numbers, if the values are NaN or not in order, or if nothing lies between them.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> distance = bihdist.GeodesicDistance(sphere).from_source(0)
@@ -96,7 +138,7 @@ def band(surface: MeshLike, field: npt.ArrayLike, low: float = -np.inf, high: fl
     n = len(surface.vertices)
     key, index = np.unique(np.concatenate([whole.ravel(), pieces]), return_inverse=True)
     if not len(key):
-        raise ParameterError(f"Nowhere on {surface.name} is the field between {low:g} and {high:g}.")
+        raise ParameterError(f"The field is nowhere between {low:g} and {high:g} on {surface.name}.")
     old, crossed = key[key < n], key[key >= n] - n
     ends = np.concatenate([np.stack([old, old], 1), ends[crossed]])
     t = np.concatenate([np.zeros(len(old)), parameters[crossed]])
@@ -117,8 +159,10 @@ def band(surface: MeshLike, field: npt.ArrayLike, low: float = -np.inf, high: fl
 def _pieces(
     corners: IntArray, f: FloatArray, low: float, high: float, cut: IntArray
 ) -> tuple[IntArray, FloatArray, IntArray, IntArray]:
-    """The faces that are cut: ends (c, 2) and parameters (c,) of the crossings; (3 m,) corners of the pieces, of which
-    those from n on are crossings; (m,) the face each is part of."""
+    """Return the faces that are cut: ends (c, 2) and parameters (c,) of the crossings.
+
+    (3 m,) corners of the pieces, of which those from n on are crossings; (m,) the face each is part of.
+    """
     n, at = len(f), f[corners]
     polygons, sizes = np.broadcast_to(np.eye(3), (len(cut), 3, 3)), np.full(len(cut), 3)
     for values in (at - low, high - at):

@@ -8,10 +8,10 @@ from ..arrays import IntArray
 
 
 def chains(segments: IntArray) -> list[tuple[IntArray, bool]]:
-    """Segments (m, 2) of ids as chains: the ids (k,) of each in order, and whether its last joins its first.
+    """Join segments (m, 2) of ids to chains: the ids (k,) of each in order, and whether its last joins its first.
 
-    Each segment is in one chain.  Chains end where not exactly two segments meet; a closed one names its first id
-    once, and has three or more.
+    Each segment is in one chain. Chains end where not exactly two segments meet; a closed one names its first id once,
+    and has three or more.
     """
     at: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
     for s, (i, j) in enumerate(segments.tolist()):

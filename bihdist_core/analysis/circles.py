@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import FloatArray
+from ..arrays import FloatArray, real_numbers
 from ..errors import ParameterError
 from ..mesh_like import MeshLike
-from ..number_arrays import real_numbers
 from ..sources.pieces import pieces_of
 from ..sources.source import Source
 from ..surface import Surface
@@ -21,19 +20,29 @@ CIRCLES = tuple(range(3, 13))
 
 
 def small_radius(surface: Surface) -> float:
-    """The radius at which isotropy is measured: 4 % of the root of the area, but at least four mean edges."""
+    """Return the radius at which isotropy is measured: 4 % of the root of the area, but at least four mean edges."""
     return max(0.04 * float(np.sqrt(surface.face_areas.sum())), 4 * surface.mean_edge_length)
 
 
 @dataclass(frozen=True, eq=False)
 class Circle:
-    """A distance field along the geodesic circle of a radius around its source: what a polar chart shows.
+    """A distance field along the geodesic circle of one radius around its source.
 
-    Of each of the circle's curves (one, where the radius is small and no boundary is near), in order along it: angles
-    (k,) in the tangent plane of the source, from -pi to pi, and values (k,).  A closed curve comes back to its first.
-    Where it is folded as seen from above, as on a finger's tip, the angles are shares of its length instead.
-    ratio: the greatest over the least value, 1 where the field is isotropic; infinite if it is 0 somewhere.
+    Attributes
+    ----------
+    radius : float
+        In the mesh's unit.
+    angles : tuple of (k,) float64 ndarray
+        For each curve of the circle, the angles of its points in the tangent plane of the source, from -pi to pi. There
+        is one curve where the radius is small and no boundary is near; a closed one ends with its first point. Where a
+        curve is folded when seen from above, as on the tip of a finger, the angles are fractions of its length instead.
+    values : tuple of (k,) float64 ndarray
+        The field at these points.
+    ratio : float
+        The greatest over the least value; 1 where the field is isotropic, infinite if it is 0 somewhere.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
@@ -53,12 +62,35 @@ class Circle:
 def geodesic_circles(
     surface: MeshLike, field: npt.ArrayLike, geodesic: npt.ArrayLike, source: Source, radii: npt.ArrayLike | None = None
 ) -> list[Circle]:
-    """A field (n,) along geodesic circles around its source; geodesic: (n,) geodesic distances from it.
+    """Read a field along geodesic circles around its source.
 
-    source: a vertex or a place in a face; around others there are no circles.  radii: (q,) in the mesh's unit, in
-    order; by default 3 to 12 mean edge lengths.  Those that no vertex is as far as are left out.  Raises
-    VertexError or ParameterError for a bad source, ParameterError for bad radii or fields.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    field : (n,) array_like
+        The field.
+    geodesic : (n,) array_like
+        Geodesic distances from the source.
+    source : Source
+        A vertex or a place in a face; around other sources there are no circles.
+    radii : (q,) array_like, optional
+        In the mesh's unit; 3 to 12 mean edge lengths by default. Radii that no vertex is as far as are left out.
 
+    Returns
+    -------
+    list of Circle
+        In the order of the radii.
+
+    Raises
+    ------
+    VertexError
+        If a source vertex is not on the surface.
+    ParameterError
+        For another bad source, for radii that are not positive, or for fields of another shape.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
@@ -93,24 +125,27 @@ def geodesic_circles(
 
 
 def _around(angles: FloatArray, points: FloatArray, closed: bool) -> FloatArray:
-    """Angles (k,) along a curve through points (k, 3), or, if it is closed and does not go straight round, shares of
-    its length that fit them best."""
+    """Return angles (k,) along a curve through points (k, 3).
+
+    If the curve is closed and does not go straight round, they are the fractions of its length that fit the angles
+    best.
+    """
     turned = np.unwrap(angles)
     steps = np.diff(turned)
     is_once = abs(abs(turned[-1] - turned[0]) - 2 * np.pi) < 1e-6
     if not closed or (is_once and ((steps >= 0).all() or (steps <= 0).all())):
         return angles
     length = np.append(0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)))
-    shares = 2 * np.pi * length / length[-1]
-    ways = [np.exp(1j * (angles - way * shares))[:-1].mean() for way in (1, -1)]
+    fractions = 2 * np.pi * length / length[-1]
+    ways = [np.exp(1j * (angles - way * fractions))[:-1].mean() for way in (1, -1)]
     way, fit = max(zip((1, -1), ways, strict=True), key=lambda each: abs(each[1]))
-    fitted: FloatArray = np.angle(np.exp(1j * (way * shares + np.angle(fit))))
+    fitted: FloatArray = np.angle(np.exp(1j * (way * fractions + np.angle(fit))))
     return fitted
 
 
 def _tangent_plane(surface: Surface, source: Source) -> tuple[FloatArray, FloatArray] | None:
-    """The place (3,) of a source, and (2, 3) two directions at right angles in the plane across the mean normal of the
-    faces there, by area; None if it is no single place.
+    """Return the place (3,) of a source, and (2, 3) two directions at right angles in the plane across the mean normal
+    of the faces there, by area; None if it is no single place.
 
     The first direction is as near as can be to the coordinate axis that the plane is least inclined to.
     """

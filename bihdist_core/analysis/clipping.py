@@ -6,10 +6,23 @@ from ..arrays import FloatArray, IntArray
 
 
 def clipped(polygons: FloatArray, sizes: IntArray, values: FloatArray) -> tuple[FloatArray, IntArray]:
-    """The parts of convex polygons where linear functions are at least 0 (Sutherland and Hodgman 1974).
+    """Clip convex polygons to where linear functions are at least 0 (Sutherland and Hodgman 1974).
 
-    polygons: (p, s, 3) weights of up to s vertices at the corners of their triangles, sizes: (p,) how many each has,
-    values: (p, 3) the functions at these corners.  Returns polygons (p, t, 3) and sizes (p,), 0 for nothing.
+    Parameters
+    ----------
+    polygons : (p, s, 3) ndarray
+        Barycentric weights of up to s vertices in their triangles.
+    sizes : (p,) ndarray
+        How many vertices each polygon has.
+    values : (p, 3) ndarray
+        The functions at the corners of the triangles.
+
+    Returns
+    -------
+    polygons : (p, t, 3) ndarray
+        The clipped polygons.
+    sizes : (p,) ndarray
+        How many vertices they have; 0 for nothing.
     """
     count, most = polygons.shape[:2]
     rows = np.arange(count)
@@ -31,8 +44,8 @@ def clipped(polygons: FloatArray, sizes: IntArray, values: FloatArray) -> tuple[
     return cut[:, : max(3, int(cut_sizes.max(initial=0)))], cut_sizes
 
 
-def polygon_shares(polygons: FloatArray, sizes: IntArray) -> FloatArray:
-    """(p,) areas of polygons as shares of their triangles'."""
+def polygon_fractions(polygons: FloatArray, sizes: IntArray) -> FloatArray:
+    """Return (p,) areas of polygons as fractions of their triangles'."""
     a, b = polygons[:, 1:-1] - polygons[:, :1], polygons[:, 2:] - polygons[:, :1]
     # In weights, a triangle's area over the whole one's is the determinant of two of its sides without a coordinate.
     determinants = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]

@@ -1,4 +1,4 @@
-"""What is said of distances in words, as numbers: isotropy, kinks, change, and the axioms of a metric."""
+"""Diagnostics of distances: isotropy, kinks, change, and the axioms of a metric, as numbers."""
 
 from __future__ import annotations
 
@@ -7,25 +7,44 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray, IntArray, real_numbers
 from ..distances.distance import Distance
 from ..errors import ParameterError
 from ..mesh_like import MeshLike
-from ..number_arrays import real_numbers
-from ..progress import Progress, part, silent
+from ..progress import Progress, blocks, silent
 from ..scalars import real_number, whole_number
 from ..surface import Surface
+from .circles import small_radius
 from .isoline_tracing import isolines
 
 
 def isotropy_ratio(surface: MeshLike, field: npt.ArrayLike, geodesic: npt.ArrayLike, radius: float) -> float:
-    """Greatest over least value of a distance field on the geodesic circle of a radius around its source; 1 is best.
+    """Measure how round a distance field is on the geodesic circle of one radius around its source.
 
-    field, geodesic: (n,) distances from the same source, the latter geodesic (of which `radius` is a value).  Both are
-    interpolated where the circle crosses the mesh's edges.  A circle of few edges measures the triangulation: take
-    a radius of at least three or four.  Infinite if the field is 0 on the circle.  Raises ParameterError if no vertex
-    is as far as that.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    field : (n,) array_like
+        Distances from the source.
+    geodesic : (n,) array_like
+        Geodesic distances from the same source.
+    radius : float
+        In the unit of `geodesic`. A circle of few edges measures the triangulation: take three or four edges at least.
 
+    Returns
+    -------
+    float
+        The greatest over the least value where the circle crosses the mesh's edges, at least 1; infinite if the field
+        is 0 there.
+
+    Raises
+    ------
+    ParameterError
+        If no vertex is as far as the radius, or for fields of another shape.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=16, j_resolution=16)
     >>> field = bihdist.BiharmonicDistance(plane).from_source(144)
@@ -46,11 +65,21 @@ def isotropy_ratio(surface: MeshLike, field: npt.ArrayLike, geodesic: npt.ArrayL
 
 @dataclass(frozen=True, eq=False)
 class GradientJumps:
-    """Jumps of the gradient of a field, linear on each face, across the inner edges; unit of the field per length.
+    """Jumps of the gradient of a field, linear on each face, across the inner edges.
 
-    edges: (k, 2) vertex ids.  jumps: (k,), at least 0.  lengths: (k,) mean length of the gradient on both sides.
-    slope: median length of the gradient over the surface, by area.
+    Attributes
+    ----------
+    edges : (k, 2) int64 ndarray
+        Vertices of the edges.
+    jumps : (k,) float64 ndarray
+        The jumps, at least 0, in the field's unit per length.
+    lengths : (k,) float64 ndarray
+        Mean length of the gradient on both sides, in the same unit.
+    slope : float
+        Median length of the gradient over the surface, by area.
 
+    Examples
+    --------
     >>> import bihdist, numpy as np, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> # a ridge along x = 0
@@ -70,11 +99,14 @@ class GradientJumps:
 
     @property
     def relative(self) -> FloatArray:
-        """(k,) jumps over the gradient's length there, or over a quarter of its median if that is more; no unit.
+        """Jumps over the gradient's length there, (k,) without a unit.
 
-        A smooth field's shrink with the edges, away from boundary corners; across a ridge the gradient turns round,
-        and they stay near 2.
+        Where the gradient is shorter than a quarter of its median, that quarter is taken instead. The jumps of a smooth
+        field shrink with the edges, away from corners of the boundary; across a ridge the gradient turns round, and
+        they stay near 2.
 
+        Examples
+        --------
         >>> import bihdist, numpy as np, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
         >>> x = plane.points[:, 0]
@@ -88,11 +120,27 @@ class GradientJumps:
 
 
 def gradient_jumps(surface: MeshLike, field: npt.ArrayLike) -> GradientJumps:
-    """How far the gradient jumps across each edge of two faces; NaN next to values that are not finite.
+    """Measure how far the gradient of a field jumps across each edge of two faces.
 
-    A continuous field's gradient can only jump across an edge, by the sum of the two slopes away from the faces'
-    insides.  Degenerate faces and edges of another number of faces are left out.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh. Degenerate faces, and edges of one face or of more than two, are left out.
+    field : (n,) array_like
+        Real numbers at the vertices, linear on each face.
 
+    Returns
+    -------
+    GradientJumps
+        The jumps, NaN next to values that are not finite.
+
+    Notes
+    -----
+    The gradient of a continuous field can jump only across an edge: by the sum of the slopes, each away from the inside
+    of its face.
+
+    Examples
+    --------
     >>> import bihdist, numpy as np, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> field = 5 * np.abs(plane.points[:, 0])  # the slope turns from -5 to 5
@@ -133,10 +181,17 @@ def _median(values: FloatArray, weights: FloatArray) -> float:
 
 @dataclass(frozen=True)
 class FieldChange:
-    """The change |d' - d| of a field, mean and largest; no unit.
+    """The absolute change of a field, without a unit.
 
-    mean, largest: over max d.  normalised_mean, normalised_largest: with each field divided by its own maximum first.
+    Attributes
+    ----------
+    mean, largest : float
+        Mean and largest change, over max d.
+    normalised_mean, normalised_largest : float
+        Mean and largest change after each field was divided by its own maximum.
 
+    Examples
+    --------
     >>> import bihdist
     >>> change = bihdist.field_change([0, 1, 2], [0, 1.5, 3])
     >>> # over the first maximum; and each over its own
@@ -151,10 +206,25 @@ class FieldChange:
 
 
 def field_change(before: npt.ArrayLike, after: npt.ArrayLike) -> FieldChange:
-    """How much a field (k,) changed, at points where both are finite; the maxima are over these points.
+    """Measure how much a field changed, at the points where both states are finite.
 
-    Raises ParameterError for fields of different shape, without common points, or whose maximum is not positive.
+    Parameters
+    ----------
+    before, after : (k,) array_like
+        The field at the same points.
 
+    Returns
+    -------
+    FieldChange
+        Mean and largest change; the maxima are over the common points.
+
+    Raises
+    ------
+    ParameterError
+        For fields of different shape, without common points, or whose maximum is not positive.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=3))
     >>> before = bihdist.BiharmonicDistance(sphere).from_source(0)
@@ -180,12 +250,21 @@ TRIPLES = 1 << 20
 
 @dataclass(frozen=True)
 class TriangleSample:
-    """Random triples of points held against d(i, k) <= d(i, j) + d(j, k).
+    """Random triples of points held against the triangle inequality, d(i, k) <= d(i, j) + d(j, k).
 
-    violations: triples that break it by more than rounding (1e-9 of the largest distance).  worst: the most by which
-    one breaks it, over the largest distance; 0 if none does.  tightest: the least d(i, j) + d(j, k) - d(i, k) over
-    that sum, for three different points: how close some triple comes.
+    Attributes
+    ----------
+    triples : int
+        How many were looked at.
+    violations : int
+        How many break it by more than rounding, 1e-9 of the largest distance.
+    worst : float
+        The most by which one breaks it, over the largest distance; 0 if none does.
+    tightest : float
+        The least d(i, j) + d(j, k) - d(i, k) over d(i, j) + d(j, k), for three different points: how close one comes.
 
+    Examples
+    --------
     >>> import bihdist
     >>> distances = [[0, 1, 5], [1, 0, 2], [5, 2, 0]]
     >>> sample = bihdist.triangle_violations(distances, count=100)
@@ -200,10 +279,29 @@ class TriangleSample:
 
 
 def triangle_violations(distances: npt.ArrayLike, count: int = 1_000_000, seed: int = 0) -> TriangleSample:
-    """Hold `count` random triples among k points, whose distances are (k, k), against the triangle inequality.
+    """Hold random triples of points against the triangle inequality.
 
-    Raises ParameterError for fewer than three points, an array that is not square, or a count below 1.
+    Parameters
+    ----------
+    distances : (k, k) array_like
+        Distances among k points.
+    count : int
+        How many triples.
+    seed : int
+        Of the random numbers.
 
+    Returns
+    -------
+    TriangleSample
+        How many triples break it, and by how much.
+
+    Raises
+    ------
+    ParameterError
+        For fewer than three points, an array that is not square, or a count below 1.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> d = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3)).pairwise(range(20))
     >>> bihdist.triangle_violations(d).violations
@@ -228,7 +326,7 @@ def triangle_violations(distances: npt.ArrayLike, count: int = 1_000_000, seed: 
 
 
 def _detours(d: FloatArray, count: int, rng: np.random.Generator) -> tuple[FloatArray, FloatArray]:
-    """(count,) d(i, j) + d(j, k), and by how much it is longer than d(i, k), of random triples."""
+    """Return (count,) d(i, j) + d(j, k), and by how much it is longer than d(i, k), of random triples."""
     k = len(d)
     i = rng.integers(k, size=count)
     # Offsets that are different and not 0 give three different points.
@@ -240,10 +338,29 @@ def _detours(d: FloatArray, count: int, rng: np.random.Generator) -> tuple[Float
 
 
 def smallest_distance(distance: Distance, progress: Progress | None = None, block: int = 256) -> tuple[float, int, int]:
-    """The least distance of two different vertices of one component, and the two: over all pairs, n / block blocks.
+    """Find the least distance between two different vertices of one component.
 
-    Raises ParameterError on a surface where no two vertices are connected by a distance.
+    Parameters
+    ----------
+    distance : Distance
+        The distance; it is computed between all pairs.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
+    block : int
+        From how many vertices fields are held at a time.
 
+    Returns
+    -------
+    tuple of float, int and int
+        The distance and the two vertices.
+
+    Raises
+    ------
+    ParameterError
+        If no two vertices are connected by a distance.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> distance = bihdist.GeodesicDistance(plane)
@@ -252,9 +369,8 @@ def smallest_distance(distance: Distance, progress: Progress | None = None, bloc
     """
     ids = np.flatnonzero(distance.surface.component_of_vertex >= 0)
     best: tuple[float, int, int] = (np.inf, -1, -1)
-    for start in range(0, len(ids), block):
-        chosen = ids[start : start + block]
-        fields = distance.from_sources(chosen, part(progress, start / len(ids), (start + len(chosen)) / len(ids)))
+    for report, start, chosen in blocks(progress, ids, block):
+        fields = distance.from_sources(chosen, report)
         fields[chosen, np.arange(len(chosen))] = np.nan
         least = np.fmin.reduce(fields, axis=0)
         k = int(np.nanargmin(least))
@@ -264,3 +380,51 @@ def smallest_distance(distance: Distance, progress: Progress | None = None, bloc
     if best[1] < 0:
         raise ParameterError(f"{distance.surface.name} has no two points with a distance.")
     return best
+
+
+# ---------------------------------------------------------------------- kinks
+def inner_jumps(
+    surface: Surface, field: npt.ArrayLike, near: npt.ArrayLike, radius: float | None = None
+) -> GradientJumps:
+    """Return the jumps of a field's gradient across edges where `near` (n,), a distance, exceeds a radius at both ends.
+
+    By default it is the small radius (`small_radius`). Every distance has a kink at its source, and at corners of the
+    boundary the gradient of smooth fields is singular: so also a band along the boundary is left out.
+    """
+    # Not at the top: it would double what `import bihdist_core.analysis.diagnostics` takes.
+    from scipy.spatial import cKDTree
+
+    jumps = gradient_jumps(surface, field)
+    radius = small_radius(surface) if radius is None else radius
+    away = np.asarray(near) > radius
+    rim = np.unique(surface.boundary_edges)
+    if len(rim):
+        away &= cKDTree(surface.vertices[rim]).query(surface.vertices)[0] > radius
+    inner = away[jumps.edges].all(axis=1) & np.isfinite(jumps.jumps)
+    return GradientJumps(jumps.edges[inner], jumps.jumps[inner], jumps.lengths[inner], jumps.slope)
+
+
+@dataclass(frozen=True, eq=False)
+class Kink:
+    """The kinks of a field away from its source: see `FieldQuality`."""
+
+    largest: float
+    edge: IntArray
+    length: float
+
+
+def kinks(surface: Surface, field: npt.ArrayLike, near: npt.ArrayLike, radius: float | None = None) -> Kink:
+    """Return the sharpest fold of a field (n,) where `near` (n,), a distance from its source, exceeds a radius.
+
+    By default it is the small radius (`small_radius`).
+    """
+    jumps = inner_jumps(surface, field, near, radius)
+    # Around smooth extrema the gradient is short, and any jump long beside it.
+    folds = jumps.jumps / np.maximum(jumps.lengths, jumps.slope) if jumps.slope > 0 else 0 * jumps.jumps
+    ends = surface.vertices[jumps.edges]
+    lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
+    length = float(lengths[folds >= 1].sum() / np.sqrt(surface.face_areas.sum()))
+    if not len(folds):
+        return Kink(0.0, np.array([-1, -1]), length)
+    worst = int(folds.argmax())
+    return Kink(float(folds[worst]), jumps.edges[worst], length)

@@ -18,9 +18,15 @@ from ..surface import Surface
 class FieldScatter:
     """Two fields over the k vertices of faces at which both are finite.
 
-    ids: (k,) these vertices, ascending.  x, y: (k,) the values of the first and the second field there, in their units,
-    or as shares of each field's largest size over all these vertices.
+    Attributes
+    ----------
+    ids : (k,) int64 ndarray
+        These vertices, ascending.
+    x, y : (k,) float64 ndarray
+        The first and the second field there, in their units, or as fractions of each field's largest size.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
     >>> scatter = bihdist.field_scatter(plane, plane.points[:, 0], plane.points[:, 1])
@@ -36,8 +42,10 @@ class FieldScatter:
 
     @property
     def ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Least and greatest value, across and up, 0 always between them.
+        """Least and greatest value of x, and of y; 0 always lies between them.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
         >>> bihdist.field_scatter(plane, plane.points[:, 0], plane.points[:, 1] + 1).ends
@@ -47,10 +55,27 @@ class FieldScatter:
         return across, up
 
     def density(self, columns: int, rows: int, across: tuple[float, float], up: tuple[float, float]) -> IntArray:
-        """(rows, columns) how many points are in each cell of a grid; the first row is the lowest.
+        """Count the points in each cell of a grid.
 
-        across, up: where the grid begins and ends; what lies on its ends is in it, what lies beyond is not counted.
+        Parameters
+        ----------
+        columns, rows : int
+            How many cells across and up.
+        across, up : tuple of float and float
+            Where the grid begins and ends; points on its ends are in it, points beyond are not counted.
 
+        Returns
+        -------
+        (rows, columns) int64 ndarray
+            The counts; the first row is the lowest.
+
+        Raises
+        ------
+        ParameterError
+            For a grid without cells, or ends that are not in order.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=3, j_resolution=3)
         >>> scatter = bihdist.field_scatter(plane, plane.points[:, 0], plane.points[:, 0])
@@ -59,17 +84,33 @@ class FieldScatter:
         [[8, 0], [0, 8]]
         """
         if min(columns, rows) < 1 or not (across[0] < across[1] and up[0] < up[1]):
-            raise ParameterError(f"{columns} by {rows} cells from {across} to {up} are no grid.")
+            raise ParameterError(
+                f"A grid has cells, and ends that ascend, not {columns} by {rows} cells in {across}, {up}."
+            )
         cell, _ = self.cells(columns, rows, across, up)
         return np.bincount(cell, minlength=columns * rows).reshape(rows, columns)
 
     def cells(
         self, columns: int, rows: int, across: tuple[float, float], up: tuple[float, float]
     ) -> tuple[IntArray, IntArray]:
-        """(p,) in which cell of a grid the p points inside it are, and (p,) which points these are.
+        """Find the cell of a grid that each point is in.
 
-        Cells are numbered row by row, from the lowest; across, up: where the grid begins and ends.
+        Parameters
+        ----------
+        columns, rows : int
+            How many cells across and up.
+        across, up : tuple of float and float
+            Where the grid begins and ends.
 
+        Returns
+        -------
+        cells : (p,) int64 ndarray
+            The cells, numbered row by row from the lowest.
+        points : (p,) int64 ndarray
+            The points inside the grid, as places in `ids`.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=1, j_resolution=1)
         >>> scatter = bihdist.field_scatter(plane, plane.points[:, 0], plane.points[:, 1])
@@ -85,11 +126,25 @@ class FieldScatter:
         return (places[1][inside] * columns + places[0][inside]).astype(np.intp), inside
 
     def inside(self, polygon: npt.ArrayLike) -> IntArray:
-        """The vertices whose points lie inside a closed polygon (m, 2), which they do where it goes round an odd number
-        of times.
+        """Return the vertices whose points lie inside a closed polygon.
 
-        Raises ParameterError for anything else than three or more finite corners.
+        Parameters
+        ----------
+        polygon : (m, 2) array_like
+            At least three corners. A point is inside if the polygon goes round it an odd number of times.
 
+        Returns
+        -------
+        (q,) int64 ndarray
+            Vertex ids, ascending.
+
+        Raises
+        ------
+        ParameterError
+            For anything but three or more finite corners.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
         >>> scatter = bihdist.field_scatter(plane, plane.points[:, 0], plane.points[:, 1])
@@ -111,8 +166,10 @@ class FieldScatter:
         return np.sort(self.ids[order[is_in]])
 
     def sort(self) -> None:
-        """Prepare `inside`, which otherwise sorts when it is first asked: for a thread that may wait.
+        """Sort the points now, so that the first call of `inside` need not.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
         >>> scatter = bihdist.field_scatter(plane, plane.points[:, 0], plane.points[:, 1])
@@ -128,16 +185,35 @@ class FieldScatter:
         return order, self.y[order]
 
 
-def field_scatter(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, shares: bool = False) -> FieldScatter:
-    """The second of two fields (n,) against the first at the vertices; shares: each divided by its largest size first.
+def field_scatter(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, normalised: bool = False) -> FieldScatter:
+    """Put one field against another, a point for each vertex.
 
-    Raises ParameterError for fields of other shapes, no common vertices, and shares of a field that is 0.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    a, b : (n,) array_like
+        The field across and the field up.
+    normalised : bool
+        Divide each field by its largest size first.
 
+    Returns
+    -------
+    FieldScatter
+        The points at vertices where both fields are finite.
+
+    Raises
+    ------
+    ParameterError
+        For fields of another shape or without common vertices, or if a field to be normalised is 0 throughout.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> one = bihdist.GeodesicDistance(sphere).from_source(0)
     >>> other = bihdist.BiharmonicDistance(sphere).from_source(0)
-    >>> scatter = bihdist.field_scatter(sphere, one, other, shares=True)
+    >>> scatter = bihdist.field_scatter(sphere, one, other, normalised=True)
     >>> scatter.x.max().item(), scatter.y.max().item(), len(scatter.ids)
     (1.0, 1.0, 642)
     """
@@ -147,7 +223,7 @@ def field_scatter(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, shares:
     if not len(ids):
         raise ParameterError("To compare two fields, both need finite values at common vertices.")
     x, y = f[ids], g[ids]
-    if shares:
+    if normalised:
         sizes = np.abs(x).max(), np.abs(y).max()
         if not min(sizes) > 0:
             which = "first" if sizes[0] == 0 else "second"

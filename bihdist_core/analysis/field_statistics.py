@@ -8,10 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray, IntArray, real_numbers
 from ..errors import ParameterError
 from ..mesh_like import MeshLike
-from ..number_arrays import real_numbers
 from ..surface import Surface
 from .field_scatter import field_scatter
 from .linear_field import LinearField
@@ -19,17 +18,42 @@ from .linear_field import LinearField
 
 @dataclass(frozen=True, eq=False)
 class FieldStatistics:
-    """A field (n,), linear on each face, over the area of its surface; in the field's unit, NaN left out.
+    """Statistics of a field over the area of its surface, in the field's unit.
 
-    All but the extremes are of the faces at whose corners the field is finite, and exact, as the area of a band between
-    two values is.
-    mean, deviation: mean and standard deviation by area.  mean_size: the mean of |field|, of a difference its mean
-    deviation.
-    count: of vertices that have a value.  least, greatest, largest: of field and of |field| over these; least_at,
-    greatest_at, largest_at: vertices where (the smallest id).
-    shares, quantiles: (q,) the field is at most quantiles[i] on shares[i] of the area.
-    bins: (b + 1,) ends, ascending, and areas: (b,) of each.
+    All but the extremes are over the faces on which the field is finite. They are exact for a field that is linear on
+    each face.
 
+    Attributes
+    ----------
+    count : int
+        How many vertices have a value.
+    mean : float
+        Mean by area.
+    mean_size : float
+        Mean absolute value by area; of a difference, the mean deviation.
+    deviation : float
+        Standard deviation by area.
+    least : float
+        Least value at a vertex.
+    least_at : int
+        The vertex of it; of several, the smallest id.
+    greatest : float
+        Greatest value at a vertex.
+    greatest_at : int
+        The vertex of it.
+    largest : float
+        Largest absolute value at a vertex.
+    largest_at : int
+        The vertex of it.
+    fractions, quantiles : (q,) float64 ndarray
+        The field is at most ``quantiles[i]`` on ``fractions[i]`` of the area.
+    bins : (b + 1,) float64 ndarray
+        Ends of the bins of the histogram, ascending.
+    areas : (b,) float64 ndarray
+        The area of each bin, in the mesh's unit squared.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> statistics = bihdist.field_statistics(plane, plane.points[:, 0])
@@ -48,14 +72,14 @@ class FieldStatistics:
     greatest_at: int
     largest: float
     largest_at: int
-    shares: FloatArray
+    fractions: FloatArray
     quantiles: FloatArray
     bins: FloatArray
     areas: FloatArray
 
 
 def corner_areas(surface: Surface) -> FloatArray:
-    """(n,) a third of the area of each vertex' faces: the weights of the exact integral of a field linear on faces."""
+    """Return (n,) a third of the area of each vertex's faces: the weights that integrate a linear field exactly."""
     thirds = np.repeat(surface.face_areas / 3, 3)
     return np.bincount(surface.faces.ravel(), thirds, minlength=len(surface.vertices)).astype(float, copy=False)
 
@@ -64,26 +88,46 @@ def field_statistics(
     surface: MeshLike,
     field: npt.ArrayLike,
     bins: int | npt.ArrayLike = 50,
-    shares: Sequence[float] = (0.05, 0.25, 0.5, 0.75, 0.95),
+    fractions: Sequence[float] = (0.05, 0.25, 0.5, 0.75, 0.95),
 ) -> FieldStatistics:
-    """The statistics of a field (n,), such as a distance or the difference of two.
+    """Compute the statistics of a field, such as a distance or the difference of two.
 
-    bins: how many, of equal width from the least to the greatest value, or (b + 1,) their ends, ascending; faces on
-    which the field is an end count above it, those on the last end below it.  shares: (q,) from 0 to 1.
-    Raises ParameterError for a field of another shape or that is finite on no face, and bad bins or shares.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    field : (n,) array_like
+        Real numbers at the vertices.
+    bins : int or (b + 1,) array_like
+        How many bins of equal width the histogram has from the least to the greatest value, or their ends, ascending.
+        Faces on which the field equals an end count above it; those on the last end count below it.
+    fractions : (q,) sequence of float
+        Of the area, from 0 to 1: where the quantiles are taken.
 
+    Returns
+    -------
+    FieldStatistics
+        The statistics.
+
+    Raises
+    ------
+    ParameterError
+        For a field of another shape or that is finite on no face, and for bad bins or fractions.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> x = plane.points[:, 0]
-    >>> statistics = bihdist.field_statistics(plane, x, bins=4, shares=[0.25, 0.5])
+    >>> statistics = bihdist.field_statistics(plane, x, bins=4, fractions=[0.25, 0.5])
     >>> statistics.areas.round(6).tolist(), statistics.quantiles.round(6).tolist()
     ([0.25, 0.25, 0.25, 0.25], [-0.25, 0.0])
     """
     surface = Surface.of(surface)
     f, ids, faces = _chosen(surface, field)
-    share = real_numbers(shares, "Fractions of the area")
-    if share.ndim != 1 or not ((share >= 0) & (share <= 1)).all():
-        raise ParameterError(f"Fractions of the area are numbers from 0 to 1, not {shares!r}.")
+    fraction = real_numbers(fractions, "Fractions of the area")
+    if fraction.ndim != 1 or not ((fraction >= 0) & (fraction <= 1)).all():
+        raise ParameterError(f"Fractions of the area are numbers from 0 to 1, not {fractions!r}.")
     mean = faces.mean()
     edges = _edges(bins, float(f.min()), float(f.max()))
     low, high, largest = int(f.argmin()), int(f.argmax()), int(np.abs(f).argmax())
@@ -98,8 +142,8 @@ def field_statistics(
         greatest_at=int(ids[high]),
         largest=float(abs(f[largest])),
         largest_at=int(ids[largest]),
-        shares=share,
-        quantiles=faces.quantiles(share),
+        fractions=fraction,
+        quantiles=faces.quantiles(fraction),
         bins=edges,
         areas=faces.histogram(edges),
     )
@@ -107,17 +151,29 @@ def field_statistics(
 
 @dataclass(frozen=True)
 class Agreement:
-    """How two fields go together over the vertices at which both are finite, `count` of them; no unit but `largest`'s.
+    """The agreement of two fields over the vertices at which both are finite.
 
-    spearman: rank correlation, from -1 to 1; by_area: rank correlation with vertices weighted by area; NaN where a
-    field is constant.  mean, largest: of |a - b|, linear on each face, by area and exactly, after each field was
-    divided by its maximum if shares were asked for; largest_at: the vertex of the largest.
+    Attributes
+    ----------
+    count : int
+        How many vertices these are.
+    spearman : float
+        Rank correlation, from -1 to 1; NaN where a field is constant.
+    by_area : float
+        Rank correlation with vertices weighted by area.
+    mean, largest : float
+        Mean by area and largest value of the absolute difference; normalised fields were divided by their largest size
+        first.
+    largest_at : int
+        The vertex of the largest.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> one = bihdist.BiharmonicDistance(sphere).from_source(0)
     >>> other = bihdist.GeodesicDistance(sphere).from_source(0)
-    >>> agreement = bihdist.field_agreement(sphere, one, other, shares=True)
+    >>> agreement = bihdist.field_agreement(sphere, one, other, normalised=True)
     >>> # ordered alike, while values differ
     >>> round(agreement.spearman, 2), round(agreement.mean, 2)
     (1.0, 0.26)
@@ -131,11 +187,30 @@ class Agreement:
     largest_at: int
 
 
-def field_agreement(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, shares: bool = False) -> Agreement:
-    """The agreement of two fields (n,); shares: each divided by its largest size first, for fields of different unit.
+def field_agreement(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, normalised: bool = False) -> Agreement:
+    """Measure how well two fields agree.
 
-    Raises ParameterError for fields of other shapes, no common vertices, and shares of a field that is 0.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    a, b : (n,) array_like
+        The two fields.
+    normalised : bool
+        Divide each field by its largest size first, as fields of different unit need.
 
+    Returns
+    -------
+    Agreement
+        Rank correlations and differences.
+
+    Raises
+    ------
+    ParameterError
+        For fields of another shape or without common vertices, or if a field to be normalised is 0 throughout.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> x, y = plane.points[:, 0], plane.points[:, 1]
@@ -146,7 +221,7 @@ def field_agreement(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, share
     -1.0
     """
     surface = Surface.of(surface)
-    both = field_scatter(surface, a, b, shares)
+    both = field_scatter(surface, a, b, normalised)
     f, g, ids = both.x, both.y, both.ids
     weights = corner_areas(surface)[ids]
     apart = np.abs(f - g)
@@ -166,12 +241,27 @@ def field_agreement(surface: MeshLike, a: npt.ArrayLike, b: npt.ArrayLike, share
 
 
 def rank_correlation(a: npt.ArrayLike, b: npt.ArrayLike, weights: npt.ArrayLike | None = None) -> float:
-    """Spearman's rank correlation of values (k,) and (k,), with weights (k,), at least 0, or 1 each; NaN if one is
-    constant.
+    """Compute Spearman's rank correlation, which may be weighted.
 
-    Equal values have the mean of their ranks.  A weight is as so many points in one place.
-    Raises ParameterError for arrays of different shape, values that are not finite, or bad weights.
+    Parameters
+    ----------
+    a, b : (k,) array_like
+        Finite values. Equal ones have the mean of their ranks.
+    weights : (k,) array_like, optional
+        At least 0; a weight counts as so many points in one place. 1 each by default.
 
+    Returns
+    -------
+    float
+        From -1 to 1; NaN if `a` or `b` is constant.
+
+    Raises
+    ------
+    ParameterError
+        For arrays of different shape, values that are not finite, or bad weights.
+
+    Examples
+    --------
     >>> import bihdist
     >>> bihdist.rank_correlation([1, 2, 3, 4], [10, 20, 25, 900])
     1.0
@@ -208,7 +298,7 @@ def _correlation(one: Order, other: Order, w: FloatArray) -> float:
 
 
 def _ranks(of: Order, w: FloatArray) -> FloatArray:
-    """(k,) the weight of what is less, and half of that of what is equal."""
+    """Return (k,) the weight of what is less, and half of that of what is equal."""
     order, groups = of
     bounds = np.append(0, np.cumsum(w[order]))[groups]
     ranks = np.empty(len(order))
@@ -217,11 +307,11 @@ def _ranks(of: Order, w: FloatArray) -> FloatArray:
 
 
 def _chosen(surface: Surface, field: npt.ArrayLike) -> tuple[FloatArray, IntArray, LinearField]:
-    """Values and ids of the vertices that have a value, and the faces that have one everywhere."""
+    """Return values and ids of the vertices that have a value, and the faces that have one everywhere."""
     f = surface.check_field(field)
     faces = LinearField.on(surface, f)
     if not faces.area > 0:
-        raise ParameterError(f"The field has no finite value on {surface.name}: on no face is it finite.")
+        raise ParameterError(f"The field is not finite on any face of {surface.name}.")
     ids = np.flatnonzero(np.isfinite(f) & (surface.component_of_vertex >= 0))
     return f[ids], ids, faces
 

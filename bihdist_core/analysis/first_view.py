@@ -1,4 +1,4 @@
-"""From where a surface is seen first, and where its first field starts: on its outside, and seen from there."""
+"""First view of a surface and first source of a field: on its outside, and seen from there."""
 
 from dataclasses import dataclass
 
@@ -7,19 +7,28 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..surface import Surface
 from .upright import axes_of, scattered
-from .view_directions import FIRST_VIEWS
+from .view_directions import FIRST_VIEWS, OBLIQUE_VIEWS
 
 PREFERRED = {"home": 1.5, "high": 1.15}
-"""How many times as much others have to show."""
+"""The factor by which another view must show more."""
+
+FEET, ANKLES = (0.0, 0.03), (0.05, 0.12)
+"""Where feet and ankles of a standing figure are, as fractions of its height."""
+
+TOES = 0.03
+"""How far feet reach forward from the ankles, as a fraction of the height, at least."""
+
+TALL = 0.95
+"""How high a standing figure is, as a fraction of its width, at least: arms may be stretched out."""
 
 SAMPLES = 20_000
 """Places on the faces that stand for the whole."""
 
 CELLS = 64
-"""Of a picture, along each side: some five places fall into each cell that the shape covers."""
+"""Cells along each side of a picture; some five places fall into each cell that the shape covers."""
 
 INSIDE = 0.3
-"""What the inside counts, as a share of the outside."""
+"""The weight of the inside, as a fraction of that of the outside."""
 
 SLOPE = 0.2
 """The tangent of half the angle that the shape fills."""
@@ -28,7 +37,7 @@ WELL_SEEN = 0.3
 """The least cosine of the angle between the normal of what is well seen and the way to the camera."""
 
 EQUAL = 1e-6
-"""Heights that differ by less than this share of the component's are equal."""
+"""Heights that differ by less than this fraction of the component's are equal."""
 
 MOST_TRIED = 200
 """Vertices, from the top down, of which one is looked for that nothing hides."""
@@ -36,21 +45,22 @@ MOST_TRIED = 200
 
 @dataclass(frozen=True)
 class FirstLook:
-    """view: a name among FIRST_VIEWS; source: a vertex."""
+    """The name of a view among FIRST_VIEWS, and a source vertex that is seen in it."""
 
     view: str
     source: int
 
 
 def first_look(surface: Surface, up: str = "y") -> FirstLook:
-    """The view that shows most of the outside and little of the inside, and a source that is seen in it.
+    """Choose the view that shows most of the outside and little of the inside, and a source that is seen in it.
 
-    up: which axis is.  Normals by the order of the corners tell the outside; where most of what is seen from all sides
-    is inside, they point inwards.  Home is left only for what shows half as much again.
+    `up` is an axis. The order of the corners tells the outside; where most of what is seen from all sides is inside,
+    the normals point inwards. Home is left only for a view that shows half as much again; a standing figure whose feet
+    point to the back is seen from there.
 
     The source is the highest vertex of the component with the largest area, if it is seen; otherwise the highest of
-    those that are well seen.  Of equally high ones it is the first, or if that faces away, the one that faces the
-    camera most.
+    those that are well seen. Of equally high ones it is the first, or if that faces away, the one that faces the camera
+    most.
     """
     areas = surface.face_areas
     of_face = surface.component_of_vertex[surface.faces[:, 0]]
@@ -60,28 +70,46 @@ def first_look(surface: Surface, up: str = "y") -> FirstLook:
     if not areas.sum() > 0 or is_flat(surface.vertices[surface.component_of_vertex >= 0]):
         return FirstLook("home", highest)
     places, faces = scattered(surface, SAMPLES)
-    sights = [_Sight(surface, places, faces, axes_of(up), direction) for direction in FIRST_VIEWS.values()]
+    sights = [_Sight(surface, places, faces, axes_of(up), OBLIQUE_VIEWS[name]) for name in FIRST_VIEWS]
     outside, inside = np.array([sight.areas for sight in sights]).T
     outwards = 1.0
-    if inside.sum() > outside.sum():
+    # The last view is from above; the others go all round, so that none of the sides counts twice.
+    if inside[:-1].sum() > outside[:-1].sum():
         outside, inside, outwards = inside, outside, -1.0
     # Of a sheet with one side about half of what is seen is inside, from wherever.
-    shown = (outside + INSIDE * inside) * [PREFERRED.get(name, 1.0) for name in FIRST_VIEWS]
+    side = "-back" if _faces_back(places @ axes_of(up)) else ""
+    preferred = {f"{name}{side}": factor for name, factor in PREFERRED.items()}
+    shown = (outside + INSIDE * inside) * [preferred.get(name, 1.0) for name in FIRST_VIEWS]
     best = int(shown.argmax())
-    return FirstLook(list(FIRST_VIEWS)[best], sights[best].source_among(ids, heights, outwards))
+    return FirstLook(FIRST_VIEWS[best], sights[best].source_among(ids, heights, outwards))
+
+
+def _faces_back(places: FloatArray) -> bool:
+    """Return whether the feet of a standing figure point to the back, by places (k, 3): right, up and to the front."""
+    low, extents = places.min(axis=0), np.ptp(places, axis=0)
+    if extents[1] < TALL * max(extents[0], extents[2]):
+        return False
+    heights = (places[:, 1] - low[1]) / extents[1]
+    parts = [places[(heights >= start) & (heights < end)] for start, end in (FEET, ANKLES)]
+    if not all(len(part) for part in parts):
+        return False
+    feet, ankles = (part.mean(axis=0) for part in parts)
+    right, _, front = (feet - ankles) / extents[1]
+    # A foot to the side is a step, or no foot.
+    return bool(front < -TOES and abs(right) < -front / 2)
 
 
 def is_flat(points: FloatArray) -> bool:
-    """Whether points (n, 3) lie in a plane of constant z."""
+    """Return whether points (n, 3) lie in a plane of constant z."""
     # Column by column, which is several times faster than along the short axis.
     extents = [np.ptp(column) for column in points.T]
     return bool(extents[2] <= 1e-6 * max(extents))
 
 
 class _Sight:
-    """What a camera that has all of a surface in a square picture sees of it.
+    """The part of a surface that a camera sees which has all of it in a square picture.
 
-    places (k, 3): on faces (k,).  axes: see `axes_of`; direction: one of FIRST_VIEWS.
+    `places` (k, 3) are points on `faces` (k,), `axes` those of `axes_of`, `direction` is one of OBLIQUE_VIEWS.
     """
 
     def __init__(
@@ -113,7 +141,7 @@ class _Sight:
         self.areas = cell * is_outside.sum(), cell * (~is_outside).sum()  # that are seen, of the outside and the inside
 
     def source_among(self, ids: IntArray, heights: FloatArray, outwards: float) -> int:
-        """Of vertices (k,) with heights (k,) the one to start from; outwards: -1 where normals point inwards."""
+        """Return the source among vertices (k,) with heights (k,); `outwards` is -1 where normals point inwards."""
         first, level = int(heights.argmax()), EQUAL * float(np.ptp(heights))
         as_high = np.flatnonzero(heights >= heights[first] - level)
         facing = outwards * self._vertices_facing(ids[as_high])
@@ -128,12 +156,12 @@ class _Sight:
         return next((int(vertex) for vertex in others if self._is_seen(int(vertex), outwards)), int(ids[first]))
 
     def _seen(self, points: FloatArray) -> FloatArray:
-        """(3, k) where points (k, 3) are in the picture, -SLOPE to SLOPE, and how far away."""
+        """Return (3, k) where points (k, 3) are in the picture, -SLOPE to SLOPE, and how far away."""
         right, up, back = ((points - self._eye) @ self._frame).T
         return np.stack([right / -back, up / -back, -back])
 
     def _vertices_facing(self, ids: IntArray) -> FloatArray:
-        """(k,) the cosine of the angle between the normal of vertices (k,) and the way to the camera."""
+        """Return (k,) the cosine of the angle between the normal of vertices (k,) and the way to the camera."""
         vertices, faces = self._surface.vertices, self._surface.faces
         is_asked = np.zeros(len(vertices), bool)
         is_asked[ids] = True
@@ -148,13 +176,13 @@ class _Sight:
         return cosines
 
     def _may_be_seen(self, ids: IntArray) -> BoolArray:
-        """(k,) which vertices (k,) are no more than a few cells behind what is seen there."""
+        """Return (k,) which vertices (k,) are no more than a few cells behind what is seen there."""
         x, y, depth = self._seen(self._surface.vertices[ids])
         is_near: BoolArray = depth <= self._nearest[_cells(x, y)] + 6 * SLOPE * depth / CELLS
         return is_near
 
     def _is_seen(self, vertex: int, outwards: float) -> bool:
-        """Whether no face is before a vertex, and one at it turns its outside to the camera."""
+        """Return whether no face is before a vertex, and one at it turns its outside to the camera."""
         vertices, faces = self._surface.vertices, self._surface.faces
         # Of all faces only those are looked at through which an upright plane through the eye and the vertex goes.
         across = np.cross(self._frame[:, 1], vertices[vertex] - self._eye)
@@ -175,13 +203,13 @@ class _Sight:
 
 
 def _cells(x: FloatArray, y: FloatArray) -> IntArray:
-    """(k,) the cell of the picture that places are seen in."""
+    """Return (k,) the cell of the picture that places are seen in."""
     column, row = (np.clip((along / SLOPE + 1) / 2 * CELLS, 0, CELLS - 1) for along in (x, y))
     return CELLS * row.astype(np.int64) + column.astype(np.int64)
 
 
 def _facing(surface: Surface, faces: IntArray, eye: FloatArray) -> FloatArray:
-    """(k,) positive where faces (k,) turn to a camera the side from which their corners go round to the left."""
+    """Return (k,) positive where faces (k,) turn to a camera the side from which their corners go round to the left."""
     a, b, c = surface.vertices[surface.faces[faces]].transpose(1, 0, 2)
     towards: FloatArray = np.einsum("ij,ij->i", np.cross(b - a, c - a), eye - a)
     return towards

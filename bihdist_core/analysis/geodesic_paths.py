@@ -25,12 +25,19 @@ from .surface_paths import Crossings, Stars, SurfacePath, assembled, in_faces
 METHODS = ("auto", "exact", "edges")
 LABELS = {"exact": "shortest geodesic, exact", "edges": "shortest path along edges"}
 NEAR = 1e-9
-"""Of weights: places that differ by less are one."""
+"""Places whose weights differ by less than this are one."""
 
 
 class GeodesicPaths:
-    """Paths on one surface of any kind; what they need is made when first needed.  Usable from several threads.
+    """Geodesic paths on one surface; can be used from several threads.
 
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh. What paths need is prepared when the first is asked for.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> cube = bihdist.Surface.of(pyvista.Cube().triangulate().clean())
     >>> path = bihdist.GeodesicPaths(cube).path([0, 6])
@@ -46,14 +53,35 @@ class GeodesicPaths:
     def path(
         self, places: Sequence[int | SurfacePoint | str], method: str = "auto", progress: Progress | None = None
     ) -> SurfacePath:
-        """The path through two or more vertices or places in faces, or their words, in order.
+        """Find the path through two or more places, in their order.
 
-        `method` and `label` of the path say how it was made.  method: "exact"; "edges"; or "auto": exact where there is
-        the compiled kernel, else along edges.
+        Parameters
+        ----------
+        places : sequence of int, SurfacePoint or str
+            Vertices, places in faces, or their words.
+        method : {"auto", "exact", "edges"}
+            The exact shortest path, or the shortest along edges; "auto" is exact if the kernel is compiled. The path's
+            `method` and `label` say how it was made.
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
 
-        Raises VertexError for a bad vertex; ParameterError for a bad place or method, fewer than two places, the same
-        place twice in a row, and places on different components; SolverError for "exact" without the compiled kernel.
+        Returns
+        -------
+        SurfacePath
+            The path.
 
+        Raises
+        ------
+        VertexError
+            If a vertex is not on the surface.
+        ParameterError
+            For a bad place or method, fewer than two places, the same place twice in a row, and places on different
+            components.
+        SolverError
+            For "exact" without the compiled kernel.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> paths = bihdist.GeodesicPaths(pyvista.Plane(i_resolution=4, j_resolution=4))
         >>> path = paths.path([0, 24])
@@ -81,7 +109,7 @@ class GeodesicPaths:
         points = Pieces(places.faces, places.corners, places.weights, places.weights, np.zeros(len(places), bool))
         parts, count = [], len(places) - 1
         for k in range(count):
-            one, other = (points.some(np.array([number])) for number in (k, k + 1))
+            one, other = (points.select(np.array([number])) for number in (k, k + 1))
             parts.append(self._exact.path(one, other, part(progress, k / count, (k + 1) / count)))
         return in_faces(self.surface, parts, "exact", LABELS["exact"])
 
@@ -96,7 +124,7 @@ class GeodesicPaths:
 
 
 def _keys(places: Places) -> list[dict[int, float]]:
-    """Of each place the corners that have weight, with the weights."""
+    """Return the corners of each place that have weight, with the weights."""
     return [
         {v: w for v, w in zip(corners, weights, strict=True) if w >= NEAR}
         for corners, weights in zip(places.corners.tolist(), places.weights.tolist(), strict=True)

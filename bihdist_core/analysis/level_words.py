@@ -6,7 +6,7 @@ from ..errors import ParameterError
 
 
 def value_from_words(text: str, maximum: float) -> float | None:
-    """ "0.25", or "20 %" of the maximum; None for nothing.  ParameterError for other words."""
+    """Read "0.25", or "20 %" of the maximum; return None for nothing. ParameterError for other words."""
     words = text.strip().replace("\N{MINUS SIGN}", "-")
     if not words:
         return None
@@ -16,14 +16,14 @@ def value_from_words(text: str, maximum: float) -> float | None:
     except ValueError:
         value = math.nan
     if math.isnan(value):
-        raise ParameterError(f"{text.strip()!r} is no value; type one such as {maximum / 4:.4g}, or 25 %.")
+        raise ParameterError(f"{text.strip()!r} is not a value; type one such as {maximum / 4:.4g}, or 25 %.")
     return value
 
 
 def region_from_words(text: str, maximum: float) -> tuple[float, float]:
-    """ "0.1:0.25", "20%:40%"; an end that is left out is infinite.  ParameterError for other words."""
+    """Read "0.1:0.25" or "20%:40%"; an end that is left out is infinite. ParameterError for other words."""
     ends = text.split(":")
     if len(ends) != 2 or not text.strip(": "):
-        raise ParameterError(f"{text!r} is no region between two values, such as 0.1:0.2, 20%:40% or 50%:.")
+        raise ParameterError(f"{text!r} is not a region between two values, such as 0.1:0.2, 20%:40% or 50%:.")
     low, high = (value_from_words(end, maximum) for end in ends)
     return -math.inf if low is None else low, math.inf if high is None else high

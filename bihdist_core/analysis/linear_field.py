@@ -15,8 +15,8 @@ from ..surface import Surface
 class LinearField:
     """A field on m triangles, linear on each, in any unit.
 
-    low, middle, high: (m,) its values at the corners of each triangle, in ascending order.  areas: (m,) of the
-    triangles.  ends: (k,) the values at all corners, ascending; between two of them the area below a value is a
+    `low`, `middle` and `high` (m,) are its values at the corners of each triangle, ascending, and `areas` (m,) those of
+    the triangles. `ends` (k,) are the values at all corners, ascending; between two of them the area below a value is a
     quadratic polynomial of it.
     """
 
@@ -28,7 +28,7 @@ class LinearField:
 
     @classmethod
     def on(cls, surface: Surface, field: FloatArray) -> LinearField:
-        """field: (n,).  Faces with a corner that is not finite are left out, as from a band between two values."""
+        """Make the linear field of (n,) values; faces with a corner that is not finite are left out."""
         corners = field[surface.faces]
         there = np.isfinite(corners).all(axis=1)
         at_vertex = np.zeros(len(field), bool)
@@ -42,13 +42,13 @@ class LinearField:
         return float(self.areas.sum())
 
     def mean(self) -> float:
-        """Exact mean of the field by area, in the field's unit."""
+        """Return the exact mean of the field by area, in the field's unit."""
         # From one of the values on, so that rounding leaves a constant field its value.
         start = self.ends[0]
         return float(start + self._mean(((self.low - start) + (self.middle - start) + (self.high - start)) / 3))
 
     def mean_size(self) -> float:
-        """The mean of |field|."""
+        """Return the exact mean of the field's absolute value by area."""
         a, b, c = self.low, self.middle, self.high
         sign = np.where(b < 0, -1, 1)
         # The one corner on its side of 0, if there is one: what a change of sign adds is twice a smaller triangle.
@@ -59,13 +59,15 @@ class LinearField:
         return self._mean((sign * (a + b + c) + 2 * np.where(lone > 0, corner, 0)) / 3)
 
     def deviation(self, mean: float) -> float:
-        """The root of the mean square of the field less a value."""
+        """Return the root of the mean square of the field less a value."""
         a, b, c = self.low - mean, self.middle - mean, self.high - mean
         return float(np.sqrt(self._mean((a * (a + b) + b * (b + c) + c * (c + a)) / 6)))
 
     def area_below(self, value: float, closed: bool = False) -> float:
-        """The area on which the field is less than a value, or, closed, at most that; where it is the value on whole
-        triangles the two differ."""
+        """Return the area on which the field is less than a value, or, closed, at most that.
+
+        Where it is the value on whole triangles the two differ.
+        """
         whole = (self.high <= value) if closed else (self.high <= value) & (self.low < value)
         cut = np.flatnonzero((self.low < value) & (value < self.high))
         low, middle, high = self.low[cut], self.middle[cut], self.high[cut]
@@ -76,8 +78,10 @@ class LinearField:
         return float(self.areas @ whole + self.areas[cut] @ np.where(lower, corner, 1 - corner))
 
     def histogram(self, edges: FloatArray) -> FloatArray:
-        """(b,) the area between each two of (b + 1,) ends, ascending; triangles on an end count above it, those on the
-        last below it."""
+        """Return (b,) the area between each two of (b + 1,) ends, ascending.
+
+        Triangles on an end count above it, those on the last below it.
+        """
         first, last = (np.searchsorted(edges, values, "right") - 1 for values in (self.low, self.high))
         one = (first == last) & (first >= 0) & (first < len(edges) - 1)
         cut = self._part(~one)
@@ -86,10 +90,11 @@ class LinearField:
         inside = np.bincount(first[one], self.areas[one], len(edges) - 1).astype(float, copy=False)
         return inside + np.maximum(np.diff(reached), 0)
 
-    def quantiles(self, shares: npt.ArrayLike) -> FloatArray:
-        """(q,) the least values that the field does not exceed on these shares (q,), from 0 to 1, of the area."""
+    def quantiles(self, fractions: npt.ArrayLike) -> FloatArray:
+        """Return (q,) the least values that the field does not exceed on these fractions (q,), from 0 to 1, of the
+        area."""
         area, most = self.area, float(self.ends[-1])
-        return np.array([self._value_at(x * area) if x < 1 else most for x in np.asarray(shares, np.float64)])
+        return np.array([self._value_at(x * area) if x < 1 else most for x in np.asarray(fractions, np.float64)])
 
     def _value_at(self, area: float) -> float:
         faces, below, ends = self, 0.0, self.ends
@@ -122,7 +127,7 @@ class LinearField:
 
 
 def _root(start: float, half: float, end: float) -> float:
-    """The root from 0 to 1 of an ascending quadratic polynomial, given at 0, 1/2 and 1."""
+    """Return the root from 0 to 1 of an ascending quadratic polynomial, given at 0, 1/2 and 1."""
     square = 2 * (start + end - 2 * half)
     linear = max(end - start - square, 0.0)
     discriminant = max(linear**2 - 4 * square * start, 0.0)

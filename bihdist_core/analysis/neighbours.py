@@ -1,11 +1,13 @@
-"""The nearest vertices by any distance, without the matrix of all distances.
+"""The nearest vertices by any distance, without the matrix of all distances, and their files.
 
 A graph of them is what much of machine learning and of visualization on meshes starts from.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+import os
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -13,7 +15,9 @@ import numpy.typing as npt
 from ..arrays import FloatArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
-from ..progress import Progress, part, silent
+from ..file_output import atomic_write, check_output
+from ..formats.field_output import write_array
+from ..progress import Progress, blocks, silent
 from ..scalars import real_number
 from .parcels import checked_mask
 
@@ -33,17 +37,40 @@ def nearest(
     memory: float = MEMORY,
     progress: Progress | None = None,
 ) -> tuple[IntArray, FloatArray]:
-    """The k vertices nearest to each of s sources, nearest first, and how far they are: (s, k), (s, k).
+    """Find the k vertices nearest to each of several sources, without the matrix of all distances.
 
-    sources: (s,) vertices, all n if None.  A source is no neighbour of itself; of vertices at the same distance the
-    one with the lower number comes first.  Only what the distance reaches is a neighbour: where the component of a
-    source has fewer than k other vertices, and at vertices that belong to no face, -1 and NaN stand instead.  Of a
-    distance that is not symmetric, the one from the source counts.  mask: (n,) which vertices may be neighbours.
+    Parameters
+    ----------
+    distance : Distance
+        The distance; if it is not symmetric, the one from the source counts.
+    sources : (s,) array_like, optional
+        Vertices; all n by default.
+    k : int
+        How many neighbours. A source is no neighbour of itself.
+    mask : (n,) array_like, optional
+        Which vertices may be neighbours, as 0 or 1; all by default.
+    memory : float
+        Bytes that the fields of one block may take.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
 
-    Costs a field for each source and holds those of a block, of so many bytes as `memory` says.  Raises VertexError for
-    a source that is not there or, if it is named, belongs to no face; ParameterError for a number that is none, and a
-    mask of another shape.
+    Returns
+    -------
+    ids : (s, k) int64 ndarray
+        The neighbours, nearest first; at the same distance the lower id comes first. -1 where the distance reaches
+        fewer than k, and at vertices that belong to no face.
+    distances : (s, k) float64 ndarray
+        How far they are, NaN where there is none.
 
+    Raises
+    ------
+    VertexError
+        For a source that is not there or, if sources are named, belongs to no face.
+    ParameterError
+        For a bad `k` or `memory`, and a mask of another shape.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> distance = bihdist.GeodesicDistance(plane)
@@ -69,10 +96,9 @@ def nearest(
         of_row = np.arange(rows)
     indices, values = np.full((rows, k), NONE), np.full((rows, k), np.nan)
     step = int(np.clip(memory / (n * BYTES_PER_VALUE), 1, max(len(ids), 1)))
-    for start in range(0, len(ids), step):
-        (progress or silent)(start / len(ids), f"neighbours of {start:,} of {len(ids):,} vertices")
-        some = ids[start : start + step]
-        fields = distance.from_sources(some, part(progress, start / len(ids), (start + len(some)) / len(ids)))
+    for report, start, some in blocks(progress, ids, step):
+        report(0.0, f"neighbours of {start:,} of {len(ids):,} vertices")
+        fields = distance.from_sources(some, report)
         fields[some, np.arange(len(some))] = np.nan
         if hidden is not None:
             fields[hidden] = np.nan
@@ -84,9 +110,51 @@ def nearest(
 
 
 def least(field: FloatArray, k: int) -> IntArray:
-    """(at most k,) where a field (n,) is least, ascending; equal ones by number, what is not finite left out."""
+    """Return at most k vertices where a field (n,) is least, ascending, then by id; only finite values count."""
     known = np.where(np.isfinite(field), field, np.inf)
     reach = np.partition(known, k - 1)[k - 1] if k < len(known) else np.inf
     candidates = np.flatnonzero(known <= reach)
     candidates = candidates[np.isfinite(known[candidates])]
     return candidates[np.argsort(known[candidates], kind="stable")][:k]
+
+
+# ---------------------------------------------------------------------- files
+NEIGHBOUR_FORMATS = (".csv", ".npy", ".npz", ".json")
+
+
+def write_nearest(
+    path: str | os.PathLike[str],
+    sources: IntArray,
+    indices: IntArray,
+    distances: FloatArray,
+    facts: Mapping[str, object],
+) -> None:
+    """Write the neighbours (s, k) of vertices (s,) and how far they are (s, k); the extension names the format.
+
+    .csv: a line `i,j,distance` for each neighbour j of a vertex i, nearest first; those that are not there are left
+          out. .npy: these lines as (q, 3) float64.
+    .npz: `sources`, `indices` (-1 for none), `distances` (NaN for none), and the texts of `facts`.
+    .json: {facts, "neighbours": [{"vertex", "indices", "distances"}, ...]}.
+
+    Raises OutputError if the file cannot be written; what was there then stays.
+    """
+    extension = check_output(path, NEIGHBOUR_FORMATS)
+    if not len(sources) == len(indices) == len(distances):
+        raise ParameterError(f"{len(sources):,} vertices have neighbours of {len(indices):,}; they need as many.")
+    is_there = indices >= 0
+    if extension in (".csv", ".npy"):
+        of_each = np.broadcast_to(np.asarray(sources)[:, None], indices.shape)
+        table = np.column_stack([of_each[is_there], indices[is_there], distances[is_there]])
+        write_array(path, table, ["i", "j", "distance"])
+        return
+    with atomic_write(path) as temporary, temporary.open("wb") as file:
+        if extension == ".npz":
+            texts = {name: np.array(str(fact)) for name, fact in facts.items()}
+            np.savez(file, **{**texts, "sources": sources, "indices": indices, "distances": distances})  # type: ignore[arg-type]
+            return
+        lines = ",\n".join(
+            json.dumps({"vertex": vertex, "indices": found[there].tolist(), "distances": away[there].tolist()})
+            for vertex, found, away, there in zip(sources.tolist(), indices, distances, is_there, strict=True)
+        )
+        text = json.dumps(dict(facts), indent=1, ensure_ascii=False)
+        file.write(f'{text.removesuffix("}").rstrip()},\n "neighbours": [\n{lines}\n]}}\n'.encode())

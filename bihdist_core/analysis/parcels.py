@@ -8,11 +8,10 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
-from ..arrays import AnyArray, BoolArray, FloatArray, IntArray
+from ..arrays import AnyArray, BoolArray, FloatArray, IntArray, array_of
 from ..distances.distance import Distance
 from ..errors import ParameterError
-from ..number_arrays import array_of
-from ..progress import Progress, part, silent
+from ..progress import Progress, part, silent, steps
 from ..scalars import real_number
 from ..sources.pieces import points_on
 from ..surface import Surface
@@ -24,15 +23,24 @@ BYTES_PER_VALUE = 24
 
 
 REDUCTIONS = ("mean", "min", "centroid", "hausdorff")
-"""How one number is made of the distances between two parcels (`parcel_means`)."""
+"""The rules that make one number of the distances between two parcels (`parcel_means`)."""
 
 
 @dataclass(frozen=True, eq=False)
 class Parcels:
     """Distances between the parcels that labels divide the vertices into.
 
-    labels: (p,) ascending.  counts: (p,) vertices of each.  distances: (p, p), symmetric, in the distance's unit.
+    Attributes
+    ----------
+    labels : (p,) ndarray
+        The labels, ascending.
+    counts : (p,) int64 ndarray
+        Vertices of each parcel.
+    distances : (p, p) float64 ndarray
+        Symmetric, in the distance's unit.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> labels = (plane.points[:, 0] > 0).astype(int)  # the left half, and the right
@@ -52,10 +60,10 @@ class Parcels:
 
 @dataclass(frozen=True, eq=False)
 class ParcelSums:
-    """labels: (p,); counts: (p,); sums: (p, p), of a column's parcel over a part of its vertices; weights: (p,) of all
-    vertices of a parcel, their numbers if there are none.
+    """Sums of distances between parcels over some columns; sums over disjoint columns can be added, in any order.
 
-    Parts of one surface's vertices are added up: they may be computed apart, in any order.
+    `labels` (p,), `counts` (p,), and `sums` (p, p), whose rows are the columns' parcels. `weights` (p,) are those of
+    all vertices of a parcel.
     """
 
     labels: AnyArray
@@ -68,7 +76,7 @@ class ParcelSums:
 
     @property
     def parcels(self) -> Parcels:
-        """The means, once all parts have been added up."""
+        """The means, once the sums over all columns have been added."""
         means = self.sums / np.outer(self.weights, self.weights)
         return Parcels(self.labels, self.counts, (means + means.T) / 2)
 
@@ -83,23 +91,44 @@ def parcel_means(
     reduce: str = "mean",
     weights: str | None = None,
 ) -> Parcels:
-    """The distances between parcels of vertices, one for each two parcels.
+    """Compute one distance between each two parcels of vertices.
 
-    labels: (n,) whole numbers, negative where a vertex belongs to no parcel, or strings, empty where it does not;
-    mask: (n,) which vertices count, or all.  memory: bytes for the fields of a block.
+    Parameters
+    ----------
+    distance : Distance
+        The distance.
+    labels : (n,) array_like
+        Whole numbers, negative where a vertex belongs to no parcel, or strings, empty there.
+    mask : (n,) array_like, optional
+        Which vertices count, as 0 or 1; all by default.
+    memory : float
+        Bytes that the fields of one block may take.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
+    reduce : {"mean", "min", "hausdorff", "centroid"}
+        How one number is made of the distances between the vertices of two parcels.
+        "mean": over all pairs, within a parcel each vertex with itself among them; NaN where a pair has no distance.
+        Costs a field for each vertex that counts.
+        "min": the least.
+        "hausdorff": the greatest distance of a vertex of either to the nearest of the other; NaN where one is not
+        reached.
+        "min" and "hausdorff" cost one field from each parcel for geodesic distances, else one from each vertex.
+        "centroid": between the vertices that are nearest to the mean positions.
+    weights : {None, "area"}
+        Whether vertices are weighted by their areas in means and mean positions.
 
-    reduce: what becomes of the distances between the vertices of one parcel and those of another.
-    - "mean": over all pairs, within a parcel each vertex with itself among them; NaN where any pair has none.  Costs a
-      field for each vertex that counts.
-    - "min": the least.  "hausdorff": how far a vertex of either is from the nearest of the other, at most; NaN where
-      one is not reached.  Both cost a field from each parcel: of geodesic distances one, else as many as it has
-      vertices.
-    - "centroid": from the vertex that is nearest to the mean position of the one to that of the other.
+    Returns
+    -------
+    Parcels
+        The distances.
 
-    weights: "area" weighs vertices by their areas, in means and mean positions; None counts them alike.
+    Raises
+    ------
+    ParameterError
+        For labels or a mask of another shape or kind, another word, and if no vertex is left.
 
-    Raises ParameterError for labels or a mask of another shape or kind, another word, and if nothing is left.
-
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> distance = bihdist.GeodesicDistance(plane)
@@ -132,10 +161,9 @@ def parcel_means(
 def _from_nearest(
     distance: Distance, members: list[IntArray], reduce: np.ufunc, progress: Progress | None
 ) -> FloatArray:
-    """(p, p) of each parcel's vertices, in rows, how far they are from the nearest of another's, reduced to one."""
+    """Return (p, p) how far each parcel's vertices are from the nearest of another's, reduced to one number."""
     found = np.empty((len(members), len(members)))
-    for k, mine in enumerate(members):
-        step = part(progress, k / len(members), (k + 1) / len(members))
+    for k, (step, mine) in enumerate(steps(progress, members)):
         field = distance.from_pieces(points_on(distance.surface, mine.tolist()), step)
         found[:, k] = [reduce.reduce(field[each]) for each in members]
     (progress or silent)(1.0, f"{len(members):,} parcels")
@@ -143,13 +171,13 @@ def _from_nearest(
 
 
 def _central(positions: FloatArray, weights: FloatArray) -> int:
-    """Which of the positions (m, 3) is nearest to their mean by weights (m,)."""
+    """Return the index of the position (m, 3) nearest to their mean by weights (m,)."""
     apart = positions - np.average(positions, axis=0, weights=weights if weights.any() else None)
     return int((apart**2).sum(axis=1).argmin())
 
 
 def _weights(distance: Distance, weights: str | None) -> FloatArray:
-    """(n,) what each vertex counts."""
+    """Return (n,) what each vertex counts."""
     if weights not in (None, "area"):
         raise ParameterError(f"Vertices are weighed by 'area' or by None, not by {weights!r}.")
     return np.ones(len(distance.surface.vertices)) if weights is None else distance.laplacian.areas
@@ -165,7 +193,7 @@ def parcel_sums(
     progress: Progress | None = None,
     weights: str | None = None,
 ) -> ParcelSums:
-    """The sums over the columns begin to end of those that `labelled` lists."""
+    """Sum distances over the columns `begin` to `end` of the vertices that `labelled` lists."""
     surface = distance.surface
     vertices = labelled(surface, labels, mask)
     names, parcel = np.unique(_as_labels(labels)[vertices], return_inverse=True)
@@ -193,21 +221,21 @@ def parcel_sums(
 
 
 def _sums_into(weights: FloatArray, rows: IntArray, columns: IntArray, shape: tuple[int, int]) -> sparse.csr_array:
-    """The matrix that adds up what stands at those columns, by weights, into those rows."""
+    """Return the matrix that adds up what stands at those columns, by weights, into those rows."""
     return sparse.csr_array((weights, (rows, columns)), shape=shape)
 
 
 def _as_labels(labels: npt.ArrayLike) -> AnyArray:
-    """Labels as an array, strings as NumPy's own where they are Python's, as pandas has them."""
+    """Return labels as an array, with Python's strings, as pandas has them, as NumPy's."""
     array = array_of(labels, "Labels")
     is_text = array.dtype.kind == "O" and all(isinstance(each, str) for each in array.flat)
     return array.astype(np.str_) if is_text else array
 
 
 def labelled(surface: Surface, labels: npt.ArrayLike, mask: npt.ArrayLike | None = None) -> IntArray:
-    """The vertices that have a label, belong to a face and are not masked, by component, by label, then by number.
+    """Return the vertices that have a label, belong to a face and are not masked, by component, label and id.
 
-    ParameterError for labels or a mask of another shape or kind, and if there is none.
+    Raises ParameterError for labels or a mask of another shape or kind, and if there is no such vertex.
     """
     numbers, n = _as_labels(labels), len(surface.vertices)
     if numbers.shape != (n,) or numbers.dtype.kind not in "iuU":
@@ -225,7 +253,7 @@ def labelled(surface: Surface, labels: npt.ArrayLike, mask: npt.ArrayLike | None
 
 
 def checked_mask(surface: Surface, mask: npt.ArrayLike) -> BoolArray:
-    """(n,) which vertices count; ParameterError for anything but n times yes or no."""
+    """Return the mask (n,) of vertices that count; ParameterError for anything but 0 or 1 for each of n vertices."""
     flags, n = array_of(mask, "Values of a mask"), len(surface.vertices)
     what = f"A mask has 0 or 1 for each of the {n:,} vertices of {surface.name}"
     if flags.shape != (n,):

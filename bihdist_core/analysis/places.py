@@ -26,8 +26,19 @@ APART = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """k places on a surface: faces (k,), the ids of their corners (k, 3), and weights (k, 3), at least 0, of sum 1.
+    """Places on a surface: vertices, or points in faces.
 
+    Attributes
+    ----------
+    faces : (k,) int64 ndarray
+        A face that holds each place.
+    corners : (k, 3) int64 ndarray
+        The vertices of these faces.
+    weights : (k, 3) float64 ndarray
+        Barycentric weights of the corners, at least 0, of sum 1.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> places = bihdist.Places.of(plane, [40, "f0:0.25,0.25"])
@@ -45,10 +56,29 @@ class Places:
 
     @classmethod
     def of(cls, surface: MeshLike, places: Sequence[int | SurfacePoint | str]) -> Places:
-        """Vertices and places in faces, or their words, checked.
+        """Make places of vertices, points in faces, or their words.
 
-        Raises VertexError for a bad vertex; ParameterError for other sources, and for a face that does not exist.
+        Parameters
+        ----------
+        surface : MeshLike
+            The mesh.
+        places : sequence of int, SurfacePoint or str
+            At least one.
 
+        Returns
+        -------
+        Places
+            The places in their order.
+
+        Raises
+        ------
+        VertexError
+            If a vertex is not on the surface.
+        ParameterError
+            For other sources, for a face that does not exist, and if there are no places.
+
+        Examples
+        --------
         >>> import bihdist
         >>> triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
         >>> middle = bihdist.SurfacePoint(0, (0.5, 0.25, 0.25))
@@ -67,8 +97,20 @@ class Places:
         return len(self.faces)
 
     def split(self, surface: MeshLike) -> Split:
-        """The surface divided so that each of the places is a vertex.
+        """Divide the surface so that each place is a vertex.
 
+        Parameters
+        ----------
+        surface : MeshLike
+            The mesh that the places are on.
+
+        Returns
+        -------
+        Split
+            The divided surface, with the vertices that the places are.
+
+        Examples
+        --------
         >>> import bihdist
         >>> triangle = bihdist.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
         >>> split = bihdist.Places.of(triangle, ["f0:0.5,0.25"]).split(triangle)
@@ -78,8 +120,20 @@ class Places:
         return split_at(Surface.of(surface), self.faces, self.weights, APART)
 
     def values(self, field: npt.ArrayLike) -> FloatArray:
-        """(k,) or (k, d): values (n,) or (n, d) at the vertices, interpolated linearly.
+        """Interpolate a field, linear on each face, at the places.
 
+        Parameters
+        ----------
+        field : (n,) or (n, d) array_like
+            Values at the vertices of the surface.
+
+        Returns
+        -------
+        (k,) or (k, d) ndarray
+            Values at the places.
+
+        Examples
+        --------
         >>> import bihdist
         >>> triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
         >>> bihdist.Places.of(triangle, ["f0:0.5,0.25"]).values([10, 20, 30]).tolist()
@@ -89,19 +143,19 @@ class Places:
 
 
 def weighted(at: FloatArray, corners: IntArray, weights: FloatArray) -> FloatArray:
-    """(k,) or (k, d): sums over corners (k, 3) of values `at` them; those of weight 0 do not count, finite or not."""
+    """Return (k,) or (k, d) sums of values `at` corners (k, 3); corners of weight 0 do not count, even if NaN."""
     w = weights.reshape(*weights.shape, *(1,) * (at.ndim - 1))
     sums: FloatArray = (w * np.where(w > 0, at[corners], 0)).sum(axis=1)
     return sums
 
 
 def place_words(place: int | SurfacePoint | str) -> str:
-    """How a sentence names a place."""
+    """Name a place, for a sentence."""
     return short_words_of(checked_source(place))
 
 
 def component_of(surface: Surface, places: Sequence[int | SurfacePoint | str], found: Places) -> int:
-    """The component that places are on, as they were given and as found; ParameterError if they are on several."""
+    """Return the component that all places are on; ParameterError if they are on several."""
     label = surface.component_of_vertex[found.corners[:, 0]]
     if (label != label[0]).any():
         first, other = place_words(places[0]), place_words(places[int((label != label[0]).argmax())])

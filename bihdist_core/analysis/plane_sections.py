@@ -9,10 +9,9 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray, IntArray, real_numbers
 from ..errors import ParameterError
 from ..mesh_like import MeshLike
-from ..number_arrays import real_numbers
 from ..sources.source import SurfacePoint
 from ..sources.splitting import Split
 from ..surface import Surface
@@ -25,22 +24,42 @@ PARTS = {
     "longer": "section by a plane, the longer way",
     "whole": "the whole section by a plane",
 }
-"""Which part of a section is meant, and what that is called."""
+"""The parts of a section by name, with the words for them."""
 
 
 def plane_section(
     surface: MeshLike, places: Sequence[int | SurfacePoint | str], direction: npt.ArrayLike, part: str = "shorter"
 ) -> SurfacePath:
-    """A path through two or more places in order, along plane sections of the surface.
+    """Follow plane sections of a surface from place to place.
 
-    Each plane holds two places and a direction (3,).  part: the "shorter" or the "longer" way along the section; or,
-    of two places, the "whole" curve on which both lie, from the first by the shorter way to the second and back to the
-    first, or from end to end where it is open.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    places : sequence of int, SurfacePoint or str
+        Two or more vertices or places in faces, in order. Each two define a plane, with the direction.
+    direction : (3,) array_like
+        A direction in the planes.
+    part : {"shorter", "longer", "whole"}
+        Which way along the section the path goes. "whole", for two places, is the whole curve on which both lie: from
+        the first by the shorter way to the second and back to the first, or from end to end where it is open.
 
-    Raises ParameterError for another part, fewer than two places, the same place twice in a row, places on different
-    components, more than two for the whole, for a direction that is not three finite numbers or is that from one place
-    to the next, and where the section does not join them, or in one way only; VertexError for a bad vertex.
+    Returns
+    -------
+    SurfacePath
+        The path.
 
+    Raises
+    ------
+    VertexError
+        If a vertex is not on the surface.
+    ParameterError
+        For another part, fewer than two places, more than two for "whole", the same place twice in a row, places on
+        different components, a direction that is not three finite numbers or leads from one place to the next, and
+        where the section does not join the places, or does so in one way only and the longer is asked for.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> path = bihdist.plane_section(sphere, [0, 1], sphere.points[0], part="whole")
@@ -86,7 +105,10 @@ def plane_section(
 
 
 IN_PLANE = 1e-12
-"""Vertices nearer to a plane than this share of the surface's extent lie in it."""
+"""Vertices nearer to a plane than this fraction of the surface's extent lie in it."""
+
+TINY = float(np.finfo(float).tiny)
+"""The height that vertices in the plane are given, so that they count as above it."""
 
 Curve = tuple[IntArray, FloatArray]
 """Ends (k, 2) and parameters (k,) of its points, as in `Crossings`."""
@@ -109,7 +131,7 @@ class _Way:
         return np.where(at_vertex[:, None], ends[:, 1:], ends), np.where(at_vertex, 0.0, t)
 
     def whole(self) -> tuple[list[Curve], slice]:
-        """The pieces of the whole line, and which of their ends, first and last included, are the two vertices."""
+        """Return the pieces of the whole line, and which of their ends are the two vertices."""
         count, step = len(self.line.points), int(self.index[1] - self.index[0])
         if self.line.closed:
             step = step if abs(step) == 1 else -np.sign(step)  # across the last point
@@ -123,7 +145,7 @@ class _Way:
 
 
 def _ways(split: Split, start: int, stop: int, d: FloatArray) -> list[_Way]:
-    """How the section leads from one vertex to another, the shortest first; none where it does not."""
+    """Return the ways along the section from one vertex to another, the shortest first; none where it does not lead."""
     x = split.surface.vertices
     normal = np.cross(x[stop] - x[start], d)
     size = np.linalg.norm(normal)
@@ -135,7 +157,8 @@ def _ways(split: Split, start: int, stop: int, d: FloatArray) -> list[_Way]:
     height[[start, stop]] = 0
     # A vertex in the plane counts as above it, from either side: a place that is the highest one near it is met from
     # the other.
-    for field in (height, -height):
+    for side in (height, -height):
+        field = np.where(side == 0, TINY, side)
         found = [way for line in isolines(split.surface, field, [0.0]) for way in _between(line, start, stop)]
         if found:
             return sorted(found, key=lambda way: _length(way.line.points[way.index]))
@@ -143,7 +166,7 @@ def _ways(split: Split, start: int, stop: int, d: FloatArray) -> list[_Way]:
 
 
 def _between(line: Isoline, start: int, stop: int) -> list[_Way]:
-    """The parts of a line that join two vertices, without passing one of them."""
+    """Return the parts of a line that join two vertices, without passing one of them."""
     at_vertex = line.parameters == 1
     met = np.flatnonzero(at_vertex & ((line.edges[:, 1] == start) | (line.edges[:, 1] == stop)))
     turns = list(pairwise(met))

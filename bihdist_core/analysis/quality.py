@@ -7,25 +7,34 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray, IntArray, real_numbers
 from ..errors import ParameterError
 from ..mesh_like import MeshLike
-from ..number_arrays import real_numbers
 from ..sources.source import Source
 from ..surface import Surface
 from .circles import CIRCLES, Circle, geodesic_circles, small_radius
-from .kinks import Kink, kinks
-from .other_extrema import OtherExtrema, other_extrema
+from .diagnostics import Kink, kinks
+from .persistence import OtherExtrema, other_extrema
 
 ZERO = 1e-6
-"""Of a field's maximum."""
+"""A fraction of a field's maximum."""
 
 
 def apparent_source(field: npt.ArrayLike) -> int | None:
-    """The vertex that a field (n,) seems to be the distance from; None where there is none.
+    """Find the vertex that a field seems to be the distance from.
 
-    It is the only one with less than 1e-6 of the maximum, while all others, where the field is finite, are positive.
+    Parameters
+    ----------
+    field : (n,) array_like
+        Values at the vertices, which may be NaN.
 
+    Returns
+    -------
+    int or None
+        The only vertex with less than 1e-6 of the maximum, if all other finite values are positive; else None.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> field = bihdist.BiharmonicDistance(sphere).from_source(12)
@@ -43,19 +52,38 @@ def apparent_source(field: npt.ArrayLike) -> int | None:
 
 @dataclass(frozen=True, eq=False)
 class FieldQuality:
-    """A field's faults, as those of a distance.
+    """The shortcomings of a field as a distance: extrema away from its source, anisotropy, and kinks.
 
-    minima, maxima: (k,) vertices at extrema, the source left out, the most persistent first; minima_depth,
-    maxima_height: (k,) their persistence over the field's range, which is a distance's maximum.
-    circles: of growing radius around the source.  isotropy: the greatest over the least value on the circle whose
-    radius is 4 % of the root of the area, but at least four mean edges, or the largest circle if that is smaller; NaN
-    where there is none, as around a source of several places, and for what is no distance.
-    kink: the largest jump of the gradient across an edge away from the source, over the gradient's mean length on both
-    sides of it, or over its median length on the surface if that is more; no unit.  About 2 on a ridge where it turns
-    round; that of a smooth field shrinks with the edges.  kink_edge: (2,) the ends of the edge, -1 where there is none
-    away from the source.  kink_length: of all edges away from the source whose kink is at least 1, over the root of the
-    surface's area: long where there is a ridge, next to nothing where a few edges are too long for the field.
+    Attributes
+    ----------
+    source : Source or None
+        Where the field starts.
+    minima : (k,) int64 ndarray
+        Vertices at minima away from the source, the most persistent first.
+    minima_depth : (k,) float64 ndarray
+        Their persistence over the field's range, which is a distance's maximum.
+    maxima : (q,) int64 ndarray
+        Vertices at maxima away from the source, the most persistent first.
+    maxima_height : (q,) float64 ndarray
+        Their persistence over the field's range.
+    circles : tuple of Circle
+        Geodesic circles of growing radius around the source.
+    isotropy : float
+        The greatest over the least value on the circle whose radius is 4 % of the root of the area, but at least four
+        mean edges, or on the largest circle if that is smaller. NaN where there is none: around a source of several
+        places, and for a field that is no distance.
+    kink : float
+        The largest jump of the gradient across an edge away from the source, over the gradient's mean length on both
+        sides, or over its median length on the surface if that is more. About 2 on a ridge, where the gradient turns
+        round; that of a smooth field shrinks with the edges.
+    kink_edge : (2,) int64 ndarray
+        The ends of that edge; -1 where there is none away from the source.
+    kink_length : float
+        The length of all edges away from the source whose kink is at least 1, over the root of the area: long where
+        there is a ridge, next to nothing where a few edges are too long for the field.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> field = bihdist.BiharmonicDistance(sphere).from_source(0)
@@ -84,13 +112,37 @@ class FieldQuality:
 
 
 def field_quality(
-    surface: MeshLike, field: npt.ArrayLike, geodesic: npt.ArrayLike, source: Source, share: float = 1e-3
+    surface: MeshLike, field: npt.ArrayLike, geodesic: npt.ArrayLike, source: Source, fraction: float = 1e-3
 ) -> FieldQuality:
-    """The quality of a distance field (n,) from a source; geodesic: (n,) geodesic distances from it.
+    """Measure the quality of a distance field.
 
-    share: of the field's range, which extrema persist at least.  Raises VertexError or ParameterError for a bad source,
-    ParameterError for fields of another shape or with nothing but one value.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    field : (n,) array_like
+        Distances from the source.
+    geodesic : (n,) array_like
+        Geodesic distances from the same source.
+    source : Source
+        Where the field starts.
+    fraction : float
+        The least persistence of extrema, as a fraction of the field's range.
 
+    Returns
+    -------
+    FieldQuality
+        Extrema elsewhere, isotropy and kinks.
+
+    Raises
+    ------
+    VertexError
+        If a source vertex is not on the surface.
+    ParameterError
+        For another bad source, and for fields of another shape or without a positive value.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> diffusion = bihdist.DiffusionDistance(sphere).from_source(0)
@@ -103,7 +155,7 @@ def field_quality(
     f, near = surface.check_field(field), surface.check_field(geodesic)
     if not np.nanmax(f, initial=0.0) > 0:
         raise ParameterError("The quality of a distance needs a field with a positive value.")
-    found = other_extrema(surface, f, source, share)
+    found = other_extrema(surface, f, source, fraction)
     small = small_radius(surface)
     every = geodesic_circles(surface, f, near, source, [small, *surface.mean_edge_length * np.array(CIRCLES)])
     rings = every[1:] if every and every[0].radius == small else every
@@ -113,15 +165,39 @@ def field_quality(
 
 
 def difference_quality(
-    surface: MeshLike, field: npt.ArrayLike, near: npt.ArrayLike | None, source: Source | None, share: float = 1e-3
+    surface: MeshLike, field: npt.ArrayLike, near: npt.ArrayLike | None, source: Source | None, fraction: float = 1e-3
 ) -> FieldQuality:
-    """The quality of a field (n,) that is no distance, such as the difference of two: extrema and kinks, no circles.
+    """Measure extrema and kinks of a field that is no distance, such as the difference of two.
 
-    source: where the distances start that the field is made of; near: (n,) geodesic distances from it.  Both are None
-    for a field that starts nowhere: then no extremum is left out, and no edge but those along the boundary.  share: of
-    the field's range, which extrema persist at least.  Raises VertexError or ParameterError for a bad source,
-    ParameterError for fields of another shape or with nothing but one value.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    field : (n,) array_like
+        Real numbers at the vertices.
+    near : (n,) array_like or None
+        Geodesic distances from the source; None for a field that starts nowhere, where only edges along the boundary
+        are left out.
+    source : Source or None
+        Where the distances start that the field is made of; None for a field that starts nowhere, all extrema of which
+        count.
+    fraction : float
+        The least persistence of extrema, as a fraction of the field's range.
 
+    Returns
+    -------
+    FieldQuality
+        Extrema and kinks; no circles, and NaN as isotropy.
+
+    Raises
+    ------
+    VertexError
+        If a source vertex is not on the surface.
+    ParameterError
+        For another bad source, and for fields of another shape or a constant one.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> biharmonic = bihdist.BiharmonicDistance(sphere).from_source(0)
@@ -133,7 +209,7 @@ def difference_quality(
     """
     surface = Surface.of(surface)
     f = surface.check_field(field)
-    found = other_extrema(surface, f, source, share)
+    found = other_extrema(surface, f, source, fraction)
     away = np.full(len(f), np.inf) if near is None else surface.check_field(near)
     return _quality(source, found, (), float("nan"), kinks(surface, f, away))
 

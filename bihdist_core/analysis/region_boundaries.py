@@ -18,11 +18,23 @@ from .regions import Regions
 
 @dataclass(frozen=True, eq=False)
 class Boundary:
-    """A curve between two regions: points (k, 3), in order along it; a closed one does not repeat its first point.
+    """A curve between two regions.
 
-    between: the numbers of the regions, the smaller first.  Open curves end where three regions meet, or at the
-    boundary of the surface.  corners, weights: (k, 3) each point as a place among the vertices of a face that holds it.
+    Attributes
+    ----------
+    between : tuple of int and int
+        The numbers of the regions, the smaller first.
+    points : (k, 3) float64 ndarray
+        Points in order along the curve; a closed one does not repeat its first point.
+    closed : bool
+        Whether the last point joins the first. Open curves end where three regions meet, or at the surface's boundary.
+    corners : (k, 3) int64 ndarray
+        The vertices of a face that holds each point.
+    weights : (k, 3) float64 ndarray
+        The point's barycentric weights in that face.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 8])
@@ -40,8 +52,10 @@ class Boundary:
 
     @property
     def length(self) -> float:
-        """Length of the curve, unit length.
+        """Length of the curve, in the mesh's unit.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
         >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 8])
@@ -55,10 +69,22 @@ class Boundary:
 
 
 def region_boundaries(surface: MeshLike, regions: Regions) -> list[Boundary]:
-    """The boundaries of regions as curves: their segments put end to end, in the order of the regions between.
+    """Join the boundary segments of regions into curves.
 
-    regions: those of `voronoi_regions` on this surface.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    regions : Regions
+        The result of `voronoi_regions` on this surface.
 
+    Returns
+    -------
+    list of Boundary
+        Ordered by the regions that they divide.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> fields = bihdist.BiharmonicDistance(sphere).from_sources([0, 1, 2])
@@ -86,11 +112,24 @@ def region_boundaries(surface: MeshLike, regions: Regions) -> list[Boundary]:
 
 
 def write_boundaries(path: str | os.PathLike[str], curves: Sequence[Boundary], labels: Sequence[int] = ()) -> None:
-    """Write boundaries as .csv, .obj, .vtp or .json, each curve with numbers `region` and `other` of what it divides.
+    """Write boundaries of regions to a file, each with the numbers `region` and `other` of the regions that it divides.
 
-    labels: (k,) what to write for region i, such as the id of its pin; i by default.  Raises OutputError if the file
-    cannot be written.
+    Parameters
+    ----------
+    path : str or path-like
+        The extension names the format: .csv, .obj, .vtp or .json.
+    curves : sequence of Boundary
+        The boundaries.
+    labels : (k,) sequence of int
+        What to write for each region, such as the id of its pin; its number by default.
 
+    Raises
+    ------
+    OutputError
+        If the file cannot be written.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> from pathlib import Path
     >>> sphere = pyvista.Icosphere(nsub=2)
@@ -109,7 +148,7 @@ def write_boundaries(path: str | os.PathLike[str], curves: Sequence[Boundary], l
 
 
 def _named_ends(surface: Surface, regions: Regions) -> IntArray:
-    """(s, 2) numbers of the segments' ends: the same for ends in the same place, as rounding does not tell."""
+    """Return (s, 2) numbers of the segments' ends: the same for ends in the same place, as rounding does not tell."""
     corners, on = surface.faces[regions.faces][:, None], regions.weights > 0
     count = len(corners)
     meets = (regions.cut_by >= 0)[..., None]

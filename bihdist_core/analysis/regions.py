@@ -12,31 +12,47 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray, IntArray, real_numbers
 from ..errors import ParameterError
 from ..mesh_like import MeshLike
-from ..number_arrays import real_numbers
 from ..surface import Surface
-from .clipping import clipped, polygon_shares
+from .clipping import clipped, polygon_fractions
 
 CHUNK = 1 << 18
 """Faces or segments treated at a time, over the number of fields, which bounds the memory."""
 
 TIED = 1e-13
-"""Below this share of its values in the face, a difference of fields along a segment is 0 but for rounding."""
+"""Below this fraction of its values in the face, a difference of fields along a segment is 0 but for rounding."""
 
 
 @dataclass(frozen=True, eq=False)
 class Regions:
-    """Regions of k fields, numbered from 0; where fields are equal, the first counts as the least.
+    """Voronoi regions of k fields, numbered from 0; where fields are equal, the first counts as the least.
 
-    labels: (n,) the region of each vertex, -1 where no field has a value.  areas: (k,) of the regions.  Each boundary
-    segment lies in one face between two regions: segments (s, 2, 3) its ends; between (s, 2) the regions, the smaller
-    number first; faces (s,); weights (s, 2, 3) of its ends at the corners of the face.  One along an edge of the mesh
-    is listed once, in one of the edge's faces.  cut_by (s, 2): the third region that an end meets inside the face, -1
-    where the segment ends at the face's rim.
-    meetings: (q, 3) where three regions meet inside a face; of_meetings: (q, 3) these regions, ascending.
+    Attributes
+    ----------
+    labels : (n,) int64 ndarray
+        The region of each vertex, -1 where no field has a value.
+    areas : (k,) float64 ndarray
+        Areas of the regions, in the mesh's unit squared.
+    segments : (s, 2, 3) float64 ndarray
+        The ends of boundary segments, each in one face between two regions. A segment along an edge of the mesh is
+        listed once, in one of the edge's faces.
+    between : (s, 2) int64 ndarray
+        The regions beside each segment, the smaller number first.
+    faces : (s,) int64 ndarray
+        The face of each segment.
+    weights : (s, 2, 3) float64 ndarray
+        Barycentric weights of the ends in that face.
+    cut_by : (s, 2) int64 ndarray
+        The third region that each end meets inside the face; -1 where the segment ends at the face's rim.
+    meetings : (q, 3) float64 ndarray
+        Points where three regions meet inside a face.
+    of_meetings : (q, 3) int64 ndarray
+        These regions, ascending.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 8])
@@ -57,8 +73,10 @@ class Regions:
 
     @property
     def lengths(self) -> FloatArray:
-        """(s,) lengths of the boundary segments.
+        """Lengths (s,) of the boundary segments, in the mesh's unit.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
         >>> fields = bihdist.GeodesicDistance(plane).from_sources([0, 8])
@@ -71,12 +89,28 @@ class Regions:
 
 
 def voronoi_regions(surface: MeshLike, columns: npt.ArrayLike) -> Regions:
-    """The regions of fields (n, k), linear on each face, such as the distances from k vertices.
+    """Divide a surface into the regions where each of several fields is the least.
 
-    What is not finite (NaN on another component, at a vertex of no face) is no value: there the other fields compete,
-    and a face with a corner at which a field has none is not in that field's region.  Raises ParameterError for another
-    shape, or no fields.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    columns : (n, k) array_like
+        Fields, linear on each face, such as the distances from k vertices. What is not finite is no value: there the
+        other fields compete, and a face with a corner at which a field has none is not in that field's region.
 
+    Returns
+    -------
+    Regions
+        The regions, exact but for rounding.
+
+    Raises
+    ------
+    ParameterError
+        For fields of another shape, or none.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> fields = bihdist.BiharmonicDistance(sphere).from_sources([0, 1, 2])
@@ -94,7 +128,7 @@ def voronoi_regions(surface: MeshLike, columns: npt.ArrayLike) -> Regions:
     for some in chunks(mixed, f.shape[1]):
         rivals = rivals_in(f, surface.faces[some])
         face, mine, polygons, sizes = region_polygons(f, surface.faces[some], rivals)
-        parts = polygon_shares(polygons, sizes) * surface.face_areas[some[face]]
+        parts = polygon_fractions(polygons, sizes) * surface.face_areas[some[face]]
         areas += np.bincount(mine, parts, minlength=f.shape[1])
         found += _segments(f, surface.faces[some], some, rivals)
     between, faces, weights, cut_by = (np.concatenate(each) for each in zip(*found, strict=True))
@@ -103,7 +137,7 @@ def voronoi_regions(surface: MeshLike, columns: npt.ArrayLike) -> Regions:
 
 
 def least_of(surface: Surface, columns: npt.ArrayLike) -> tuple[FloatArray, IntArray]:
-    """Fields (n, k), checked, infinite where they have no value, and (n,) which is the least, -1 for none."""
+    """Return the checked fields (n, k), infinite where they have no value, and (n,) which is the least, -1 for none."""
     f = real_numbers(columns, "Values of fields")
     n = len(surface.vertices)
     if f.ndim != 2 or len(f) != n or not f.shape[1]:
@@ -113,7 +147,7 @@ def least_of(surface: Surface, columns: npt.ArrayLike) -> tuple[FloatArray, IntA
 
 
 def whole_and_mixed(labels: IntArray) -> tuple[IntArray, IntArray]:
-    """Of faces with the labels (m, 3) at the corners those in one region, and those that may be in several."""
+    """Return the faces in one region, and those that may be in several, from the labels (m, 3) of their corners."""
     valued = (labels >= 0).all(axis=1)
     whole = valued & (labels == labels[:, :1]).all(axis=1)
     return np.flatnonzero(whole), np.flatnonzero(valued & ~whole)
@@ -125,14 +159,14 @@ Segments = tuple[IntArray, IntArray, FloatArray, IntArray]
 
 
 def chunks(faces: IntArray, fields: int) -> Iterator[IntArray]:
-    """Faces (m,) in pieces that bound the memory for so many fields."""
+    """Yield faces (m,) in pieces that bound the memory for so many fields."""
     size = max(1, CHUNK // fields)
     for start in range(0, len(faces), size):
         yield faces[start : start + size]
 
 
 def rivals_in(f: FloatArray, faces: IntArray) -> IntArray:
-    """(m, r) the fields that are the least somewhere in each face, or might be, ascending, then -1.
+    """Return (m, r) the fields that are the least somewhere in each face, or might be, ascending, padded with -1.
 
     A field is left out if at all corners another is at most as large (of equal ones, a later number).
     """
@@ -161,9 +195,25 @@ def rivals_in(f: FloatArray, faces: IntArray) -> IntArray:
 def region_polygons(
     f: FloatArray, corners: IntArray, rivals: IntArray
 ) -> tuple[IntArray, IntArray, FloatArray, IntArray]:
-    """The parts (p,) of faces in each region: which face, which region, polygons (p, t, 3) in weights and their sizes.
+    """Divide faces into their parts in each region.
 
-    f: (n, k) fields.  corners: (m, 3) of the faces.  rivals: (m, r) fields that are the least somewhere in each.
+    Parameters
+    ----------
+    f : (n, k) ndarray
+        Fields.
+    corners : (m, 3) ndarray
+        Vertices of the faces.
+    rivals : (m, r) ndarray
+        Fields that are the least somewhere in each face, padded with -1.
+
+    Returns
+    -------
+    face, region : (p,) ndarray
+        Of each part.
+    polygons : (p, t, 3) ndarray
+        The parts' corners as barycentric weights.
+    sizes : (p,) ndarray
+        How many corners each part has.
     """
     face, slot = np.nonzero(rivals >= 0)
     mine = rivals[face, slot]
@@ -178,7 +228,7 @@ def region_polygons(
 
 
 def _segments(f: FloatArray, corners: IntArray, faces: IntArray, rivals: IntArray) -> list[Segments]:
-    """The segments inside some faces."""
+    """Return the segments inside some faces."""
     parts = []
     for a in range(rivals.shape[1]):
         for b in range(a + 1, rivals.shape[1]):
@@ -208,8 +258,8 @@ def _segments(f: FloatArray, corners: IntArray, faces: IntArray, rivals: IntArra
                 if len(tied):
                     # Equal to both all along the segment, it is less than the one or the other beside it, or between.
                     corner = np.abs(apart[tied]).argmax(axis=1)
-                    share = slack[tied, corner] / apart[tied, corner]
-                    outside[tied] = (share < 0) | (share > 1)
+                    fraction = slack[tied, corner] / apart[tied, corner]
+                    outside[tied] = (fraction < 0) | (fraction > 1)
                 high = np.where(outside, -1, high)
             proper = np.flatnonzero(high > low)
             t = np.stack([low, high], 1)[proper][..., None]
@@ -219,7 +269,7 @@ def _segments(f: FloatArray, corners: IntArray, faces: IntArray, rivals: IntArra
 
 
 def _along_edges(f: FloatArray, surface: Surface) -> Segments:
-    """The segments along edges, where two fields are equal at both ends: each face then is on one side."""
+    """Return the segments along edges, where two fields are equal at both ends: each face then is on one side."""
     number = _different(f)
     tied = np.zeros(len(f), bool)
     for rows in chunks(np.arange(len(f)), len(number)):
@@ -261,7 +311,7 @@ def _along_edges(f: FloatArray, surface: Surface) -> Segments:
 
 
 def _different(f: FloatArray) -> IntArray:
-    """The columns (q,) of f that are equal to none before them; the others have no region, hence no boundary."""
+    """Return the columns (q,) of f that are equal to none before them; the others have no region, hence no boundary."""
     some = f[np.linspace(0, len(f) - 1, 64).astype(np.int64)]
     alike: dict[bytes, list[int]] = {}
     for k in range(f.shape[1]):
@@ -272,7 +322,7 @@ def _different(f: FloatArray) -> IntArray:
 
 
 def _positive(values: FloatArray) -> tuple[float, float]:
-    """The part of 0 to 1 where linear functions with values (2, q) at its ends are all above 0."""
+    """Return the part of 0 to 1 where linear functions with values (2, q) at its ends are all above 0."""
     start, stop = 0.0, 1.0
     for u, v in values.T.tolist():
         if u <= 0 and v <= 0:
@@ -285,8 +335,9 @@ def _positive(values: FloatArray) -> tuple[float, float]:
 
 
 def _crossing(g: FloatArray) -> tuple[FloatArray, IntArray]:
-    """(q, 2, 3) weights of the ends of the segments where linear functions with values g (p, 3) at the corners are 0,
-    and (q,) which of the functions have one: those that are 0 in at least two points, and above and below elsewhere."""
+    """Return (q, 2, 3) weights of the ends of the segments where linear functions with values g (p, 3) at the corners
+    are 0, and (q,) which of the functions have one: those that are 0 in at least two points, and above and below
+    elsewhere."""
     ends, count = np.zeros((len(g), 2, 3)), np.zeros(len(g), np.int64)
     has = (g.min(axis=1) < 0) & (g.max(axis=1) > 0)
     rows = np.arange(len(g))
@@ -306,7 +357,7 @@ def _crossing(g: FloatArray) -> tuple[FloatArray, IntArray]:
 
 
 def _meetings(between: IntArray, faces: IntArray, points: FloatArray, cut_by: IntArray) -> tuple[FloatArray, IntArray]:
-    """(q, 3) the ends that a third region has cut off, each once, and (q, 3) the three regions."""
+    """Return (q, 3) the ends that a third region has cut off, each once, and (q, 3) the three regions."""
     segment, end = np.nonzero(cut_by >= 0)
     three = np.sort(np.concatenate([between[segment], cut_by[segment, end][:, None]], axis=1), axis=1)
     # Three linear functions are equal in one point of a face.

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from ..arrays import BoolArray, IntArray
 from ..distances.distance import Distance
 from ..errors import ParameterError
+from ..file_output import atomic_write, check_output
 from ..formats.field_output import write_array
 from ..formats.pins import PIN_FORMATS, Pins, write_pins
 from ..mesh_like import MeshLike
@@ -19,7 +20,6 @@ from ..sources.pieces import pieces_of
 from ..sources.source import Source
 from ..sources.words import short_words_of
 from ..surface import Surface
-from ..whole_file import check_output, whole_file
 
 SAMPLE_FORMATS = (".txt", ".npy", *PIN_FORMATS)
 
@@ -31,13 +31,36 @@ def farthest_points(
     progress: Progress | None = None,
     among: BoolArray | None = None,
 ) -> IntArray:
-    """(count,) vertex ids: `start`, then each time the vertex farthest from those so far (the smallest id on ties).
+    """Choose vertices, each as far as can be from those before it.
 
-    start: a vertex, or (s,) different vertices of one component, which come first.  among: (n,) which vertices the
-    others are chosen from, all if None.  Costs a field for each point but the last.  Stays on the component of the
-    start.  Raises VertexError for a bad start; ParameterError for starts on different components, the same twice, or
-    more of them than `count`; and if the component has fewer different points than `count`.
+    Parameters
+    ----------
+    distance : Distance
+        The distance; costs a field for each point but the last.
+    start : int or (s,) array_like
+        The first vertex, or different vertices of one component, which come first.
+    count : int
+        How many vertices in all.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
+    among : (n,) bool ndarray, optional
+        Which vertices the others are chosen from; all by default.
 
+    Returns
+    -------
+    (count,) int64 ndarray
+        Vertices of the start's component; of equally far ones, the one with the lowest id comes first.
+
+    Raises
+    ------
+    VertexError
+        If a start is not on the surface.
+    ParameterError
+        For starts on different components, the same twice, or more than `count`, and if the component has fewer
+        different points than `count`.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> distance = bihdist.GeodesicDistance(plane)
@@ -76,21 +99,37 @@ def farthest_points(
 
 
 def starts_of(source: Source, surface: Surface) -> IntArray:
-    """(s,) the vertices of a source, for samples to start from.
+    """Return (s,) the vertices of a source, from which samples start.
 
-    Raises VertexError or ParameterError for a source that is not on the surface, or that is no vertices.
+    Raises VertexError or ParameterError for a source that is not on the surface, or that is not made of vertices.
     """
     vertices = pieces_of(source, surface).vertices
     if vertices is None:
-        raise ParameterError(f"Samples start from vertices, and {short_words_of(source)} is none; choose a vertex.")
+        raise ParameterError(f"Samples start from vertices, and {short_words_of(source)} is not a vertex; choose one.")
     return vertices
 
 
 def write_samples(path: str | os.PathLike[str], surface: MeshLike, vertices: npt.ArrayLike) -> None:
-    """Write vertices (k,) of a surface, in order: .txt, an id on each line; .npy; or as pins (`write_pins`).
+    """Write vertices, in order, to a file.
 
-    Raises OutputError if the file cannot be written; what was there then stays.
+    Parameters
+    ----------
+    path : str or path-like
+        The extension names the format: .txt has an id on each line, .npy an array; others are those of `write_pins`.
+    surface : MeshLike
+        The mesh.
+    vertices : (k,) array_like
+        Vertex ids.
 
+    Raises
+    ------
+    OutputError
+        If the file cannot be written; what was there then stays.
+    VertexError
+        If a vertex is not on the surface.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> from pathlib import Path
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
@@ -106,5 +145,5 @@ def write_samples(path: str | os.PathLike[str], surface: MeshLike, vertices: npt
     elif extension == ".npy":
         write_array(path, ids)
     else:
-        with whole_file(path) as temporary:
+        with atomic_write(path) as temporary:
             temporary.write_text("".join(f"{id}\n" for id in ids.tolist()), encoding="ascii")

@@ -15,19 +15,26 @@ from scipy.spatial import cKDTree
 from ..arrays import IntArray
 from ..errors import ParameterError
 from ..file_content import file_text
+from ..file_output import atomic_write, check_output
 from ..formats.array_file import read_array
 from ..formats.field_output import write_array, write_fields
 from ..mesh_like import MeshLike
 from ..surface import Surface
-from ..whole_file import check_output, whole_file
 
 SELECTION_WAYS = {"ids": (".txt", ".npy", ".csv"), "field": (".csv", ".npy", ".ply", ".vtp"), "mesh": (".ply", ".vtp")}
 """As what a selection is written, and the extensions there are for it."""
 
 
 class Brush:
-    """Finds what is near a place and hangs together with it; made once for a surface.
+    """A brush that selects vertices near a place and connected to it.
 
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> brush = bihdist.Brush(plane)
@@ -47,11 +54,30 @@ class Brush:
         return sparse.csr_matrix((np.ones(len(i), np.int8), (i, j)), (n, n))
 
     def near(self, face: int, position: npt.ArrayLike, radius: float) -> IntArray:
-        """(k,) ids, ascending: the vertices within a radius, straight, of a position (3,) in a face, as far as edges
-        between such vertices join them to the face, so none of another sheet behind it.
+        """Select the vertices within a radius that are connected to a face.
 
-        Where the face has no corner within the radius, the corner nearest to the position.
+        Parameters
+        ----------
+        face : int
+            The face under the brush.
+        position : (3,) array_like
+            A point in that face.
+        radius : float
+            Straight distance in the mesh's unit, above 0.
 
+        Returns
+        -------
+        (k,) int64 ndarray
+            Vertex ids, ascending: those within the radius that edges between such vertices join to the face, so none of
+            a sheet behind it. If the face has no corner within the radius, the corner nearest to the position.
+
+        Raises
+        ------
+        ParameterError
+            For a position that is not three finite numbers, or a radius that is not above 0.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
         >>> bihdist.Brush(plane).near(face=0, position=(-0.5, -0.5, 0), radius=0.2).tolist()
@@ -73,10 +99,31 @@ class Brush:
 
 
 def cut_out(surface: MeshLike, vertices: npt.ArrayLike) -> tuple[Surface, IntArray]:
-    """The faces all of whose corners are among vertices (k,), as a mesh, and (v,) which vertex each of its own is.
+    """Cut out the faces all of whose corners are among some vertices.
 
-    Raises ParameterError if there is no such face.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    vertices : (k,) array_like
+        Vertex ids.
 
+    Returns
+    -------
+    part : Surface
+        These faces as a mesh, with v vertices.
+    ids : (v,) int64 ndarray
+        The vertex of the whole surface that each of its vertices is.
+
+    Raises
+    ------
+    VertexError
+        If a vertex is not on the surface.
+    ParameterError
+        If there is no such face.
+
+    Examples
+    --------
     >>> import bihdist, numpy as np, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> half, ids = bihdist.cut_out(plane, np.flatnonzero(plane.points[:, 0] <= 0))
@@ -94,22 +141,22 @@ def cut_out(surface: MeshLike, vertices: npt.ArrayLike) -> tuple[Surface, IntArr
 
 
 def write_ids(path: str | os.PathLike[str], vertices: npt.ArrayLike) -> None:
-    """Vertex ids (k,): .txt has one on each line, .npy an int64 array, .csv a column `vertex`."""
+    """Write vertex ids (k,): .txt has one on each line, .npy an int64 array, .csv a column `vertex`."""
     ids = np.asarray(vertices, np.int64).ravel()
     if check_output(path, SELECTION_WAYS["ids"]) != ".txt":
         write_array(path, ids, ["vertex"])
         return
-    with whole_file(path) as temporary:
+    with atomic_write(path) as temporary:
         temporary.write_text("".join(f"{id}\n" for id in ids.tolist()), encoding="ascii")
 
 
 def is_ids_file(words: str) -> bool:
-    """Whether words name a file that `read_ids` reads."""
+    """Return whether words name a file that `read_ids` reads."""
     return os.path.splitext(words)[1].lower() in SELECTION_WAYS["ids"]
 
 
 def read_ids(path: str | os.PathLike[str]) -> IntArray:
-    """(k,) int64 vertex ids as `write_ids` has written them, in any order; a .csv may have other columns behind them.
+    """Read vertex ids (k,) as `write_ids` writes them; a .csv may have other columns behind them.
 
     Raises ParameterError for a file that is not there or that holds something else.
     """
@@ -122,9 +169,9 @@ def read_ids(path: str | os.PathLike[str]) -> IntArray:
         try:
             ids = np.array([int(word) for word in words[has_head:] if word], np.int64)
         except (ValueError, OverflowError):
-            raise ParameterError(f"{file} holds something else than vertex ids.") from None
+            raise ParameterError(f"{file} does not hold vertex ids.") from None
     if ids.ndim != 1 or ids.dtype.kind not in "iu" or not len(ids) or ids.min() < 0 or ids.max() >= 2**63:
-        raise ParameterError(f"{file} holds something else than vertex ids.")
+        raise ParameterError(f"{file} does not hold vertex ids.")
     checked: IntArray = ids.astype(np.int64)
     return checked
 
@@ -132,13 +179,34 @@ def read_ids(path: str | os.PathLike[str]) -> IntArray:
 def write_selection(
     path: str | os.PathLike[str], surface: MeshLike, vertices: npt.ArrayLike, way: str = "ids", name: str = "selection"
 ) -> None:
-    """Write vertices (k,) of a surface; way: "ids" (.txt, .csv, .npy), "field", 1 at them and 0 elsewhere under a
-    name (.npy, .csv, .ply, .vtp, GIFTI), or "mesh", the faces all of whose corners they are, with the field `vertex` of
-    their ids (.ply or .vtp).
+    """Write selected vertices to a file.
 
-    Raises OutputError if the file cannot be written, ParameterError for another way or where no face is cut out,
-    VertexError for vertices that are not there.
+    Parameters
+    ----------
+    path : str or path-like
+        The extension names the format, of which each way has its own.
+    surface : MeshLike
+        The mesh.
+    vertices : (k,) array_like
+        Vertex ids.
+    way : {"ids", "field", "mesh"}
+        "ids": the ids (.txt, .csv, .npy).
+        "field": 1 at the vertices and 0 elsewhere (.npy, .csv, .ply, .vtp).
+        "mesh": the faces all of whose corners are selected, with the field `vertex` of their ids (.ply, .vtp).
+    name : str
+        The name of the field.
 
+    Raises
+    ------
+    OutputError
+        If the file cannot be written.
+    VertexError
+        If a vertex is not on the surface.
+    ParameterError
+        For another way, and if no face is selected for a mesh.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> from pathlib import Path
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)

@@ -1,19 +1,24 @@
-"""What is to be known of a surface, in sentences: facts, repairs and warnings."""
+"""Notes on a surface, in sentences: facts, repairs and warnings."""
 
 from dataclasses import dataclass
 
-from ..counts import counted
-from ..surface import FLAT, Surface
+import numpy as np
 
-HELD = f"of (nearly) no area held in shape as if {FLAT:g} of the longest side high"
+from ..counts import counted
+from ..surface import FLAT_RATIO, Surface
+
+COARSE = 1e-4
+"""Coordinates that are rounded by more than this fraction of the mean edge are warned of."""
+
+HELD = f"of almost no area, treated as {FLAT_RATIO:.0e} of the longest side high".replace("e-0", "e-")
 
 
 @dataclass(frozen=True)
 class SurfaceNotes:
-    """Sentences with counts.
+    """Sentences on a surface, with counts.
 
-    facts: what the mesh is, such as quads that were divided into triangles, or a boundary.  repairs: what was dropped
-    or changed to make a surface of it.  warnings: what makes distances undefined or less certain somewhere.
+    `facts` say what the mesh is, such as quads that were divided into triangles, or a boundary; `repairs` what was
+    dropped or changed to make a surface of it; `warnings` what makes distances undefined or less certain somewhere.
     """
 
     facts: tuple[str, ...] = ()
@@ -22,7 +27,7 @@ class SurfaceNotes:
 
 
 def surface_notes(surface: Surface) -> SurfaceNotes:
-    """The notes of a surface; those on large meshes take a moment the first time."""
+    """Return the notes of a surface; those on large meshes take a moment the first time."""
     parts = surface.n_components
     facts = [
         (surface.boundary_loop_count, "boundary loop", ""),
@@ -39,4 +44,26 @@ def surface_notes(surface: Surface) -> SurfaceNotes:
         (parts if parts > 1 else 0, "", "components, with no distance from one to another (grey, NaN)"),
     ]
     sentences, warned = ([counted(*each) for each in some if each[0]] for some in (facts, warnings))
+    step = coordinate_step(surface)
+    if 0 < COARSE * surface.mean_edge_length < step:
+        largest, of_edge = np.abs(surface.bounds).max(), step / surface.mean_edge_length
+        warned.append(
+            f"coordinates up to {largest:.3g} are rounded to steps of {step:.2g}, {of_edge:.2g} of the mean edge; what "
+            "is lost shows in distances (write the mesh nearer to the origin, or with more digits)"
+        )
     return SurfaceNotes((*surface.facts, *sentences), tuple(surface.repairs), tuple(warned))
+
+
+def coordinate_step(surface: Surface) -> float:
+    """Return the spacing of the numbers that the largest coordinates are given in; 0 where these look exact.
+
+    Coordinates are single precision where they fit it. Whole numbers and others that end in zeros look exact.
+    """
+    x = surface.vertices[surface.component_of_vertex >= 0]
+    with np.errstate(over="ignore", under="ignore"):
+        single = x.astype(np.float32)
+    largest = x[np.abs(x) > np.abs(x).max() / 2]
+    if (single == x).all():
+        largest = largest.astype(np.float32)
+    bits = largest.view(f"i{largest.itemsize}")
+    return float(np.spacing(np.abs(largest)).max()) if (bits & 1).any() else 0.0

@@ -1,17 +1,24 @@
-"""Paths on a surface: polylines of which each piece lies in one face, so that fields can be read along them exactly."""
+"""Paths on a surface: polylines of which each piece lies in one face, so that fields can be read along them exactly;
+and their files."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+import os
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray, IntArray, real_numbers
 from ..distances.exact_geodesic import FacePath
 from ..errors import ParameterError
+from ..file_output import atomic_write, check_output
+from ..formats.curve_output import Curve, write_curves
+from ..formats.field_output import write_array
+from ..formats.vtp import write_poly_data
 from ..sources.splitting import Split
 from ..surface import Surface
 from .places import Places, weighted
@@ -22,12 +29,29 @@ NO_WAY = 1e-13
 
 @dataclass(frozen=True, eq=False)
 class SurfacePath:
-    """A polyline of k points on a surface; piece i, from point i to the next, lies in one face.
+    """A polyline of k points on a surface, each piece of which lies in one face.
 
-    points: (k, 3).  faces: (k - 1,) the faces of the pieces; corners: (k - 1, 3) their vertices; begins, ends:
-    (k - 1, 3) the weights of both ends of each piece at them, at least 0 and 1 in sum.  knots: (j,) which of the points
-    are the places the path was led through.  method, label: how it was made, as a word and in words.
+    Attributes
+    ----------
+    points : (k, 3) float64 ndarray
+        The points.
+    faces : (k - 1,) int64 ndarray
+        The face of each piece.
+    corners : (k - 1, 3) int64 ndarray
+        The vertices of these faces.
+    begins : (k - 1, 3) float64 ndarray
+        Barycentric weights of the beginning of each piece in its face.
+    ends : (k - 1, 3) float64 ndarray
+        Barycentric weights of its end.
+    knots : (j,) int64 ndarray
+        Which points are the places that the path was led through.
+    method : str
+        How the path was made, as a word.
+    label : str
+        How the path was made, for a reader.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
     >>> path = bihdist.GeodesicPaths(plane).path([0, 9])
@@ -46,8 +70,10 @@ class SurfacePath:
 
     @cached_property
     def arcs(self) -> FloatArray:
-        """(k,) length along the path up to each point.
+        """Length (k,) along the path up to each point, in the mesh's unit.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=2, j_resolution=2)
         >>> path = bihdist.GeodesicPaths(plane).path([0, 5])
@@ -58,8 +84,10 @@ class SurfacePath:
 
     @property
     def length(self) -> float:
-        """Length of the path, unit length.
+        """Length of the path, in the mesh's unit.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
         >>> path = bihdist.GeodesicPaths(plane).path([0, 24])
@@ -72,6 +100,8 @@ class SurfacePath:
     def places(self) -> Places:
         """The k points as places.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=2, j_resolution=2)
         >>> path = bihdist.GeodesicPaths(plane).path([0, 5])
@@ -83,10 +113,20 @@ class SurfacePath:
         return Places(faces, corners, np.append(self.begins, self.ends[-1:], axis=0))
 
     def along(self, field: npt.ArrayLike) -> FloatArray:
-        """(k,) or (k, d): values (n,) or (n, d) at the vertices, linear on each face, at the points of the path.
+        """Interpolate a field at the points of the path.
 
-        Between two points they change linearly with arc length, so this is the whole profile.
+        Parameters
+        ----------
+        field : (n,) or (n, d) array_like
+            Values at the vertices of the surface, linear on each face.
 
+        Returns
+        -------
+        (k,) or (k, d) ndarray
+            Values at the points. Between two points they change linearly with length, so this is the whole profile.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=2, j_resolution=2)
         >>> path = bihdist.GeodesicPaths(plane).path([0, 5])
@@ -96,8 +136,20 @@ class SurfacePath:
         return self.places.values(field)
 
     def at(self, arcs: npt.ArrayLike) -> Places:
-        """The places (q,) at lengths (q,) along the path; those before its start or past its end are its ends.
+        """Return the places at given lengths along the path.
 
+        Parameters
+        ----------
+        arcs : (q,) array_like
+            Lengths in the mesh's unit; below 0 is the start of the path, beyond its length the end.
+
+        Returns
+        -------
+        Places
+            The q places.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=2, j_resolution=2)
         >>> path = bihdist.GeodesicPaths(plane).path([0, 8])
@@ -114,10 +166,10 @@ class SurfacePath:
 
 @dataclass(frozen=True, eq=False)
 class Crossings:
-    """A path by the edges that it meets.
+    """A path given by the edges that it meets.
 
-    ends (k, 2), t (k,): point i is (1 - t) x_a + t x_b with a, b = ends[i]; at a vertex, a and b are equal.  faces (k -
-    1,): the face between each point and the next.
+    Point i is (1 - t) x_a + t x_b with t = `t` (k,) and a, b = `ends` (k, 2); at a vertex a and b are equal. `faces` (k
+    - 1,) hold the pieces from each point to the next.
     """
 
     ends: IntArray
@@ -125,12 +177,12 @@ class Crossings:
     faces: IntArray
 
     def points(self, x: FloatArray) -> FloatArray:
-        """(k, 3) the points, among vertices x (n, 3)."""
+        """Return the points (k, 3), given the vertices x (n, 3)."""
         return (1 - self.t)[:, None] * x[self.ends[:, 0]] + self.t[:, None] * x[self.ends[:, 1]]
 
 
 def assembled(split: Split, parts: Sequence[Crossings], method: str, label: str) -> SurfacePath:
-    """The path of several parts on a split surface, each begun where the last ended, as a path on the whole surface."""
+    """Join parts on a split surface, each begun where the last ended, to a path on the whole surface."""
     faces = np.concatenate([part.faces for part in parts])
     begins, ends = (
         np.concatenate([_weights(split.surface, part, end) for part in parts])
@@ -159,7 +211,7 @@ def _weights(surface: Surface, part: Crossings, which: slice) -> FloatArray:
 
 
 def in_faces(surface: Surface, parts: Sequence[FacePath], method: str, label: str) -> SurfacePath:
-    """The path of several parts, each begun where the last ended."""
+    """Join parts, each begun where the last ended, to one path."""
     x, moving = surface.vertices, []
     for part in parts:
         corners = surface.faces[part.faces]
@@ -187,15 +239,86 @@ class Stars:
         self._first = np.append(0, np.cumsum(np.bincount(corner, minlength=len(surface.vertices))))
 
     def __getitem__(self, vertex: int) -> IntArray:
-        """The faces (k,) of a vertex."""
+        """Return the faces (k,) of a vertex."""
         return self._faces[self._first[vertex] : self._first[vertex + 1]]
 
     def common(self, ends: IntArray) -> IntArray:
-        """(k - 1,) a face that holds both points of each piece, whose points are on edges `ends` (k, 2)."""
+        """Return (k - 1,) a face that holds both points of each piece, whose points are on the edges `ends` (k, 2)."""
         faces = []
         for a, b in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True):
             shared = set.intersection(*(set(self[v].tolist()) for v in {*a, *b}))
             if not shared:
-                raise ParameterError(f"Vertices {sorted({*a, *b})} are in no common face.")
+                raise ParameterError(f"Vertices {sorted({*a, *b})} do not share a face.")
             faces.append(min(shared))
         return np.array(faces, np.int64)
+
+
+# ---------------------------------------------------------------------- files
+PROFILE_FORMATS = (".csv", ".npy", ".vtp", ".json", ".obj")
+"""The extensions `write_profile` knows."""
+
+
+def write_profile(
+    path: str | os.PathLike[str], along: SurfacePath, fields: Mapping[str, npt.ArrayLike] | None = None
+) -> None:
+    """Write a path and the fields along it to a file; numbers read back exactly.
+
+    Parameters
+    ----------
+    path : str or path-like
+        The extension names the format.
+        ``.csv``: a line `arc,x,y,z,face,b0,b1,b2,NAMES` for each point: its length along the path, position, place, and
+        values.
+        ``.npy``: the columns of the .csv as a (k, c) array.
+        ``.vtp``: a polyline with the point data arrays `arc` and the fields.
+        ``.json``: ``{"points": [[face, b0, b1], ...], "method", "length", "arcs": [...], "fields": {name: [...]}}``.
+        ``.obj``: vertices, and an `l` element through them under a group named by the length; without the fields.
+    along : SurfacePath
+        The path. Between its points the fields change linearly.
+    fields : mapping of str to (n,) array_like, optional
+        Fields by name.
+
+    Raises
+    ------
+    OutputError
+        If the file cannot be written; what was at `path` before then stays.
+    ParameterError
+        For a field that has not one real number at each vertex.
+
+    Examples
+    --------
+    >>> import bihdist, pyvista
+    >>> from pathlib import Path
+    >>> plane = pyvista.Plane(i_resolution=4, j_resolution=4)
+    >>> path = bihdist.GeodesicPaths(plane).path([0, 24])
+    >>> bihdist.write_profile("profile.csv", path, {"x": plane.points[:, 0]})
+    >>> print(Path("profile.csv").read_text().split()[0])
+    arc,x,y,z,face,b0,b1,b2,x
+    """
+    extension = check_output(path, PROFILE_FORMATS)
+    values = {
+        name: along.along(real_numbers(field, f"Values of the field {name!r}"))
+        for name, field in (fields or {}).items()
+    }
+    for name, column in values.items():
+        if column.ndim != 1:
+            raise ParameterError(f"The field {name!r} has {column.shape[1:]} numbers at a vertex; a profile needs one.")
+    places = along.places
+    if extension in (".csv", ".npy"):
+        table = np.column_stack([along.arcs, along.points, places.faces, places.weights, *values.values()])
+        write_array(path, table, ["arc", "x", "y", "z", "face", "b0", "b1", "b2", *values])
+        return
+    if extension == ".obj":
+        write_curves(path, [Curve(along.points, False, {"length": along.length})], ["length"], "profile")
+        return
+    with atomic_write(path) as temporary, temporary.open("wb") as file:
+        if extension == ".vtp":
+            line = [np.arange(len(along.points))]
+            write_poly_data(file, along.points, lines=line, point_data={"arc": along.arcs, **values})
+        else:
+            points = [
+                [f, b0, b1] for f, (b0, b1, _) in zip(places.faces.tolist(), places.weights.tolist(), strict=True)
+            ]
+            record = {"points": points, "method": along.label, "length": along.length, "arcs": along.arcs.tolist()}
+            record["fields"] = {name: column.tolist() for name, column in values.items()}
+            file.write((json.dumps(record) + "\n").encode())

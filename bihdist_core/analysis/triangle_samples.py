@@ -24,12 +24,35 @@ def triangle_sample(
     seed: int = 0,
     progress: Progress | None = None,
 ) -> TriangleSample:
-    """Random triples of random vertices of a component against the triangle inequality: how many of `count` break it by
-    more than rounding, and by how much of the largest distance at most.
+    """Hold random triples of random vertices of a component against the triangle inequality.
 
-    The distance is asked for all pairs of `points` vertices, or all there are.  Raises ParameterError for a component
-    that does not exist or has fewer than three vertices, and for fewer points than three.
+    Parameters
+    ----------
+    distance : Distance
+        The distance; it is asked for all pairs of the vertices.
+    points : int
+        How many vertices, at least three; all that there are if these are fewer.
+    component : int
+        The component of the surface.
+    count : int
+        How many triples.
+    seed : int
+        Of the random numbers.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
 
+    Returns
+    -------
+    TriangleSample
+        How many triples break it by more than rounding, and by how much.
+
+    Raises
+    ------
+    ParameterError
+        For fewer than three points, and for a component that does not exist or has fewer than three vertices.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
     >>> sample = bihdist.triangle_sample(distance, points=20, count=1000)
@@ -48,12 +71,37 @@ def triangle_samples(
     seed: int = 0,
     progress: Progress | None = None,
 ) -> Iterator[tuple[int, TriangleSample]]:
-    """For ever more vertices, 8 at a time up to `points`: how many, and what `triangle_sample` finds among them.
+    """Hold ever more vertices against the triangle inequality, 8 at a time, so that early results can be shown.
 
-    For distances that take a second for each point: early results can be shown.  When the first is asked for, raises
-    ParameterError for a component that does not exist or has fewer than three vertices, and for fewer points than
-    three.
+    Parameters
+    ----------
+    distance : Distance
+        The distance; it is asked for all pairs of the vertices.
+    points : int
+        How many vertices in the end, at least three; all that there are if these are fewer.
+    component : int
+        The component of the surface.
+    count : int
+        How many triples.
+    seed : int
+        Of the random numbers.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
 
+    Yields
+    ------
+    points : int
+        How many vertices so far.
+    sample : TriangleSample
+        What `triangle_sample` finds among them.
+
+    Raises
+    ------
+    ParameterError
+        For fewer than three points, and for a component that does not exist or has fewer than three vertices.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> distance = bihdist.GeodesicDistance(pyvista.Icosphere(nsub=3))
     >>> for points, sample in bihdist.triangle_samples(distance, points=20, count=1000):

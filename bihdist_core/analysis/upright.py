@@ -2,17 +2,18 @@
 
 What stands has most of its outline's ground under its lowest parts, its weight above these and low, is symmetric
 sideways and not upside down, and has its openings below (Fu et al., Upright orientation of man-made objects, 2008,
-go by the first three).  Each of the six directions gets the sum of these, as shares, with the weights below.
+go by the first three).  Each of the six directions gets the sum of these, as fractions, with the weights below.
 """
 
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
+from ..formats.mesh_names import FORMATS, MeshFormat
 from ..progress import Progress, part, silent
 from ..surface import Surface
 
 WORDS = "guessing which way is up"
-"""What is being done, for those who are told of progress."""
+"""The text of progress reports."""
 
 DIRECTIONS = ("y", "z", "x", "-y", "-z", "-x")
 """The most frequent in files comes first, and wins ties."""
@@ -32,17 +33,11 @@ Of each mesh, judged by weights found from the others and without its format, 24
 SELDOM = 4.0
 """What directions other than y and z have to be better by, since files hardly ever have them."""
 
-AFTER_Y = {".obj": 2.5, ".off": 1.0, ".stl": -0.5, ".gltf": 4.0, ".glb": 4.0, ".gii": -4.0, "freesurfer": -4.0}
-"""What z has to be better by than y, by the file's extension: programs that write OBJ have y up, and glTF has it by
-definition, while z is up in files of brains."""
-
-AFTER_Y_ELSEWHERE = 0.5
-
 THIN = 0.1
-"""Nothing stands on a ground that is narrower than this share of its height."""
+"""Nothing stands on a ground that is narrower than this fraction of its height."""
 
 SYMMETRIC = 0.02
-"""Misfits of a mirror image that are all below this share of the diagonal say little."""
+"""Misfits of a mirror image that are all below this fraction of the diagonal say little."""
 
 FACING, LYING = 0.6, 0.3
 """A sheet most of whose area faces one way, and is so thin, is a landscape; a plate, which has two sides, is none."""
@@ -51,11 +46,11 @@ FRONTS = {"y": "z", "-y": "z", "x": "z", "-x": "z", "z": "-y", "-z": "y"}
 """Where the front is, by which way is up: what a quarter turn of the usual shape makes of its front."""
 
 
-def guess_up(surface: Surface, extension: str = "", progress: Progress | None = None) -> str:
-    """One of "x", "-x", "y", "-y", "z", "-z".  extension: of the file it comes from, such as ".obj" (`mesh_format`).
+def guess_up(surface: Surface, file_format: str = "", progress: Progress | None = None) -> str:
+    """Guess which of "x", "-x", "y", "-y", "z" and "-z" points up.
 
-    A surface in a plane of constant z has y up.  progress: asked between the steps, the longest of which goes over all
-    faces.
+    `file_format` is what `mesh_format` says of the file that the surface is from, "" for none. A surface in a plane of
+    constant z has y up. `progress` is called between the steps, the longest of which goes over all faces.
     """
     report = progress or silent
     report(0.0, WORDS)
@@ -69,26 +64,26 @@ def guess_up(surface: Surface, extension: str = "", progress: Progress | None = 
     if landscape:
         return landscape
     scores = _scores(surface, points, extents, part(report, 0.1, 1))
-    after = AFTER_Y.get(extension.lower(), AFTER_Y_ELSEWHERE)
-    usual = {"y": 0.0, "z": -after}
+    bonus = FORMATS[file_format].y_bonus if file_format in FORMATS else MeshFormat.y_bonus
+    usual = {"y": 0.0, "z": -bonus}
     return max(DIRECTIONS, key=lambda name: scores[name] + usual.get(name, -SELDOM))
 
 
 def axis_of(up: str) -> FloatArray:
-    """(3,) the unit vector of a direction's name."""
+    """Return (3,) the unit vector of a direction's name."""
     axis = np.zeros(3)
     axis["xyz".index(up[-1])] = -1.0 if up.startswith("-") else 1.0
     return axis
 
 
 def axes_of(up: str) -> FloatArray:
-    """(3, 3) the unit vectors, as columns, to the right, up and to the front, where this direction is up."""
+    """Return (3, 3) the unit vectors, as columns, to the right, up and to the front, where this direction is up."""
     upright, front = axis_of(up), axis_of(FRONTS[up])
     return np.stack([np.cross(upright, front), upright, front], axis=1)
 
 
 def scattered(surface: Surface, count: int) -> tuple[FloatArray, IntArray]:
-    """(count, 3) places on the faces, as many for equal areas, and (count,) their faces."""
+    """Return (count, 3) places on the faces, as many for equal areas, and (count,) their faces."""
     random, upto = np.random.default_rng(0), np.cumsum(surface.face_areas)
     faces = np.searchsorted(upto, (np.arange(count) + 0.5) / count * upto[-1])
     faces = np.minimum(faces, len(upto) - 1)
@@ -97,7 +92,7 @@ def scattered(surface: Surface, count: int) -> tuple[FloatArray, IntArray]:
 
 
 def _landscape(surface: Surface, extents: FloatArray) -> str:
-    """The direction to which a thin sheet turns its outside; "" if it is none."""
+    """Return the direction to which a thin sheet turns its outside; "" if it is none."""
     _, b, c = surface.sides()
     facing = np.cross(b, c, axis=0).sum(axis=1) / 2 / max(float(surface.face_areas.sum()), 1e-300)
     k = int(np.abs(facing).argmax())
@@ -106,7 +101,7 @@ def _landscape(surface: Surface, extents: FloatArray) -> str:
 
 
 def _scores(surface: Surface, points: FloatArray, extents: FloatArray, progress: Progress) -> dict[str, float]:
-    """For each direction how much speaks for it."""
+    """Return for each direction how much speaks for it."""
     progress(0.0, WORDS)
     (samples, _), diagonal = scattered(surface, SAMPLES), float(np.linalg.norm(extents))
     centre, lowest = samples.mean(axis=0), points.min(axis=0)
@@ -114,7 +109,7 @@ def _scores(surface: Surface, points: FloatArray, extents: FloatArray, progress:
     unlike = misfits / max(float(misfits.max()), SYMMETRIC)
     heights = (samples.mean(axis=0) - lowest) / extents
     progress(0.4, WORDS)
-    rims, rim_share = _rims(surface, diagonal)
+    rims, rim_fraction = _rims(surface, diagonal)
     rim_heights = (rims - lowest) / extents
     scores = {}
     for number, name in enumerate(DIRECTIONS):
@@ -135,13 +130,13 @@ def _scores(surface: Surface, points: FloatArray, extents: FloatArray, progress:
             + BALANCED * np.clip(margin / np.sqrt(outline), -0.3, 0.3).mean()
             + UNLIKE * unlike[k]
             + LOW_WEIGHT * (0.5 - up(heights[k]))
-            + OPEN_BELOW * rim_share * (0.5 - up(rim_heights[k]))
+            + OPEN_BELOW * rim_fraction * (0.5 - up(rim_heights[k]))
         )
     return scores
 
 
 def _mirror_misfits(samples: FloatArray, centre: FloatArray, progress: Progress) -> FloatArray:
-    """(3,) the mean distance from places that are mirrored along each axis to the nearest other place."""
+    """Return (3,) the mean distance from places that are mirrored along each axis to the nearest other place."""
     from scipy.spatial import cKDTree
 
     tree, some = cKDTree(samples), samples[::8]
@@ -155,7 +150,7 @@ def _mirror_misfits(samples: FloatArray, centre: FloatArray, progress: Progress)
 
 
 def _ground(feet: FloatArray, centre: FloatArray) -> tuple[float, float]:
-    """The area of the convex hull of points (k, 2), and how far inside it the centre (2,) is (negative outside)."""
+    """Return the area of the convex hull of points (k, 2), and how far the centre (2,) is inside, negative outside."""
     # Not at the top: the window opens before this is needed.
     from scipy.spatial import ConvexHull, QhullError
 
@@ -167,7 +162,7 @@ def _ground(feet: FloatArray, centre: FloatArray) -> tuple[float, float]:
 
 
 def _rims(surface: Surface, diagonal: float) -> tuple[FloatArray, float]:
-    """(3,) the middle of all boundary edges, and their length as a share of the diagonal, at most 1."""
+    """Return (3,) the middle of all boundary edges, and their length as a fraction of the diagonal, at most 1."""
     ends = surface.vertices[surface.boundary_edges]
     if not len(ends):
         return surface.vertices.mean(axis=0), 0.0

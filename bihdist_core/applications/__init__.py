@@ -1,1 +1,1 @@
-"""What the paper does with distances (section 5): interpolation, correspondence, and what they withstand."""
+"""Applications of distances (section 5 of the paper): interpolation, correspondence, robustness."""

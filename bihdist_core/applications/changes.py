@@ -21,11 +21,33 @@ Runs = tuple[tuple[int, int], ...]
 class Perturbation:
     """Changes to a surface, made in this order; those that are None, 0 or empty are not made.
 
-    pose: a file with another pose, whose vertices and faces are numbered alike.  pose_sha256: of its bytes, empty as
-    long as any content will do.  cut: faces that are taken out (`without_faces`).  simplify: to so many vertices.
-    noise: see `noisy`.  holes, radius: see `with_holes`.  weld, handle: two vertices, whose largest faces are joined
-    (`welded`, `with_handle`).  seed: of noise and holes.  Vertices and faces are numbered as before; a
-    vertex that is taken out is replaced by the nearest that stays.
+    Attributes
+    ----------
+    pose : str
+        A file with another pose, whose vertices and faces are numbered alike.
+    pose_sha256 : str
+        The checksum of its bytes; empty as long as any content will do.
+    cut : runs of int
+        Faces that are taken out.
+    simplify : int or None
+        To so many vertices.
+    noise : float
+        Standard deviation in mean edge lengths, see `noisy`.
+    along : {"xyz", "normals"}
+        Direction of the noise.
+    holes : int
+        How many holes, see `with_holes`.
+    radius : float
+        Of the holes, in roots of the surface's area.
+    weld, handle : tuple of int and int, or None
+        Two vertices whose largest faces are joined, see `welded` and `with_handle`.
+    seed : int
+        Of noise and holes.
+
+    Notes
+    -----
+    Vertices and faces are numbered as in the surface that is changed. A vertex that is taken out is replaced by the
+    nearest that stays.
     """
 
     pose: str = ""
@@ -54,41 +76,41 @@ class Perturbation:
         if self.holes:
             words.append(f"{counted(self.holes, 'hole')} of radius {self.radius:g}, seed {self.seed}")
         if self.weld is not None:
-            words.append(f"grown together at {self.weld[0]} and {self.weld[1]}")
+            words.append(f"welded at {self.weld[0]} and {self.weld[1]}")
         if self.handle is not None:
             words.append(f"a handle from {self.handle[0]} to {self.handle[1]}")
         return ", ".join(words) or "unchanged"
 
     @property
     def changes_nothing(self) -> bool:
-        """Whether the surface stays as it is."""
+        """True if the surface stays as it is."""
         parts = (self.pose, self.cut, self.simplify is not None, self.noise, self.holes, self.weld, self.handle)
         return not any(parts)
 
 
 def count_of(runs: Runs) -> int:
-    """How many ids there are in runs."""
+    """Count the ids in runs."""
     return sum(last - first + 1 for first, last in runs)
 
 
 def words_of_runs(runs: Runs) -> str:
-    """ "3+10-20", as `runs_from_words` reads them."""
+    """Write runs as `runs_from_words` reads them: "3+10-20"."""
     return "+".join(str(first) if first == last else f"{first}-{last}" for first, last in runs)
 
 
 def runs_from_words(text: str) -> Runs:
-    """Ids and runs of ids such as "3+10-20", in any order; ValueError for what is none."""
+    """Read ids and runs of ids such as "3+10-20", in any order; ValueError for anything else."""
     ends = []
     for word in text.split("+"):
         start, _, stop = word.partition("-")
         ends.append((int(start), int(stop or start)))
     if any(not 0 <= first <= last for first, last in ends):
-        raise ValueError(f"Ids go up from 0, and not as in {text!r}.")
+        raise ValueError(f"Runs of ids ascend from 0, unlike {text!r}.")
     return joined_runs(ends)
 
 
 def joined_runs(ends: Iterable[tuple[int, int]]) -> Runs:
-    """Runs in any order, which may overlap, as runs in order and apart."""
+    """Put runs in order and join those that overlap or touch."""
     runs: list[tuple[int, int]] = []
     for first, last in sorted(ends):
         if runs and first <= runs[-1][1] + 1:
@@ -99,7 +121,7 @@ def joined_runs(ends: Iterable[tuple[int, int]]) -> Runs:
 
 
 def words_of_change(change: Perturbation) -> str:
-    """What is not as usual, but for checksums, as `change_from_words` reads it."""
+    """Write what differs from the defaults, but for checksums, as `change_from_words` reads it."""
     words = []
     for each in fields(change):
         value = getattr(change, each.name)
@@ -111,9 +133,9 @@ def words_of_change(change: Perturbation) -> str:
 
 
 def change_from_words(text: str) -> Perturbation:
-    """Such as "noise=0.4,along=normals,seed=1", "simplify=2000,weld=12:40" or "pose=lion-2.obj,cut=3+10-20".
+    """Read changes such as "noise=0.4,along=normals,seed=1", "simplify=2000,weld=12:40" or "pose=lion-2.obj,cut=3+10".
 
-    ParameterError for another word, for a value that is none, and where nothing would change.
+    Raises ParameterError for another word, for a bad value, and where nothing would change.
     """
     values: dict[str, Any] = {}
     # A path may hold commas, but none before one of the words.
@@ -121,7 +143,7 @@ def change_from_words(text: str) -> Perturbation:
         name, _, value = (part.strip() for part in word.partition("="))
         if name not in READERS or name in values:
             raise ParameterError(
-                f"{word.strip()!r} is no change to a mesh; say one or more of {', '.join(READERS)}, each once, "
+                f"{word.strip()!r} is not a change to a mesh; give one or more of {', '.join(READERS)}, each once, "
                 "as in noise=0.4,along=normals,seed=1."
             )
         read, what = READERS[name]
@@ -131,7 +153,7 @@ def change_from_words(text: str) -> Perturbation:
             raise ParameterError(f"{name} is {what}, not {value!r}.") from None
     change = Perturbation(**values)
     if change.changes_nothing:
-        raise ParameterError(f"{text!r} changes nothing; say pose, cut, simplify, noise, holes, weld or handle.")
+        raise ParameterError(f"{text!r} changes nothing; give pose, cut, simplify, noise, holes, weld or handle.")
     return change
 
 

@@ -5,37 +5,54 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray, IntArray, array_of, real_numbers
 from ..distances.distance import Distance
 from ..errors import ParameterError
-from ..number_arrays import array_of, real_numbers
 from ..progress import Progress, part, silent
+from ..surface import Surface
 
 BLOCK = 4096
 """Vertices of M at a time for which the map is found."""
 
 Columns = tuple[dict[int, FloatArray], dict[int, FloatArray]]
-"""Of both surfaces: distances from vertices, by vertex."""
+"""Distances from vertices on both surfaces, by vertex."""
 
 NOWHERE = -1
 """In a map: no vertex."""
 
 
 class Correspondence:
-    """What distances from known pairs of corresponding vertices say of all others (paper, section 5.2).
+    """Predict corresponding vertices of two surfaces from known pairs, by distances.
 
-    A vertex x of M has the vector x~_i = d_M(x, x_i) / max_j d_M(x, x_j) of its distances from the known points, a
-    vertex y of N the vector y~_i likewise.  c(x, y) = (sum_i w_i (x~_i - y~_i)^2)^(1/2) tells how badly y fits x; the
-    least marks the best candidate.  If a maximum is 0 the vector is 0.  (The paper normalises where it defines the
-    vectors, and prints distances that are not normalised in its last formula; here they are, as its text explains: so
-    that a scaled surface N changes nothing.)
+    Parameters
+    ----------
+    distance_m, distance_n : Distance
+        Distances on the surfaces M and N.
+    pairs : (k, 2) array_like
+        Known corresponding vertices x_i of M and y_i of N.
+    weights : (k,) array_like, optional
+        Weights w_i of the pairs, at least 0; 1 each by default, as in the paper.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
+    known_columns : tuple of dict, optional
+        Fields that another correspondence of these distances has computed.
 
-    pairs: (k, 2) known corresponding vertices (x_i of M, y_i of N).  weights: (k,), at least 0; 1 each by default,
-    as in the paper.  known_columns: fields of another
-    correspondence of these distances.
+    Raises
+    ------
+    VertexError
+        If a vertex is not on its surface.
+    ParameterError
+        For pairs or weights of another form.
 
-    Raises VertexError for bad vertices, ParameterError for pairs or weights of another form.
+    Notes
+    -----
+    Section 5.2 of the paper. A vertex x of M has the vector x~_i = d_M(x, x_i) / max_j d_M(x, x_j), a vertex y of N the
+    vector y~_i likewise, and c(x, y) = (sum_i w_i (x~_i - y~_i)^2)^(1/2) tells how badly y fits x. If a maximum is 0
+    the vector is 0. (The paper normalises where it defines the vectors, but prints distances that are not normalised in
+    its last formula. Here they are normalised, as its text explains, so that the scale of N does not matter.)
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> one = bihdist.BiharmonicDistance(plane)
@@ -76,11 +93,31 @@ class Correspondence:
     def changed(
         self, pairs: npt.ArrayLike, weights: npt.ArrayLike | None = None, progress: Progress | None = None
     ) -> Correspondence:
-        """This correspondence with other pairs (k, 2) and weights (k,).
+        """Return this correspondence with other pairs; known fields are kept.
 
-        A new pair costs a field on each surface, pairs that are known cost none.  Raises VertexError for bad vertices,
-        ParameterError for pairs or weights of another form.
+        Parameters
+        ----------
+        pairs : (k, 2) array_like
+            Known corresponding vertices. A new pair costs a field on each surface.
+        weights : (k,) array_like, optional
+            Weights of the pairs; 1 each by default.
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
 
+        Returns
+        -------
+        Correspondence
+            The other correspondence.
+
+        Raises
+        ------
+        VertexError
+            If a vertex is not on its surface.
+        ParameterError
+            For pairs or weights of another form.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
         >>> distance = bihdist.BiharmonicDistance(plane)
@@ -93,7 +130,7 @@ class Correspondence:
         return Correspondence(self.distance_m, self.distance_n, pairs, weights, progress, self._columns)
 
     def _find(self, progress: Progress | None) -> None:
-        """The vectors of all vertices, times the roots of the weights: (n, k) each."""
+        """Compute the vectors of all vertices times the roots of the weights, (n, k) for each surface."""
         root, found = np.sqrt(self.weights), []
         for side, distance in enumerate((self.distance_m, self.distance_n)):
             known, points = self._columns[side], self.pairs[:, side].tolist()
@@ -105,10 +142,26 @@ class Correspondence:
         self._of_m, self._of_n = found
 
     def misfit(self, x: npt.ArrayLike) -> FloatArray:
-        """c(x, y) for every vertex y of N: (n,) for one vertex x of M, (n, m) for (m,).
+        """Compute how badly each vertex of N fits vertices of M.
 
-        NaN where y or x is on another component than one of the known points.  Raises VertexError for a bad vertex.
+        Parameters
+        ----------
+        x : int or (m,) array_like
+            Vertices of M.
 
+        Returns
+        -------
+        (n,) or (n, m) float64 ndarray
+            The misfit c(x, y) of every vertex y of N. NaN where y or x is on another component than one of the known
+            points.
+
+        Raises
+        ------
+        VertexError
+            If a vertex is not on M.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
         >>> distance = bihdist.BiharmonicDistance(plane)
@@ -125,8 +178,27 @@ class Correspondence:
         return misfit[:, 0] if np.ndim(x) == 0 else misfit
 
     def best(self, x: int) -> tuple[int, float]:
-        """The vertex of N that fits x best, and its misfit; (-1, NaN) where none can be compared.
+        """Find the vertex of N that fits a vertex of M best.
 
+        Parameters
+        ----------
+        x : int
+            A vertex of M.
+
+        Returns
+        -------
+        vertex : int
+            The vertex of N; -1 where none can be compared.
+        misfit : float
+            Its misfit; NaN where none can be compared.
+
+        Raises
+        ------
+        VertexError
+            If the vertex is not on M.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
         >>> distance = bihdist.BiharmonicDistance(plane)
@@ -142,11 +214,31 @@ class Correspondence:
         return y, float(misfit[y])
 
     def map(self, vertices: npt.ArrayLike | None = None, progress: Progress | None = None) -> IntArray:
-        """(n,) for all vertices of M, or (m,) for some, the vertex of N that fits best; -1 where none can be compared.
+        """Find the vertex of N that fits best for all vertices of M, or for some.
 
-        Found as nearest neighbours among the vectors; beside these (n, k) the memory is that of a block of vertices.
-        Raises VertexError for a bad vertex.
+        Parameters
+        ----------
+        vertices : (m,) array_like, optional
+            Vertices of M; all by default.
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
 
+        Returns
+        -------
+        (m,) int64 ndarray
+            Vertices of N; -1 where none can be compared.
+
+        Raises
+        ------
+        VertexError
+            If a vertex is not on M.
+
+        Notes
+        -----
+        They are nearest neighbours among the vectors. Beside these, (n, k), the memory is that of a block of vertices.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
         >>> distance = bihdist.BiharmonicDistance(plane)
@@ -179,10 +271,33 @@ def correspondence_prediction(
     x: npt.ArrayLike,
     weights: npt.ArrayLike | None = None,
 ) -> FloatArray:
-    """How badly each vertex of N fits a vertex x of M: (n,) for one x, (n, m) for several (m,); see `Correspondence`.
+    """Compute how badly each vertex of a surface N fits vertices of a surface M.
 
-    Raises VertexError for bad vertices, ParameterError for pairs or weights of another form.
+    Parameters
+    ----------
+    distance_m, distance_n : Distance
+        Distances on M and N.
+    pairs : (k, 2) array_like
+        Known corresponding vertices of M and N.
+    x : int or (m,) array_like
+        Vertices of M.
+    weights : (k,) array_like, optional
+        Weights of the pairs, at least 0; 1 each by default.
 
+    Returns
+    -------
+    (n,) or (n, m) float64 ndarray
+        The misfit of every vertex of N, as of `Correspondence.misfit`.
+
+    Raises
+    ------
+    VertexError
+        If a vertex is not on its surface.
+    ParameterError
+        For pairs or weights of another form.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> distance = bihdist.BiharmonicDistance(plane)
@@ -195,9 +310,43 @@ def correspondence_prediction(
 
 
 def _normalised(distances: FloatArray) -> FloatArray:
-    """(m, k) rows divided by their maximum; rows of zeros stay."""
+    """Return (m, k) rows divided by their maximum; rows of zeros stay."""
     largest = distances.max(axis=1, keepdims=True)
     scaled: FloatArray = np.divide(
         distances, largest, out=np.where(np.isnan(largest), np.nan, distances), where=largest > 0
     )
     return scaled
+
+
+# ---------------------------------------------------------------------- in colours
+DARKEST, LIGHTEST = 0.08, 0.95
+"""The range of red, green and blue: neither black nor white, which marks and lines have."""
+
+
+def position_colours(surface: Surface) -> FloatArray:
+    """Return red, green and blue (n, 3) from x, y and z, each from the least to the largest of the surface's vertices.
+
+    A flat surface has the middle value of the colour of its missing dimension.
+    """
+    used = surface.component_of_vertex >= 0
+    x = surface.vertices[used] if used.any() else surface.vertices
+    low, span = x.min(axis=0), np.ptp(x, axis=0)
+    is_flat = span <= 1e-9 * max(float(span.max()), np.finfo(float).tiny)
+    fractions = (surface.vertices - low) / np.where(is_flat, 1.0, span)
+    fractions[:, is_flat] = 0.5
+    colours: FloatArray = DARKEST + (LIGHTEST - DARKEST) * np.clip(fractions, 0, 1)
+    return colours
+
+
+def carried_back(colours: npt.ArrayLike, found: npt.ArrayLike) -> FloatArray:
+    """Return the colours (n, 3) of the vertices that a map (n,) leads to, from colours (m, 3) there; NaN for no vertex.
+
+    Raises ParameterError for a map to vertices that have no colours.
+    """
+    there, ids = np.asarray(colours, np.float64), np.asarray(found)
+    if ids.ndim != 1 or ids.dtype.kind not in "iu":
+        raise ParameterError(f"A map is one whole number for each vertex, not {ids.dtype} of the shape {ids.shape}.")
+    wrong = np.flatnonzero((ids < NOWHERE) | (ids >= len(there)))
+    if len(wrong):
+        raise ParameterError(f"Vertex {wrong[0]} is mapped to {ids[wrong[0]]}, and there are {len(there):,} vertices.")
+    return np.where((ids == NOWHERE)[:, None], np.nan, there[ids])

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import FloatArray
+from ..arrays import FloatArray, real_numbers
 from ..distances.distance import Distance
 from ..errors import ParameterError, VertexError
-from ..number_arrays import real_numbers
 from ..progress import Progress
 from .weights import Weights
 
@@ -16,17 +15,35 @@ from .weights import Weights
 class ShepardInterpolant:
     """Values between anchors by Shepard's interpolation, with any distance.
 
-    f(p) = sum_i w_i f_i / sum_i w_i,  w_i = r(d(p, p_i)) ** -exponent (paper, section 5.2).
+    Parameters
+    ----------
+    distance : Distance
+        The distance.
+    anchors : (k,) array_like
+        Vertices p_i, all different. Each component of the surface uses its own anchors only.
+    values : (k,) array_like
+        Finite numbers f_i.
+    exponent : float
+        From 0.1 to 20. A larger exponent makes the interpolant flatter at the anchors and steeper between them.
+    smoothness : float
+        The fraction s from 0 to 1, which rounds the cones at the anchors.
 
-    anchors: (k,) vertices p_i, all different.  values: (k,) real numbers f_i.  Each connected component of the
-    surface uses its own anchors only, since between components there is no distance.  The paper has exponent 1 and
-    smoothness 0, where r(d) = d: f has a cone at each anchor.  A larger exponent makes f flatter there, and steeper
-    between anchors.  smoothness s, a share from 0 to 1, rounds the cones alone: r(d) = d^2 / (d + s D), D the largest
-    distance of the anchor, so that the weights are those of exponent 2 within about s D and of exponent 1 beyond.
+    Raises
+    ------
+    VertexError
+        If an anchor is not on the surface, belongs to no face, or is named twice.
+    ParameterError
+        For no anchors, for values that are not k finite numbers, and for an exponent or a smoothness out of range.
 
-    Raises VertexError for an anchor that does not exist, belongs to no face or is named twice; ParameterError for no
-    anchors, for values that are not k finite numbers, and for an exponent or a smoothness out of range.
+    Notes
+    -----
+    Section 5.2 of the paper: f(p) = sum_i w_i f_i / sum_i w_i, where w_i = r(d(p, p_i)) ** -exponent. The paper has
+    exponent 1 and smoothness 0, where r(d) = d and f has a cone at each anchor. With smoothness s, r(d) = d^2 / (d + s
+    D), D the largest distance of the anchor: the weights are those of twice the exponent within about s D, and of the
+    exponent beyond.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> distance = bihdist.GeodesicDistance(plane)
@@ -65,12 +82,33 @@ class ShepardInterpolant:
         exponent: float | None = None,
         smoothness: float | None = None,
     ) -> ShepardInterpolant:
-        """This interpolant with other anchors, values or parameters.
+        """Return this interpolant with other anchors, values or parameters; known distances are kept.
 
-        Distances that are known are kept: other values cost one product of matrices, a new anchor one field.  Raises
-        VertexError for a bad anchor or one named twice; ParameterError for no anchors, for values that are not k finite
-        numbers, and for an exponent or a smoothness out of range.
+        Parameters
+        ----------
+        anchors : (k,) array_like, optional
+            Vertices; a new one costs a field.
+        values : (k,) array_like, optional
+            Finite numbers; other values cost one product of matrices.
+        exponent : float, optional
+            From 0.1 to 20.
+        smoothness : float, optional
+            From 0 to 1.
 
+        Returns
+        -------
+        ShepardInterpolant
+            The other interpolant.
+
+        Raises
+        ------
+        VertexError
+            For a bad anchor, or one named twice.
+        ParameterError
+            For no anchors, for values that are not k finite numbers, and for an exponent or a smoothness out of range.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
         >>> distance = bihdist.BiharmonicDistance(plane)
@@ -96,8 +134,10 @@ class ShepardInterpolant:
 
     @property
     def missing(self) -> list[int]:
-        """The anchors whose distances have still to be solved for.
+        """Anchors whose distances have still to be computed.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
         >>> distance = bihdist.BiharmonicDistance(plane)
@@ -109,11 +149,22 @@ class ShepardInterpolant:
         return [vertex for vertex in self.anchors.tolist() if vertex not in self._columns]
 
     def evaluate(self, progress: Progress | None = None) -> FloatArray:
-        """(n,) the interpolant at every vertex: f_i exactly at anchor i, NaN on components without anchors.
+        """Evaluate the interpolant at every vertex.
 
-        Never below the least f_i or above the greatest.  A vertex at distance 0 from anchors without being one (some
-        distances cannot tell all vertices apart) gets the mean of their values.
+        Parameters
+        ----------
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
 
+        Returns
+        -------
+        (n,) float64 ndarray
+            Exactly f_i at anchor i, between the least and the greatest f_i elsewhere, and NaN on components without
+            anchors. A vertex at distance 0 from anchors without being one gets the mean of their values: some distances
+            cannot tell all vertices apart.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
         >>> distance = bihdist.BiharmonicDistance(plane)
@@ -122,17 +173,28 @@ class ShepardInterpolant:
         (2.0, 5.0)
         """
         with np.errstate(invalid="ignore"):
-            result = self._shares(progress) @ self.values
+            result = self._fractions(progress) @ self.values
         # Rounding must not make an extremum where the formula has none.
         result = np.clip(result, self.values.min(), self.values.max())
         result[self.anchors] = self.values
         return result
 
     def sum_of_weights(self, progress: Progress | None = None) -> FloatArray:
-        """(n,) log10 of sum_i w_i over its least value on the surface: how far the anchors' influence reaches.
+        """Compute the logarithm of the sum of weights, which shows how far the anchors' influence reaches.
 
-        Infinite at the anchors, NaN on components without one.
+        Parameters
+        ----------
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
 
+        Returns
+        -------
+        (n,) float64 ndarray
+            The log10 of sum_i w_i over its least value on the surface; infinite at the anchors, NaN on components
+            without one.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
         >>> distance = bihdist.BiharmonicDistance(plane)
@@ -141,12 +203,12 @@ class ShepardInterpolant:
         >>> weights[0].item(), weights.min().item()
         (inf, 0.0)
         """
-        self._shares(progress)
+        self._fractions(progress)
         assert self._total is not None
         return self._total - np.nanmin(self._total)
 
-    def _shares(self, progress: Progress | None) -> FloatArray:
-        """(n, k) w_i / sum_j w_j; NaN where there is no anchor."""
+    def _fractions(self, progress: Progress | None) -> FloatArray:
+        """Return (n, k) w_i / sum_j w_j; NaN where there is no anchor."""
         if self._weights is None:
             if missing := self.missing:
                 columns = self.distance.from_sources(missing, progress)

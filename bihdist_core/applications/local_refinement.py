@@ -15,16 +15,16 @@ ROUNDS = 200
 
 
 def refined_around(surface: Surface, sources: npt.ArrayLike, least: float, reach: float, edges: float = 6) -> Surface:
-    """The surface cut finer around vertices (k,): at a distance r up to `reach` no edge is longer than r / edges.
+    """Refine a surface around vertices (k,): at a distance r up to `reach` no edge is longer than r / edges.
 
-    least: nearer than this it is as fine as at this distance; both in the mesh's unit, along straight lines.  Old
-    vertices keep their ids and come first.  Edges are cut in the middle, always the longest of a face first (Rivara
-    1984), so that no angle becomes less than about half of the least one there was.  Raises VertexError for a bad id,
+    Nearer than `least` it is as fine as at this distance; both are in the mesh's unit, along straight lines. Old
+    vertices keep their ids and come first. Edges are cut in the middle, always the longest of a face first (Rivara
+    1984), so that no angle becomes less than about half of the least one there was. Raises VertexError for a bad id,
     ParameterError unless 0 < least <= reach and edges > 0.
     """
     ids = surface.check_vertices(sources)
     if not (0 < least <= reach and edges > 0 and np.isfinite(reach)):
-        raise ParameterError(f"A refinement from {least:g} to {reach:g} with {edges:g} edges cannot be.")
+        raise ParameterError(f"A refinement from {least:g} to {reach:g} with {edges:g} edges is not possible.")
     tree = cKDTree(surface.vertices[ids])
     for _ in range(ROUNDS):
         x, count = surface.vertices, len(surface.faces)
@@ -51,7 +51,10 @@ def refined_around(surface: Surface, sources: npt.ArrayLike, least: float, reach
 
 
 def _bisected(surface: Surface, of_side: IntArray, longest: IntArray, cut: BoolArray) -> Surface:
-    """The surface with edges cut (e,) bool in the middle; of each face that has one, its longest edge is among them."""
+    """Return the surface with edges cut (e,) bool in the middle.
+
+    Of each face that has one, its longest edge is among them.
+    """
     x, faces = surface.vertices, surface.faces
     middle = np.full(len(cut), -1)
     middle[cut] = len(x) + np.arange(cut.sum())

@@ -11,12 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray, IntArray, array_of, real_numbers
 from ..distances.distance import Distance
 from ..distances.geodesic import GeodesicDistance
 from ..errors import ParameterError
 from ..laplacian import Laplacian
-from ..number_arrays import array_of, real_numbers
 from ..progress import Progress, part, silent
 from ..surface import Surface
 from .correspondence import NOWHERE
@@ -25,7 +24,7 @@ BLOCK = 32
 """So many right answers at a time, from which fields are computed where a distance is not symmetric."""
 
 LIMIT = 0.25
-"""Where curves end, and the area under them."""
+"""The end of error curves, up to which the area under them is taken."""
 
 EXACT_WORK = 40_000_000
 """Vertices times right answers up to which errors are exact geodesic distances: some minutes at most."""
@@ -34,20 +33,20 @@ EXACT_WORK = 40_000_000
 def error_distance(
     laplacian: Laplacian, count: int, method: str = "auto", progress: Progress | None = None
 ) -> GeodesicDistance:
-    """The geodesic distance that errors are measured by, on the surface mapped to, from so many right answers.
+    """Return the geodesic distance that measures the errors of a map to a surface, from so many right answers.
 
-    method: of `GeodesicDistance`; "auto" is exact where that takes minutes at most, else heat.
+    `method` is one of `GeodesicDistance`; "auto" is exact where that takes minutes at most, else heat.
     """
     return GeodesicDistance(laplacian, error_method(laplacian.surface, count) if method == "auto" else method, progress)
 
 
 def error_method(surface: Surface, count: int) -> str:
-    """What "auto" is."""
+    """Return the method that "auto" stands for."""
     return "exact" if count * len(surface.vertices) <= EXACT_WORK else "heat"
 
 
 def sampled_vertices(count: int, samples: int | None) -> IntArray:
-    """(k,) so many of the vertices 0 to count - 1, drawn evenly by id; all of them if None, or more than there are."""
+    """Return (k,) so many of the vertices 0 to count - 1, evenly by id; all of them if `samples` is None."""
     if samples is None or samples >= count:
         return np.arange(count)
     return np.unique(np.linspace(0, count - 1, samples).astype(int))
@@ -60,16 +59,41 @@ def map_errors(
     partners: npt.ArrayLike | None = None,
     progress: Progress | None = None,
 ) -> FloatArray:
-    """The errors of a map whose values are `found` (m,) and should be `truth` (m,), vertices of one surface: (m,).
+    """Compute the geodesic errors of a map between two surfaces.
 
-    found (m, q), of several maps, gives (m, q), at the cost of one: a field for each different right answer.
-    distance: geodesic, on that surface.  partners: (n,) the symmetric partner of each of its vertices, which then
-    counts as right, too.  -1 in any of them is no vertex.  Infinite where nothing was found or the truth is on another
-    component, NaN where there is no truth.
+    Parameters
+    ----------
+    distance : Distance
+        A geodesic distance on the surface mapped to.
+    found : (m,) or (m, q) array_like
+        Vertices that m vertices are mapped to, by one or by q maps; -1 for none. Several maps cost as much as one: a
+        field for each different right answer.
+    truth : (m,) array_like
+        Vertices that they should be mapped to; -1 where that is not known.
+    partners : (n,) array_like, optional
+        The symmetric partner of each vertex of the surface mapped to, which then counts as right, too; -1 for none.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
 
-    Raises ParameterError for arrays of another form or that are not whole numbers, VertexError for vertices that are
-    not there.
+    Returns
+    -------
+    (m,) or (m, q) float64 ndarray
+        Distances between found and true vertices over the root of the surface's area. Infinite where nothing was found
+        or the truth is on another component, NaN where the truth is not known.
 
+    Raises
+    ------
+    VertexError
+        If a vertex is not on the surface.
+    ParameterError
+        For arrays of another form or that are not whole numbers.
+
+    Notes
+    -----
+    The measure of Kim, Lipman and Funkhouser, 2011.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> distance = bihdist.GeodesicDistance(plane)
@@ -136,16 +160,26 @@ def _errors(distance: Distance, to: IntArray, right: IntArray, progress: Progres
 
 @dataclass(frozen=True, eq=False)
 class ErrorCurve:
-    """The share of vertices whose error is at most so large.
+    """The fraction of vertices whose error is at most each threshold.
 
-    errors: (m,) sorted, those that are known.  mean, median: of these, infinite if a vertex was mapped nowhere.  area:
-    under the curve from 0 to 0.25, over 0.25; 1 for a perfect map.
+    Attributes
+    ----------
+    errors : (m,) float64 ndarray
+        The known errors, ascending.
+    mean : float
+        Their mean; infinite if a vertex was mapped nowhere.
+    median : float
+        Their median.
+    area : float
+        The area under the curve from 0 to 0.25, over 0.25; 1 for a perfect map.
 
+    Examples
+    --------
     >>> import bihdist
     >>> curve = bihdist.error_curve([0.0, 0.0, 0.02, 0.1])
     >>> round(curve.mean, 3), round(curve.median, 3), round(curve.area, 3)
     (0.03, 0.01, 0.88)
-    >>> curve.shares([0, 0.05, 0.2]).tolist()
+    >>> curve.fractions([0, 0.05, 0.2]).tolist()
     [0.5, 0.75, 1.0]
     """
 
@@ -154,11 +188,23 @@ class ErrorCurve:
     median: float
     area: float
 
-    def shares(self, thresholds: npt.ArrayLike) -> FloatArray:
-        """(t,) the share of errors that are at most each of thresholds (t,).
+    def fractions(self, thresholds: npt.ArrayLike) -> FloatArray:
+        """Return the fraction of errors that are at most each threshold.
 
+        Parameters
+        ----------
+        thresholds : (t,) array_like
+            Errors.
+
+        Returns
+        -------
+        (t,) float64 ndarray
+            Fractions from 0 to 1.
+
+        Examples
+        --------
         >>> import bihdist
-        >>> bihdist.error_curve([0.0, 0.0, 0.02, 0.1]).shares([0, 0.05, 0.2]).tolist()
+        >>> bihdist.error_curve([0.0, 0.0, 0.02, 0.1]).fractions([0, 0.05, 0.2]).tolist()
         [0.5, 0.75, 1.0]
         """
         return np.searchsorted(self.errors, np.asarray(thresholds, np.float64), side="right") / len(self.errors)
@@ -166,7 +212,7 @@ class ErrorCurve:
 
 @dataclass(frozen=True, eq=False)
 class MeanCurve:
-    """The mean of the error curves of several maps, at least one: each counts alike, however many vertices it has."""
+    """The mean of the error curves of at least one map; each counts alike, however many vertices it has."""
 
     curves: tuple[ErrorCurve, ...]
 
@@ -177,7 +223,7 @@ class MeanCurve:
 
     @property
     def median(self) -> float:
-        """The smallest error that the mean curve has reached its half at; infinite if it does not."""
+        """The smallest error at which the mean curve has reached one half; infinite if it does not."""
         errors = np.concatenate([curve.errors for curve in self.curves])
         weights = np.concatenate([np.full(len(c.errors), 1 / len(c.errors)) for c in self.curves]) / len(self.curves)
         order = np.argsort(errors, kind="stable")
@@ -189,17 +235,32 @@ class MeanCurve:
         """Mean over the maps of the areas under their curves, from 0 to 1."""
         return float(np.mean([curve.area for curve in self.curves]))
 
-    def shares(self, thresholds: npt.ArrayLike) -> FloatArray:
-        """(t,) the mean of the maps' shares of errors that are at most each of thresholds (t,)."""
-        mean: FloatArray = np.mean([curve.shares(thresholds) for curve in self.curves], axis=0)
+    def fractions(self, thresholds: npt.ArrayLike) -> FloatArray:
+        """Return (t,) the mean of the maps' fractions of errors that are at most each of thresholds (t,)."""
+        mean: FloatArray = np.mean([curve.fractions(thresholds) for curve in self.curves], axis=0)
         return mean
 
 
 def error_curve(errors: npt.ArrayLike) -> ErrorCurve:
-    """The curve of errors (m,), NaN left out: which share of them is at most so large.
+    """Make the cumulative curve of errors.
 
-    Raises ParameterError if there is none.
+    Parameters
+    ----------
+    errors : (m,) array_like
+        Errors, as of `map_errors`; NaN is left out.
 
+    Returns
+    -------
+    ErrorCurve
+        The curve, with mean, median and area.
+
+    Raises
+    ------
+    ParameterError
+        If no error is known.
+
+    Examples
+    --------
     >>> import bihdist
     >>> # NaN: no truth is known
     >>> curve = bihdist.error_curve([0.0, 0.1, float("nan"), 0.02])
@@ -209,6 +270,6 @@ def error_curve(errors: npt.ArrayLike) -> ErrorCurve:
     known = np.sort(real_numbers(errors, "Errors").ravel())
     known = known[~np.isnan(known)]
     if not len(known):
-        raise ParameterError("Of no vertex the right place is known, so there is no error.")
+        raise ParameterError("No vertex has a known true place, so there is no error.")
     area = 1 - float(np.minimum(known, LIMIT).mean()) / LIMIT
     return ErrorCurve(known, float(known.mean()), float(np.median(known)), area)

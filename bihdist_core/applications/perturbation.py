@@ -1,4 +1,4 @@
-"""What can go wrong with a mesh, done on purpose: noise, holes, welded parts, a thin handle (paper, Figs. 3, 6, 7)."""
+"""Perturbations of a mesh: noise, holes, welded parts, a thin handle (paper, Figs. 3, 6, 7)."""
 
 from __future__ import annotations
 
@@ -14,20 +14,40 @@ from ..formats.mesh_io import read_surface
 from ..mesh_like import MeshLike
 from ..progress import Progress
 from ..scalars import real_number, whole_number
-from ..surface import Surface
+from ..surface import Surface, vertex_normals
 from .changes import WAYS, Perturbation, Runs
 from .resizing import simplified
 
 WIDTH = 0.25
-"""Sides of a thin handle, as a share of those of the faces it joins."""
+"""Sides of a thin handle, as a fraction of those of the faces it joins."""
 
 
-def noisy(surface: MeshLike, share: float, seed: int = 0, along: str = "xyz") -> Surface:
-    """Gaussian noise on each vertex; its standard deviation is `share` mean edge lengths.
+def noisy(surface: MeshLike, sigma: float, seed: int = 0, along: str = "xyz") -> Surface:
+    """Add Gaussian noise to each vertex.
 
-    along: "xyz", on each coordinate; "normals", along the normal of the vertex.  Raises ParameterError for another
-    word, and for a share that is not a finite number of at least 0.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    sigma : float
+        Standard deviation in mean edge lengths, at least 0.
+    seed : int
+        Of the random numbers.
+    along : {"xyz", "normals"}
+        On each coordinate, or along the normal of the vertex.
 
+    Returns
+    -------
+    Surface
+        The noisy surface.
+
+    Raises
+    ------
+    ParameterError
+        For another word, and for a `sigma` that is not a finite number of at least 0.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=3))
     >>> moved = abs(bihdist.noisy(sphere, 0.1).vertices - sphere.vertices)
@@ -38,33 +58,42 @@ def noisy(surface: MeshLike, share: float, seed: int = 0, along: str = "xyz") ->
     surface = Surface.of(surface)
     if along not in WAYS:
         raise ParameterError(f"Noise is along one of {', '.join(WAYS)}, not {along!r}.")
-    if not 0 <= real_number(share, "The size of noise") < np.inf:
-        raise ParameterError(f"The size of noise is a number of mean edge lengths of at least 0, not {share!r}.")
+    if not 0 <= real_number(sigma, "The size of noise") < np.inf:
+        raise ParameterError(f"The size of noise is a number of mean edge lengths of at least 0, not {sigma!r}.")
     random = np.random.default_rng(seed)
     if along == "xyz":
         shift = random.standard_normal(surface.vertices.shape)
     else:
         shift = random.standard_normal((len(surface.vertices), 1)) * vertex_normals(surface)
-    return Surface(surface.vertices + share * surface.mean_edge_length * shift, surface.faces, surface.name)
-
-
-def vertex_normals(surface: Surface) -> FloatArray:
-    """(n, 3) unit normals at the vertices, by face area; 0 where there is none."""
-    a, b, c = (surface.vertices[surface.faces[:, k]] for k in range(3))
-    cross = np.cross(b - a, c - a)
-    total = np.zeros_like(surface.vertices)
-    for k in range(3):
-        np.add.at(total, surface.faces[:, k], cross)
-    normals: FloatArray = total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)
-    return normals
+    return Surface(surface.vertices + sigma * surface.mean_edge_length * shift, surface.faces, surface.name)
 
 
 def with_holes(surface: MeshLike, count: int, radius: float = 0.05, seed: int = 0) -> Surface:
-    """Round holes at random vertices: what is nearer along edges than `radius` roots of the surface's area.
+    """Cut round holes at random vertices.
 
-    Vertex ids stay; what falls apart from the largest piece of a component goes as well.  Raises ParameterError for
-    fewer holes than one, a radius that is not a share from 0 to 1, and where nothing or all would be left.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    count : int
+        How many holes, at least one.
+    radius : float
+        Along edges, in roots of the surface's area, at most 1.
+    seed : int
+        Of the random numbers.
 
+    Returns
+    -------
+    Surface
+        The surface with its vertex ids. What falls apart from the largest piece of a component is taken out, too.
+
+    Raises
+    ------
+    ParameterError
+        For no holes, a radius that is not above 0 and at most 1, and where nothing or all would be left.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=3))
     >>> sphere.boundary_loop_count
@@ -89,25 +118,25 @@ def with_holes(surface: MeshLike, count: int, radius: float = 0.05, seed: int = 
 
 
 def punched(surface: Surface, distances: FloatArray, radius: float) -> Surface:
-    """Holes: the faces all of whose corners are nearer than `radius` to a centre are taken out.
+    """Take out the faces all of whose corners are nearer than `radius` to one of k centres.
 
-    distances: (n, k) from each of k centres.  Vertex ids stay; see `without`.
+    `distances` (n, k) are those from the centres. Vertex ids stay; see `without`.
     """
     near = np.nanmin(np.asarray(distances), axis=1, initial=np.inf) < radius
     return without(surface, np.flatnonzero(near))
 
 
 def without(surface: Surface, vertices: npt.ArrayLike) -> Surface:
-    """The surface without the faces all of whose corners are among vertices (k,).
+    """Take out the faces all of whose corners are among vertices (k,).
 
-    Vertex ids stay; what falls apart from the largest piece of a component goes as well.  Raises ParameterError if
+    Vertex ids stay; what falls apart from the largest piece of a component is taken out, too. Raises ParameterError if
     nothing is left.
     """
     gone = np.zeros(len(surface.vertices), bool)
     gone[np.asarray(vertices, int)] = True
     left = surface.faces[~gone[surface.faces].all(axis=1)]
     if not len(left):
-        raise ParameterError(f"Nothing of {surface.name} would be left; take out less.")
+        raise ParameterError(f"Nothing would be left of {surface.name}; remove less.")
     rest = Surface(surface.vertices, left, surface.name)
     was, now = (each.component_of_vertex[left[:, 0]] for each in (surface, rest))
     # Components are numbered from the largest.
@@ -117,23 +146,23 @@ def without(surface: Surface, vertices: npt.ArrayLike) -> Surface:
 
 
 def without_faces(surface: Surface, cut: Runs) -> Surface:
-    """The surface without some of its faces.  Vertex ids stay, and pieces that are apart then stay, too.
+    """Take out some faces; vertex ids stay, and pieces that are apart then stay, too.
 
     Raises ParameterError for faces that are not there, and if nothing is left.
     """
     count, last = len(surface.faces), max((last for _, last in cut), default=-1)
     if last >= count:
-        raise ParameterError(f"{surface.name} has {count:,} faces, numbered from 0, and none is {last}.")
+        raise ParameterError(f"{surface.name} has {count:,} faces, numbered from 0, so no face {last}.")
     is_left = np.ones(count, bool)
     for first, last in cut:
         is_left[first : last + 1] = False
     if not is_left.any():
-        raise ParameterError(f"Nothing of {surface.name} would be left; take out less.")
+        raise ParameterError(f"Nothing would be left of {surface.name}; remove less.")
     return Surface(surface.vertices, surface.faces[is_left], surface.name)
 
 
 def posed(surface: Surface, pose: Surface) -> Surface:
-    """The surface in another pose: its faces between the vertices of that.
+    """Return the surface in another pose: its faces between the vertices of `pose`.
 
     Raises ParameterError where the other's vertices or faces are not numbered alike.
     """
@@ -150,29 +179,46 @@ def posed(surface: Surface, pose: Surface) -> Surface:
 
 
 def _faces_in_order(surface: Surface) -> IntArray:
-    """(m, 3) whatever the order of faces and corners in the file."""
+    """Return (m, 3) whatever the order of faces and corners in the file."""
     faces = np.sort(surface.faces, axis=1)
     return faces[np.lexsort(faces.T)]
 
 
 def _without_loose_vertices(surface: Surface) -> tuple[Surface, IntArray]:
-    """Without vertices that are in no face; and (k,) what the others were."""
+    """Take out vertices that are in no face, and return (k,) what the others were."""
     ids, index = np.unique(surface.faces, return_inverse=True)
     return Surface(surface.vertices[ids], index.reshape(-1, 3), surface.name), ids
 
 
 def face_at(surface: Surface, vertex: int) -> int:
-    """The largest of the faces at a vertex, the first of equal ones.  Raises VertexError for a bad vertex."""
+    """Return the largest face at a vertex, the first of equal ones. Raises VertexError for a bad vertex."""
     faces = np.flatnonzero((surface.faces == surface.check_vertex(vertex)).any(axis=1))
     return int(faces[surface.face_areas[faces].argmax()])
 
 
 def welded(surface: MeshLike, face_a: int, face_b: int) -> Surface:
-    """Two parts grown together: both faces go, and their corners become one, halfway between.
+    """Join two parts of a surface: two faces are taken out, and their corners become one, halfway between.
 
-    A closed surface gets one handle more.  Vertex ids stay; the corners of `face_b` then belong to no face.  Raises
-    ParameterError if the two faces or their neighbours touch.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    face_a, face_b : int
+        The two faces.
 
+    Returns
+    -------
+    Surface
+        The joined surface with its vertex ids; the corners of `face_b` belong to no face. A closed surface gets one
+        more handle.
+
+    Raises
+    ------
+    ParameterError
+        If the two faces or their neighbours touch.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=2))
     >>> sphere.genus, bihdist.welded(sphere, 0, 200).genus
@@ -189,10 +235,27 @@ def welded(surface: MeshLike, face_a: int, face_b: int) -> Surface:
 
 
 def with_handle(surface: MeshLike, face_a: int, face_b: int) -> Surface:
-    """A thin, straight, three-sided tube from the middle of one face to the middle of another.
+    """Add a handle: a thin, straight, three-sided tube from the middle of one face to the middle of another.
 
-    Vertex ids stay; the tube's come after them.  Raises ParameterError if the two faces or their neighbours touch.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    face_a, face_b : int
+        The two faces.
 
+    Returns
+    -------
+    Surface
+        The surface with its vertex ids; the vertices of the tube come after them.
+
+    Raises
+    ------
+    ParameterError
+        If the two faces or their neighbours touch.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = bihdist.Surface.of(pyvista.Icosphere(nsub=3))
     >>> tube = bihdist.with_handle(sphere, 0, 640)
@@ -221,7 +284,7 @@ def with_handle(surface: MeshLike, face_a: int, face_b: int) -> Surface:
 
 
 def _opposite_corners(surface: Surface, face_a: int, face_b: int) -> tuple[IntArray, IntArray]:
-    """(3,) corners of both faces, paired so that the surface stays oriented and the pairs are as near as can be."""
+    """Return (3,) corners of both faces, paired so that the surface stays oriented and pairs are near each other."""
     a, b = surface.faces[face_a], surface.faces[face_b]
     around = surface.faces[np.isin(surface.faces, a).any(axis=1)]
     beside = surface.faces[np.isin(surface.faces, b).any(axis=1)]
@@ -235,10 +298,10 @@ def _opposite_corners(surface: Surface, face_a: int, face_b: int) -> tuple[IntAr
 def perturbed(
     surface: Surface, change: Perturbation, progress: Progress | None = None, pose: Surface | None = None
 ) -> tuple[Surface, IntArray]:
-    """What becomes of a surface, and (n',) the vertex of the surface that each of its vertices is, -1 for new ones.
+    """Change a surface, and return it with (n',) the vertex that each of its vertices was, -1 for new ones.
 
-    pose: what is in the file `change.pose`, which is read if None.  Raises ParameterError as the single changes,
-    VertexError for vertices that are not there, MeshError for a pose that cannot be read.
+    `pose` is the mesh in the file `change.pose`, which is read if None. Raises ParameterError as the single changes,
+    VertexError for vertices that are not there, and MeshError for a pose that cannot be read.
     """
     result, ids = surface, np.arange(len(surface.vertices))
     if change.pose:
@@ -263,9 +326,9 @@ def perturbed(
 
 
 def image_of(surface: Surface, ids: IntArray, vertex: int, result: Surface) -> int:
-    """The vertex of a perturbed surface that a vertex is, or is nearest to where it is gone.
+    """Return the vertex of a perturbed surface that a vertex is, or is nearest to where it is gone.
 
-    ids: as `perturbed` gives them.  Raises VertexError for a bad vertex.
+    `ids` are those that `perturbed` returns. Raises VertexError for a bad vertex.
     """
     vertex = surface.check_vertex(vertex)
     stays = np.flatnonzero((ids >= 0) & (result.component_of_vertex[: len(ids)] >= 0))

@@ -25,11 +25,11 @@ EVENNESS = 0.05
 """Weight of (edge length)^4 beside the quadric error, of the same unit: keeps triangles even where all is flat."""
 MOST_NEIGHBOURS = 9
 CHEAPEST = 0.5
-"""A round considers this share of the vertices, those cheapest to remove."""
+"""A round considers this fraction of the vertices, those cheapest to remove."""
 
 
 def refined(surface: Surface) -> Surface:
-    """Each face cut into four at the middles of its edges; the old vertices keep their ids and come first."""
+    """Cut each face into four at the middles of its edges; the old vertices keep their ids and come first."""
     f, n, x = surface.faces, len(surface.vertices), surface.vertices
     edges = surface.edges
     key = edges[:, 0] * n + edges[:, 1]
@@ -44,7 +44,7 @@ def refined(surface: Surface) -> Surface:
 
 
 def resized(surface: Surface, count: int, progress: Progress | None = None) -> Surface:
-    """The surface with exactly `count` vertices: refined until it has as many, then simplified.
+    """Return the surface with exactly `count` vertices: refined until it has as many, then simplified.
 
     Raises ParameterError as `simplified`.
     """
@@ -59,11 +59,36 @@ def resized(surface: Surface, count: int, progress: Progress | None = None) -> S
 
 
 def simplified(surface: MeshLike, count: int, progress: Progress | None = None) -> tuple[Surface, IntArray]:
-    """The surface with `count` of its vertices, and (count,) their ids there, ascending.
+    """Simplify a surface to a number of its vertices.
 
-    Topology, components and boundary loops stay; vertices of edges with more than two faces stay; those of no face are
-    left out.  Raises ParameterError if that leaves more than `count`, or if there are not so many to begin with.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    count : int
+        How many vertices, at least 4.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
 
+    Returns
+    -------
+    surface : Surface
+        The simplified surface. Its topology, components and boundary loops are the same.
+    ids : (count,) int64 ndarray
+        The vertices of the given surface that are left, ascending; they have not moved.
+
+    Raises
+    ------
+    ParameterError
+        If more than `count` vertices have to stay, or if there are not so many to begin with.
+
+    Notes
+    -----
+    Edges are collapsed by the quadric error (Garland, Heckbert 1997), always onto one of their ends. Vertices of edges
+    with more than two faces stay; those of no face are left out.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> fewer, ids = bihdist.simplified(pyvista.Icosphere(nsub=3), 100)
     >>> fewer.n_vertices, fewer.genus, ids.shape
@@ -77,7 +102,7 @@ def simplified(surface: MeshLike, count: int, progress: Progress | None = None) 
 
 
 def at_most(surface: Surface, count: int, progress: Progress | None = None) -> Surface:
-    """The surface if it has no more vertices than `count`, or simplified to so many, or as far as goes."""
+    """Return the surface with at most `count` vertices, simplified as far as that is possible."""
     used = len(surface.vertices) - surface.unreferenced_count
     if len(surface.vertices) <= count:
         return surface
@@ -85,7 +110,7 @@ def at_most(surface: Surface, count: int, progress: Progress | None = None) -> S
 
 
 def _collapsed(surface: Surface, count: int, progress: Progress | None) -> tuple[Surface, IntArray]:
-    """As `simplified`, with more vertices where it goes no further."""
+    """Simplify like `simplified`, with more vertices where it goes no further."""
     n, used = len(surface.vertices), surface.component_of_vertex >= 0
     left, idle, relaxed = int(used.sum()), 0, False
     if not 4 <= count <= left:
@@ -121,10 +146,10 @@ def _round(
     quadrics: FloatArray,
     most: int,
     rng: np.random.Generator,
-    share: float,
+    fraction: float,
     relaxed: bool,
 ) -> tuple[IntArray, IntArray]:
-    """At most `most` vertices to remove, no two with a common neighbour, and the neighbour each is drawn onto."""
+    """Return at most `most` vertices to remove, no two with a common neighbour, and the neighbours they move onto."""
     n = len(x)
     sides = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
     key, count = np.unique(sides[:, 0] * n + sides[:, 1], return_counts=True)
@@ -150,7 +175,7 @@ def _round(
     best = np.lexsort((cost, u))
     best = best[np.append(True, np.diff(u[best]) > 0)] if len(best) else best
     best = best[np.argsort(cost[best])]
-    best = best[: max(1, int(np.ceil(share * len(best))))]
+    best = best[: max(1, int(np.ceil(fraction * len(best))))]
     u, v, cost, on_rim = u[best], v[best], cost[best], on_rim[best]
 
     neighbours = sp.csr_array((np.ones(len(both), np.int8), both.T), shape=(n, n))
@@ -171,7 +196,7 @@ def _round(
 
 
 def _needed(faces: IntArray, edges: IntArray, count: IntArray, n: int) -> BoolArray:
-    """(e,) whether drawing edges (e, 2), of so many faces each, to a point would leave a vertex without a face."""
+    """Return (e,) whether collapsing edges (e, 2), of so many faces each, would leave a vertex without a face."""
     size = np.bincount(faces.ravel(), minlength=n)
     # The corner opposite to the edge may have that face alone, or both of its ends no other.
     face, corner = np.nonzero(size[faces] == 1)
@@ -182,9 +207,9 @@ def _needed(faces: IntArray, edges: IntArray, count: IntArray, n: int) -> BoolAr
 
 
 def _harmless(x: FloatArray, faces: IntArray, u: IntArray, v: IntArray, relaxed: bool = False) -> BoolArray:
-    """(k,) whether drawing u onto v turns no face over and makes none too thin.
+    """Return (k,) whether moving u onto v turns no face over and makes none too thin.
 
-    relaxed: thin ones may be, where those at u are thinner already.
+    If `relaxed`, thin faces are allowed where those at u are thinner already.
     """
     corner = faces.T.ravel()
     order = np.argsort(corner, kind="stable")
@@ -210,7 +235,7 @@ def _harmless(x: FloatArray, faces: IntArray, u: IntArray, v: IntArray, relaxed:
 
 
 def _shapes(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
-    """(k,) the quality of triangles with corners (k, 3)."""
+    """Return (k,) the quality of triangles with corners (k, 3)."""
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     sides = sum(((p - q) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a)))
     quality: FloatArray = 2 * np.sqrt(3) * area / np.maximum(sides, 1e-300)
@@ -218,7 +243,8 @@ def _shapes(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
 
 
 def _quadrics(surface: Surface) -> FloatArray:
-    """(n, 4, 4): at (x, 1), the sum over the faces at a vertex of area times squared distance to the face's plane.
+    """Return (n, 4, 4): at (x, 1), the sum over the faces at a vertex of area times squared distance to the face's
+    plane.
 
     At a boundary also to the plane through the edge that is upright on the face, so that the rim stays in place.
     """

@@ -12,35 +12,70 @@ from ..mesh_like import MeshLike
 from ..surface import Surface
 
 PROMINENT = 0.05
-"""A tip is a maximum of the eccentricity that persists over this share of its range."""
+"""A tip is a maximum of the eccentricity that persists over this fraction of its range."""
 NEAR = 0.1
-"""An extremum is at a tip if it is within this share of the root of the surface's area of it, in a straight line."""
+"""An extremum is at a tip if it is within this fraction of the root of the surface's area of it, in a straight line."""
 
 
-def tips(laplacian: Laplacian | MeshLike, share: float = PROMINENT) -> IntArray:
-    """(t,) vertices at the tips of a shape: the ends of its limbs, the most prominent first on each component.
+def tips(laplacian: Laplacian | MeshLike, fraction: float = PROMINENT) -> IntArray:
+    """Find the vertices at the tips of a shape: the ends of its limbs.
 
-    They are the maxima, persistent over a share of the range, of the mean squared biharmonic distance to all points.  A
-    function with few other extrema has one at each tip that has none of these: along a limb it must go up or down.
+    Parameters
+    ----------
+    laplacian : Laplacian or MeshLike
+        The surface.
+    fraction : float
+        The least persistence, as a fraction of the range.
 
+    Returns
+    -------
+    (t,) int64 ndarray
+        Vertices, the most prominent first on each component.
+
+    Notes
+    -----
+    They are the persistent maxima of the mean squared biharmonic distance to all points. A function with few extrema
+    has one at each tip that has none of these, too: along a limb it must go up or down.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> long = pyvista.Icosphere(nsub=3).scale((3, 1, 1))
-    >>> long.points[bihdist.tips(long)].round(2).tolist()
+    >>> sorted(long.points[bihdist.tips(long)].round(2).tolist())
     [[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0]]
     """
     found = []
     for component in as_laplacian(laplacian).components:
         if len(component.vertices) > 1:
-            ends = extrema(component.surface, component.biharmonic_eccentricity, share).maxima
+            ends = extrema(component.surface, component.biharmonic_eccentricity, fraction).maxima
             found.append(component.vertices[ends])
     return np.concatenate(found) if found else np.zeros(0, int)
 
 
 def at_tips(surface: MeshLike, vertices: npt.ArrayLike, ends: npt.ArrayLike) -> BoolArray:
-    """(k,) whether vertices (k,) are at one of the tips `ends` (t,): within a tenth of the root of the surface's area.
+    """Tell which vertices are at one of the tips of a shape.
 
-    Raises VertexError for a bad vertex.
+    Parameters
+    ----------
+    surface : MeshLike
+        The mesh.
+    vertices : (k,) array_like
+        Vertices in question.
+    ends : (t,) array_like
+        Vertices at the tips, as of `tips`.
 
+    Returns
+    -------
+    (k,) bool ndarray
+        True where a tip is within a tenth of the root of the surface's area, in a straight line.
+
+    Raises
+    ------
+    VertexError
+        If a vertex is not on the surface.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> long = pyvista.Icosphere(nsub=3).scale((3, 1, 1))
     >>> ends = bihdist.tips(long)

@@ -10,9 +10,9 @@ LEAST_EXPONENT, MOST_EXPONENT = 0.1, 20.0
 
 @dataclass(frozen=True)
 class Weights:
-    """w(d) = r(d) ** -exponent, r(d) = d if the smoothness s is 0, else d^2 / (d + s D), D the largest distance.
+    """Weights of anchors, w(d) = r(d) ** -exponent: r(d) = d if the smoothness s is 0, else d^2 / (d + s D).
 
-    Raises ParameterError for an exponent or a smoothness out of range.
+    D is the largest distance. Raises ParameterError for an exponent or a smoothness out of range.
     """
 
     exponent: float = 1.0
@@ -31,4 +31,4 @@ class Weights:
 
 
 INVERSE_DISTANCES = Weights()
-"""Those of the paper."""
+"""The weights of the paper."""

@@ -1,4 +1,4 @@
-"""Where questions become answers: the distances of a Laplacian, each built once for whoever asks.
+"""Answers to questions: the distances of a Laplacian, each built once for whoever asks.
 
 The window, figures, movies, the command line and the experiments all ask here, so that they agree about what is
 computed, how accurate it is, and what is said where it cannot be done.
@@ -14,7 +14,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..errors import BihdistError, Cancelled, ParameterError, VertexError
 from ..laplacian import Laplacian
-from ..machine_memory import REMEDY
+from ..machine_memory import MEMORY_ADVICE
 from ..progress import Progress, part, silent, turn
 from ..sources.pieces import Pieces, pieces_of
 from ..sources.source import Source
@@ -22,20 +22,20 @@ from ..unexpected import note_unexpected, unexpected_words
 from .accuracy import ErrorEstimate
 from .difference import PERCENTAGE_POINTS, difference_in_unit, scale_of
 from .distance import Distance
-from .kinds import Spec
-from .source_questions import ELSEWHERE
+from .distance_types import Spec
+from .source_questions import OtherSource
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Answer:
     """A field (n,) with NaN where undefined, or None and the failure in words.
 
-    label and unit: the distance's; certificate: how accurate the field is, None as long as that is not known.  A field
-    that is signed has values on both sides of 0, as differences have; its maximum is the largest absolute value.
-    is_distance: it says how far vertices are.  signs: of a difference, what a positive and a negative value mean, such
-    as "biharmonic is farther".  is_rough: whether it is noise, which isolines would only cover.  remark: what else is
-    to be said of it.  colours: (n, 3) red, green and blue from 0 to 1, NaN where there is none, of what is shown in
-    colours instead of a field; leads_to: (n,) the vertices of another surface that they stand for, -1 for none.
+    The label and the unit are the distance's; the error estimate is None as long as it is not known. A field that is
+    signed has values on both sides of 0, as differences have; its maximum is the largest absolute value. `is_distance`
+    is True if it says how far vertices are. `signs` say what a positive and a negative value of a difference mean, such
+    as "biharmonic is farther". `is_rough` is True for noise, which isolines would only cover. `remark` is what else is
+    to be said of it. `colours` (n, 3) are red, green and blue from 0 to 1, NaN where there is none, shown instead of a
+    field; `leads_to` (n,) are the vertices of another surface that they stand for, -1 for none.
     """
 
     label: str
@@ -67,21 +67,22 @@ class Answer:
 
     @property
     def scale(self) -> float:
-        """What fractions of a maximum are multiplied by to be in the field's unit: 100 for percentage points."""
+        """The factor from fractions of a maximum to the field's unit: 100 for percentage points."""
         return scale_of(self.unit)
 
     @property
     def largest_words(self) -> str:
-        """Of a difference: "biharmonic is farther by 14.2 % of its maximum at vertex 0"; "" where there is none."""
+        """The largest difference, "largest +14.2 % at vertex 0: biharmonic is farther"; "" of a single field."""
         if self.field is None or self.signs is None or self.largest is None:
             return ""
         value = float(self.field[self.largest])
-        unit = " % of its maximum" if self.unit == PERCENTAGE_POINTS else with_unit(self.unit)
-        return f"{self.signs[value < 0]} by {plain(abs(value))}{unit} at vertex {self.largest}"
+        unit = " %" if self.unit == PERCENTAGE_POINTS else with_unit(self.unit)
+        size = f"{'−' if value < 0 else '+'}{plain(abs(value))}{unit}"
+        return f"largest {size} at vertex {self.largest}: {self.signs[value < 0]}"
 
     @property
     def is_final(self) -> bool:
-        """Whether nothing more is to come: it failed, or its accuracy is known."""
+        """True if nothing more is to come: it failed, or its accuracy is known."""
         return bool(self.failure) or self.error_estimate is not None
 
     @property
@@ -91,7 +92,7 @@ class Answer:
 
 
 def difference_of(minuend: Answer, subtrahend: Answer, raw: bool = False) -> Answer:
-    """The difference of two answers (`difference`); a failure of either is its failure.
+    """Return the difference of two answers (`difference`); a failure of either is its failure.
 
     One without a unit, which is no distance, is taken to be in the unit of the other.
     """
@@ -129,37 +130,37 @@ def _signs(minuend: Answer, subtrahend: Answer) -> tuple[str, str]:
 
 
 def plain(value: float) -> str:
-    """Three digits without a power of ten, unless that would be long."""
+    """Return three digits without a power of ten, unless that would be long."""
     return f"{value:.3g}" if not 999.5 <= abs(value) < 1e7 else f"{value:,.0f}"
 
 
 def percent(fraction: float) -> str:
-    """ "14.2 %"."""
+    """Return "14.2 %"."""
     return f"{plain(100 * fraction)} %"
 
 
 def with_unit(unit: str) -> str:
-    """What follows a value in a unit."""
+    """Return the text that follows a value in a unit."""
     return unit.removeprefix("1") if unit.startswith("1 /") else f" {unit}" if unit else ""
 
 
 def failed(label: str, error: Exception) -> Answer:
-    """The answer that says why there is none."""
+    """Return an answer that says why there is no field."""
     return Answer(label=label, failure=failure_in_words(error))
 
 
 def failure_in_words(error: Exception) -> str:
-    """A sentence for the user; an error that nothing foresaw is noted, too."""
+    """Return a sentence for the user; an error that nothing foresaw is noted, too."""
     if isinstance(error, BihdistError):
         return str(error)
     if isinstance(error, MemoryError):
-        return f"There is not enough memory for this mesh; {REMEDY}"
+        return f"There is not enough memory for this mesh; {MEMORY_ADVICE}"
     note_unexpected(error)
     return unexpected_words(error)
 
 
 def same_on(spec: Spec, surfaces: "Sequence[Distances]", progress: Progress | None = None) -> Spec:
-    """The distance that can be compared between surfaces: where its "auto" takes one method here and another there, the
+    """Return the spec that can be compared between surfaces: where "auto" takes one method here and another there, the
     method that all of them have, so that they differ by their shapes and not by their methods."""
     free = [name for name, value in spec.values if value == "auto"]
     taken = [tuple(getattr(each.get(spec, progress), name) for name in free) for each in surfaces]
@@ -182,7 +183,7 @@ class Distances:
         self._lock = threading.Lock()
 
     def get(self, spec: Spec, progress: Progress | None = None) -> Distance:
-        """The distance, ready to be asked on the largest component; whoever asks meanwhile waits for it.
+        """Return the distance, ready to be asked on the largest component; whoever asks meanwhile waits for it.
 
         BihdistError if it cannot be had, at once where that is known.
         """
@@ -207,16 +208,17 @@ class Distances:
         except BihdistError as error:
             # It would be the same again, after as long; but memory may be free by then.
             if not isinstance(error, MemoryError):
-                self._unbuilt[spec] = error
+                # A copy: the traceback of the error itself refers to this object.
+                self._unbuilt[spec] = type(error)(str(error))
             raise
 
     def is_ready(self, spec: Spec) -> bool:
-        """Whether it has been built already."""
+        """Return whether it has been built already."""
         with self._lock:
             return spec in self._known
 
-    def stand_in(self, spec: Spec, progress: Progress | None = None) -> Spec | None:
-        """A distance that is quick and resembles this one, or None if it is quick itself."""
+    def preview(self, spec: Spec, progress: Progress | None = None) -> Spec | None:
+        """Return a distance that is quick and resembles this one, or None if it is quick itself."""
         return spec.quick(self.get(spec, progress))
 
     def answer(
@@ -226,15 +228,15 @@ class Distances:
         progress: Progress | None = None,
         at_once: Callable[[Answer], object] | None = None,
     ) -> Answer:
-        """The field from a source, with its certificate on the components that this has a part in.
+        """Compute the field from a source, with its error estimate on the components that the source is on.
 
-        What cannot be done becomes an answer that says so; Cancelled is raised, and VertexError or ParameterError for a
-        source that is not on this surface.  at_once: gets the answer without its certificate where that has still to be
-        made; where it returns True, that is all.
+        Failures become an answer that tells of them; only Cancelled is raised, and VertexError or ParameterError for a
+        source that is not on this surface. `at_once` is called with the answer without its error estimate where that
+        has still to be made; if it returns True, the estimate is left out.
         """
         pieces: Pieces | None = None
         components, what = [], "vertices"
-        if isinstance(source, ELSEWHERE):
+        if isinstance(source, OtherSource):
             pieces = pieces_of(source, self.laplacian.surface)
             components = np.unique(self.laplacian.surface.component_of_vertex[pieces.corners[:, 0]]).tolist()
             what = "vertices" if pieces.vertices is not None else "lines" if pieces.along.any() else "places"
@@ -254,12 +256,13 @@ class Distances:
                 field, label = distance.from_pieces(pieces, part(progress, 0.9, 1)), distance.label_from(pieces)
             field.flags.writeable = False
             answer = Answer(label=label, unit=distance.unit, field=field, is_distance=True)
-            if at_once is not None and not all(map(distance.is_judged, components)):
+            starts = [] if pieces is None else [pieces]
+            if at_once is not None and not all(distance.has_error_estimate(index, starts) for index in components):
                 if at_once(answer) is True:
                     return answer
                 # Whoever has a newer question need not wait for the certificate of this one.
                 (progress or silent)(1.0, distance.label)
-            estimate = distance.error_estimate(components, part(progress, 1, 1))
+            estimate = distance.error_estimate(components, part(progress, 1, 1), starts)
             label = f"{answer.label}, {estimate.short}" if estimate.short else answer.label
             return replace(answer, label=label, error_estimate=estimate)
         except (Cancelled, VertexError):

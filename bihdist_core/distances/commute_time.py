@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray, IntArray, unit_columns
 from ..laplacian import Component
 from ..progress import Progress, part
-from .accuracy import accuracy_of_pairs
-from .factored import FactoredDistance
+from .accuracy import accuracy_of_resistances
+from .distance import FactoredDistance
 from .squares import root
 
 NEAR = 0.4
@@ -20,9 +20,22 @@ MOST_NEAR, MOST_SPRINGS = 128, 256
 class CommuteTimeDistance(FactoredDistance):
     """The exact commute-time distance, with all eigenpairs; no unit.
 
-    d(i, j)^2 = G_ii + G_jj - 2 G_ij with the Green's function G of the stiffness matrix (paper, Eqs. 2 and 3).  On
-    ever finer meshes of one surface it grows without limit.
+    Parameters
+    ----------
+    laplacian : Laplacian or MeshLike
+        The surface, or its Laplacian, whose factor distances share; or vertices (n, 3).
+    faces : (m, 3) array_like of int, optional
+        The faces, if `laplacian` is vertices.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
 
+    Notes
+    -----
+    d(i, j)^2 = G_ii + G_jj - 2 G_ij with the Green's function G of the stiffness matrix (paper, Eqs. 2 and 3).  On ever
+    finer meshes of one surface it grows without limit.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> for nsub in (2, 3, 4):  # grows with every refinement: on a surface it has no limit
     ...     distance = bihdist.CommuteTimeDistance(pyvista.Icosphere(nsub=nsub))
@@ -38,6 +51,15 @@ class CommuteTimeDistance(FactoredDistance):
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
         """Factor the stiffness matrix of a component, with the inverse's diagonal, if that is not done.
 
+        Parameters
+        ----------
+        component : Component
+            A component of `laplacian`.
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> both = pyvista.Icosphere(nsub=2) + pyvista.Icosphere(nsub=1, center=(3, 0, 0))
         >>> distance = bihdist.CommuteTimeDistance(both)  # prepared on the larger component
@@ -47,10 +69,9 @@ class CommuteTimeDistance(FactoredDistance):
         """
         component.factor(progress, diagonals=True)
 
-    def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
+    def compute_columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
         diagonal = component.green_diagonal()
-        b = np.zeros((len(diagonal), len(index)))
-        b[index, np.arange(len(index))] = 1
+        b = unit_columns(len(diagonal), index)
         solved = 0.5 if component.flat.lack.any() else 1.0
         squares = diagonal[:, None] + diagonal[index] - 2 * component.solve(b, part(progress, 0, solved))
         distances = root(squares, diagonal.max())
@@ -73,7 +94,7 @@ class CommuteTimeDistance(FactoredDistance):
         beside = np.flatnonzero(touches & (component.flat.lack > 0))[:MOST_SPRINGS]
         if not (len(near) and len(beside)):
             return
-        g, slack = component.flat.some(beside).missing_springs()
+        g, slack = component.flat.select(beside).missing_springs()
         b = np.zeros((len(field), len(near)))
         b[source] = 1
         b[near, np.arange(len(near))] = -1
@@ -85,10 +106,4 @@ class CommuteTimeDistance(FactoredDistance):
         field[near] = np.sqrt(np.maximum(exact, 0))
 
     def _estimated_accuracy(self, component: Component) -> float:
-        def squares(b: FloatArray, y: FloatArray) -> FloatArray:
-            products: FloatArray = np.einsum("ij,ij->j", b, y)
-            return products
-
-        return accuracy_of_pairs(
-            component, lambda index: self._columns(component, index, None), squares, lambda y: y, 1, NEAR
-        )
+        return accuracy_of_resistances(component, lambda index: self.compute_columns(component, index, None), NEAR)

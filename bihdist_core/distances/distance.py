@@ -1,4 +1,4 @@
-"""What every distance has in common: the questions it answers, what it is called, and how exact it is."""
+"""The base of all distances: the questions that each answers, its names, and its accuracy."""
 
 from __future__ import annotations
 
@@ -12,26 +12,42 @@ from ..laplacian import Component, Laplacian
 from ..memo import Memo
 from ..mesh_like import MeshLike, Rows
 from ..progress import Progress
-from .accuracy import POOR, ErrorEstimate, accurate_to, rounded_up
+from ..sources.pieces import Pieces
+from .accuracy import POOR_ACCURACY, ErrorEstimate, accurate_to, rounded_up
 from .pair_questions import PairQuestions
 
-FINEST = 1e-12
+FINEST_ACCURACY = 1e-12
 """The least an accuracy is said to be: estimates look at some pairs, and others may be rounded worse."""
 
 
 class Distance(PairQuestions):
-    """A distance between the vertices of a surface.
+    """A distance between the vertices of a surface; the base of all distances.
 
-    `identity` is the spec it was made from, in full, if any.  `label` says what it is and how it was computed;
-    `length_power` how it scales: a surface s times as large has distances s ** length_power times as large.  Distances
-    between components, and of vertices that belong to no face, are NaN.  A vertex asked for that does not exist or
-    belongs to no face is a VertexError.
+    Parameters
+    ----------
+    laplacian : Laplacian or MeshLike
+        The surface, or its Laplacian, whose work distances share; or vertices (n, 3).
+    faces : (m, 3) array_like of int, optional
+        The faces, if `laplacian` is vertices.
 
-    It is constructed from a Laplacian, whose work distances share, or from any mesh that `Surface.of` takes.
-    Constructing a distance does its long work on the largest component; on another, the first question does.  Pickled,
-    it is what it was constructed from, and the first question there does the work again; `Laplacian.pickles_factors`
-    lets factors and eigenpairs travel with it.
+    Attributes
+    ----------
+    label : str
+        What the distance is and how it was computed.
+    length_power : float
+        A surface s times as large has distances s ** length_power times as large.
+    identity : str
+        The canonical text of the spec it was made from; empty if there is none.
 
+    Notes
+    -----
+    Distances between components, and of vertices that belong to no face, are NaN.  The constructor does the long work
+    on the largest component; on another, the first question does.  A pickle holds what the distance was constructed
+    from, and the first question does the work again; `Laplacian.pickles_factors` lets factors and eigenpairs travel
+    with it.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> for kind in (bihdist.BiharmonicDistance, bihdist.DiffusionDistance):
@@ -54,8 +70,10 @@ class Distance(PairQuestions):
 
     @property
     def unit(self) -> str:
-        """The unit of the values, in words: how they scale with the surface.
+        """The unit of the values in words, which says how they scale with the surface.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> sphere = pyvista.Icosphere(nsub=2)
         >>> bihdist.BiharmonicDistance(sphere).unit
@@ -68,76 +86,129 @@ class Distance(PairQuestions):
 
     @property
     def accuracy(self) -> float | None:
-        """How far a field may be from what `label` says, as a fraction of its maximum: an estimate on the safe side.
+        """How far a field may be from what `label` says, as a fraction of its maximum, estimated on the safe side.
 
-        It holds for the components that were asked about (the largest, if none was) and is made when first wanted,
-        in less than a tenth of the time the distance took to construct.  None for geodesic distances.
+        It holds for the components that were asked about (the largest, if none was), from any vertex; that of a
+        distance by eigenpairs also for the places, curves and sets that were asked about.  It is made when first
+        wanted, for the biharmonic distance in about a fifth of the time it took to construct.  None for geodesic
+        distances.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
         >>> distance.accuracy < 1e-10
         True
         """
-        return self._accuracy_of(self._those(None))
+        return self._accuracy_of(self._asked_components(None))
 
-    def _those(self, components: Sequence[int] | None) -> Sequence[int]:
-        """Numbers of components: these, or those that were asked about, or else the largest."""
+    def _asked_components(self, components: Sequence[int] | None) -> Sequence[int]:
+        """Return the components given, or those that were asked about, or else the largest, by number."""
         return (sorted(self._asked) or [0]) if components is None else components
 
-    def _accuracy_of(self, components: Sequence[int]) -> float | None:
+    def _accuracy_of(self, components: Sequence[int], pieces: Sequence[Pieces] = ()) -> float | None:
+        """Return the accuracy on components of fields from vertices, and from some pieces of the surface."""
         known = [self._accuracy_on(self.laplacian.components[index]) for index in components]
         return None if None in known else max(a for a in known if a is not None)
 
-    def takes_long(self, progress: Progress | None = None) -> bool:
-        """Whether a source takes more than some 5 s, so that something quicker is worth showing meanwhile.
+    def is_slow(self, progress: Progress | None = None) -> bool:
+        """Return whether a source takes more than some 5 s, so that something quicker is worth showing meanwhile.
 
+        Parameters
+        ----------
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
+
+        Returns
+        -------
+        bool
+            False, but for exact geodesic distance on large surfaces.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
-        >>> bihdist.GeodesicDistance(pyvista.Icosphere(nsub=3), "exact").takes_long()
+        >>> bihdist.GeodesicDistance(pyvista.Icosphere(nsub=3), "exact").is_slow()
         False
         """
         return False
 
     def error_estimate(
-        self, components: Sequence[int] | None = None, progress: Progress | None = None
+        self,
+        components: Sequence[int] | None = None,
+        progress: Progress | None = None,
+        pieces: Sequence[Pieces] = (),
     ) -> ErrorEstimate:
-        """The accuracy in words, on components with these numbers, or on those that were asked about.
+        """Say in words how accurate fields are.
 
-        SolverError if it is worse than a thousandth: then answers there should not be used.
+        Parameters
+        ----------
+        components : sequence of int, optional
+            The components that the fields are on; those that were asked about if None.
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
+        pieces : sequence of Pieces
+            What the fields start from, where they do not all start from vertices.
 
+        Returns
+        -------
+        ErrorEstimate
+            Empty for an exact geodesic distance.
+
+        Raises
+        ------
+        SolverError
+            If it is worse than a thousandth: then answers there should not be used.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> sphere = pyvista.Icosphere(nsub=3)
         >>> bihdist.GeodesicDistance(sphere, "dijkstra").error_estimate().text
         'accurate to 10 % of the maximum typically, and worse on thin faces, however fine the mesh'
         """
-        components = self._those(components)
-        accuracy = self._accuracy_of(components)
+        components = self._asked_components(components)
+        accuracy = self._accuracy_of(components, pieces)
         if accuracy is None:
             return ErrorEstimate()
-        if accuracy > POOR:
+        if accuracy > POOR_ACCURACY:
             off = "by any amount" if accuracy == np.inf else f"by {rounded_up(accuracy)} of its maximum"
             raise SolverError(
-                f"{self.label} on {self.surface.name} may be off {off}, so it is not given. {self._remedy(components)}"
+                f"{self.label} on {self.surface.name} may be off {off}, so it is not given. {self._advice(components)}"
             )
-        return ErrorEstimate.of(accuracy, self._said_of(accuracy, components))
+        return ErrorEstimate.of(accuracy, self._accuracy_text(accuracy, components, pieces))
 
-    def _said_of(self, accuracy: float, components: Sequence[int]) -> str:
-        """The accuracy in words, with what it is the accuracy of where that is not the distance itself."""
+    def _accuracy_text(self, accuracy: float, components: Sequence[int], pieces: Sequence[Pieces] = ()) -> str:
+        """Return the accuracy in words."""
         return accurate_to(accuracy)
 
-    def is_judged(self, component: int) -> bool:
-        """Whether the accuracy on a component is known, so that `error_estimate` costs nothing.
+    def has_error_estimate(self, component: int, pieces: Sequence[Pieces] = ()) -> bool:
+        """Return whether the accuracy on a component is known, so that `error_estimate` costs nothing.
 
+        Parameters
+        ----------
+        component : int
+            The number of a component.
+        pieces : sequence of Pieces
+            What the fields start from, where they do not all start from vertices.
+
+        Returns
+        -------
+        bool
+            True once it was estimated.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=2))
-        >>> before = distance.is_judged(0)
+        >>> before = distance.has_error_estimate(0)
         >>> _ = distance.accuracy
-        >>> before, distance.is_judged(0)
+        >>> before, distance.has_error_estimate(0)
         (False, True)
         """
         return component in self._accuracies
 
-    def _remedy(self, components: Sequence[int]) -> str:
-        """What would help where the accuracy on these components is too poor: a sentence."""
+    def _advice(self, components: Sequence[int]) -> str:
+        """Return a sentence on what would help where the accuracy on these components is too poor."""
         mine = np.isin(self.surface.component_of_vertex[self.surface.faces[:, 0]], components)
         heights = np.where(mine, self.surface.face_heights, np.inf)
         flattest = int(heights.argmin())
@@ -153,10 +224,29 @@ class Distance(PairQuestions):
             with np.errstate(all="ignore"):
                 accuracy = self._estimated_accuracy(component)
             if accuracy is not None:
-                accuracy = np.inf if np.isnan(accuracy) else max(accuracy, FINEST)
+                accuracy = np.inf if np.isnan(accuracy) else max(accuracy, FINEST_ACCURACY)
             self._accuracies[component.index] = accuracy
         return self._accuracies[component.index]
 
     def _estimated_accuracy(self, component: Component) -> float | None:
-        """`accuracy` on one component."""
+        """Return `accuracy` on one component."""
         return None
+
+
+class FactoredDistance(Distance):
+    """A distance by the factor of the Laplacian.
+
+    It is made of a Laplacian, or of a mesh of any kind that `Surface.of` takes; vertices (n, 3) may be followed by
+    their faces (m, 3).
+    """
+
+    is_quadratic = True
+
+    def __init__(
+        self,
+        laplacian: Laplacian | MeshLike | Rows,
+        faces: npt.ArrayLike | None = None,
+        progress: Progress | None = None,
+    ) -> None:
+        super().__init__(laplacian, faces)
+        self.prepare(self.laplacian.components[0], progress)

@@ -30,7 +30,8 @@ class EdgeGeodesic:
         )
 
     def distances(self, sources: npt.ArrayLike) -> FloatArray:
-        """(n,) lengths from one vertex or (n, k) from (k,) vertices, in the mesh's length unit; inf out of reach.
+        """Return (n,) lengths from one vertex or (n, k) from (k,) vertices, in the mesh's length unit; inf out of
+        reach.
 
         Raises VertexError for an id that does not exist or belongs to no face.
         """
@@ -44,7 +45,8 @@ class EdgeGeodesic:
         return np.ascontiguousarray(dijkstra(self._graph, indices=ids).T)
 
     def distances_with(self, vertices: IntArray, offsets: FloatArray) -> FloatArray:
-        """(n,) least length from any of (k,) vertices, each with an offset (k,) to be added; inf out of reach."""
+        """Return (n,) least length from any of (k,) vertices, each with an offset (k,) to be added; inf out of
+        reach."""
         from scipy.sparse.csgraph import dijkstra
 
         n = len(self.surface.vertices)
@@ -64,7 +66,7 @@ class EdgeGeodesic:
         return lengths
 
     def path(self, start: int, stop: int) -> IntArray:
-        """(k,) vertices of a shortest path, both ends included; ParameterError where there is none."""
+        """Return (k,) vertices of a shortest path, both ends included; ParameterError where there is none."""
         from scipy.sparse.csgraph import dijkstra
 
         start, stop = (int(v) for v in self.surface.check_vertices([start, stop]))
@@ -73,5 +75,5 @@ class EdgeGeodesic:
         while path[-1] != start:
             path.append(int(before[path[-1]]))
             if path[-1] < 0:
-                raise ParameterError(f"There is no way from vertex {start} to vertex {stop} along edges.")
+                raise ParameterError(f"There is no path from vertex {start} to vertex {stop} along edges.")
         return np.array(path[::-1])

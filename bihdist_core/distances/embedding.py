@@ -15,20 +15,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray, IntArray, array_of
 from ..errors import ParameterError
 from ..laplacian import Component, Laplacian, as_laplacian
 from ..mesh_like import MeshLike
-from ..number_arrays import array_of
 from ..progress import Progress, part, silent
 from ..scalars import real_number
 from ..solver.tall import pair_distances
 from .spectral import checked_count
 from .tails import biharmonic_squares, tail_lengths
 
-FIRST = 50
+FIRST_EIGENPAIRS = 50
 """Eigenpairs that are tried first for a tolerance, and twice as many then."""
-SOLVED = 32
+COLUMNS_PER_SOLVE = 32
 """Eigenvectors at a time, which bounds the memory."""
 
 
@@ -36,12 +35,23 @@ SOLVED = 32
 class Embedding:
     """Points of a Euclidean space that stand for the vertices, with a bound on the error of their distances.
 
-    points: (n, k), NaN at vertices that belong to no face; tails: (n,) the length of what they leave out of each
-    vertex; both in mesh units.  components: (n,) which component each vertex is of, -1 for none.
+    Attributes
+    ----------
+    points : (n, k) float64 ndarray
+        In mesh units; NaN at vertices that belong to no face.
+    tails : (n,) float64 ndarray
+        The length of what the point leaves out of each vertex, in mesh units.
+    components : (n,) int64 ndarray
+        The component of each vertex, -1 for none.
 
-    Between vertices i and j of a component, |p_i - p_j| <= d(i, j) <= sqrt(|p_i - p_j|^2 + (tails_i + tails_j)^2), but
-    for rounding.  Points of different components have no distance that means anything: make an index for each.
+    Notes
+    -----
+    Let p be the distance of two points of a component, and t the sum of their tails.  The biharmonic distance of the
+    vertices is between p and sqrt(p^2 + t^2), but for rounding.  Distances between points of different components mean
+    nothing: make an index for each.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
     >>> embedding = distance.embedding(k=50)
@@ -58,6 +68,8 @@ class Embedding:
     def bound(self) -> float:
         """How far the distance of two points may be below the biharmonic one, at worst; mesh units.
 
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
         >>> [round(distance.embedding(k).bound, 3) for k in (10, 40, 160)]
@@ -67,10 +79,27 @@ class Embedding:
         return max((float(two.sum()) for two in pairs), default=0.0)
 
     def between(self, pairs: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """(q,), (q,): the least and the most that pairs of vertices (q, 2) can be apart; NaN between components.
+        """Return the least and the most that pairs of vertices can be apart.
 
-        Raises ParameterError for another shape, or a vertex that is not there.
+        Parameters
+        ----------
+        pairs : (q, 2) array_like of int
+            Vertex ids.
 
+        Returns
+        -------
+        least : (q,) float64 ndarray
+            In mesh units; NaN between components.
+        most : (q,) float64 ndarray
+            In mesh units; NaN between components.
+
+        Raises
+        ------
+        ParameterError
+            For another shape, or a vertex that is not there.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
         >>> least, most = distance.embedding(k=50).between([(0, 1), (0, 400)])
@@ -94,7 +123,7 @@ class Embedding:
         return least, most
 
     def _each(self) -> Iterator[IntArray]:
-        """The vertices of each component."""
+        """Yield the vertices of each component."""
         for index in np.unique(self.components[self.components >= 0]):
             yield np.flatnonzero(self.components == index)
 
@@ -105,7 +134,7 @@ def biharmonic_embedding(
     tolerance: float | None = None,
     progress: Progress | None = None,
 ) -> Embedding:
-    """Points with k coordinates, or with as many as bring `bound` below a tolerance in mesh units.
+    """Return points with k coordinates, or with as many as bring `bound` below a tolerance in mesh units.
 
     A component with no more than k vertices uses all its eigenpairs.  The bound falls like 1 / sqrt(k): half of it
     takes four times as many.  Raises ParameterError unless one of the two is given, and for a bad number.
@@ -115,7 +144,7 @@ def biharmonic_embedding(
         raise ParameterError("An embedding has k coordinates, or as many as a tolerance needs; give one of the two.")
     if tolerance is not None and not 0 < real_number(tolerance, "tolerance") < np.inf:
         raise ParameterError(f"tolerance is {tolerance:g}; it must be a length above 0.")
-    count = checked_count(k) if k is not None else FIRST
+    count = checked_count(k) if k is not None else FIRST_EIGENPAIRS
     most = max(component.most_eigenpairs for component in laplacian.components)
     tried = 0
     while True:
@@ -145,20 +174,20 @@ def _embedding(laplacian: Laplacian, count: int, progress: Progress | None) -> E
 
 
 def _coordinates(component: Component, count: int, progress: Progress | None) -> FloatArray:
-    """(m, count) G A phi, centred: phi / lambda, were phi eigenvectors without error."""
+    """Return (m, count) G A phi, centred, which is phi / lambda for exact eigenvectors."""
     if count < 1:
         return np.zeros((len(component.vertices), 0))
     vectors = component.spectrum(count, part(progress, 0, 0.8)).eigenvectors[:, :count]
     found = np.empty(vectors.shape)
-    for start in range(0, count, SOLVED):
-        some = slice(start, start + SOLVED)
+    for start in range(0, count, COLUMNS_PER_SOLVE):
+        some = slice(start, start + COLUMNS_PER_SOLVE)
         found[:, some] = component.centred(component.solve(component.areas[:, None] * vectors[:, some]))
-        (progress or silent)(0.8 + 0.2 * min(start + SOLVED, count) / count, "coordinates")
+        (progress or silent)(0.8 + 0.2 * min(start + COLUMNS_PER_SOLVE, count) / count, "coordinates")
     return found
 
 
 def _fewest(found: Embedding, tolerance: float) -> Embedding:
-    """With no more coordinates than the tolerance needs."""
+    """Return the embedding with no more coordinates than the tolerance needs."""
     # What the later coordinates hold goes into the tails.
     squares = found.tails[:, None] ** 2 + np.cumsum(found.points[:, ::-1] ** 2, axis=1)[:, ::-1]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,7 +17,7 @@ from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..expected_time import Expected
 from ..kernel import library as kernel
-from ..progress import Progress
+from ..progress import Progress, part
 from ..scalars import real_number
 from ..solver.worker_threads import WORKERS, Job
 from ..sources.pieces import Pieces
@@ -25,19 +26,19 @@ from .path_search import PathSearch
 from .place_pairs import by_start
 from .unfolding_mesh import Places, UnfoldingMesh
 
-MOST_PER_VERTEX, MOST_AT_LEAST = 2_000, 200_000
+MOST_WINDOWS_PER_VERTEX, MOST_WINDOWS_AT_LEAST = 2_000, 200_000
 """Windows that a run may take: usually there are 20 to 200 for a vertex, and 5 to 8 million a second."""
 
-USUAL_PER_VERTEX = 40
+USUAL_WINDOWS_PER_VERTEX = 40
 """Windows for a vertex that progress expects before the first run."""
 
-FEW = 20
+FEW_TARGETS = 20
 """Targets of a source up to which windows go only as far as these; more of them cost more than the whole field."""
 
-FIRST_ROOM = 4_096
+FIRST_WINDOWS = 4_096
 """Windows for which there is room at first; it doubles when they are more."""
 
-AS_LONG = 1e-12
+LENGTH_TOLERANCE = 1e-12
 """Of the largest distance: a path is as long as its distance up to this."""
 
 
@@ -45,7 +46,12 @@ AS_LONG = 1e-12
 class FacePath:
     """A path in p pieces, each straight in its face, from the place it was asked for back to the source.
 
-    faces: (p,); begins, ends: (p, 3) the weights of both ends of each piece at the corners of its face.
+    Attributes
+    ----------
+    faces : (p,) ndarray
+        The faces of the pieces.
+    begins, ends : (p, 3) ndarray
+        The weights of both ends of each piece at the corners of its face.
     """
 
     faces: IntArray
@@ -53,14 +59,15 @@ class FacePath:
     ends: FloatArray
 
     def reversed(self) -> FacePath:
-        """The path from the source."""
+        """Return the path from the source."""
         return FacePath(self.faces[::-1], self.ends[::-1], self.begins[::-1])
 
 
 class _Kept(NamedTuple):
-    """What a run has read and written.
+    """The arrays that a run has read and written.
 
-    offsets (k,): of the sources.  reached (vertices + places,): of `REACHED`.  rest: other arrays that it points to.
+    `offsets` (k,) are those of the sources, `reached` (vertices + places,) is of `REACHED`, and `rest` holds the other
+    arrays that the run points to.
     """
 
     starts: Places
@@ -73,8 +80,8 @@ class _Kept(NamedTuple):
 class GeodesicField:
     """Exact geodesic distances from one source, and the ways they take.
 
-    distances (n,): of all vertices; at_places (k,): of the places asked for.  In the mesh's length unit; NaN where no
-    way leads, inf beyond the radius.  windows: how many windows were taken up.
+    `distances` (n,) are those of all vertices, `at_places` (k,) those of the places asked for, in the mesh's length
+    unit; NaN where no way leads, inf beyond the radius. `windows` counts the windows that were taken up.
     """
 
     def __init__(self, mesh: UnfoldingMesh, run: kernel.Run, kept: _Kept, distances: FloatArray) -> None:
@@ -84,7 +91,7 @@ class GeodesicField:
         self.distances, self.at_places = distances[:n], distances[n:]
 
     def path(self, vertex: int) -> FacePath:
-        """The shortest path from a vertex back to the source; without pieces at the source itself.
+        """Return the shortest path from a vertex back to the source; without pieces at the source itself.
 
         Raises VertexError for a bad vertex, ParameterError where the source does not reach.
         """
@@ -92,7 +99,7 @@ class GeodesicField:
         return self._path(int(self._mesh.number[vertex]), f"vertex {vertex}")
 
     def path_to_place(self, number: int) -> FacePath:
-        """The shortest path from the place with this number among those asked for."""
+        """Return the shortest path from the place with this number among those asked for."""
         if not 0 <= number < len(self.at_places):
             raise ParameterError(f"There is no place {number}; {len(self.at_places)} were asked for.")
         return self._path(self._mesh.vertices + number, f"place {number}")
@@ -106,12 +113,12 @@ class GeodesicField:
                 break
             room *= 4
         if count == kernel.OUTSIDE:
-            raise ParameterError(f"No way from the source to {words} of {self._mesh.surface.name} is known.")
+            raise ParameterError(f"No path from the source to {words} of {self._mesh.surface.name} is known.")
         found = None if count < 0 else (faces[:count], begins[:count], ends[:count])
         if found is None or not self._is_as_long(target, *found):
             found = self._searched(target)
         if found is None:
-            raise SolverError(f"The way to {words} of {self._mesh.surface.name} was lost.")
+            raise SolverError(f"The path to {words} of {self._mesh.surface.name} was lost.")
         return FacePath(*self._mesh.outside(*found))
 
     @cached_property
@@ -120,14 +127,14 @@ class GeodesicField:
         return float(lengths[np.isfinite(lengths)].max())
 
     def _is_as_long(self, target: int, faces: AnyArray, begins: FloatArray, ends: FloatArray) -> bool:
-        """Whether a path in the kernel's faces is as long as the distance says, less the offset of a source."""
+        """Return whether a path in the kernel's faces is as long as the distance says, less the offset of a source."""
         side, way = self._mesh.sides[3 * faces], ends - begins
         x, y = way[:, 1] * side["length"] + way[:, 2] * side["x"], way[:, 2] * side["y"]
         excess = np.hypot(x, y).sum() - (self._kept.reached["distance"][target] - self._kept.offsets)
-        return bool(np.abs(excess).min() <= AS_LONG * self._largest)
+        return bool(np.abs(excess).min() <= LENGTH_TOLERANCE * self._largest)
 
     def _searched(self, target: int) -> tuple[AnyArray, FloatArray, FloatArray] | None:
-        """The path in the kernel's faces; None if none is found that is as long as the distance says."""
+        """Search for the path in the kernel's faces; None if none is found that is as long as the distance says."""
         mesh, (starts, goals, offsets, reached, _) = self._mesh, self._kept
         lengths, is_start = reached["distance"], reached["rest"][:, 0] < 0
         sources: dict[int, list[int]] = {}
@@ -136,7 +143,7 @@ class GeodesicField:
         search = PathSearch(
             sides=mesh.sides, first=mesh.first, corner=mesh.corner, distances=lengths, is_start=is_start,
             sources=sources, begins=starts.begin, ends=starts.end, offsets=offsets,
-            rounding=AS_LONG * self._largest / 4,
+            rounding=LENGTH_TOLERANCE * self._largest / 4,
         )  # fmt: skip
         if target < mesh.vertices:
             pieces = search.from_vertex(target)
@@ -181,7 +188,8 @@ class ExactGeodesic:
         radius: float = np.inf,
         offsets: npt.ArrayLike | None = None,
     ) -> FloatArray:
-        """(n,) distances from a vertex, the nearest of several (k,), or of pieces of faces, in the mesh's length unit.
+        """Return (n,) distances from a vertex, the nearest of several (k,), or of pieces of faces, in the mesh's length
+        unit.
 
         NaN where no way leads, inf beyond the radius; see `field` for the rest.
         """
@@ -196,11 +204,11 @@ class ExactGeodesic:
         radius: float = np.inf,
         offsets: npt.ArrayLike | None = None,
     ) -> FloatArray:
-        """(k,) distances of places in faces; see `field`."""
+        """Return (k,) distances of places in faces; see `field`."""
         return self.field(sources, places, progress, radius=radius, offsets=offsets).at_places
 
     def between(self, u: Pieces, v: Pieces, progress: Progress | None = None, *, radius: float = np.inf) -> FloatArray:
-        """(k,) distances of k pairs of points, several sources at a time; NaN where no way leads.
+        """Return (k,) distances of k pairs of points, several sources at a time; NaN where no way leads.
 
         Beyond the radius they are inf.  Raises ParameterError for a radius that is no length; Cancelled if the progress
         raises it, within 0.1 s.
@@ -213,7 +221,7 @@ class ExactGeodesic:
 
         def one(number: int, watch: kernel.Watch) -> None:
             start, mine = groups[number]
-            goals = self._mesh.at_pieces(there.some(mine))
+            goals = self._mesh.at_pieces(there.select(mine))
             found[mine] = self._field(
                 self._mesh.at_pieces(start), goals, watch, radius=radius, targets_only=True
             ).at_places
@@ -224,8 +232,8 @@ class ExactGeodesic:
     def of_pairs(
         self, sources: IntArray, targets: IntArray, progress: Progress | None = None, *, radius: float = np.inf
     ) -> FloatArray:
-        """(k,) distances from vertices (k,) to vertices (k,), NaN where no way leads, inf beyond the radius; several
-        sources at a time.
+        """Return (k,) distances from vertices (k,) to vertices (k,), NaN where no way leads, inf beyond the radius;
+        several sources at a time.
 
         Windows go only as far as the targets of a source, where these are few: near ones take little time.
         """
@@ -236,7 +244,7 @@ class ExactGeodesic:
         def one(number: int, watch: kernel.Watch) -> None:
             start = self._mesh.at_vertices(among[number : number + 1])
             there = targets[groups[number]]
-            if len(there) > FEW:
+            if len(there) > FEW_TARGETS:
                 found[groups[number]] = self._field(start, None, watch, radius=radius).distances[there]
             else:
                 goals = self._mesh.at_vertices(there)
@@ -246,7 +254,7 @@ class ExactGeodesic:
         return found
 
     def path(self, start: Pieces, stop: Pieces, progress: Progress | None = None) -> FacePath:
-        """The shortest path between two points, one piece each; see `field` for errors."""
+        """Return the shortest path between two points, one piece each; see `field` for errors."""
         starts, goals = self._mesh.at_pieces(stop), self._mesh.at_pieces(start)
         fields: list[GeodesicField] = []
 
@@ -259,7 +267,7 @@ class ExactGeodesic:
     def columns(
         self, vertices: npt.ArrayLike, progress: Progress | None = None, *, radius: float = np.inf
     ) -> FloatArray:
-        """(n, k) distances from each of k vertices, several at a time; see `field` for the radius and errors."""
+        """Return (n, k) distances from each of k vertices, several at a time; see `field` for the radius and errors."""
         check_radius(radius)
         ids = self.surface.check_vertices(vertices)
         found = np.empty((len(self.surface.vertices), len(ids)))
@@ -281,15 +289,38 @@ class ExactGeodesic:
         offsets: npt.ArrayLike | None = None,
         everything: bool = False,
     ) -> GeodesicField:
-        """Distances from vertices or pieces of faces, also at places in faces, and the paths to all of them.
+        """Return distances from vertices or pieces of faces, also at places in faces, and the paths to all of them.
 
-        sources: a vertex, vertices (k,), or k pieces, points or straight: the distance is that from the nearest, and
-        exact also from all along a piece.  places: points whose distances are wanted.  radius: how far to go, in the
-        mesh's length unit.  offsets (k,): what distances begin with at each source.  everything: leave nothing out that
-        cannot be shorter (slow, for tests; small meshes only).
+        Parameters
+        ----------
+        sources : int, (k,) array_like or Pieces
+            Vertices, or pieces of faces. The distance is that from the nearest, exact also from all along a piece.
+        places : Pieces, optional
+            Points whose distances are wanted, too.
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
+        radius : float
+            How far to go, in the mesh's length unit.
+        offsets : (k,) array_like, optional
+            The distance at each source, 0 by default.
+        everything : bool
+            Leave nothing out that cannot be shorter: slow, for tests on small meshes.
 
-        Raises VertexError for a bad id; ParameterError for a radius or offsets that are no numbers; SolverError where
-        more windows than 2,000 a vertex and 200,000 would be needed; Cancelled if the progress raises it, within 0.1 s.
+        Returns
+        -------
+        GeodesicField
+            The distances and the paths.
+
+        Raises
+        ------
+        VertexError
+            For a bad id.
+        ParameterError
+            For a radius or offsets that are no numbers.
+        SolverError
+            If more windows than 2,000 a vertex and 200,000 would be needed.
+        Cancelled
+            If the progress raises it, within 0.1 s.
         """
         check_radius(radius)
         if isinstance(sources, Pieces):
@@ -313,8 +344,8 @@ class ExactGeodesic:
     def _in_workers(
         self, one: Callable[[int, kernel.Watch], None], count: int, progress: Progress | None, is_whole: bool = False
     ) -> None:
-        """is_whole: each is a whole field, of which it is known how long it takes."""
-        windows = count * (self.expected or USUAL_PER_VERTEX * len(self.surface.vertices))
+        """Run the work in the workers; with `is_whole` each item is a whole field, whose duration is known."""
+        windows = count * (self.expected or USUAL_WINDOWS_PER_VERTEX * len(self.surface.vertices))
         with Expected("windows", windows, min(count, WORKERS), progress) as it:
             job = Job(it.progress if is_whole else progress, "exact geodesic", windows)
             job.run(lambda number: one(number, job.watch), range(count))
@@ -336,7 +367,7 @@ class ExactGeodesic:
         rest: list[Any] = [mesh.arrays]
         run = kernel.Run(mesh=ctypes.pointer(mesh.structure), offset=kernel.at(shifts), radius=radius / unit)
         run.source = kernel.Places(len(starts.rows), *map(kernel.at, starts[1:]))
-        run.most_taken = MOST_PER_VERTEX * mesh.vertices + MOST_AT_LEAST
+        run.most_taken = MOST_WINDOWS_PER_VERTEX * mesh.vertices + MOST_WINDOWS_AT_LEAST
         run.everything, run.targets_only = 3 * everything, targets_only
         count = 0
         if goals is not None:
@@ -366,12 +397,12 @@ class ExactGeodesic:
 
 
 class _Workspace:
-    """What a run writes on, again and again."""
+    """Arrays that one run after another writes on."""
 
     def __init__(self, mesh: UnfoldingMesh) -> None:
         self._queue = np.empty((3 * mesh.faces, kernel.QUEUE), np.uint8)
         self._heap = np.empty((3 * mesh.faces + mesh.vertices, kernel.WAITING), np.uint8)
-        self._resize(FIRST_ROOM)
+        self._resize(FIRST_WINDOWS)
 
     def _resize(self, room: int) -> None:
         if room >= 2**31:
@@ -418,7 +449,7 @@ def check_radius(radius: float) -> None:
 
 
 def _lists(faces: AnyArray, count: int) -> tuple[AnyArray, AnyArray]:
-    """(count,) the first place in each face, or -1, and (k,) the next after each place in its face."""
+    """Return (count,) the first place in each face, or -1, and (k,) the next after each place in its face."""
     first, following = np.full(count, -1, np.int32), np.full(len(faces), -1, np.int32)
     order = np.argsort(faces, kind="stable")
     ranked = faces[order]
@@ -426,3 +457,43 @@ def _lists(faces: AnyArray, count: int) -> tuple[AnyArray, AnyArray]:
     first[ranked[begins]] = order[begins]
     following[order[:-1][~begins[1:]]] = order[1:][~begins[1:]]
     return first, following
+
+
+# ---------------------------------------------------------------------- expected work
+TRIAL_VERTICES = 20_000
+"""Vertices, about, that a trial reaches; surfaces of no more are not tried."""
+
+GROWTH_POWERS = (1.0, 2.0)
+"""Windows grow like the number of vertices where a surface is rough, like its power 1.5 where it is smooth, and like
+its square along smooth tubes."""
+
+
+def expected_windows(exact: ExactGeodesic, progress: Progress | None = None) -> float:
+    """Estimate the windows that a field from one vertex of a connected surface will take.
+
+    Found by two fields that end at a radius, in less than half a second: a half to twice what it is, mostly.  For small
+    surfaces n^1.5, which is more than it is but on long tubes.  Raises SolverError where there are too many windows.
+    """
+    if exact.expected is None:
+        exact.expected = _windows_by_trial(exact, progress)
+    return exact.expected
+
+
+def _windows_by_trial(exact: ExactGeodesic, progress: Progress | None) -> float:
+    surface = exact.surface
+    count = len(surface.vertices)
+    if count <= TRIAL_VERTICES:
+        return math.pow(count, 1.5)
+    radius = math.sqrt(TRIAL_VERTICES / count * surface.face_areas.sum() / math.pi)
+    fields = [
+        exact.field(0, progress=part(progress, k / 2, (k + 1) / 2), radius=share * radius)
+        for k, share in enumerate((0.5, 1))
+    ]
+    reached = [int(np.isfinite(field.distances).sum()) for field in fields]
+    near, far = (float(field.windows) for field in fields)
+    if reached[1] == reached[0]:  # far from all others
+        return math.pow(count, 1.5)
+    power = min(
+        max(math.log(far / max(near, 1)) / math.log(reached[1] / reached[0]), GROWTH_POWERS[0]), GROWTH_POWERS[1]
+    )
+    return far * math.pow(count / reached[1], power)

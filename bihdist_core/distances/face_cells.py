@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import AnyArray, FloatArray
 
 ROUNDING = 1e-15
-"""Of weights."""
+"""Rounding of weights."""
 
 MOVED = 4e-12
 """In the kernel's unit: how far places may move where faces are divided."""
@@ -18,8 +18,17 @@ BISECTIONS = 50
 
 
 class CellWeights(NamedTuple):
-    """inward (3, k): weights in a face times this are those at the k corners of a cell; within (3, c): times this they
-    are not negative in the cell, either.  outward (k, 3): the weights of the cell's corners in the face."""
+    """The matrices between the weights of places in a face and in a cell of it, which has k corners.
+
+    Attributes
+    ----------
+    inward : (3, k) ndarray
+        Weights in the face times this are those at the corners of the cell.
+    within : (3, c) ndarray
+        Weights in the face times this are not negative in the cell, either.
+    outward : (k, 3) ndarray
+        The weights of the cell's corners in the face.
+    """
 
     inward: FloatArray
     within: FloatArray
@@ -27,7 +36,7 @@ class CellWeights(NamedTuple):
 
 
 def cell_weights(cells: AnyArray, number: int) -> CellWeights:
-    """cells (c,): of `CELL`, see `geodesic_cells.c`."""
+    """Return the weights of a cell; `cells` (c,) are of `CELL`, see `geodesic_cells.c`."""
     steps = []
     while (cell := cells[number])["before"] >= 0:
         steps.append(cell)
@@ -52,8 +61,8 @@ def cell_weights(cells: AnyArray, number: int) -> CellWeights:
 class Part(NamedTuple):
     """A face that holds a part of another.
 
-    inward (3, 3): weights in the other face times this are those in the part's; within (3, c): times this they are not
-    negative in the part.  corners (3, 3): where those of the part's face are.
+    Weights in the other face times `inward` (3, 3) are those in the part's face; times `within` (3, c) they are not
+    negative in the part. `corners` (3, 3) are the positions of the corners of the part's face.
     """
 
     face: int
@@ -62,16 +71,17 @@ class Part(NamedTuple):
     corners: FloatArray
 
     def weights(self, there: FloatArray) -> FloatArray:
-        """(3,) for weights in the other face."""
+        """Return (3,) weights in the face for weights in the other one."""
         return _inside(there @ self.inward, self.inward)
 
 
 def in_parts(
     parts: list[Part], corners: FloatArray, begin: FloatArray, end: FloatArray
 ) -> list[tuple[int, FloatArray, FloatArray]]:
-    """A straight piece of a face, by the weights (3,) of its ends, as pieces of the face's parts: one for a point.
+    """Return a straight piece of a face, by the weights (3,) of its ends, as pieces of the face's parts: one for a
+    point.
 
-    corners (3, 3): where those of the face are.
+    `corners` (3, 3) are the positions of the corners of the face.
     """
     way = end - begin
 
@@ -98,7 +108,7 @@ def in_parts(
 
 
 def _range(room: FloatArray, way: FloatArray) -> tuple[float, float]:
-    """From where to where, of 0 to 1, numbers (c,) that begin so and change by so much are not negative."""
+    """Return the part of 0 to 1 where numbers (c,) that begin so and change by so much are not negative."""
     lo, hi = 0.0, 1.0
     for least, change in zip(room.tolist(), way.tolist(), strict=True):
         if change > 0:
@@ -111,7 +121,7 @@ def _range(room: FloatArray, way: FloatArray) -> tuple[float, float]:
 
 
 def _last(good: float, end: float, holds: Callable[[float], bool]) -> float:
-    """The last number on the way from a good one to an end for which something holds."""
+    """Return the last number on the way from a good one to an end for which something holds."""
     if holds(end):
         return end
     for _ in range(BISECTIONS):
@@ -121,7 +131,7 @@ def _last(good: float, end: float, holds: Callable[[float], bool]) -> float:
 
 
 def _sizes(within: FloatArray) -> FloatArray:
-    """(c,) how large numbers are that add up to those that are not negative in a part."""
+    """Return (c,) how large numbers are that add up to those that are not negative in a part."""
     sizes: FloatArray = np.maximum(np.abs(within).max(axis=0), 1)
     return sizes
 

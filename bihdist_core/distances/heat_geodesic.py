@@ -29,6 +29,7 @@ from ..solver.worker_threads import side_by_side
 from ..surface import Surface, dots
 
 Solve = Callable[[FloatArray], FloatArray]
+FourArrays = c_void_p * 4
 
 TOP, FLOOR = 1e100, 1e-250
 """A stage starts from heat TOP and trusts what is at least FLOOR; squares of TOP are finite, and sums for values of
@@ -43,7 +44,7 @@ with 0.3 of the vertices negative, distances are half of what they are; with nea
 positive, and blurred by a few percent.  Measured against exact distances: up to here the largest errors are those of
 the blur, 0.06 to 0.12 of the maximum; at 0.01 they are twice that on some meshes.
 """
-BLOCK = 8192
+FACES_PER_BLOCK = 8192
 """Faces at a time, so that the temporary arrays stay in the processor's cache: twice as fast."""
 
 
@@ -60,7 +61,7 @@ def heat_time(surface: Surface, factor: float = 1.0) -> float:
 
 
 def heat_matrix(stiffness: sp.csr_matrix, areas: FloatArray, time: float) -> sp.csr_matrix:
-    """(n, n) A + t L, the matrix of step I."""
+    """Return (n, n) A + t L, the matrix of step I."""
     return (sp.diags_array(areas) + time * stiffness).tocsr()
 
 
@@ -82,11 +83,11 @@ class HeatGeodesic:
         self._flow = _FaceFlow(surface)
 
     def flow(self, loads: FloatArray) -> FloatArray:
-        """The heat (n, k) that flows from loads (n, k): the first stage of step I."""
+        """Return the heat (n, k) that flows from loads (n, k): the first stage of step I."""
         return self._solve_heat(loads)
 
     def distances(self, source: int, progress: Progress | None = None) -> FloatArray:
-        """(n,) distances from one vertex, in the mesh's length unit; 0 at the source, never negative.
+        """Return (n,) distances from one vertex, in the mesh's length unit; 0 at the source, never negative.
 
         Next to the source phi can fall below phi(source) by a part of an edge length; such values become 0.
         Raises VertexError for a bad id, SolverError if a solve gives values that are not finite, NegativeHeatError if
@@ -98,10 +99,10 @@ class HeatGeodesic:
     def distances_with(
         self, vertices: IntArray, loads: FloatArray, offsets: FloatArray, progress: Progress | None = None
     ) -> FloatArray:
-        """(n,) distances from a source that is spread over vertices (k,), with repeats, by positive loads (k,).
+        """Return (n,) distances from a source that is spread over vertices (k,), with repeats, by positive loads (k,).
 
-        offsets (k,): how far these are from the source itself; phi is right up to a constant, which is such that it
-        agrees with them in the mean by the loads.
+        `offsets` (k,) are the distances of these vertices from the source itself. phi is known up to a constant, which
+        is chosen so that phi agrees with them in the mean by the loads.
         """
         report = progress or silent
         load = np.bincount(vertices, loads, len(self.surface.vertices))
@@ -114,7 +115,8 @@ class HeatGeodesic:
         return distances
 
     def _divergence(self, load: FloatArray, report: Progress) -> FloatArray:
-        """(n,) div X of the flow from vertices with a load (n,): steps I and II, in as many stages as u needs."""
+        """Return (n,) div X of the flow from vertices with a load (n,): steps I and II, in as many stages as u
+        needs."""
         report(0.0, "heat method, flow")
         peak = int(load.argmax())
         b = load * (TOP * self._matrix[peak, peak])
@@ -144,7 +146,8 @@ class HeatGeodesic:
         return divergence
 
     def _enlarged(self, u1: FloatArray, known: BoolArray, load: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The known part of u and its residual b = delta - (A + t L) u1, both (n,), scaled up for the next stage."""
+        """Return the known part of u and its residual b = delta - (A + t L) u1, both (n,), scaled up for the next
+        stage."""
         # Away from the rim the residual is 0 but for rounding, which would drown the rim's tiny values.
         rim = self._pattern @ ~known
         rim[load > 0] = False
@@ -176,12 +179,12 @@ class _FaceFlow:
             self._true2 = np.negative(back, out=back)
 
     def divergence(self, u: FloatArray, faces: IntArray | None = None) -> FloatArray:
-        """(n,) div X of -grad u / |grad u| on all or some (k,) faces; a face where u is constant has X = 0."""
+        """Return (n,) div X of -grad u / |grad u| on all or some (k,) faces; a face where u is constant has X = 0."""
         lib = library()
         if lib is None:
             return self._plain_divergence(u, faces)
         m, u = self._corners.shape[1], np.ascontiguousarray(u)
-        sides = (c_void_p * 4)(*(at(side) for side in (self._e1, self._e2, self._true1, self._true2)))
+        sides = FourArrays(*(at(side) for side in (self._e1, self._e2, self._true1, self._true2)))
         count = m if faces is None else len(faces)
         half = max(1, -(-count // 2))
 
@@ -200,8 +203,8 @@ class _FaceFlow:
             corners = self._corners[:, faces]
             e1, e2, true1, true2 = (x[:, faces] for x in (self._e1, self._e2, self._true1, self._true2))
         b = np.empty(corners.shape)
-        for start in range(0, corners.shape[1], BLOCK):
-            part = np.s_[:, start : start + BLOCK]
+        for start in range(0, corners.shape[1], FACES_PER_BLOCK):
+            part = np.s_[:, start : start + FACES_PER_BLOCK]
             at = u.take(corners[part])
             d1, d2 = at[1] - at[0], at[2] - at[0]
             # Squares of 1e-200 are 0, so each face is brought to size 1 first.
@@ -213,8 +216,8 @@ class _FaceFlow:
             c -= d2 * e1[part]
             length = np.sqrt(dots(c, c))
             half = np.divide(0.5, length, out=np.zeros_like(length), where=length > 0)
-            b[1, start : start + BLOCK] = -half * dots(true2[part], c)
-            b[2, start : start + BLOCK] = half * dots(true1[part], c)
+            b[1, start : start + FACES_PER_BLOCK] = -half * dots(true2[part], c)
+            b[2, start : start + FACES_PER_BLOCK] = half * dots(true1[part], c)
         np.add(b[1], b[2], out=b[0])
         np.negative(b[0], out=b[0])
         return np.bincount(corners.ravel(), b.ravel(), self._n).astype(float, copy=False)

@@ -21,8 +21,8 @@ from ..sources.pieces import Pieces
 Square = TypeVar("Square", float, FloatArray)
 
 
-def blocks(pieces: Pieces, most: int) -> list[IntArray]:
-    """The numbers of the pieces in groups, one after another, that touch at most so many vertices each."""
+def groups_of_pieces(pieces: Pieces, most: int) -> list[IntArray]:
+    """Return the numbers of the pieces in groups, one after another, that touch at most so many vertices each."""
     groups: list[list[int]] = [[]]
     touched: set[int] = set()
     for number, corners in enumerate(pieces.touched.tolist()):
@@ -37,10 +37,10 @@ def blocks(pieces: Pieces, most: int) -> list[IntArray]:
 def squares_from(
     squares: FloatArray, among: FloatArray, index: IntArray, local: IntArray, pieces: Pieces
 ) -> Iterator[FloatArray]:
-    """For each piece (m,) the squared distances of all vertices from it.
+    """Yield the squared distances (m,) of all vertices from each piece.
 
-    squares (m, k): from the vertices `index` (k,); among (k, k): between these; local (p, 3): which of them are the
-    corners of each piece.
+    `squares` (m, k) are those from the vertices `index` (k,), `among` (k, k) those between these vertices; `local`
+    (p, 3) says which of them are the corners of each piece.
     """
     units = np.eye(3)
     for corners, start, stop, along in zip(local, pieces.start, pieces.stop, pieces.along, strict=True):
@@ -61,11 +61,11 @@ def squares_from(
 
 
 def form(weights: FloatArray, sides: FloatArray) -> float:
-    """-sum_{i < j} w_i w_j d(i, j)^2: of weights that add up to 0, a squared length."""
+    """Return -sum_{i < j} w_i w_j d(i, j)^2, for weights that add up to 0 a squared length."""
     return float(-weights @ sides @ weights / 2)
 
 
 def _nearest(here: Square, there: Square, apart: float) -> Square:
-    """The share of the way from one end of a segment to the other at which it is nearest."""
+    """Return the share of the way from one end of a segment to the other at which it is nearest."""
     share: Square = np.clip((here + apart - there) / (2 * apart), 0, 1)
     return share

@@ -2,32 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, TypeAlias, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import AnyArray, FloatArray, IntArray
+from ..arrays import AnyArray, FloatArray, IntArray, array_of
 from ..errors import ParameterError
 from ..laplacian import Component
-from ..number_arrays import array_of
-from ..progress import Progress, part, silent
+from ..progress import Progress, blocks, part, silent
 from ..sources.pieces import Pieces, points_on
 from ..sources.source import Source, SurfacePoint, checked_source
 from ..sources.words import short_words_of
 from .place_pairs import Pair, are_many, are_of_places, are_same, has_places, paired, squares_of_pairs
-from .source_questions import ELSEWHERE, SourceQuestions, block_size
+from .source_questions import OtherSource, SourceQuestions, block_size
 
 DIGITS = ("field", "all")
-"""How many digits distances of pairs may have (`PairQuestions.of_pairs`)."""
+"""The precision of distances of pairs (`PairQuestions.of_pairs`)."""
 
 Ends: TypeAlias = AnyArray | Sequence[Source]
 """(k,) vertices, or places in faces."""
 
 
 class PairQuestions(SourceQuestions):
-    """What a distance answers about pairs of vertices, and of places in faces."""
+    """The questions about pairs of vertices, and of places in faces, that a distance answers."""
 
     is_symmetric = True
 
@@ -38,12 +38,29 @@ class PairQuestions(SourceQuestions):
     def between(self, u: Ends, v: Ends, progress: Progress | None = None) -> FloatArray: ...
 
     def between(self, u: Any, v: Any, progress: Progress | None = None) -> float | FloatArray:
-        """The distance of two vertices, or places in faces; NaN between components.
+        """Compute the distance of two vertices or places in faces, or of as many pairs of them.
 
-        One of them may be any source if the other is a vertex.  Of arrays or lists, as long as each other (k,), the
-        distances (k,) of their vertices or places, as `of_pairs` has them.  ParameterError for what this distance does
-        not know, and where one is longer.
+        Parameters
+        ----------
+        u, v : int, str, Source, or (k,) array_like or sequence
+            Vertices or places in faces; of two single ones, one may be any source if the other is a vertex.
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
 
+        Returns
+        -------
+        float or (k,) float64 ndarray
+            In the distance's unit, NaN between components; of several pairs as `of_pairs` computes them.
+
+        Raises
+        ------
+        ParameterError
+            For ends that this distance does not know, and for sequences of different lengths.
+        VertexError
+            If a vertex is not on the surface.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> distance = bihdist.GeodesicDistance(pyvista.Icosphere(nsub=3))
         >>> round(distance.between(0, 1), 3)
@@ -54,22 +71,41 @@ class PairQuestions(SourceQuestions):
         if are_many(u) or are_many(v):
             return self.of_pairs(paired(u, v), progress)
         u, v = (checked_source(each) if isinstance(each, str) else each for each in (u, v))
-        are_single = [isinstance(each, SurfacePoint) or not isinstance(each, ELSEWHERE) for each in (u, v)]
+        are_single = [isinstance(each, SurfacePoint) or not isinstance(each, OtherSource) for each in (u, v)]
         if all(are_single):
             return float(self.pairwise([u, v], progress)[0, 1])
-        if not isinstance(v, ELSEWHERE):
+        if not isinstance(v, OtherSource):
             return float(self.from_source(u, progress)[self.surface.check_vertex(v)])
-        if not isinstance(u, ELSEWHERE):
+        if not isinstance(u, OtherSource):
             return float(self.from_source(v, progress)[self.surface.check_vertex(u)])
         raise ParameterError(
-            f"{self.label} is not known between {short_words_of(u)} and {short_words_of(v)}; let one be a vertex."
+            f"{self.label} is not known between {short_words_of(u)} and {short_words_of(v)}; one must be a vertex."
         )
 
     def pairwise(
         self, vertices: npt.ArrayLike | Sequence[Source | str], progress: Progress | None = None
     ) -> FloatArray:
-        """(k, k) distances among k vertices, or places in faces: symmetric, zero diagonal.
+        """Compute the distances among vertices, or places in faces.
 
+        Parameters
+        ----------
+        vertices : (k,) array_like of int, or sequence of Source
+            Vertex ids, or points of the surface.
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
+
+        Returns
+        -------
+        (k, k) float64 ndarray
+            Symmetric, with a zero diagonal; in the distance's unit, NaN between components.
+
+        Raises
+        ------
+        VertexError, ParameterError
+            For points that are not on the surface, or that this distance does not know.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
         >>> distance.pairwise([0, 12, 40]).round(3).tolist()
@@ -81,7 +117,7 @@ class PairQuestions(SourceQuestions):
             i, j = np.triu_indices(len(points), 1)
             among = points_on(self.surface, points)
             found = np.zeros((len(points), len(points)))
-            found[i, j] = found[j, i] = self._of_points(among.some(i), among.some(j), progress)
+            found[i, j] = found[j, i] = self._of_points(among.select(i), among.select(j), progress)
             return found
         ids = self.surface.check_vertices(vertices)
         distances = np.full((len(ids), len(ids)), np.nan)
@@ -94,13 +130,33 @@ class PairQuestions(SourceQuestions):
     def of_pairs(
         self, pairs: npt.ArrayLike | Sequence[Pair], progress: Progress | None = None, *, digits: str = "field"
     ) -> FloatArray:
-        """(k,) the distances of k pairs of vertices (k, 2), or places in faces; NaN between components.
+        """Compute the distances of pairs of vertices, or of places in faces.
 
-        digits: "field", as exact as fields are, by one field for all pairs of a vertex where that is less work than a
-        solve for each pair; "all": free of cancellation, so that the smallest have all digits, too, by a solve for
-        each, where a distance has such a form.  The mean of both ways where a distance is not symmetric.
-        ParameterError for another shape, other digits, and for places in faces if this distance knows vertices only.
+        Parameters
+        ----------
+        pairs : (k, 2) array_like of int, or sequence of pairs
+            Vertex ids, or points of the surface.
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
+        digits : {"field", "all"}
+            ``"field"``: as exact as fields are, by one field for all pairs of a vertex where that is less work than a
+            solve for each pair.  ``"all"``: free of cancellation, by a solve for each pair where a distance has such a
+            form, so that the smallest distances have all digits, too.
 
+        Returns
+        -------
+        (k,) float64 ndarray
+            In the distance's unit, NaN between components; the mean of both ways where a distance is not symmetric.
+
+        Raises
+        ------
+        ParameterError
+            For another shape or other digits, and for places in faces if this distance knows vertices only.
+        VertexError
+            If a vertex is not on the surface.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
         >>> distance.of_pairs([(0, 12), (0, 40), (12, 40)]).round(3).tolist()
@@ -128,21 +184,21 @@ class PairQuestions(SourceQuestions):
         return distances
 
     def _of_points(self, u: Pieces, v: Pieces, progress: Progress | None) -> FloatArray:
-        """(k,) distances of pairs of vertices and places in faces."""
+        """Return (k,) distances of pairs of vertices and places in faces."""
         distances = np.zeros(len(u))
         are_vertices = (u.start.max(axis=1) == 1) & (v.start.max(axis=1) == 1)
         others = np.flatnonzero(~are_vertices & ~are_same(u, v))
         share = float(are_vertices.mean()) if len(others) else 1.0
         if are_vertices.any():
-            ends = (each.some(are_vertices) for each in (u, v))
+            ends = (each.select(are_vertices) for each in (u, v))
             pairs = np.column_stack([each.corners[each.start == 1] for each in ends])
             distances[are_vertices] = self.of_pairs(pairs, part(progress, 0, share), digits="all")
         if len(others):
-            distances[others] = self._of_places(u.some(others), v.some(others), part(progress, share, 1))
+            distances[others] = self._of_places(u.select(others), v.select(others), part(progress, share, 1))
         return distances
 
     def _of_places(self, u: Pieces, v: Pieces, progress: Progress) -> FloatArray:
-        """(k,) the same of pairs that are apart, and of which one is no vertex."""
+        """Return (k,) distances of pairs that are apart, and of which one is not a vertex."""
         if not self.is_quadratic:
             raise ParameterError(f"{self.label} is known between vertices only, not at places in faces.")
         squares = squares_of_pairs(u, v, lambda pairs: self.of_pairs(pairs, progress, digits="all"))
@@ -151,7 +207,7 @@ class PairQuestions(SourceQuestions):
     def _of_pairs(
         self, component: Component, i: IntArray, j: IntArray, digits: str, progress: Progress | None
     ) -> FloatArray:
-        """(k,) distances of local vertices i and j (k,)."""
+        """Return (k,) distances of local vertices i and j (k,)."""
         if not self.is_symmetric:
             there = self._one_way(component, i, j, part(progress, 0, 0.5))
             return (there + self._one_way(component, j, i, part(progress, 0.5, 1))) / 2
@@ -160,20 +216,33 @@ class PairQuestions(SourceQuestions):
     def _one_way(
         self, component: Component, sources: IntArray, targets: IntArray, progress: Progress | None
     ) -> FloatArray:
-        among, place = np.unique(sources, return_inverse=True)
-        order = np.argsort(place, kind="stable")
-        distances, step = np.empty(len(sources)), block_size(len(component.vertices))
-        for start in range(0, len(among), step):
-            some = among[start : start + step]
-            report = part(progress, start / len(among), (start + len(some)) / len(among))
-            columns = self._columns(component, some, report)
-            mine = order[slice(*np.searchsorted(place, [start, start + step], sorter=order))]
-            distances[mine] = columns[targets[mine], place[mine] - start]
-        return distances
+        columns = partial(self.compute_columns, component)
+        return pairs_by_columns(columns, len(component.vertices), sources, targets, progress)
+
+
+def pairs_by_columns(
+    columns: Callable[[IntArray, Progress | None], FloatArray],
+    n: int,
+    sources: IntArray,
+    targets: IntArray,
+    progress: Progress | None,
+) -> FloatArray:
+    """Return (k,) distances from sources (k,) to targets (k,) out of fields of n vertices, some at a time.
+
+    `columns(index, progress)` returns the fields (n, c) from the sources `index` (c,).
+    """
+    among, place = np.unique(sources, return_inverse=True)
+    order = np.argsort(place, kind="stable")
+    distances, step = np.empty(len(sources)), block_size(n)
+    for report, start, some in blocks(progress, among, step):
+        fields = columns(some, report)
+        mine = order[slice(*np.searchsorted(place, [start, start + step], sorter=order))]
+        distances[mine] = fields[targets[mine], place[mine] - start]
+    return distances
 
 
 def by_source(i: IntArray, j: IntArray) -> tuple[IntArray, IntArray]:
-    """(k,), (k,): of each pair of vertices first the one that more pairs have, so that few fields have all pairs."""
+    """Return the pairs (k,), (k,) with the vertex first that more pairs have, so that few fields have all pairs."""
     count = np.bincount(np.concatenate([i, j]))
     swap = (count[j] > count[i]) | ((count[j] == count[i]) & (j < i))
     return np.where(swap, j, i), np.where(swap, i, j)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ..arrays import AnyArray, FloatArray
 
 MOST_WINDOWS = 100_000
-"""Of one straight part."""
+"""Windows that are opened for one straight part, at most."""
 
 Weights = list[float]
 Piece = tuple[int, Weights, Weights]
@@ -32,8 +32,14 @@ class _Side(NamedTuple):
 class _Window(NamedTuple):
     """The part from `low` to `high` of a side through which the start, at (x, -y) in its frame, sees its face.
 
-    leaving: the side, of the face before, by which the lines came; is_turned: which begins at the other end; before:
-    the window of that face, None where the start is in it.
+    Attributes
+    ----------
+    leaving : int
+        The side of the face before through which the lines came.
+    is_turned : bool
+        True if that side begins at the other end.
+    before : _Window or None
+        The window of the face before; None where the start is in it.
     """
 
     side: int
@@ -46,15 +52,15 @@ class _Window(NamedTuple):
     before: "_Window | None"
 
     def crossing(self, x: float, y: float) -> float:
-        """Where the line from the start to (x, y) of the face crosses the window, or comes nearest to it."""
+        """Return the x at which the line from the start to (x, y) of the face crosses the window, or comes nearest."""
         across = self.x + (x - self.x) * self.y / (self.y + y) if self.y + y > 0 else x
         return min(max(across, self.low), self.high)
 
 
 class _Hit(NamedTuple):
-    """What a straight line ends at: a vertex or, below 0, ~ a source; at (x, y) in the frame of a side.
+    """The end of a straight line: a vertex or, below 0, ~ a source; at (x, y) in the frame of a side.
 
-    length: of the path that leads on from there; weights: of the end in the side's face.
+    `length` is that of the path that leads on from there, `weights` are those of the end in the side's face.
     """
 
     length: float
@@ -68,11 +74,22 @@ class _Hit(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class PathSearch:
-    """What a run has found, in the kernel's numbers and unit.
+    """The distances that a run has found, in the kernel's numbers and unit.
 
-    sides (3 faces,), first (vertices + 1,), corner (3 faces,): the mesh, see `geodesic.h`.  distances (vertices,);
-    is_start (vertices,): which are sources.  sources: the numbers of those in each face; begins, ends (k, 3), offsets
-    (k,): of all sources.  rounding: a length by which a straight part may be too long.
+    Attributes
+    ----------
+    sides, first, corner : (3 faces,), (vertices + 1,) and (3 faces,) ndarray
+        The mesh, as in `geodesic.h`.
+    distances : (vertices,) ndarray
+        The distances of vertices.
+    is_start : (vertices,) ndarray
+        True for vertices that are sources.
+    sources : dict
+        The numbers of the sources in each face.
+    begins, ends, offsets : (k, 3), (k, 3) and (k,) ndarray
+        The weights of both ends of each source, and its offset.
+    rounding : float
+        The length by which a straight part may be too long.
     """
 
     sides: AnyArray
@@ -87,7 +104,7 @@ class PathSearch:
     rounding: float
 
     def from_vertex(self, vertex: int) -> list[Piece] | None:
-        """The pieces of the shortest path from a vertex back to its source; None if there is none as short."""
+        """Return the pieces of the shortest path from a vertex back to its source; None if there is none as short."""
         pieces: list[Piece] = []
         passed = {vertex}
         while not self.is_start[vertex]:
@@ -106,7 +123,7 @@ class PathSearch:
         return pieces
 
     def from_place(self, face: int, weights: Weights, distance: float) -> list[Piece] | None:
-        """The pieces of the shortest path from a place in a face, at this distance."""
+        """Return the pieces of the shortest path from a place in a face, at this distance."""
         windows = [
             w for h in range(3 * face, 3 * face + 3) for w in self._leaving(h, 0, math.inf, *self._at(h, weights), None)
         ]
@@ -121,9 +138,10 @@ class PathSearch:
     def _hit(
         self, starts: Iterable[tuple[int, Weights]], windows: list[_Window], distance: float, passed: set[int]
     ) -> _Hit | None:
-        """Where the shortest path from a place at this distance meets a vertex, not one of those passed, or a source.
+        """Return the vertex or source that the shortest path from a place at this distance meets first.
 
-        starts: where the place is in each face that has it; windows: of the lines that leave these.
+        Vertices that were passed are left out. `starts` are the place's weights in each face that has it, `windows`
+        those of the lines that leave these.
         """
         best: _Hit | None = None
         found = [hit for face, weights in starts for hit in self._hits_within(face, weights)]
@@ -142,7 +160,7 @@ class PathSearch:
         return best
 
     def _hits_within(self, face: int, weights: Weights) -> Iterator[_Hit]:
-        """What is in the face of a place."""
+        """Yield what is in the face of a place."""
         x, y = self._at(3 * face, weights)
         for h in range(3 * face, 3 * face + 3):
             vertex, (qx, qy) = self._side(h).vertex, self._at(3 * face, _at_corner(h))
@@ -154,7 +172,7 @@ class PathSearch:
             yield _Hit(length, ~number, 3 * face, qx, qy, end, None)
 
     def _hits(self, window: _Window) -> Iterator[_Hit]:
-        """What is in the face behind a window."""
+        """Yield what is in the face behind a window."""
         h = window.side
         apex, (x, y) = _previous(h), self._apex(h)
         vertex = self._side(apex).vertex
@@ -170,7 +188,7 @@ class PathSearch:
         return math.hypot(across - window.x, window.y) + math.hypot(x - across, y)
 
     def _bound(self, window: _Window, distance: float) -> float:
-        """A length that no path through a window is below, of a place at this distance."""
+        """Return a length that no path through a window is below, of a place at this distance."""
         side, end = self._side(window.side), self._side(_next(window.side)).vertex
         # Distances farther out need not be known.
         a, b = (min(float(self.distances[vertex]), distance) for vertex in (side.vertex, end))
@@ -181,7 +199,7 @@ class PathSearch:
     def _leaving(
         self, leaving: int, low: float, high: float, x: float, y: float, before: _Window | None
     ) -> Iterator[_Window]:
-        """The windows behind a side by which lines leave a face; they come from (x, y) in its frame."""
+        """Yield the windows behind a side by which lines leave a face; they come from (x, y) in its frame."""
         length = self._side(leaving).length
         low, high, y = max(low, 0.0), min(high, length), max(y, 0.0)
         if not low < high:
@@ -196,7 +214,7 @@ class PathSearch:
                 yield _Window(h, low, high, x, y, leaving, False, before)
 
     def _beyond(self, window: _Window) -> Iterator[_Window]:
-        """The windows behind the other two sides of the face behind a window."""
+        """Yield the windows behind the other two sides of the face behind a window."""
         h = window.side
         side, is_on_side = self._side(h), window.y == 0
         if is_on_side and not window.low <= window.x <= window.high:
@@ -221,7 +239,7 @@ class PathSearch:
             yield from self._leaving(leaving, low, high, x, y, window)
 
     def _pieces(self, hit: _Hit, start: Weights) -> list[Piece]:
-        """The line from the start, with these weights in its face, to what it hits."""
+        """Return the line from the start, with these weights in its face, to its target."""
         pieces: list[Piece] = []
         window, x, y, end = hit.window, hit.x, hit.y, hit.weights
         while window is not None:
@@ -235,7 +253,7 @@ class PathSearch:
         return [(_first_face(hit), start, end), *reversed(pieces)]
 
     def _of_side(self, h: int, other: int, x: float) -> tuple[float, float]:
-        """In the frame of side h the point of another side of its face that is x from the beginning of that."""
+        """Return, in the frame of side h, the point at x from the beginning of another side of its face."""
         if other == _next(h):
             c, s = self._corner(other)
             return self._side(h).length - x * c, x * s
@@ -251,12 +269,12 @@ class PathSearch:
         return side.x, side.y
 
     def _corner(self, h: int) -> tuple[float, float]:
-        """The cosine and sine of a face's corner at the beginning of a side."""
+        """Return the cosine and sine of a face's corner at the beginning of a side."""
         side, length = self._side(h), self._side(_previous(h)).length
         return side.x / length, side.y / length
 
     def _at(self, h: int, weights: Weights) -> tuple[float, float]:
-        """Where weights are in the frame of a side."""
+        """Return the position of weights in the frame of a side."""
         side, apex = self._side(h), weights[_previous(h) % 3]
         return weights[_next(h) % 3] * side.length + apex * side.x, apex * side.y
 
@@ -266,7 +284,8 @@ class PathSearch:
         return weights
 
     def _nearest(self, number: int, h: int, x: float, y: float) -> tuple[float, float, Weights]:
-        """The point of a source that is nearest to (x, y) in the frame of a side of its face, and its weights."""
+        """Return the point of a source that is nearest to (x, y) in the frame of a side of its face, and its
+        weights."""
         begin, end = self.begins[number].tolist(), self.ends[number].tolist()
         (ax, ay), (bx, by) = self._at(h, begin), self._at(h, end)
         ux, uy = bx - ax, by - ay
@@ -288,7 +307,7 @@ def _at_corner(h: int) -> Weights:
 
 
 def _first_face(hit: _Hit) -> int:
-    """In which the line to a hit begins."""
+    """Return the face in which the line to a hit begins."""
     h, window = hit.side, hit.window
     while window is not None:
         h, window = window.leaving, window.before
@@ -296,7 +315,7 @@ def _first_face(hit: _Hit) -> int:
 
 
 def _comes_round(window: _Window) -> bool:
-    """Whether the lines have been in the window's face before: a shortest path crosses a face once."""
+    """Return whether the lines have been in the window's face before: a shortest path crosses a face once."""
     face, before = window.side // 3, window.before
     while before is not None and before.leaving // 3 != face:
         before = before.before
@@ -304,6 +323,6 @@ def _comes_round(window: _Window) -> bool:
 
 
 def _meeting(b: float, dx: float, dy: float, c: float, s: float, otherwise: float) -> float:
-    """How far from the origin a line from (b, 0) into (dx, dy) meets the ray into (c, s)."""
+    """Return the distance from the origin at which a line from (b, 0) into (dx, dy) meets the ray into (c, s)."""
     across = dy * c - dx * s
     return dy * b / across if across > 0 else otherwise

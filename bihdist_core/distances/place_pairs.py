@@ -8,9 +8,8 @@ from typing import TypeGuard
 
 import numpy as np
 
-from ..arrays import AnyArray, BoolArray, FloatArray, IntArray
+from ..arrays import AnyArray, BoolArray, FloatArray, IntArray, array_of
 from ..errors import ParameterError
-from ..number_arrays import array_of
 from ..sources.pieces import Pieces
 from ..sources.source import Source, SurfacePoint
 from ..surface import Surface
@@ -25,24 +24,24 @@ PointKey = frozenset[tuple[int, float]]
 
 
 def has_places(points: object) -> TypeGuard[Sequence[Point]]:
-    """Whether a sequence of points holds other than vertex ids: places in faces, or words."""
+    """Return whether a sequence of points holds other than vertex ids: places in faces, or words."""
     return isinstance(points, Sequence) and any(isinstance(each, SurfacePoint | str) for each in points)
 
 
 def are_of_places(pairs: object) -> TypeGuard[Sequence[Pair]]:
-    """Whether some of a sequence's pairs hold other than vertex ids: places in faces, or words.
+    """Return whether some of a sequence's pairs hold other than vertex ids: places in faces, or words.
 
     Raises ParameterError for a pair that is not two.
     """
     if not (isinstance(pairs, Sequence) and any(map(has_places, pairs))):
         return False
     if any(len(pair) != 2 for pair in pairs):
-        raise ParameterError("Pairs of points must be two each.")
+        raise ParameterError("Each pair must have two points.")
     return True
 
 
 def are_many(points: object) -> TypeGuard[Many]:
-    """Whether these are points in an array or a list, and no single one."""
+    """Return whether these are points in an array or a list, and no single one."""
     return (isinstance(points, np.ndarray) and points.ndim > 0) or (
         isinstance(points, Sequence) and not isinstance(points, str)
     )
@@ -52,16 +51,16 @@ def paired(u: object, v: object) -> Sequence[Pair] | AnyArray:
     """Pairs (k, 2) of the points u and v (k,); ParameterError unless both are as many."""
     if not (are_many(u) and are_many(v) and len(u) == len(v)):
         of_u, of_v = (f"{len(each):,} points" if are_many(each) else repr(each) for each in (u, v))
-        raise ParameterError(f"Distances are between as many points on both sides, not between {of_u} and {of_v}.")
+        raise ParameterError(f"Pairs are between as many points on both sides, not between {of_u} and {of_v}.")
     if has_places(u) or has_places(v):
         return list(zip(u, v, strict=True))
     return np.column_stack([array_of(each, "Vertices") for each in (u, v)])
 
 
 def squares_of_pairs(u: Pieces, v: Pieces, of_pairs: Callable[[IntArray], FloatArray]) -> FloatArray:
-    """(k,) squared distances of k pairs of points, for squares that are quadratic forms (see `in_faces`).
+    """Return (k,) squared distances of k pairs of points, for squares that are quadratic forms (see `in_faces`).
 
-    of_pairs: distances of pairs of vertices (m, 2).
+    `of_pairs` computes the distances of pairs of vertices (m, 2).
     """
     corners = np.concatenate([u.corners, v.corners], axis=1)
     weights = np.concatenate([u.start, -v.start], axis=1)
@@ -77,28 +76,28 @@ def squares_of_pairs(u: Pieces, v: Pieces, of_pairs: Callable[[IntArray], FloatA
 
 
 def are_same(u: Pieces, v: Pieces) -> BoolArray:
-    """(k,) whether both points of a pair are one, in whichever faces."""
+    """Return (k,) whether both points of a pair are one, in whichever faces."""
     return np.array([one == other for one, other in zip(_keys(u), _keys(v), strict=True)], bool)
 
 
 def straight(u: Pieces, v: Pieces, surface: Surface) -> FloatArray:
-    """(k,) the lengths of the straight ways of pairs of points in one face; infinite for others."""
+    """Return (k,) the lengths of the straight ways of pairs of points in one face; infinite for others."""
     holds = np.array([_in_face(u, v, k) or _in_face(v, u, k) for k in range(len(u))], bool)
     lengths = np.linalg.norm(u.positions(surface.vertices)[0] - v.positions(surface.vertices)[0], axis=1)
     return np.where(holds, lengths, np.inf)
 
 
 def by_start(u: Pieces) -> Iterator[tuple[Pieces, IntArray]]:
-    """Each point of u once, with the numbers of the pairs that start there."""
+    """Yield each point of u once, with the numbers of the pairs that start there."""
     rows: dict[PointKey, list[int]] = {}
     for k, key in enumerate(_keys(u)):
         rows.setdefault(key, []).append(k)
     for mine in rows.values():
-        yield u.some(np.array(mine[:1])), np.array(mine)
+        yield u.select(np.array(mine[:1])), np.array(mine)
 
 
 def _in_face(u: Pieces, v: Pieces, k: int) -> bool:
-    """Whether the face of one point holds the other, too."""
+    """Return whether the face of one point holds the other, too."""
     return set(v.corners[k][v.start[k] > 0].tolist()) <= set(u.corners[k].tolist())
 
 

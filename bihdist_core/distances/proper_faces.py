@@ -19,17 +19,24 @@ CELLS_EACH = 16
 
 
 class ProperFaces:
-    """The faces of a mesh, with degenerate ones and what they touch replaced.  Lengths change by 2e-13 of a face's
-    longest edge at each.
+    """The faces of a mesh, with degenerate ones and what they touch replaced.
 
-    The ends of an edge of no length become one vertex.  A flat face with its apex between the ends of its longest edge
-    is taken out, and all other faces at that edge are divided at the apex.  points (n + p, 3), faces (m + q, 3): those
-    that are added come last; a face that is gone names one vertex three times.  labels (m + q, 3): the edge of each
-    side; those with the same ends are not always one.  same (n + p,): the vertex that stands for each.
+    The ends of an edge of no length become one vertex. A flat face with its apex between the ends of its longest edge
+    is taken out, and all other faces at that edge are divided at the apex. Lengths change by 2e-13 of a face's longest
+    edge at each.
+
+    Attributes
+    ----------
+    points, faces : (n + p, 3) and (m + q, 3) ndarray
+        The vertices and faces, those that are added last; a face that is gone names one vertex three times.
+    labels : (m + q, 3) ndarray
+        The edge of each side; sides with the same ends are not always of one edge.
+    same : (n + p,) ndarray
+        The vertex that stands for each.
     """
 
     def __init__(self, points: FloatArray, faces: AnyArray, sides: AnyArray, degenerate: int) -> None:
-        """sides (3 m,): of `SIDE`.  degenerate: how many faces are."""
+        """Replace the faces; `sides` (3 m,) is of `SIDE`, and `degenerate` is the number of degenerate faces."""
         self._own = m = len(faces)
         edge_of = _edges(sides)
         is_face = _is_face(faces)
@@ -61,7 +68,7 @@ class ProperFaces:
         self.same = np.concatenate([vertex_for, np.arange(len(points), len(self.points), dtype=np.int32)])
 
     def _targets(self, lower: IntArray, edge_for: AnyArray) -> IntArray:
-        """For each cell that is an edge or a point a face that has it; one is added where none does."""
+        """Find a face for each cell that is an edge or a point, and add one where there is none."""
         edge, vertex = self._cells["edge"][lower, 0], self._cells["corner"][lower, 0]
         edge = np.where(edge >= 0, edge_for[edge], -1)
         is_there = _is_face(self.faces)
@@ -91,7 +98,8 @@ class ProperFaces:
         return targets
 
     def _aside(self, corners: list[int]) -> list[FloatArray]:
-        """The corners that an edge, or a point, lacks for a triangle: so far from it that they can be told from it."""
+        """Return the corners that an edge, or a point, lacks for a triangle: so far from it that they can be told from
+        it."""
         start, way = self.points[corners[0]], self.points[corners[-1]] - self.points[corners[0]]
         size = max(float(np.linalg.norm(way)), ASIDE * float(np.abs(start).max())) or 1.0
         axes = size * np.eye(3)[np.argsort(np.abs(way), kind="stable")]
@@ -99,13 +107,13 @@ class ProperFaces:
 
     # ------------------------------------------------------------------ from the mesh's faces to these, and back
     def is_changed(self, faces: AnyArray) -> AnyArray:
-        """(k,) whether faces (k,) of the mesh are not there as they were."""
+        """Return (k,) whether faces (k,) of the mesh are not there as they were."""
         first, end = (np.searchsorted(self._part_faces, faces, side) for side in ("left", "right"))
         changed: AnyArray = end > first
         return changed
 
     def pieces(self, face: int, begin: FloatArray, end: FloatArray) -> list[tuple[int, FloatArray, FloatArray]]:
-        """A straight piece of a face that has changed, by the weights (3,) of its ends, in these faces."""
+        """Return a straight piece of a face that has changed, by the weights (3,) of its ends, in these faces."""
         low, high = np.searchsorted(self._part_faces, [face, face + 1]).tolist()
         parts = [self._part(number) for number in range(low, high)]
         return in_parts(parts, self.points[self._cells["corner"][face]], begin, end)
@@ -130,13 +138,13 @@ class ProperFaces:
 
 
 def _is_face(faces: AnyArray) -> AnyArray:
-    """(m,) whether a face names no vertex twice."""
+    """Return (m,) whether a face names no vertex twice."""
     is_face: AnyArray = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
     return is_face
 
 
 def _edges(sides: AnyArray) -> AnyArray:
-    """(3 m,) the number of each side's edge: that of the first side there."""
+    """Return (3 m,) the number of each side's edge: that of the first side there."""
     own, twin = np.arange(len(sides), dtype=np.int32), sides["twin"] >> 1
     following = np.where(sides["twin"] >= 0, twin, own)
     edge: AnyArray = own.copy()
@@ -150,7 +158,7 @@ def _edges(sides: AnyArray) -> AnyArray:
 def _cells(
     points: FloatArray, faces: AnyArray, edge_of: AnyArray, is_face: AnyArray, more: int, degenerate: int
 ) -> tuple[AnyArray, AnyArray, AnyArray] | None:
-    """All cells, and the vertex and the edge that stand for each; None if there are so many more than faces."""
+    """Return all cells, and the vertex and the edge that stand for each; None if there are so many more than faces."""
     n, m, room, edges = len(points), len(faces), len(faces) + more, 3 * len(faces) + more
     cell = np.zeros(room, kernel.CELL)
     cell["corner"][:m], cell["edge"][:m], cell["before"][:m] = faces, edge_of.reshape(-1, 3), -1
@@ -169,7 +177,7 @@ def _cells(
 
 
 def _roots(stands: AnyArray) -> AnyArray:
-    """(k,) what stands for each in the end."""
+    """Return (k,) the last that stands for each."""
     while not np.array_equal(further := stands[stands], stands):
         stands = further
     return stands

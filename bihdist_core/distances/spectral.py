@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -16,15 +17,28 @@ from ..progress import Progress, part
 from ..scalars import real_number
 from ..solver.spectrum import Spectrum
 from ..solver.tall import pair_distances, point_distances
-from .accuracy import ROUNDED, SPARE, Perturbation, rounded_up
+from ..sources.pieces import Pieces
+from .accuracy import RELATIVE_ROUNDING, SAFETY_FACTOR, Perturbation, SolveErrors, rounded_up
 from .distance import Distance
-from .solve_errors import SolveErrors
-from .tails import Cloud, biharmonic_squares, commute_time_squares, tail_lengths
+from .tails import (
+    Cloud,
+    biharmonic_squares,
+    bound_from_pieces,
+    bound_of_pairs,
+    commute_time_squares,
+    tail_lengths,
+)
 
-CLEAR = 1e-3
+CLEAR_GAP = 1e-3
 """Eigenvalues this far apart, as a share of themselves, are clearly two."""
-LOWEST = 8
+LOWEST_PAIRS = 8
 """So many eigenpairs from the first on, of which rounding changes the largest share, and among all, are looked at."""
+
+MOST_PENDING = 8
+"""Number of fields from places at which their bounds are computed, even if the accuracy is not asked for."""
+
+Bound = Callable[[FloatArray, FloatArray], float]
+"""From bounds (m,) on the lengths that coordinates lack and are displaced by, a fraction by which something is off."""
 
 
 class SpectralDistance(Distance):
@@ -35,6 +49,9 @@ class SpectralDistance(Distance):
     def __init__(self, laplacian: Laplacian | MeshLike) -> None:
         super().__init__(laplacian)
         self._points: Memo[int, FloatArray] = Memo()
+        self._lengths: Memo[int, tuple[FloatArray, FloatArray]] = Memo()
+        self._asked_off: Memo[int, float] = Memo()
+        self._pending: Memo[int, list[Bound]] = Memo()
 
     @abstractmethod
     def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, FloatArray]:
@@ -42,31 +59,53 @@ class SpectralDistance(Distance):
 
     @abstractmethod
     def _slopes(self, eigenvalues: FloatArray) -> FloatArray:
-        """(k,) by what share a weight changes at most, over the share by which the eigenvalues change."""
+        """Return (k,) by what share a weight changes at most, over the share by which the eigenvalues change."""
 
     @abstractmethod
     def _left_out(self, component: Component, next_value: float, tails: FloatArray) -> FloatArray:
-        """(m,) bounds on the lengths of the coordinates that the sum should have beside those used.
+        """Return (m,) bounds on the lengths of the coordinates that the sum should have beside those used.
 
-        next_value: the first eigenvalue not used, or less; tails (m,): the lengths of what is left of 1 / lambda^2.
+        `next_value` is the first eigenvalue not used, or less; `tails` (m,) are the lengths of the rest
+        of 1 / lambda^2.
         """
 
     def _is_cut(self) -> bool:
-        """Whether weights end at once, so that it matters which eigenpairs are the first."""
+        """Return whether weights end at once, so that it matters which eigenpairs are the first."""
         return False
 
     def points(self, component: Component, progress: Progress | None = None) -> FloatArray:
-        """(m, k) the points that stand for a component's vertices."""
+        """Return the points that stand for a component's vertices: the eigenvectors times the roots of their weights.
+
+        Parameters
+        ----------
+        component : Component
+            A component of `laplacian`, with m vertices.
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
+
+        Returns
+        -------
+        (m, k) float64 ndarray
+            Distances are those of these points, in the distance's unit.
+        """
         if component.index not in self._points:
             spectrum, weights = self._weighted(component, progress)
             self._points[component.index] = spectrum.eigenvectors[:, : len(weights)] * np.sqrt(weights)
         return self._points[component.index]
 
     def prepare(self, component: Component, progress: Progress | None = None) -> None:
-        """Compute the eigenpairs of a component, if that is not done."""
+        """Compute the eigenpairs of a component, if that is not done.
+
+        Parameters
+        ----------
+        component : Component
+            A component of `laplacian`.
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
+        """
         self.points(component, progress)
 
-    def _columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
+    def compute_columns(self, component: Component, index: IntArray, progress: Progress | None) -> FloatArray:
         points = self.points(component)
         return point_distances(points, points[index], progress)
 
@@ -79,19 +118,100 @@ class SpectralDistance(Distance):
     ) -> FloatArray:
         return pair_distances(self.points(component), i, j, progress)
 
+    def _from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
+        field = super()._from_pieces(component, pieces, progress)
+        self._note(component, partial(self._off_from, component, pieces, field))
+        return field
+
+    def _of_places(self, u: Pieces, v: Pieces, progress: Progress) -> FloatArray:
+        found = super()._of_places(u, v, progress)
+        corners = np.concatenate([u.corners, v.corners], axis=1)
+        for component, mine, _ in self._by_component(u.corners[:, 0]):
+            mine = mine[np.isfinite(found[mine])]
+            if len(mine):
+                weights = np.concatenate([u.start[mine], -v.start[mine]], axis=1)
+                given = component, component.local(corners[mine]), weights, found[mine]
+                self._note(component, partial(self._off_between, *given))
+        return found
+
+    def _note(self, component: Component, off: Bound) -> None:
+        """Take into account what does not start from one vertex, as soon as the bounds on coordinates are known."""
+        with self._pending.lock:
+            self._pending.setdefault(component.index, []).append(off)
+            if component.index in self._lengths or len(self._pending[component.index]) == MOST_PENDING:
+                self._off_so_far(component)
+
+    def _off_so_far(self, component: Component) -> float:
+        """Return by what fraction of its maximum a field was off at most that did not start from one vertex."""
+        with self._pending.lock:
+            off = [each(*self._lengths_on(component)) for each in self._pending.pop(component.index, [])]
+            self._asked_off[component.index] = found = max([0.0, *off, self._asked_off.get(component.index, 0.0)])
+            return found
+
+    def _off_between(
+        self,
+        component: Component,
+        corners: IntArray,
+        weights: FloatArray,
+        distances: FloatArray,
+        left_out: FloatArray,
+        errors: FloatArray,
+    ) -> float:
+        """Return by what fraction of a field's maximum distances (k,) of places may be off, see `bound_of_pairs`."""
+        bound = bound_of_pairs(corners, weights, distances, left_out, errors)
+        # The mean square, by area, of the distances from a place: its own and that of all points.
+        points, areas = self.points(component), component.areas
+        squares = np.square(np.einsum("kc,kcj->kj", weights[:, :3], points[corners[:, :3]])).sum(axis=1)
+        squares += areas @ np.square(points).sum(axis=1) / areas.sum()
+        return float((bound / np.sqrt(squares)).max())
+
+    def _off_from(
+        self, component: Component, pieces: Pieces, field: FloatArray, left_out: FloatArray, errors: FloatArray
+    ) -> float:
+        """Return by what fraction of its maximum a field (m,) from some pieces may be off, see `bound_from_pieces`."""
+        top = float(field.max())
+        if not top > 0:
+            return 0.0
+        local = component.local(pieces.corners)
+        with np.errstate(all="ignore"):
+            bound = bound_from_pieces(self.points(component), field, local, pieces, left_out, errors)
+        return float(bound.max() / top)
+
+    def _fields_from(self, pieces: Sequence[Pieces]) -> Iterator[tuple[Component, Pieces, FloatArray]]:
+        """Yield the components that sources have a part in, with these parts, and their fields (m,)."""
+        for each in pieces:
+            for component, mine, _ in self._by_component(each.corners[:, 0]):
+                some = each.select(mine)
+                yield component, some, super()._from_pieces(component, some, None)
+
+    def _accuracy_of(self, components: Sequence[int], pieces: Sequence[Pieces] = ()) -> float | None:
+        accuracy = super()._accuracy_of(components)
+        assert accuracy is not None
+        if not pieces:
+            return max([accuracy, *(self._off_so_far(self.laplacian.components[index]) for index in components)])
+        off = [self._off_from(*given, *self._lengths_on(given[0])) for given in self._fields_from(pieces)]
+        return max([accuracy, *off])
+
+    def _lengths_on(self, component: Component) -> tuple[FloatArray, FloatArray]:
+        """Return (m,) the lengths of the coordinates that points lack, and by which they may be displaced."""
+        if component.index not in self._lengths:
+            with np.errstate(all="ignore"):
+                left_out = self._left_out(component, self._next(component), self._tails(component))
+                self._lengths[component.index] = left_out, self._errors(component)
+        return self._lengths[component.index]
+
     def _estimated_accuracy(self, component: Component) -> float:
-        left_out = self._left_out(component, self._next(component), self._tails(component))
-        return Cloud(component, self.points(component)).worst(left_out, self._errors(component))
+        return Cloud(component, self.points(component)).worst(*self._lengths_on(component))
 
     def _next(self, component: Component) -> float:
-        """The first eigenvalue not used, less what it may be wrong by; infinite if there is none."""
+        """Return the first eigenvalue not used, less what it may be wrong by; infinite if there is none."""
         spectrum, weights = self._weighted(component, None)
         if len(weights) == component.most_eigenpairs:
             return np.inf
         return float(spectrum.eigenvalues[len(weights)] * (1 - spectrum.residuals[len(weights)]))
 
     def _tails(self, component: Component) -> FloatArray:
-        """(m,) bounds on the lengths of all phi_k / lambda_k not used."""
+        """Return (m,) bounds on the lengths of all phi_k / lambda_k not used."""
         spectrum, weights = self._weighted(component, None)
         count = len(weights)
         if count == component.most_eigenpairs:
@@ -102,7 +222,7 @@ class SpectralDistance(Distance):
         return tail_lengths(biharmonic_squares(component), vectors, 1 / values) + slack
 
     def _errors(self, component: Component) -> FloatArray:
-        """(m,) lengths: for what is wrong with the eigenpairs used, distances are off by at most the sum of two.
+        """Return (m,) lengths: for what is wrong with the eigenpairs used, distances are off by at most the sum of two.
 
         The coordinates are g(Delta) delta_x, with g^2 the weights; those computed are Q g(Lambda) Q^T delta_x.  With R
         = Delta Q - Q Lambda, which is orthogonal to Q, the difference is, to first order in R,
@@ -126,15 +246,15 @@ class SpectralDistance(Distance):
     def _inaccuracies(
         self, component: Component, spectrum: Spectrum, root: FloatArray
     ) -> tuple[float, FloatArray, FloatArray]:
-        """By what share rounding and degenerate faces change the eigenvalues; the residuals (count,) with that; and
-        (m,) by how much they displace vertices, those without an area too, which no residual measures.
+        """Return by what fraction rounding and degenerate faces change the eigenvalues; the residuals (count,) with
+        that; and (m,) by how much they displace vertices, those without an area too, which no residual measures.
 
-        root: (count,) of the weights.
+        `root` (count,) are the roots of the weights.
         """
         count = len(root)
         values, residuals = spectrum.eigenvalues[:count], spectrum.residuals[:count]
         perturbation = Perturbation(component)
-        few = np.unique([*range(min(LOWEST, count)), *np.linspace(0, count - 1, LOWEST, dtype=int)])
+        few = np.unique([*range(min(LOWEST_PAIRS, count)), *np.linspace(0, count - 1, LOWEST_PAIRS, dtype=int)])
         some = spectrum.eigenvectors[:, few]
         # Beside degenerate faces residuals are large by rounding, and stiff: G makes little of them.
         loads = component.areas[:, None] * some * values[few]
@@ -142,20 +262,37 @@ class SpectralDistance(Distance):
         missed = np.sqrt(component.areas @ (again - some) ** 2)
         # What rounding makes of the energy of eigenvectors, and the factor of their values, differs by this.
         differ = np.abs(np.einsum("ij,i,ij->j", some, component.areas, again) - 1)
-        change = float((sum(perturbation.of(some, some)) / values[few] + SPARE * differ).max())
-        seen = SPARE * float((missed / np.maximum(residuals[few], 1e-300)).max())
-        off = component.centred(SolveErrors(component, ROUNDED).off(loads))
-        return change, residuals * min(1.0, seen) + change, SPARE * np.linalg.norm(root[few] * off, axis=1)
+        change = float((sum(perturbation.of(some)) / values[few] + SAFETY_FACTOR * differ).max())
+        seen = SAFETY_FACTOR * float((missed / np.maximum(residuals[few], 1e-300)).max())
+        off = component.centred(SolveErrors(component, RELATIVE_ROUNDING).off(loads))
+        return change, residuals * min(1.0, seen) + change, SAFETY_FACTOR * np.linalg.norm(root[few] * off, axis=1)
 
 
 class PowerDistance(SpectralDistance):
-    """The family of distances with weights 1 / lambda^alpha, from the first k eigenpairs.
+    """The family of distances with weights 1 / lambda^alpha, from the first k eigenpairs (paper, section 6).
 
-    See section 6 of the paper.
+    Parameters
+    ----------
+    laplacian : Laplacian or MeshLike
+        The surface, or its Laplacian, whose eigenpairs distances share.
+    alpha : float
+        The power, above 1, or else the sum diverges on a surface.
+    k : int
+        The number of eigenpairs; a component with fewer uses all it has.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
 
-    alpha > 1 (else the sum diverges on a surface); scales like length ** (alpha - 1).  A component with fewer than
-    k + 1 vertices uses all its eigenpairs.  Raises ParameterError for another alpha, and if no component has k of them.
+    Raises
+    ------
+    ParameterError
+        For an `alpha` out of range, or if no component has `k` eigenpairs.
 
+    Notes
+    -----
+    d(i, j)^2 = sum_{k <= K} (phi_k(i) - phi_k(j))^2 / lambda_k^alpha; it scales like length ** (alpha - 1).
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> sphere = pyvista.Icosphere(nsub=3)
     >>> for alpha in (1.5, 2, 3):
@@ -189,32 +326,44 @@ class PowerDistance(SpectralDistance):
     def _slopes(self, eigenvalues: FloatArray) -> FloatArray:
         return np.full(len(eigenvalues), self.alpha)
 
-    def _remedy(self, components: Sequence[int]) -> str:
+    def _advice(self, components: Sequence[int]) -> str:
         for component in (self.laplacian.components[index] for index in components):
             values = component.spectrum(self.k + 1).eigenvalues[: self.k + 1]
             gaps = np.diff(values) / values[1:]
-            if len(values) > self.k and gaps[-1] < CLEAR:
-                clear = np.flatnonzero(gaps >= CLEAR) + 1
+            if len(values) > self.k and gaps[-1] < CLEAR_GAP:
+                clear = np.flatnonzero(gaps >= CLEAR_GAP) + 1
                 choose = f"; choose another k, such as {clear[-1]}" if len(clear) else ""
                 return (
-                    f"Eigenvalues {self.k} and {self.k + 1} differ by {gaps[-1]:.0e} of themselves only, so that it is "
-                    f"open which eigenpairs are the first {self.k}{choose}."
+                    f"Eigenvalues {self.k} and {self.k + 1} differ by {gaps[-1]:.0e} of themselves only, so it is "
+                    f"not clear which eigenpairs are the first {self.k}{choose}."
                 )
-        return super()._remedy(components)
+        return super()._advice(components)
 
-    def beyond(self, components: Sequence[int] | None = None) -> float:
-        """How far a field may be from the sum of all eigenpairs, as a fraction of its maximum: a proven bound.
+    def beyond(self, components: Sequence[int] | None = None, pieces: Sequence[Pieces] = ()) -> float:
+        """Bound how far fields may be from the sum of all eigenpairs, which for alpha = 2 is the biharmonic distance.
 
-        components: their numbers; those that were asked about if there are none.  The sum of all is the biharmonic
-        distance for alpha = 2.
+        Parameters
+        ----------
+        components : sequence of int, optional
+            The components that the fields are on; those that were asked about if None.
+        pieces : sequence of Pieces
+            What the fields start from, where they do not all start from vertices.
 
+        Returns
+        -------
+        float
+            As a fraction of each field's maximum; a proven bound.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> sphere = pyvista.Icosphere(nsub=3)
         >>> [round(bihdist.PowerDistance(sphere, 2.0, k).beyond(), 2) for k in (10, 100)]
         [1.21, 0.09]
         """
         shares = []
-        for index in self._those(components):
+        fields = list(self._fields_from(pieces))
+        for index in self._asked_components(components):
             component = self.laplacian.components[index]
             tails, next_value = self._tails(component), self._next(component)
             if next_value == np.inf:
@@ -227,15 +376,17 @@ class PowerDistance(SpectralDistance):
                 left_out = slower ** (2 - self.alpha) * tails ** (self.alpha - 1)
             else:
                 left_out = next_value ** (1 - self.alpha / 2) * tails
-            shares.append(Cloud(component, self.points(component)).worst(left_out, self._errors(component)))
+            lengths = left_out, self._lengths_on(component)[1]
+            shares.append(Cloud(component, self.points(component)).worst(*lengths))
+            shares += [self._off_from(*given, *lengths) for given in fields if given[0] is component]
         return max(shares)
 
-    def _said_of(self, accuracy: float, components: Sequence[int]) -> str:
-        sentence = super()._said_of(accuracy, components)
+    def _accuracy_text(self, accuracy: float, components: Sequence[int], pieces: Sequence[Pieces] = ()) -> str:
+        sentence = super()._accuracy_text(accuracy, components)
         if all(self.k >= self.laplacian.components[index].most_eigenpairs for index in components):
             return sentence
         with np.errstate(all="ignore"):
-            beyond = rounded_up(self.beyond(components))
+            beyond = rounded_up(self.beyond(components, pieces))
         return f"{sentence} as a sum of {self.k:,} eigenpairs; all of them would change it by at most {beyond}"
 
     def _left_out(self, component: Component, next_value: float, tails: FloatArray) -> FloatArray:
@@ -249,9 +400,22 @@ class PowerDistance(SpectralDistance):
 class TruncatedBiharmonicDistance(PowerDistance):
     """The biharmonic distance from its first k eigenpairs; unit length.
 
-    d(i, j)^2 = sum_{k <= K} (phi_k(i) - phi_k(j))^2 / lambda_k^2 (paper, Eq. 11).  Its error falls about
-    like 1 / k; `BiharmonicDistance` is exact and, for one source, faster.
+    Parameters
+    ----------
+    laplacian : Laplacian or MeshLike
+        The surface, or its Laplacian, whose eigenpairs distances share.
+    k : int
+        The number of eigenpairs; a component with fewer uses all it has.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
 
+    Notes
+    -----
+    d(i, j)^2 = sum_{k <= K} (phi_k(i) - phi_k(j))^2 / lambda_k^2 (paper, Eq. 11).  Its error falls about like 1 / K;
+    `BiharmonicDistance` is exact and, for one source, faster.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> laplacian = bihdist.Laplacian(pyvista.Icosphere(nsub=3))
     >>> exact = bihdist.BiharmonicDistance(laplacian).from_source(0)

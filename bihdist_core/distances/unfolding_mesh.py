@@ -30,12 +30,16 @@ class Places(NamedTuple):
 
 
 class UnfoldingMesh:
-    """A surface with its sides in the kernel's memory, without degenerate faces, and the kernel's numbers of what
-    callers name.
+    """A surface in the kernel's memory, without degenerate faces, and the kernel's numbers of its vertices and faces.
 
-    vertices, faces: how many there are, with those that stand for degenerate faces.  number (n,): of each vertex of
-    the surface, or of the one that stands for it.  unit: lengths in the kernel are in this power of two of the
-    surface's, so that no number overflows.
+    Attributes
+    ----------
+    vertices, faces : int
+        Their numbers, with those that stand for degenerate faces.
+    number : (n,) ndarray
+        The kernel's number of each vertex of the surface, or of the one that stands for it.
+    unit : float
+        The power of two of the surface's length unit in which the kernel measures lengths, so that no number overflows.
     """
 
     def __init__(self, surface: Surface) -> None:
@@ -61,7 +65,7 @@ class UnfoldingMesh:
 
     @property
     def has_degenerate_faces(self) -> bool:
-        """Whether the surface has faces that others stand for."""
+        """True if the surface has faces that others stand for."""
         return self._proper is not None
 
     def _build(self, points: FloatArray, corners: AnyArray, labels: AnyArray | None = None) -> int:
@@ -92,7 +96,7 @@ class UnfoldingMesh:
         return Places(np.arange(len(ids)), corner // 3, weights, weights)
 
     def at_pieces(self, pieces: Pieces) -> Places:
-        """Pieces (k,) of the surface; one that crosses a face that was divided becomes several, a point one."""
+        """Return pieces (k,) of the surface; one that crosses a face that was divided becomes several, a point one."""
         faces = self._face_number[pieces.faces]
         rows = np.arange(len(faces))
         begin, end = np.array(pieces.start, np.float64), np.array(pieces.stop, np.float64)
@@ -121,7 +125,7 @@ class UnfoldingMesh:
 
 
 def _order(surface: Surface) -> tuple[IntArray, IntArray]:
-    """The orders (n,) of vertices and (m,) of faces in the kernel."""
+    """Return the orders (n,) of vertices and (m,) of faces in the kernel."""
     x, faces = surface.vertices, surface.faces
     if len(x) < RENUMBERED_FROM:
         return np.arange(len(x)), np.arange(len(faces))
@@ -132,7 +136,7 @@ def _order(surface: Surface) -> tuple[IntArray, IntArray]:
 
 
 def _morton(x: FloatArray) -> AnyArray:
-    """(n,) numbers of points along Morton's curve."""
+    """Return (n,) numbers of points along Morton's curve."""
     low, size = x.min(axis=0), np.ptp(x, axis=0).max() or 1.0
     cells = np.minimum((x - low) / size * 2**20, 2**20 - 1).astype(np.uint64)
     code = np.zeros(len(x), np.uint64)

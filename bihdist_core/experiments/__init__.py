@@ -35,9 +35,9 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Experiment:
-    """One figure or table of the paper; its module is imported when first needed.
+    """A figure or table of the paper; its module is imported when first needed.
 
-    any_mesh: whether it makes sense on a reader's own mesh; is_timed: whether it measures times, which other work on
+    `any_mesh` is True if it makes sense on a reader's own mesh, `is_timed` if it measures times, which other work on
     the computer would disturb.
     """
 
@@ -47,16 +47,16 @@ class Experiment:
 
     @property
     def title(self) -> str:
-        """What the figure shows."""
+        """The title of the figure."""
         return str(import_module(f".{self.id}", __name__).TITLE)
 
     @property
     def shows(self) -> str:
-        """What the paper shows and claims there, in sentences."""
+        """Sentences on what the paper shows and claims there."""
         return str(import_module(f".{self.id}", __name__).__doc__).strip()
 
     def compute(self, shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-        """Run it; quick: smaller sizes and fewer sources, for a first look.
+        """Run it, with smaller sizes and fewer sources if `quick`, for a first look.
 
         Raises ParameterError if a surface it needs is missing, and whatever `progress` raises.
         """

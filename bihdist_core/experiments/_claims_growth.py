@@ -1,9 +1,11 @@
 """Claims of sections 2 and 4 about growth: cost with N, eigenvalues with k, commute-time distance under refinement."""
 
 from functools import partial
+from itertools import combinations
 
 import numpy as np
 
+from ..applications.resizing import refined
 from ..distances.biharmonic import BiharmonicDistance
 from ..laplacian import Laplacian
 from ..progress import Progress
@@ -11,9 +13,8 @@ from ..solver.elimination_tree import EliminationTree
 from ..surface import Surface
 from .measures import percent
 from .parts import Parts
-from .result import Cell, Chart, Claim, Series, Table
+from .result import Cell, Chart, Claim, Findings, Series, Table
 from .shapes import Shapes, distance
-from .spheres import icosphere, moebius
 from .timing import Time, busy, timed
 from .verdicts import Estimate, exponent_estimate
 
@@ -30,10 +31,8 @@ DECADE = 10
 as neighbours tell the same."""
 
 
-def cost(
-    shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progress
-) -> tuple[list[Table], list[Chart], list[Claim]]:
-    """Operations and seconds for the set-up and for one column, N growing."""
+def cost(shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progress) -> Findings:
+    """Count operations and measure seconds for the set-up and for one column, N growing."""
     sizes = shapes.sizes(name, QUICK_SIZES if quick else SIZES, parts)
     rows: list[tuple[Cell, ...]] = []
     every: list[Time] = []
@@ -61,32 +60,29 @@ def cost(
         for one, e in ((one, exponent_estimate(sizes, one.y)) for one in seconds_of)
     )
     heads = ("vertices", "operations, factorization", "operations, one column")
-    return (
-        [Table("cost", (*heads, "set-up, processor seconds", "one column, processor seconds"), tuple(rows))],
-        [
-            Chart("operations", "vertices", "operations", counted, log_x=True, log_y=True),
-            Chart("cost", "vertices", "processor seconds", seconds_of, log_x=True, log_y=True),
-        ],
-        [
-            Claim(
-                "claims-cost",
-                {
-                    f"exponent of N, operations of {label}": exponent_estimate(sizes, one.y)
-                    for label, one in zip(("the factorization", "one column"), counted, strict=True)
-                },
-                f"In theory nested dissection makes them N^1.5 and N log N. The exponents of the least processor times "
-                f"are {times}: the set-up has the factorization and the diagonal.",
-                busy(every),
-            )
-        ],
+    claim = Claim(
+        "claims-cost",
+        {
+            f"exponent of N, operations of {label}": exponent_estimate(sizes, one.y)
+            for label, one in zip(("the factorization", "one column"), counted, strict=True)
+        },
+        f"In theory nested dissection makes them N^1.5 and N log N. The exponents of the least processor times "
+        f"are {times}: the set-up has the factorization and the diagonal.",
+        busy(every),
     )
+    charts = (
+        Chart("operations", "vertices", "operations", counted, log_x=True, log_y=True),
+        Chart("cost", "vertices", "processor seconds", seconds_of, log_x=True, log_y=True),
+    )
+    columns_heads = (*heads, "set-up, processor seconds", "one column, processor seconds")
+    return Findings(charts=charts, tables=[Table("cost", columns_heads, tuple(rows))], claims=[claim])
 
 
 def operations(tree: EliminationTree) -> tuple[float, float]:
-    """How many multiplications and additions a factorization takes, and how many a column.
+    """Count the multiplications and additions of a factorization, and those of a column.
 
     A front with c pivots and m boundary vertices: its pivots' block is inverted (2 c^3), multiplied into its side
-    (2 c^2 m), and their product taken from the rest (2 c m^2).  A solve multiplies with the block and, down and up,
+    (2 c^2 m), and their product taken from the rest (2 c m^2). A solve multiplies with the block and, down and up,
     with the side; a column has two solves.
     """
     c, m = (size.astype(float) for size in tree.sizes)
@@ -99,8 +95,8 @@ def _set_up(surface: Surface) -> BiharmonicDistance:
     return BiharmonicDistance(Laplacian(surface))
 
 
-def eigenvalues(shapes: Shapes, name: str, quick: bool, progress: Progress) -> tuple[list[Chart], list[Claim]]:
-    """Eigenvalues of a surface grow like k (Weyl): lambda_k ~ 4 pi k / area."""
+def eigenvalues(shapes: Shapes, name: str, quick: bool, progress: Progress) -> Findings:
+    """Check that eigenvalues of a surface grow like k (Weyl): lambda_k ~ 4 pi k / area."""
     count = min(QUICK_EIGENVALUES if quick else EIGENVALUES, shapes.laplacian(name).components[0].most_eigenpairs)
     spectrum = shapes.laplacian(name).components[0].spectrum(count, progress)
     k = np.arange(1, count + 1)
@@ -113,18 +109,18 @@ def eigenvalues(shapes: Shapes, name: str, quick: bool, progress: Progress) -> t
         Series("eigenvalues", k, values),
         Series("4πk / area", k, (4 * np.pi * k / area).astype(float, copy=False)),
     )
-    return [Chart("eigenvalues", "k", "eigenvalue", series, log_x=True, log_y=True)], [
-        Claim(
-            "claims-weyl",
-            {"exponent of k": slope},
-            f"Fitted over {len(fitted)} numbers k from {fitted[0]} to {count}, evenly in log k; the last eigenvalue "
-            f"over 4πk / area: {ratio:.2f}.",
-        )
-    ]
+    claim = Claim(
+        "claims-weyl",
+        {"exponent of k": slope},
+        f"Fitted over {len(fitted)} numbers k from {fitted[0]} to {count}, evenly in log k; the last eigenvalue over "
+        f"4πk / area: {ratio:.2f}.",
+    )
+    chart = Chart("eigenvalues", "k", "eigenvalue", series, log_x=True, log_y=True)
+    return Findings(charts=[chart], claims=[claim])
 
 
-def refinement(quick: bool, progress: Progress) -> tuple[list[Table], list[Chart], list[Claim]]:
-    """Antipodes of finer and finer spheres: commute-time grows without bound, biharmonic distance converges."""
+def refinement(quick: bool, progress: Progress) -> Findings:
+    """Measure antipodes of finer and finer spheres: commute-time grows without bound, biharmonic distance converges."""
     rows = []
     levels = range(2, 5 if quick else 7)
     for times in levels:
@@ -152,29 +148,26 @@ def refinement(quick: bool, progress: Progress) -> tuple[list[Table], list[Chart
         log_x=True,
     )
     columns = ("vertices", "commute-time", "commute-time squared", "biharmonic")
-    return (
-        [Table("refinement", columns, tuple(rows))],
-        [chart],
-        [
-            Claim(
-                "claims-commute",
-                {"growth of its square per e-fold of N, times 2π": growth},
-                "Measured between antipodes of a sphere; the logarithmic singularity of the Green's function gives 1.",
-            ),
-            Claim(
-                "claims-converges",
-                {
-                    "change at the last refinement": Estimate(moved),
-                    "difference from the exact value on the sphere": Estimate(abs(rows[-1][3] / _antipodes() - 1)),
-                },
-                f"At {rows[-1][0]:,} vertices it is {rows[-1][3]:.5f}, on the unit sphere {_antipodes():.5f}.",
-            ),
-        ],
+    claims = (
+        Claim(
+            "claims-commute",
+            {"growth of its square per e-fold of N, times 2π": growth},
+            "Measured between antipodes of a sphere; the logarithmic singularity of the Green's function gives 1.",
+        ),
+        Claim(
+            "claims-converges",
+            {
+                "change at the last refinement": Estimate(moved),
+                "difference from the exact value on the sphere": Estimate(abs(rows[-1][3] / _antipodes() - 1)),
+            },
+            f"At {rows[-1][0]:,} vertices it is {rows[-1][3]:.5f}, on the unit sphere {_antipodes():.5f}.",
+        ),
     )
+    return Findings(charts=[chart], tables=[Table("refinement", columns, tuple(rows))], claims=claims)
 
 
-def conformal(quick: bool, progress: Progress) -> tuple[list[Table], list[Claim]]:
-    """Two conformally equivalent spheres: commute-time distance is the same on both, biharmonic is not."""
+def conformal(quick: bool, progress: Progress) -> Findings:
+    """Compare two conformally equivalent spheres: commute-time distance is the same on both, biharmonic is not."""
     levels = (3, 4) if quick else (4, 5)
     rows: list[tuple[Cell, ...]] = []
     for k, times in enumerate(levels):
@@ -194,22 +187,52 @@ def conformal(quick: bool, progress: Progress) -> tuple[list[Table], list[Claim]
         [table.value("mean relative change", vertices=rows[at][0], distance=label) for label in CONFORMAL]
         for at in (0, -1)
     )
-    return [table], [
-        Claim(
-            "claims-conformal",
-            {f"mean change, {label}": Estimate(mean) for label, mean in zip(CONFORMAL, fine, strict=True)},
-            f"A sphere and its image under a Moebius transformation (stretch {STRETCH:g}), all pairs of 200 points. "
-            "With a quarter of the vertices: "
-            + ", ".join(f"{label} {percent(mean)}" for label, mean in zip(CONFORMAL, coarse, strict=True))
-            + ".",
-        )
-    ]
+    changes = ", ".join(f"{label} {percent(mean)}" for label, mean in zip(CONFORMAL, coarse, strict=True))
+    claim = Claim(
+        "claims-conformal",
+        {f"mean change, {label}": Estimate(mean) for label, mean in zip(CONFORMAL, fine, strict=True)},
+        f"A sphere and its image under a Moebius transformation (stretch {STRETCH:g}), all pairs of 200 points. With a "
+        f"quarter of the vertices: {changes}.",
+    )
+    return Findings(tables=[table], claims=[claim])
 
 
 def _antipodes() -> float:
-    """Biharmonic distance of antipodes of the unit sphere, d^2 = sum_l (2l + 1) / (4 pi) (2 - 2 P_l(-1)) / (l(l+1))^2.
+    """Return the biharmonic distance of antipodes of the unit sphere.
 
-    P_l(-1) is 1 for even l and -1 for odd ones.
+    d^2 = sum_l (2l + 1) / (4 pi) (2 - 2 P_l(-1)) / (l(l+1))^2, where P_l(-1) is 1 for even l and -1 for odd ones.
     """
     degree = np.arange(1, 200_001, 2, dtype=float)
     return float(np.sqrt((4 * (2 * degree + 1) / (4 * np.pi) / (degree * (degree + 1)) ** 2).sum()))
+
+
+# ---------------------------------------------------------------------- spheres
+def icosphere(times: int) -> Surface:
+    """Return the unit sphere: an icosahedron refined `times` times, 10 * 4^times + 2 vertices.
+
+    Coarser vertices keep ids.
+    """
+    g = (1 + 5**0.5) / 2
+    x = np.array([[-1, g, 0], [1, g, 0], [-1, -g, 0], [1, -g, 0]], float)
+    x = np.concatenate([x, np.roll(x, 1, axis=1), np.roll(x, 2, axis=1)])
+    # Neighbours are at distance 2; a face is three mutual neighbours.
+    near = np.isclose(np.linalg.norm(x[:, None] - x, axis=2), 2)
+    faces = [f for f in combinations(range(12), 3) if near[np.ix_(f, f)].sum() == 6]
+    turned = [f if np.linalg.det(x[list(f)]) > 0 else f[::-1] for f in faces]
+    sphere = Surface(x / np.linalg.norm(x[0]), np.array(turned), "sphere")
+    for _ in range(times):
+        finer = refined(sphere)
+        x = finer.vertices
+        sphere = Surface(x / np.linalg.norm(x, axis=1, keepdims=True), finer.faces, "sphere")
+    return sphere
+
+
+def moebius(sphere: Surface, stretch: float) -> Surface:
+    """Return the unit sphere after a Moebius transformation: stereographic projection from +z, times `stretch`, and
+    back."""
+    x, y, z = sphere.vertices.T
+    # With the plane point (x, y) / (1 - z): back again its height is (r^2 - 1) / (r^2 + 1), written without division
+    # by 1 - z, which is 0 at the pole.
+    up, down = stretch**2 * (1 + z), 1 - z
+    total = up + down
+    return Surface(np.stack([2 * stretch * x / total, 2 * stretch * y / total, (up - down) / total], 1), sphere.faces)

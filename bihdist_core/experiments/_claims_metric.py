@@ -1,6 +1,7 @@
 """Claims of section 4: the axioms of a metric."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -13,12 +14,74 @@ from ..distances.edge_geodesic import EdgeGeodesic
 from ..laplacian import Component, Laplacian
 from ..progress import Progress, part
 from ..sources.source import SurfacePoint
+from ..surface import Surface
 from ._stated_claims import ROUNDING
-from .double_points import DoublePoint, double_point
 from .parts import Parts
-from .result import Cell, Claim, Table
+from .result import Cell, Claim, Findings, Table
 from .shapes import Shapes, distance
 from .verdicts import Estimate
+
+CANDIDATES = 150
+"""Pairs of vertices near whose images a double point is sought."""
+
+
+@dataclass(frozen=True, eq=False)
+class DoublePoint:
+    """Two places in faces (2,), by barycentric weights (2, 3), far apart, and how far apart their images are.
+
+    k functions map a surface into k dimensions. Into the plane no closed surface fits without falling on itself, and
+    into three dimensions few do: then two different points have the same values, and their distance by these functions
+    is 0.
+    """
+
+    faces: IntArray
+    weights: FloatArray
+    gap: float
+
+    def values(self, surface: Surface, images: FloatArray) -> FloatArray:
+        """Return (2, k) functions (n, k), linear in each face, at both places."""
+        values: FloatArray = np.einsum("pc,pck->pk", self.weights, images[surface.faces[self.faces]])
+        return values
+
+
+def double_point(surface: Surface, images: FloatArray, along: FloatArray, apart: float) -> DoublePoint | None:
+    """Find the two places with the nearest images (n, k), among faces near the likeliest pairs of vertices.
+
+    The pair's distance on the surface, given `along` (n, n), must exceed `apart`. The images of two faces that meet in
+    their planes, not in the faces, are no pair. Returns None if there is no pair.
+    """
+    square = np.einsum("ik,ik->i", images, images)
+    gaps = square[:, None] + square - 2 * images @ images.T
+    gaps[~(along > apart)] = np.inf
+    order = np.argpartition(gaps, min(2 * CANDIDATES, gaps.size - 1), axis=None)[: 2 * CANDIDATES]
+    i, j = np.unravel_index(order[np.isfinite(gaps.ravel()[order])], gaps.shape)
+    around = [np.flatnonzero((surface.faces == v).any(axis=1)) for v in range(len(images))] if len(i) else []
+    pairs = {(int(f), int(g)) for a, b in zip(i, j, strict=True) if a < b for f in around[a] for g in around[b]}
+    best: DoublePoint | None = None
+    if pairs:
+        faces = np.array(sorted(pairs))
+        weights = _meeting(images[surface.faces[faces[:, 0]]], images[surface.faces[faces[:, 1]]])
+        inside = (weights >= 0).all(axis=(1, 2))
+        for pair, weight in zip(faces[inside], weights[inside], strict=True):
+            one, two = DoublePoint(pair, weight, np.inf).values(surface, images)
+            gap = float(np.linalg.norm(one - two))
+            if best is None or gap < best.gap:
+                best = DoublePoint(pair, weight, gap)
+    return best
+
+
+def _meeting(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return (m, 2, 3) weights of the nearest places in the planes of triangles (m, 3, k) each, as near the middles as
+    can be.
+
+    With the sides u of a and v of b: a0 + u s = b0 + v t, four unknowns and k equations.
+    """
+    middle = a.mean(axis=1) - b.mean(axis=1)
+    sides = np.concatenate([a[:, 1:] - a[:, :1], b[:, :1] - b[:, 1:]], axis=1)
+    steps = np.einsum("mij,mj->mi", np.linalg.pinv(sides.transpose(0, 2, 1)), -middle)
+    shares = steps.reshape(-1, 2, 2) + 1 / 3
+    return np.concatenate([1 - shares.sum(axis=2, keepdims=True), shares], axis=2)
+
 
 AXIOMS, DOUBLES = "metric axioms", "two points that few eigenpairs confuse"
 """What may be done or not, each for itself; the axioms for each distance."""
@@ -28,8 +91,8 @@ APART = (1.0, 0.5, 0.25)
 """Different points are so far apart along edges, in roots of the area; the farthest are sought first."""
 
 
-def metric(shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progress) -> tuple[list[Table], list[Claim]]:
-    """Triangle inequality over random triples, and the smallest distance of different points."""
+def metric(shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progress) -> Findings:
+    """Check the triangle inequality over random triples, and find the smallest distance of different points."""
     count, among, all_pairs = (100_000, 300, 800) if quick else (1_000_000, 1_500, 2_500)
     surface = shapes.at_most(name, all_pairs, part(progress, 0, 0.1))
     laplacian = Laplacian(surface)
@@ -72,13 +135,14 @@ def metric(shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progr
             f"The triangle inequality holds even so, with {broken} violations over all distances, as a sum over "
             "eigenpairs is a distance of points.",
         )
-    return [each for each in (table, doubles) if each and each.rows], [triangle, identity, truncated]
+    tables = [each for each in (table, doubles) if each and each.rows]
+    return Findings(tables=tables, claims=[triangle, identity, truncated])
 
 
 def _checked(
     label: str, made: Callable[[], Distance], points: IntArray, count: int, step: Progress
 ) -> tuple[Cell, ...]:
-    """A row of the table: the axioms of a distance among points (k,), in `count` triples, and over all pairs."""
+    """Return a row of the table: the axioms of a distance among points (k,), in `count` triples, and over all pairs."""
     each = made()
     among_points = each.pairwise(points)
     sample = triangle_violations(among_points, count)
@@ -88,7 +152,7 @@ def _checked(
 
 
 def _doubles(laplacian: Laplacian, progress: Progress) -> Table:
-    """For each number of eigenpairs the two different points, anywhere in faces, that are nearest by them."""
+    """Find for each number of eigenpairs the two different points, anywhere in faces, that are nearest by them."""
     biharmonic = distance(laplacian, "biharmonic")
     truncated = {count: _Truncated(laplacian, 1, count) for count in FEW}
     surface = biharmonic.surface
@@ -102,7 +166,10 @@ def _doubles(laplacian: Laplacian, progress: Progress) -> Table:
         tried = (double_point(surface, images, along, apart * unit) for apart in APART)
         every = [each for each in tried if each is not None]
         # The farthest apart that are confused within rounding, or else the nearest images.
-        found = next((each for each in every if each.gap <= ROUNDING * largest), min(every, key=_gap, default=None))
+        found = next(
+            (each for each in every if each.gap <= ROUNDING * largest),
+            min(every, key=lambda each: each.gap, default=None),
+        )
         if found is not None:
             places = [SurfacePoint(int(f), tuple(w)) for f, w in zip(found.faces, found.weights.tolist(), strict=True)]
             farthest = float(biharmonic.from_source(int(surface.faces[0, 0])).max())
@@ -122,10 +189,6 @@ def _doubles(laplacian: Laplacian, progress: Progress) -> Table:
 
 def _words(place: SurfacePoint) -> str:
     return f"face {place.face}: {', '.join(f'{w:.3f}' for w in place.weights)}"
-
-
-def _gap(found: DoublePoint) -> float:
-    return found.gap
 
 
 def _truncated_claim(doubles: Table, note: str) -> Claim:

@@ -13,7 +13,7 @@ from ..laplacian import Laplacian
 from ..progress import Progress
 from .measures import by_source, percent
 from .parts import Parts
-from .result import Cell, Chart, Claim, Series, Table
+from .result import Cell, Chart, Claim, Findings, Series, Table
 from .sampled_fields import PiecewiseLinear, Smoothest
 from .shapes import DISTANCES, STARTS, UPPER_BACK, Shapes, distance, spread_points
 from .verdicts import Numbers, exponent_estimate
@@ -26,10 +26,8 @@ SOURCES, QUICK_SOURCES = STARTS, 7
 SMOOTHEST, LINEAR = "smoothest", "piecewise linear"
 
 
-def sampling(
-    shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progress
-) -> tuple[list[Table], list[Chart], list[Claim]]:
-    """Errors at all vertices of interpolated fields, from the pictured source and from 24 others (quick: 6)."""
+def sampling(shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progress) -> Findings:
+    """Measure errors at all vertices of interpolated fields, from the pictured source and from 24 others (quick: 6)."""
     surface = shapes[name]
     component, ids = surface.component(0)
     laplacian = shapes.laplacian(name) if len(ids) == len(surface.vertices) else Laplacian(component)
@@ -66,7 +64,8 @@ def sampling(
     columns = ("points", "interpolant", "distance", "mean error", "least", "most", "largest error, mean")
     table = Table("sub-sampling", columns, tuple(rows))
     tables = [table, _orders(means, counts)] if len(counts) > 1 else [table]
-    return tables, _charts(means, counts), [_claim(means, judged, list(fields), parts.why("geodesic to be sampled"))]
+    claim = _claim(means, judged, list(fields), parts.why("geodesic to be sampled"))
+    return Findings(charts=_charts(means, counts), tables=tables, claims=[claim])
 
 
 def _columns(laplacian: Laplacian, kind: str, sources: IntArray) -> FloatArray:
@@ -74,7 +73,7 @@ def _columns(laplacian: Laplacian, kind: str, sources: IntArray) -> FloatArray:
 
 
 def _claim(means: dict[tuple[str, str, int], FloatArray], judged: int, kinds: list[str], failure: str) -> Claim:
-    """failure: why there is no geodesic distance."""
+    """Make the claim; `failure` says why there is no geodesic distance."""
 
     def ratio(how: str) -> list[float]:
         return list(means[how, "geodesic", judged] / means[how, "biharmonic", judged])
@@ -105,7 +104,7 @@ def _kinds(means: dict[tuple[str, str, int], FloatArray]) -> list[str]:
 
 
 def _orders(means: dict[tuple[str, str, int], FloatArray], counts: list[int]) -> Table:
-    """The order of approximation: with k points their spacing is about k^(-1/2)."""
+    """Return the order of approximation: with k points their spacing is about k^(-1/2)."""
     rows: list[tuple[Cell, ...]] = []
     for how in (SMOOTHEST, LINEAR):
         for kind in _kinds(means):

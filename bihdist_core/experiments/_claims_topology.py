@@ -7,17 +7,17 @@ import numpy as np
 
 from ..analysis.diagnostics import FieldChange
 from ..analysis.persistence import extrema
-from ..applications.perturbation import face_at, vertex_normals, welded, with_handle
+from ..applications.perturbation import face_at, welded, with_handle
 from ..arrays import FloatArray
 from ..distances.distance import Distance
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..errors import ParameterError, SolverError
 from ..laplacian import Laplacian
 from ..progress import Progress, part
-from ..surface import Surface
+from ..surface import Surface, vertex_normals
 from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, over, percent
 from .parts import Parts
-from .result import Cell, Claim, Mark, Panel, Table
+from .result import Cell, Claim, Findings, Mark, Panel, Table
 from .shapes import DISTANCES, Shapes, distances_there, spread_points, start_vertex, starts
 from .verdicts import Numbers
 
@@ -44,8 +44,8 @@ EDITS: dict[str, Callable[[Surface, int, int], Surface]] = {"thin handle": with_
 class Joined:
     """Fields from where parts of a surface are joined, before and after, and their changes.
 
-    The fields and their changes are by the kinds of distances that can be had.  every: how biharmonic distance changes
-    from the join and from random sources, by their names.
+    They are by the kinds of distances that can be had. `every` has the changes of biharmonic distance from the join and
+    from random sources, by their names.
     """
 
     source: int
@@ -55,10 +55,8 @@ class Joined:
     every: dict[str, FieldChange]
 
 
-def topology(
-    shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progress
-) -> tuple[dict[str, Surface], list[Panel], list[Table], list[Claim]]:
-    """Changes by a thin handle between two tips and by a weld where two parts nearly touch, and by others like them."""
+def topology(shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progress) -> Findings:
+    """Measure changes by a thin handle between two tips, by a weld where two parts nearly touch, and by others."""
     surface = shapes[name]
     others = QUICK_OTHERS if quick else OTHERS
     sources = {seed: start_vertex(surface, seed) for seed in starts(QUICK_SOURCES if quick else SOURCES)}
@@ -105,11 +103,11 @@ def topology(
         reason = parts.why(f"{edit}s", *labels, *(f"geodesic on {where}" for where in (name, *labels)))
         claims.append(_claim("claims-weld" if edit == "weld" else "claims-handle", first, found, ways, reason))
     tables = [Table("topology", ("change", "source", "distance", *CHANGE_COLUMNS), tuple(rows))] if rows else []
-    return {name: surface} | edited, panels, tables, claims
+    return Findings({name: surface} | edited, panels, tables=tables, claims=claims)
 
 
 def _pairs(surface: Surface, edit: str, others: int, parts: Parts) -> tuple[list[Pair], list[Pair]]:
-    """The pictured pair, if there is one, and twice as many others as are wanted, as some cannot be joined."""
+    """Return the pictured pair, if there is one, and twice as many others as are wanted, as some cannot be joined."""
     if edit == "weld":
         touching = parts.do(f"{edit}s", nearly_touching, surface, 2 * others + 1) or []
         return touching[:1], touching[1:]
@@ -120,7 +118,7 @@ def _pairs(surface: Surface, edit: str, others: int, parts: Parts) -> tuple[list
 def _joined(
     had: dict[str, Distance], name: str, other: Surface, label: str, end: int, sources: dict[str, int], parts: Parts
 ) -> Joined:
-    """had: the distances before.  end: a vertex where the surface is joined, from which all distances are measured.
+    """Measure the changes from `end`, a vertex where the surface is joined, given the distances before.
 
     Raises SolverError if biharmonic distance cannot be had.
     """
@@ -139,9 +137,10 @@ def _joined(
 
 
 def _claim(id: str, pictured: Change | None, others: list[Change], ways: list[float], reason: str) -> Claim:
-    """ways: of each of the other joins, how many times longer than straight the way along the surface was.
+    """Make the claim of a statement on joins.
 
-    reason: why some joins, or distances, are not there.
+    `ways` says of each of the other joins how many times longer than straight the way along the surface was, `reason`
+    why some joins, or distances, are missing.
     """
     found = [*([pictured] if pictured else []), *others]
     if not found:
@@ -176,7 +175,7 @@ def _ratio(change: Change) -> float:
 
 
 def _shortcuts(ratios: list[float], ways: list[float]) -> str:
-    """Of the other joins, those that are shortcuts, in words."""
+    """Describe those of the other joins that are shortcuts."""
     short = [ratio for ratio, way in zip(ratios, ways, strict=True) if way >= FAR_ROUND]
     sentence = f"Of the {len(ways)} other joins {len(short)} make the way between their ends at most half as long"
     if not short:
@@ -187,7 +186,7 @@ def _shortcuts(ratios: list[float], ways: list[float]) -> str:
 
 
 def _cut_changes(before: Fields, after: Fields) -> dict[str, FieldChange]:
-    """At the vertices of before, whose ids stay."""
+    """Return the changes at the vertices that were there before, whose ids stay."""
     return changes(before, {kind: field[: len(before[kind])] for kind, field in after.items()})
 
 
@@ -206,14 +205,14 @@ def _panels(name: str, edit: str, joined: Joined) -> list[Panel]:
 
 
 def _way_round(surface: Surface, pair: Pair) -> float:
-    """The way along edges between two vertices over the straight one."""
+    """Return the way along edges between two vertices over the straight one."""
     return float(
         EdgeGeodesic(surface).distances(pair[0])[pair[1]] / np.linalg.norm(np.subtract(*surface.vertices[[*pair]]))
     )
 
 
 def far_pairs(surface: Surface, count: int) -> list[Pair]:
-    """Random pairs of spread points that are apart along edges."""
+    """Choose random pairs of spread points that are apart along edges."""
     points = spread_points(surface, min(6 * count, len(surface.vertices) // 4))
     component, ids = surface.component(0)
     along = EdgeGeodesic(component).distances(np.searchsorted(ids, points))[np.searchsorted(ids, points)]
@@ -223,9 +222,9 @@ def far_pairs(surface: Surface, count: int) -> list[Pair]:
 
 
 def nearly_touching(surface: Surface, count: int = 1) -> list[Pair]:
-    """Pairs of vertices far apart along the surface and close in space, the greatest ratio first, among spread points.
+    """Find pairs of spread vertices far apart along the surface and close in space, the greatest ratio first.
 
-    No two are at the same place.  None where no two points of the surface face each other, as on a convex one.
+    No two are at the same place. There is none where no two points of the surface face each other, as on a convex one.
     """
     points = spread_points(surface, min(CANDIDATES, len(surface.vertices) // 4))
     component, ids = surface.component(0)
@@ -247,7 +246,7 @@ def nearly_touching(surface: Surface, count: int = 1) -> list[Pair]:
 
 
 def tips(surface: Surface) -> tuple[int, int]:
-    """The two most pronounced ends: maxima of edge distance from the start."""
+    """Return the two most pronounced ends: maxima of edge distance from the start."""
     component, ids = surface.component(0)
     lengths = EdgeGeodesic(component).distances(int(np.searchsorted(ids, start_vertex(surface))))
     found = extrema(component, lengths).maxima

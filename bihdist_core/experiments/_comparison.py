@@ -2,24 +2,21 @@
 
 import numpy as np
 
-from ..applications.perturbation import vertex_normals
 from ..arrays import BoolArray, FloatArray
 from ..distances.distance import Distance
-from ..distances.kinds import Spec
+from ..distances.distance_types import Spec
 from ..errors import SolverError
-from ..progress import Progress, part
-from ..surface import Surface
+from ..progress import Progress, part, steps
+from ..surface import Surface, vertex_normals
 from ._stated_figures import MINIMA
-from .circles import BACK, PROTOCOL, RANDOM_FROM, gather_circles, shared_circles
-from .gathered import Gathered
+from .circles import BACK, PROTOCOL, gather_shared_circles
 from .measures import FIELD_COLUMNS, deepest_minimum, field_row, kinked_edges, marks, over
 from .parts import Parts
-from .result import Cell, Chart, Claim, Mark, Panel, Result, Table
+from .result import STATEMENTS, Cell, Chart, Claim, Gathered, Mark, Panel, Result, Table
 from .shapes import DISTANCES, Shapes, distances_there, random_sources, spec_of
-from .statements import STATEMENTS
 
 NEEDS = {1: ("biharmonic",), 2: ("diffusion t = 1",), 3: ("circles",), 4: ("biharmonic", "geodesic")}
-"""What each of the four statements is judged from."""
+"""The measurements that each of the four statements is judged by."""
 ON_THE_BACK = -0.5
 """The cosine of normals with the direction of the view from the front, of points that are on the back."""
 FIELDS, FIELDS_EACH, QUICK_FIELDS = 24, 8, 4
@@ -33,12 +30,11 @@ SOURCE_COLUMNS = (
 def compared(
     id: str, title: str, names: tuple[str, ...], shapes: Shapes, quick: bool, progress: Progress | None
 ) -> Result:
-    """Three fields on each shape from a source on its back, and numbers from it and random sources."""
+    """Compare three fields on each shape from a source on its back, with numbers from it and random sources."""
     count = QUICK_FIELDS if quick else (FIELDS if len(names) == 1 else FIELDS_EACH)
     found, parts = Gathered(), Parts()
     rows, sources, panels, charts = [], [], [], []
-    for q, name in enumerate(names):
-        step = part(progress, q / len(names), (q + 1) / len(names))
+    for step, name in steps(progress, names):
         surface, laplacian = shapes[name], shapes.laplacian(name)
         pictured = shapes.pictured_source(name, "back")
         distances = distances_there(laplacian, parts, name)
@@ -62,13 +58,8 @@ def compared(
         if "diffusion t = 1" in distances:
             _minima_on_the_front(shapes, name, pictured, count, distances["diffusion t = 1"], found, id)
         part(step, 0.7, 1)(0.0, f"{name}, circles")
-        circled = parts.do(f"circles on {name}", shared_circles, shapes, name, count, part(step, 0.7, 1))
-        if circled is None:
-            continue
-        gather_circles(found, circled, BACK, RANDOM_FROM)
-        if circled.failure:
-            parts.note(f"circles on {name}", circled.failure)
-        if np.isfinite(circled.ratios["biharmonic"][BACK]).all():
+        circled = gather_shared_circles(found, parts, shapes, name, count, BACK, part(step, 0.7, 1))
+        if circled is not None and np.isfinite(circled.ratios["biharmonic"][BACK]).all():
             charts.append(circled.chart(f"isotropy on {name}", BACK))
     if not sources:
         # No shape has what a statement needs: the pictures are what there is.
@@ -109,7 +100,7 @@ def compared(
 def _of_source(
     surface: Surface, source: int, distances: dict[str, Distance], found: Gathered, id: str, is_pictured: bool
 ) -> tuple[Cell, Cell, Cell]:
-    """Depth of minima and shares of kinks from one source; None for those that need another distance."""
+    """Measure the depth of minima and the fraction of kinks from a source; None for what needs another distance."""
     if "biharmonic" not in distances:
         return None, None, None
     biharmonic = distances["biharmonic"].from_source(source)
@@ -146,7 +137,7 @@ def _minima_on_the_front(
 
 
 def _opposite(surface: Surface, source: int) -> BoolArray:
-    """(n,) bool: where normals point against the source's."""
+    """Return (n,) bool: where normals point against the source's."""
     normals = vertex_normals(surface)
     against: BoolArray = normals @ normals[source] < 0
     return against

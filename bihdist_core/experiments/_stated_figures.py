@@ -47,7 +47,7 @@ STARTS = "Judged over 25 starts with intervals or as a distribution, where it wa
 
 
 def _three_distances(id: str, minimum: str, circles: str) -> tuple[Statement, ...]:
-    """The statements of figures 4 and 5; minimum, circles: verdicts before."""
+    """Return the statements of figures 4 and 5, given earlier verdicts on minima and circles."""
     return (
         Statement(f"{id}-1", NO_MINIMA, "paper", "section 5.1", (MINIMA,), "no", COUNTED),
         Statement(
@@ -82,7 +82,7 @@ def _three_distances(id: str, minimum: str, circles: str) -> tuple[Statement, ..
 
 
 def insensitive(to: str) -> str:
-    """The statement of figure 6 on a change in words."""
+    """Return the statement of figure 6 on a change in words."""
     return f"Biharmonic distance is insensitive to {to}."
 
 

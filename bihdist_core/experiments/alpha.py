@@ -23,7 +23,7 @@ SOURCES, QUICK_SOURCES = 10, 4
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """Eleven sources, all eigenpairs of a mesh of 3,000 vertices (quick: five, 1,000), so that nothing is cut off."""
+    """Compare distances of eleven sources, with all eigenpairs of a mesh of 3,000 vertices (quick: five, 1,000)."""
     (name,) = shapes.names("figure")
     surface = shapes.at_most(name, 1_000 if quick else COUNT, part(progress, 0, 0.1))
     laplacian = Laplacian(surface)
@@ -82,21 +82,21 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
             Claim(
                 "alpha-2",
                 {"isotropy ratio, least growth from one α to the next": by_source(growth.tolist())},
-                f"Isotropy ratio from the upper back: {_said(ratios[0])}.",
+                f"Isotropy ratio from the upper back: {_listed(ratios[0])}.",
             ),
             Claim(
                 "alpha-3",
                 {"deepest other minimum of any α, of the range": by_source(depths.max(axis=1).tolist())},
                 "Deepest minimum besides the source, of the range, from the upper back: "
-                f"{_said(100 * depths[0], ' %')}; median over the random sources: "
-                f"{_said(100 * np.median(depths[1:], axis=0), ' %')}.",
+                f"{_listed(100 * depths[0], ' %')}; median over the random sources: "
+                f"{_listed(100 * np.median(depths[1:], axis=0), ' %')}.",
             ),
         ),
     )
 
 
 def _summary(ratios: FloatArray, depths: FloatArray) -> Table:
-    """The family from the pictured source, and over the random ones."""
+    """Return the family from the pictured source, and over the random ones."""
     rows: list[tuple[Cell, ...]] = []
     for q, alpha in enumerate(ALPHAS):
         for label, values in (("isotropy ratio", ratios[:, q]), ("deepest other minimum, of the range", depths[:, q])):
@@ -106,5 +106,5 @@ def _summary(ratios: FloatArray, depths: FloatArray) -> Table:
     return Table("family", ("α", "measured", "upper back", "random, median", "least", "most"), tuple(rows))
 
 
-def _said(values: FloatArray, unit: str = "") -> str:
+def _listed(values: FloatArray, unit: str = "") -> str:
     return ", ".join(f"α = {alpha:g}: {value:.3g}{unit}" for alpha, value in zip(ALPHAS, values, strict=True))

@@ -19,8 +19,8 @@ from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
 from ._stated_figures import CIRCLE, LONG, ROUNDER, TREND
-from .gathered import Gathered
-from .result import Chart, Series
+from .parts import Parts
+from .result import Chart, Gathered, Series
 from .shapes import Shapes, distance, random_sources
 
 RADII = 0.04 / 2.0 ** np.arange(5)
@@ -37,7 +37,7 @@ PROTOCOL = (
     f"the area, on a mesh refined around the sources, so that each is at least {EDGES} edges wide; geodesic distance "
     "there is exact. The trend leaves out random sources around which the largest is not local: no single closed curve."
 )
-"""How isotropy is measured, in words."""
+"""A description of how isotropy is measured."""
 
 FRONT, BACK, RANDOM_FROM = 0, 1, 2
 """Where in circles that experiments share the pictured sources are, and where random ones begin."""
@@ -47,9 +47,9 @@ FRONT, BACK, RANDOM_FROM = 0, 1, 2
 class Circles:
     """Isotropy ratios on the circles of `RADII` around sources (s,).
 
-    ratios: by kind of distance, (s, 5), largest circle first; NaN around a source where geodesic circles cannot be had,
-    for the reason in `failure`.  are_local: (s,) whether the largest circle is one closed curve: where it is not, as on
-    a limb that is thinner, or at a boundary, it says nothing of the limit.
+    `ratios` are by kind of distance, (s, 5), largest circle first; NaN around a source where geodesic circles cannot be
+    had, for the reason in `failure`. `are_local` (s,) is True where the largest circle is one closed curve: where it is
+    not, as on a limb that is thinner, or at a boundary, it says nothing of the limit.
     """
 
     sources: IntArray
@@ -58,20 +58,20 @@ class Circles:
     failure: str = ""
 
     def trend(self, kind: str = "biharmonic") -> list[float]:
-        """(s,) the ratio's excess over 1 on the smallest circle, over that on the largest."""
+        """Return (s,) the ratio's excess over 1 on the smallest circle, over that on the largest."""
         ratios = self.ratios[kind]
         return _over(ratios[:, -1] - 1, ratios[:, 0] - 1)
 
     def smallest(self, kind: str) -> list[float]:
-        """(s,) the ratio on the smallest circle."""
+        """Return (s,) the ratio on the smallest circle."""
         return [float(x) for x in self.ratios[kind][:, -1]]
 
     def relative(self, other: str) -> list[float]:
-        """(s,) biharmonic distance's excess over 1 on the smallest circle, over that of another kind."""
+        """Return (s,) biharmonic distance's excess over 1 on the smallest circle, over that of another kind."""
         return _over(self.ratios["biharmonic"][:, -1] - 1, self.ratios[other][:, -1] - 1)
 
     def chart(self, heading: str, source: int = 0) -> Chart:
-        """The ratios around one of the sources."""
+        """Return the ratios around one of the sources."""
         series = (Series(kind, RADII, values[source]) for kind, values in self.ratios.items())
         x, y = "radius of the circle over root of area", "isotropy ratio"
         return Chart(heading, x, y, tuple(series), log_x=True, log_y=True)
@@ -80,7 +80,7 @@ class Circles:
 def circles(
     surface: Surface, sources: Sequence[int], kinds: Sequence[str], progress: Progress | None = None
 ) -> Circles:
-    """The isotropy ratios of several kinds of distance on circles around each of the sources (s,).
+    """Return the isotropy ratios of several kinds of distance on circles around each of the sources (s,).
 
     The mesh is refined around the sources, and geodesic distance is exact, as far as the circles reach.
     """
@@ -113,10 +113,10 @@ def circles(
 
 
 def shared_circles(shapes: Shapes, name: str, random: int, progress: Progress | None = None) -> Circles:
-    """Circles around the pictured sources on the front and on the back (`FRONT`, `BACK`), and then (`RANDOM_FROM`)
-    around random ones, of biharmonic distance and of diffusion distance with t = 1.
+    """Measure circles of biharmonic distance and of diffusion distance with t = 1, and keep them for other experiments.
 
-    Kept for the next experiment that asks.
+    They are around the pictured sources on the front and on the back (`FRONT`, `BACK`), then (`RANDOM_FROM`) around
+    random ones.
     """
     key = ("circles", name, random)
     if key not in shapes.kept:
@@ -145,6 +145,18 @@ def gather_circles(found: Gathered, circled: Circles, pictured: int, first_rando
 
 
 def _over(numerator: FloatArray, denominator: FloatArray) -> list[float]:
-    """Ratios of excesses; a vanishing one over a vanishing one is 1, no trend."""
+    """Return ratios of excesses; a vanishing one over a vanishing one is 1, no trend."""
     tiny = np.abs(denominator) < 1e-9
     return [float(x) for x in np.where(tiny, 1.0, numerator / np.where(tiny, 1.0, denominator))]
+
+
+def gather_shared_circles(
+    found: Gathered, parts: Parts, shapes: Shapes, name: str, count: int, pictured: int, progress: Progress
+) -> Circles | None:
+    """Gather the numbers of the circles that experiments share; None, with the reason in `parts`, if there are none."""
+    circled = parts.do(f"circles on {name}", shared_circles, shapes, name, count, progress)
+    if circled is not None:
+        gather_circles(found, circled, pictured, RANDOM_FROM)
+        if circled.failure:
+            parts.note(f"circles on {name}", circled.failure)
+    return circled

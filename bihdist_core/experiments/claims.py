@@ -4,15 +4,16 @@ The paper: biharmonic distance is a metric, smooth because eigenvalues grow like
 insensitive to small changes of topology; commute-time distance diverges and depends on the conformal structure only.
 """
 
+from collections.abc import Callable
+
 from ..progress import Progress, part
 from ._claims_growth import conformal, cost, eigenvalues, refinement
 from ._claims_metric import metric
 from ._claims_sampling import sampling
 from ._claims_topology import topology
 from .parts import Parts
-from .result import Claim, Result
+from .result import Claim, Findings, Result, statements_of
 from .shapes import Shapes
-from .statements import statements_of
 
 TITLE = "Claims in words"
 PARTS = {
@@ -28,35 +29,24 @@ PARTS = {
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """Everything; quick: smaller meshes, fewer triples and sources."""
+    """Check all claims; with smaller meshes, fewer triples and sources if `quick`."""
     (figure,), (hand,) = shapes.names("figure"), shapes.names("hand")
     parts = Parts()
-    metric_tables, metric_claims = parts.do(
-        "metric axioms", metric, shapes, figure, quick, parts, part(progress, 0, 0.3)
-    ) or (
-        [],
-        [],
-    )
-    cost_tables, cost_charts, cost_claims = parts.do(
-        "cost with N", cost, shapes, figure, quick, parts, part(progress, 0.3, 0.5)
-    ) or ([], [], [])
-    value_charts, value_claims = parts.do(
-        "growth of eigenvalues", eigenvalues, shapes, figure, quick, part(progress, 0.5, 0.6)
-    ) or ([], [])
-    fine_tables, fine_charts, fine_claims = parts.do("refinement", refinement, quick, part(progress, 0.6, 0.7)) or (
-        [],
-        [],
-        [],
-    )
-    moebius_tables, moebius_claims = parts.do("conformal maps", conformal, quick, part(progress, 0.7, 0.75)) or ([], [])
-    surfaces, panels, edit_tables, edit_claims = parts.do(
-        "changes of topology", topology, shapes, hand, quick, parts, part(progress, 0.75, 0.9)
-    ) or ({}, [], [], [])
-    coarse_tables, coarse_charts, coarse_claims = parts.do(
-        "sub-sampling", sampling, shapes, figure, quick, parts, part(progress, 0.9, 1)
-    ) or ([], [], [])
-    claims: list[Claim] = [*metric_claims, *cost_claims, *value_claims, *fine_claims, *moebius_claims]
-    judged = {claim.id: claim for claim in [*claims, *edit_claims, *coarse_claims]}
+    jobs: dict[str, tuple[float, Callable[[Progress], Findings]]] = {
+        "metric axioms": (0.3, lambda step: metric(shapes, figure, quick, parts, step)),
+        "cost with N": (0.5, lambda step: cost(shapes, figure, quick, parts, step)),
+        "growth of eigenvalues": (0.6, lambda step: eigenvalues(shapes, figure, quick, step)),
+        "refinement": (0.7, lambda step: refinement(quick, step)),
+        "conformal maps": (0.75, lambda step: conformal(quick, step)),
+        "changes of topology": (0.9, lambda step: topology(shapes, hand, quick, parts, step)),
+        "sub-sampling": (1.0, lambda step: sampling(shapes, figure, quick, parts, step)),
+    }
+    start, every = 0.0, list[Findings]()
+    for name, (stop, job) in jobs.items():
+        found = parts.do(name, job, part(progress, start, stop))
+        every += [] if found is None else [found]
+        start = stop
+    judged = {claim.id: claim for found in every for claim in found.claims}
     return Result(
         "claims",
         TITLE,
@@ -65,15 +55,15 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         "wide; other handles join random points, other welds other places that nearly touch. Metric axioms are checked "
         "on a smaller mesh, the smallest distance over all its pairs. Fields are sampled at farthest points, among "
         "them all sources. Times are processor times.",
-        surfaces,
-        tuple(panels),
-        (*cost_charts, *value_charts, *fine_charts, *coarse_charts),
-        (*metric_tables, *cost_tables, *fine_tables, *moebius_tables, *edit_tables, *coarse_tables),
+        {name: surface for found in every for name, surface in found.surfaces.items()},
+        tuple(panel for found in every for panel in found.panels),
+        tuple(chart for found in every for chart in found.charts),
+        tuple(table for found in every for table in found.tables),
         tuple(judged.get(statement.id) or _not_judged(statement.id, parts) for statement in statements_of("claims")),
         not_done=tuple(parts.not_done),
     )
 
 
 def _not_judged(id: str, parts: Parts) -> Claim:
-    """The claim of a statement whose part could not be done."""
+    """Return the claim of a statement whose part could not be done."""
     return Claim(id, failure=parts.why(*(name for name, ids in PARTS.items() if id in ids)))

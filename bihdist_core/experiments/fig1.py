@@ -5,13 +5,12 @@ the shape away from it.
 """
 
 from ..arrays import FloatArray
-from ..progress import Progress, part
+from ..progress import Progress, part, steps
 from ._stated_figures import MINIMA
-from .circles import FRONT, PROTOCOL, RANDOM_FROM, gather_circles, shared_circles
-from .gathered import Gathered
+from .circles import FRONT, PROTOCOL, gather_shared_circles
 from .measures import FIELD_COLUMNS, deepest_minimum, field_row, marks
 from .parts import Parts
-from .result import Cell, Panel, Result, Table
+from .result import Cell, Gathered, Panel, Result, Table
 from .shapes import Shapes, distance, random_sources, spec_of
 
 TITLE = "Biharmonic distance from a source"
@@ -21,13 +20,12 @@ FEW, QUICK = 8, 4
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """The field on each shape, from a source on its front, and numbers from random ones; quick: two shapes."""
+    """Compute the field on each shape from its front, and numbers from random sources; two shapes if `quick`."""
     names = shapes.names(*("figure", "animal", "hand", "genus3")[: 2 if quick else 4])
     panels, rows = [], []
     found, parts = Gathered(), Parts()
-    for k, name in enumerate(names):
+    for step, name in steps(progress, names):
         surface = shapes[name]
-        step = part(progress, k / len(names), (k + 1) / len(names))
         step(0.0, name)
         biharmonic = distance(shapes.laplacian(name), "biharmonic")
         source = shapes.pictured_source(name, "front")
@@ -43,11 +41,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         for vertex in random_sources(surface, count):
             depth = deepest_minimum(surface, biharmonic.from_source(vertex), vertex)
             found.add(MINIMA.name, depth, is_pictured=False)
-        circled = parts.do(f"circles on {name}", shared_circles, shapes, name, count, part(step, 0.3, 1))
-        if circled is not None:
-            gather_circles(found, circled, FRONT, RANDOM_FROM)
-            if circled.failure:
-                parts.note(f"circles on {name}", circled.failure)
+        gather_shared_circles(found, parts, shapes, name, count, FRONT, part(step, 0.3, 1))
     return Result(
         "fig1",
         TITLE,

@@ -37,10 +37,7 @@ COLUMNS = ("median", "90 %", "median, mirror image wrong", "90 %, mirror image w
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """Predictions for 200 random points, from known points that are spread and clustered, 25 starts each.
-
-    Quick: for 50 points, and 12 starts.
-    """
+    """Predict 200 random points (quick: 50) from spread and clustered known points, 25 starts each (quick: 12)."""
     seeds = starts(QUICK_STARTS) if quick else starts()
     one, two = shapes["figure"], shapes["figure_pose2"]
     first, second = shapes.laplacian("figure"), shapes.laplacian("figure_pose2")
@@ -88,7 +85,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
 
 
 def _targets(surface: Surface, quick: bool) -> tuple[IntArray, BoolArray]:
-    """(k,) random vertices, and (k,) whether they are those on the head."""
+    """Return (k,) random vertices, and (k,) whether they are those on the head."""
     y, rng = surface.vertices[:, 1], np.random.default_rng(0)
     head = np.flatnonzero(y >= y.max() - HEAD * np.ptp(y))
     everywhere = rng.choice(len(y), TARGETS // 4 if quick else TARGETS, replace=False)
@@ -97,7 +94,10 @@ def _targets(surface: Surface, quick: bool) -> tuple[IntArray, BoolArray]:
 
 
 def _from_the_right(shapes: Shapes, targets: IntArray, progress: Progress) -> tuple[FloatArray, FloatArray]:
-    """(n, k) distances on the second pose from the targets, and from these or their mirror images; root of area."""
+    """Return (n, k) distances on the second pose from the targets, and from these or their mirror images.
+
+    Root of area.
+    """
     unit = float(np.sqrt(shapes["figure_pose2"].face_areas.sum()))
     truth = distance(shapes.laplacian("figure_pose2"), "geodesic")
     off = truth.from_sources(targets, part(progress, 0, 0.5)) / unit
@@ -106,7 +106,7 @@ def _from_the_right(shapes: Shapes, targets: IntArray, progress: Progress) -> tu
 
 
 def _all_known(pair: tuple[Distance, Distance], points: IntArray, progress: Progress) -> Correspondence:
-    """The correspondence of all points, each of which keeps its distances; the two surfaces side by side."""
+    """Return the correspondence of all points, each of which keeps its distances; the two surfaces side by side."""
     columns: tuple[dict[int, FloatArray], dict[int, FloatArray]] = ({}, {})
     with ThreadPoolExecutor(2) as lanes:
         for start in range(0, len(points), BLOCK):
@@ -118,7 +118,7 @@ def _all_known(pair: tuple[Distance, Distance], points: IntArray, progress: Prog
 
 
 def _paired(table: Table, layout: str, kind: str, column: str) -> Estimate:
-    """By how much more than biharmonic distance another one errs, over the starts."""
+    """Return by how much more than biharmonic distance another one errs, over the starts."""
     own, other = (np.array(table.values(column, known_points=layout, distance=k), float) for k in ("biharmonic", kind))
     return mean_estimate(other - own)
 
@@ -134,7 +134,7 @@ def _means(table: Table) -> list[tuple[Cell, ...]]:
 
 
 def _claims(table: Table) -> tuple[Claim, ...]:
-    def said(layout: str, column: str) -> str:
+    def means_of(layout: str, column: str) -> str:
         means = (np.mean(np.array(table.values(column, known_points=layout, distance=k), float)) for k in DISTANCES)
         return ", ".join(f"{kind} {percent(float(mean))}" for kind, mean in zip(DISTANCES, means, strict=True))
 
@@ -145,9 +145,9 @@ def _claims(table: Table) -> tuple[Claim, ...]:
                 f"median error more than biharmonic's, {kind}": _paired(table, layout, kind, "median")
                 for kind in DISTANCES[1:]
             },
-            f"Mean over the starts of the median error, in roots of the area: {said(layout, 'median')}; of the error "
-            f"that 90 % of the targets are within: {said(layout, '90 %')}; with mirror images counted as wrong the "
-            f"medians are {said(layout, 'median, mirror image wrong')}.",
+            f"Mean over the starts of the median error, in roots of the area: {means_of(layout, 'median')}; of the "
+            f"error that 90 % of the targets are within: {means_of(layout, '90 %')}; with mirror images counted as "
+            f"wrong the medians are {means_of(layout, 'median, mirror image wrong')}.",
         )
         for k, layout in enumerate(LAYOUTS, 1)
     ]
@@ -157,7 +157,7 @@ def _claims(table: Table) -> tuple[Claim, ...]:
         numbers: Mapping[str, Estimate] = {
             f"{name} {layout}": _paired(table, layout, kind, f"median, {column}") for layout in LAYOUTS
         }
-        means = "; ".join(f"known points {layout}: {said(layout, f'median, {column}')}" for layout in LAYOUTS)
+        means = "; ".join(f"known points {layout}: {means_of(layout, f'median, {column}')}" for layout in LAYOUTS)
         better.append(Claim(id, numbers, f"Mean over the starts of the median error {where}, {means}."))
     return tuple(better)
 
@@ -183,7 +183,7 @@ def _pictures(
 
 
 def _clustered(surface: Surface, seed: str) -> IntArray:
-    """(3,) vertices spread within a disc around the start."""
+    """Return (3,) vertices spread within a disc around the start."""
     lengths = EdgeGeodesic(surface)
     points = spread_points(surface, 1, seed)
     nearest = lengths.distances(points[0])
@@ -195,7 +195,7 @@ def _clustered(surface: Surface, seed: str) -> IntArray:
 
 
 def _mirror(surface: Surface) -> IntArray:
-    """(n,) for each vertex the one nearest to its mirror image, left and right exchanged."""
+    """Return (n,) for each vertex the one nearest to its mirror image, left and right exchanged."""
     x = surface.vertices
     image = x * [-1, 1, 1] + [x[:, 0].min() + x[:, 0].max(), 0, 0]
     nearest: IntArray = cKDTree(x).query(image)[1]

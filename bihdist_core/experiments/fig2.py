@@ -16,11 +16,9 @@ from ..progress import Progress, part
 from ..surface import Surface
 from ._stated_figures import DEEP, MINIMA
 from .circles import PROTOCOL, circles, gather_circles
-from .gathered import Gathered
 from .measures import FIELD_COLUMNS, deepest_minimum, field_row, largest_jump, marks
-from .result import Cell, Mark, Panel, Result, Table
+from .result import STATEMENTS, Cell, Gathered, Mark, Panel, Result, Table
 from .shapes import Shapes, distance, random_sources, spec_of
-from .statements import STATEMENTS
 
 TITLE = "Distances over a flat domain"
 SHORT, LONG = "diffusion t = 1/15", "diffusion t = 1"
@@ -30,7 +28,7 @@ RANDOM, QUICK = 24, 4
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """Five fields from one source in the first corridor, and numbers from it and 24 random ones (quick: four)."""
+    """Compute five fields from a source in the first corridor, and numbers from it and 24 others (quick: four)."""
     (name,) = shapes.names("domain")
     surface, laplacian = shapes[name], shapes.laplacian(name)
     flat = float(surface.vertices[:, 2].max() - surface.vertices[:, 2].min()) == 0
@@ -88,7 +86,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
 
 
 def _extrema(surface: Surface, field: FloatArray, source: int) -> int:
-    """How many extrema a field has beside its source."""
+    """Count the extrema of a field beside its source."""
     seen = extrema(surface, field, DEEP)
     return int((np.concatenate([seen.minima, seen.maxima]) != source).sum())
 
@@ -96,7 +94,7 @@ def _extrema(surface: Surface, field: FloatArray, source: int) -> int:
 def _under_refinement(
     surface: Surface, sources: list[int], distances: dict[str, Distance], found: Gathered, progress: Progress
 ) -> Table:
-    """The largest jump of the gradient from each of the sources, on this mesh and on a finer one."""
+    """Return the largest jump of the gradient from each of the sources, on this mesh and on a finer one."""
     radius = small_radius(surface)
     finer = refined(surface)
     laplacian = Laplacian(finer)

@@ -16,7 +16,7 @@ from ..arrays import IntArray
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..errors import SolverError
 from ..laplacian import Laplacian
-from ..progress import Progress, part
+from ..progress import Progress, steps
 from ..surface import Surface
 from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, percent
 from .parts import Parts
@@ -34,7 +34,7 @@ SOURCES, QUICK_SOURCES = 10, 4
 
 @dataclass
 class Found:
-    """What was measured of a damaged surface, by distance; the pictured source comes first."""
+    """Measurements of a damaged surface, by distance; the pictured source comes first."""
 
     rows: list[tuple[Cell, ...]] = field(default_factory=list)
     panels: list[Panel] = field(default_factory=list)
@@ -42,7 +42,7 @@ class Found:
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """The fields on the scan and on the punched surface against the intact one; on the own surface, punched only."""
+    """Compare fields on the scan and on the punched surface with the intact one; on the own surface, punched only."""
     (name,) = shapes.names("figure")
     intact, parts = shapes[name], Parts()
     sources = {"pictured": shapes.vertex_at(intact, *UPPER_BACK, "back")}
@@ -58,8 +58,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     if holes is not None:
         damaged[punched_name] = holes, np.arange(len(intact.vertices))
     found: dict[str, Found] = {}
-    for q, (damage, (surface, there)) in enumerate(damaged.items()):
-        step = part(progress, q / len(damaged), (q + 1) / len(damaged))
+    for step, (damage, (surface, there)) in steps(progress, damaged.items()):
         measured = parts.do(damage, _measured, shapes, name, damage, surface, there, sources, not found, parts, step)
         if measured is not None:
             found[damage] = measured
@@ -93,7 +92,7 @@ def _measured(
     parts: Parts,
     progress: Progress,
 ) -> Found:
-    """there: (n,) the vertex of the intact surface that each vertex of the damaged one is, -1 for none."""
+    """Measure a damaged surface; `there` (n,) are the vertices of the intact one that its vertices are, -1 for none."""
     found, intact, laplacian = Found(), shapes[name], Laplacian(surface)
     usable = np.flatnonzero((there >= 0) & (surface.component_of_vertex == 0))
     tree = cKDTree(surface.vertices[usable])
@@ -129,7 +128,7 @@ def _measured(
 
 
 def _claim(id: str, found: Found | None, reason: str) -> Claim:
-    """reason: why nothing was found."""
+    """Make the claim; `reason` says why nothing was found."""
     if found is None:
         return Claim(id, failure=reason)
     means = {kind: [change.normalised_mean for change in every] for kind, every in found.every.items()}
@@ -146,7 +145,7 @@ def _claim(id: str, found: Found | None, reason: str) -> Claim:
 
 
 def _scanned(shapes: Shapes, intact: Surface) -> tuple[Surface, IntArray]:
-    """The scan, and (n,) the vertex of the intact surface that each of its points is, -1 for none."""
+    """Return the scan, and (n,) the vertex of the intact surface that each of its points is, -1 for none."""
     scan = shapes["scan"]
     off, same = cKDTree(intact.vertices).query(scan.vertices)
     # A scanned point that left its place by more than an edge has no counterpart.

@@ -14,5 +14,5 @@ TITLE = "Three distances, front and back"
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """The person."""
+    """Compare the distances on the person."""
     return compared("fig4", TITLE, shapes.names("figure"), shapes, quick, progress)

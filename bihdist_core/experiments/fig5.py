@@ -9,6 +9,6 @@ TITLE = "Three distances on several shapes"
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """The other shapes; quick: the first only."""
+    """Compare the distances on the other shapes; on the first only if `quick`."""
     names = shapes.names(*("animal", "hand", "genus3", "figure_pose2")[: 1 if quick else 4])
     return compared("fig5", TITLE, names, shapes, quick, progress)

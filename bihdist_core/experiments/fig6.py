@@ -20,9 +20,8 @@ from ..surface import Surface
 from ._stated_figures import insensitive
 from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, percent
 from .parts import Parts
-from .result import Cell, Claim, Mark, Panel, Result, Table
+from .result import STATEMENTS, Cell, Claim, Mark, Panel, Result, Table
 from .shapes import DISTANCES, UPPER_BACK, Shapes, distances_there, start_vertex, starts
-from .statements import STATEMENTS
 
 TITLE = "Noise, tessellation, deformation"
 NOISE = (0.1, 0.4, 1.0, 4.0)
@@ -34,7 +33,7 @@ FINE, COARSE = 14_000, 4_000
 SIMPLIFIED = "fig6-5"
 """The statement on simplification."""
 DRAWS, QUICK_DRAWS = 5, 2
-"""How often noise is drawn."""
+"""Draws of the noise."""
 EACH = 2
 """Random sources for each of them; a change without chance has all of them."""
 
@@ -43,7 +42,7 @@ EACH = 2
 class Change:
     """A surface, what became of it (several times, where that is random), and the points that both share.
 
-    ids, images: (k,) vertices before and after that are equal points.
+    Vertices `ids` (k,) before and `images` (k,) after are equal points.
     """
 
     name: str
@@ -55,13 +54,13 @@ class Change:
 
     @property
     def where(self) -> str:
-        """What the surface before is called."""
+        """The name of the surface before."""
         return f"{len(self.before.vertices):,} vertices"
 
 
 @dataclass
 class Found:
-    """What was measured of a change, by distance; the pictured source comes first."""
+    """Measurements of a change, by distance; the pictured source comes first."""
 
     rows: list[tuple[Cell, ...]] = field(default_factory=list)
     panels: list[Panel] = field(default_factory=list)
@@ -82,18 +81,18 @@ class Before:
 
     @property
     def kinds(self) -> list[str]:
-        """Those that can be had."""
+        """The kinds of distance that can be had."""
         return list(self._distances)
 
     def field(self, kind: str, source: int) -> FloatArray:
-        """(n,) the distances from a vertex."""
+        """Return (n,) the distances from a vertex."""
         if (kind, source) not in self._fields:
             self._fields[kind, source] = self._distances[kind].from_source(source)
         return self._fields[kind, source]
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """Changes of three distances from eleven sources (quick: five, on meshes of 4,000 and 1,150 vertices)."""
+    """Measure changes of three distances from eleven sources (quick: five, on meshes of 4,000 and 1,150 vertices)."""
     (name,) = shapes.names("figure")
     part(progress, 0, 0.2)(0.0, "simplifying")
     parts = Parts()
@@ -164,13 +163,13 @@ def _counts(quick: bool) -> tuple[int, int]:
 
 
 def _simplification(quick: bool) -> str:
-    """What that change is called."""
+    """Return the name of that change."""
     fine, coarse = _counts(quick)
     return f"{fine:,} to {coarse:,} vertices"
 
 
 def _noises() -> list[list[str]]:
-    """What noise of each size is called, both ways."""
+    """Return the names of noise of each size, both ways."""
     return [[f"noise of {percent(share)}{words}" for words in WAYS.values()] for share in NOISE]
 
 
@@ -180,7 +179,7 @@ def _before(shapes: Shapes, name: str, case: Change, parts: Parts) -> Before:
 
 
 def _measured(shapes: Shapes, case: Change, before: Before, draws: int, parts: Parts, step: Progress) -> Found:
-    """The changes of biharmonic distance, and of the others that can be had before and after every draw.
+    """Return the changes of biharmonic distance, and of the others that can be had before and after every draw.
 
     Raises SolverError if biharmonic distance is not among them.
     """
@@ -232,7 +231,7 @@ def _panels(
 
 
 def _shared(surface: Surface, ids: IntArray, vertex: int) -> int:
-    """The vertex among ids (k,) that is nearest to a vertex."""
+    """Return the vertex among ids (k,) that is nearest to a vertex."""
     return int(ids[np.linalg.norm(surface.vertices[ids] - surface.vertices[vertex], axis=1).argmin()])
 
 
@@ -254,7 +253,7 @@ def _tables(found: dict[str, Found]) -> tuple[Table, ...]:
 
 
 def _claims(found: dict[str, Found], parts: Parts, titles: list[list[str]]) -> list[Claim]:
-    """titles: the changes of each statement."""
+    """Make the claims; `titles` are the changes of each statement."""
     claims = []
     for k, cases in enumerate(titles, 1):
         id = f"fig6-{k}"
@@ -262,7 +261,7 @@ def _claims(found: dict[str, Found], parts: Parts, titles: list[list[str]]) -> l
         numbers = {
             name: by_source([c.normalised_mean for c in each.every["biharmonic"]]) for name, each in done.items()
         }
-        means = "; ".join(f"{case}: {_said(found[case])}" for case in cases if case in found)
+        means = "; ".join(f"{case}: {_means_in_words(found[case])}" for case in cases if case in found)
         note = f"Mean change from the pictured source, after division by the maximum (raw in parentheses), {means}."
         # What is neither done nor noted as failed is the pose, of a mesh of a reader.
         failure = parts.why(*cases) or ("" if numbers else "There is no other pose of this mesh to compare it with.")
@@ -272,6 +271,6 @@ def _claims(found: dict[str, Found], parts: Parts, titles: list[list[str]]) -> l
     return claims
 
 
-def _said(found: Found) -> str:
+def _means_in_words(found: Found) -> str:
     pictured = {kind: found.every[kind][0] for kind in found.kinds}
     return ", ".join(f"{kind} {percent(c.normalised_mean)} ({percent(c.mean)})" for kind, c in pictured.items())

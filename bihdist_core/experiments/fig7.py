@@ -14,11 +14,9 @@ from ..arrays import FloatArray
 from ..progress import Progress, part
 from ..surface import Surface
 from .circles import PROTOCOL, circles, gather_circles
-from .gathered import Gathered
 from .measures import FIELD_COLUMNS, field_row, over
-from .result import Cell, Mark, Panel, Result, Table
+from .result import STATEMENTS, Cell, Gathered, Mark, Panel, Result, Table
 from .shapes import Shapes, distance, random_sources
-from .statements import STATEMENTS
 
 TITLE = "Diffusion times and biharmonic distance on a hand"
 SHORT, MEDIUM, LONG = "diffusion t = 0.125", "diffusion t = 0.25", "diffusion t = 1"
@@ -33,7 +31,7 @@ radii, and has at most so many isolines in all."""
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """Four fields from the front of the longest finger, and numbers from 24 random sources on fingers (quick: four)."""
+    """Compute four fields from the longest finger, and numbers from 24 random sources on fingers (quick: four)."""
     (name,) = shapes.names("hand")
     surface, laplacian = shapes[name], shapes.laplacian(name)
     x = surface.vertices
@@ -100,7 +98,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
 
 
 def _close_up(panel: Panel, surface: Surface, geodesic: FloatArray) -> Panel:
-    """What is around the source of a panel, with so many isolines that their shape there is seen."""
+    """Enlarge the surroundings of a panel's source, with enough isolines to show their shape there."""
     assert panel.field is not None
     radius = small_radius(surface)
     near = float(np.median(panel.field[np.abs(geodesic - radius) <= surface.mean_edge_length]))

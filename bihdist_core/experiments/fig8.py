@@ -26,7 +26,7 @@ BATCHES = 25
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """Errors at 200,000 random pairs of a 5,000 vertex mesh (quick: 20,000 pairs of 1,500 vertices)."""
+    """Measure errors at 200,000 random pairs of a 5,000 vertex mesh (quick: 20,000 pairs of 1,500 vertices)."""
     (name,) = shapes.names("figure")
     n, count = (1_500, 20_000) if quick else (COUNT, PAIRS)
     surface = shapes.at_most(name, n, part(progress, 0, 0.1))
@@ -110,13 +110,13 @@ def _slopes(exponents: dict[str, Estimate]) -> Table:
 
 
 def exponent_of(ks: IntArray, errors: FloatArray) -> Estimate:
-    """The mean exponent of errors (k, m) against numbers (k,), over groups (m,), with its interval."""
+    """Return the mean exponent of errors (k, m) against numbers (k,), over groups (m,), with its interval."""
     x = np.log(ks) - np.log(ks).mean()
     return mean_estimate(x @ np.log(errors) / (x @ x))
 
 
 def _pairs(distance: Distance, count: int, progress: Progress) -> tuple[IntArray, IntArray, FloatArray, float]:
-    """(count,) first and second vertices of random pairs and their distances, and the largest of all pairs."""
+    """Return (count,) first and second vertices of random pairs and their distances, and the largest of all pairs."""
     n = len(distance.surface.vertices)
     rng = np.random.default_rng(0)
     i = np.sort(rng.integers(n, size=count))

@@ -15,11 +15,9 @@ from ..distances.edge_geodesic import EdgeGeodesic
 from ..progress import Progress, part
 from ..surface import Surface
 from ._stated_figures import DEEP
-from .gathered import Gathered
 from .measures import KINK, inner_jumps, over
-from .result import Cell, Claim, Mark, Panel, Result, Table
+from .result import STATEMENTS, Cell, Claim, Gathered, Mark, Panel, Result, Table
 from .shapes import STARTS, Shapes, distance, spread_points, starts
-from .statements import STATEMENTS
 from .verdicts import mean_estimate
 
 TITLE = "Interpolation from anchors"
@@ -39,7 +37,7 @@ COLUMNS = (
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """Interpolants from anchors spread from vertex 0 and from 24 random vertices (quick: four)."""
+    """Compare interpolants from anchors spread from vertex 0 and from 24 random vertices (quick: four)."""
     (name,) = shapes.names("animal")
     surface, laplacian = shapes[name], shapes.laplacian(name)
     x = surface.vertices
@@ -134,10 +132,10 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
 
 
 def different_anchors(surface: Surface, count: int, head: BoolArray, nose: int) -> dict[str, IntArray]:
-    """(k,) anchors from each of the first `count` starts, by their names, that lead to different ones.
+    """Return (k,) anchors from each of the first `count` starts, by their names, that lead to different ones.
 
-    head: (n,) bool, where there are no anchors but the nose.  A start on the head is no anchor itself, so that several
-    of them may lead to the same tips.  There are fewer than `count` where that many are not found.
+    On the `head` (n,) there are no anchors but the nose. A start on the head is no anchor itself, so that several of
+    them may lead to the same tips. There are fewer than `count` where that many are not found.
     """
     found: dict[tuple[int, ...], str] = {}
     for seed in starts(TRIED * count):
@@ -148,13 +146,13 @@ def different_anchors(surface: Surface, count: int, head: BoolArray, nose: int) 
 
 
 def _anchors(surface: Surface, seed: str, head: BoolArray, nose: int) -> IntArray:
-    """(k,) vertices spread from a start, and the nose: the head has one anchor only."""
+    """Return (k,) vertices spread from a start, and the nose: the head has one anchor only."""
     spread = [v for v in spread_points(surface, SPREAD + 3, seed) if not head[v]]
     return np.array([*spread[:SPREAD], nose])
 
 
 def _legs(surface: Surface) -> list[BoolArray]:
-    """(n,) bool for each of the four legs."""
+    """Return (n,) bool for each of the four legs."""
     x = surface.vertices
     middle = (x.min(axis=0) + x.max(axis=0)) / 2
     low = x[:, 1] < x[:, 1].min() + LEG * np.ptp(x[:, 1])

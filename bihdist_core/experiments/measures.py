@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ..analysis import kinks
+from ..analysis import diagnostics
 from ..analysis.circles import small_radius
 from ..analysis.diagnostics import FieldChange, field_change, isotropy_ratio
 from ..analysis.persistence import Extrema, extrema
@@ -33,7 +33,7 @@ CHANGE_COLUMNS = ("raw mean", "raw largest", "normalised mean", "normalised larg
 
 
 def other_minima(found: Extrema, source: int) -> IntArray:
-    """(k,) the minima that are not the source."""
+    """Return (k,) the minima that are not the source."""
     minima: IntArray = found.minima[found.minima != source]
     return minima
 
@@ -41,7 +41,7 @@ def other_minima(found: Extrema, source: int) -> IntArray:
 def field_row(
     surface: Surface, name: str, source_name: str, source: int, distance: str, field: FloatArray, geodesic: FloatArray
 ) -> tuple[Cell, ...]:
-    """One row under `FIELD_COLUMNS`: extrema, isotropy and kinks of a distance field (n,)."""
+    """Return a row under `FIELD_COLUMNS`: extrema, isotropy and kinks of a distance field (n,)."""
     found = extrema(surface, field)
     relative = inner_jumps(surface, field, geodesic)
     deepest = found.minima_persistence[found.minima != source]
@@ -61,20 +61,19 @@ def field_row(
 
 
 def inner_jumps(surface: Surface, field: FloatArray, near: FloatArray, radius: float | None = None) -> FloatArray:
-    """(k,) relative jumps of the gradient away from the source and the boundary (see `kinks.inner_jumps`)."""
-    return kinks.inner_jumps(surface, field, near, radius).relative
+    """Return (k,) relative jumps of the gradient away from the source and the boundary."""
+    return diagnostics.inner_jumps(surface, field, near, radius).relative
 
 
 def largest_jump(surface: Surface, field: FloatArray, near: FloatArray, radius: float | None = None) -> float:
-    """The largest jump of the gradient (see `kinks.kinks`) where `near` (n,) exceeds a radius, the small one by
-    default."""
-    return kinks.kinks(surface, field, near, radius).largest
+    """Return the largest jump of the gradient where `near` (n,) exceeds a radius, the small one by default."""
+    return diagnostics.kinks(surface, field, near, radius).largest
 
 
 def deepest_minimum(surface: Surface, field: FloatArray, source: int, among: BoolArray | None = None) -> float:
-    """How deep the deepest minimum of a field (n,) but the source is, as a share of the range; 0 if there is none.
+    """Return the depth of the deepest minimum but the source, as a fraction of the range; 0 if there is none.
 
-    among: (n,) bool, where the others are looked for.
+    Minima of the field (n,) are looked for where `among` (n,) is True.
     """
     found = extrema(surface, field)
     counted = found.minima != source
@@ -84,19 +83,19 @@ def deepest_minimum(surface: Surface, field: FloatArray, source: int, among: Boo
 
 
 def kinked_edges(surface: Surface, field: FloatArray, geodesic: FloatArray) -> tuple[float, IntArray]:
-    """The share of edges in kinks away from the source, and (k, 2) these edges."""
-    jumps = kinks.inner_jumps(surface, field, geodesic)
+    """Return the share of edges in kinks away from the source, and (k, 2) these edges."""
+    jumps = diagnostics.inner_jumps(surface, field, geodesic)
     kinked = jumps.relative >= KINK
     return float(kinked.mean()) if len(kinked) else 0.0, jumps.edges[kinked]
 
 
 def over(one: float, other: float) -> float:
-    """How many times another number one is; NaN where both vanish, which tells nothing."""
+    """Divide one number by another; NaN where both vanish, which tells nothing."""
     return one / other if other > 0 else (np.inf if one > 0 else np.nan)
 
 
 def marks(surface: Surface, field: FloatArray, source: int) -> tuple[Mark, ...]:
-    """The source, and the extrema that a figure points at with arrows."""
+    """Return the source, and the extrema that a figure points at with arrows."""
     found = extrema(surface, field, DEEP)
     return (
         Mark(int(source), "source"),
@@ -106,20 +105,20 @@ def marks(surface: Surface, field: FloatArray, source: int) -> tuple[Mark, ...]:
 
 
 def change_cells(change: FieldChange) -> tuple[float, ...]:
-    """The cells under `CHANGE_COLUMNS`."""
+    """Return the cells under `CHANGE_COLUMNS`."""
     return change.mean, change.largest, change.normalised_mean, change.normalised_largest
 
 
 def changes(before: Mapping[str, FloatArray], after: Mapping[str, FloatArray]) -> dict[str, FieldChange]:
-    """How each field changed, by its name."""
+    """Measure the change of each field, by its name."""
     return {name: field_change(before[name], after[name]) for name in before}
 
 
 def by_source(numbers: Sequence[float], pictured: int = 1) -> BySource:
-    """Numbers of which the first belong to the pictured sources."""
+    """Group numbers of which the first belong to the pictured sources."""
     return BySource(tuple(numbers[:pictured]), tuple(numbers[pictured:]))
 
 
 def percent(value: float) -> str:
-    """A share in words: three digits, in percent."""
+    """Return a share in words: three digits, in percent."""
     return f"{100 * value:.3g} %"

@@ -28,7 +28,7 @@ class Parts:
         self.not_done: list[NotDone] = []
 
     def do(self, name: str, work: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> T | None:
-        """What `work` gives, or None where it fails.
+        """Do a part of the work, and return its result, or None where it fails.
 
         Raises Cancelled, and OutputError, which concern all parts.
         """
@@ -41,18 +41,18 @@ class Parts:
             return None
 
     def note(self, name: str, reason: str) -> None:
-        """A part is not done, and why; once for all parts of that name that fail for that reason."""
+        """Note that a part is not done, and why; once for all parts of that name that fail for that reason."""
         missing = NotDone(name, reason)
         if missing not in self.not_done:
             self.not_done.append(missing)
 
     def why(self, *names: str) -> str:
-        """The reasons why parts of these names are not done, each once; "" if none of them failed."""
+        """Return the reasons why parts of these names are not done, each once; "" if none of them failed."""
         return " ".join(dict.fromkeys(each.reason for each in self.not_done if each.part in names))
 
 
 def reason_of(error: Exception) -> str:
-    """Why something failed, in a sentence."""
+    """Say in a sentence why something failed."""
     if isinstance(error, BihdistError):
         return str(error)
     if isinstance(error, MemoryError):

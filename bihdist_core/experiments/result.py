@@ -1,35 +1,51 @@
-"""What an experiment hands over: numbers, fields to draw and charts to plot as data, and what became of each claim.
+"""Results of an experiment: numbers, fields to draw and charts to plot as data, and a verdict on each claim.
 
 Nothing here draws.  A drawing program shows each `Panel` with its surface, and each `Chart` and `Table`, in order.
 """
 
 import csv
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from ..arrays import AnyArray, FloatArray
-from ..distances.kinds import Spec
+from ..distances.distance_types import Spec
 from ..errors import OutputError, ParameterError
+from ..file_output import atomic_write
 from ..surface import Surface
-from ..whole_file import whole_file
+from ._stated_claims import CLAIMS
+from ._stated_figures import FIGURES
 from .parts import NotDone
-from .statements import STATEMENTS
-from .verdicts import Numbers, Part, Statement, Verdict, ends_of, number_of
+from .verdicts import BySource, Numbers, Part, Statement, Verdict, ends_of, number_of
 
 Cell = str | int | float | None
 
 
+ORDER = (*(f"fig{k}" for k in range(1, 11)), "table1", "table2", "alpha", "claims")
+"""The experiments, as the page has them."""
+
+STATEMENTS: dict[str, Statement] = {
+    statement.id: statement
+    for statement in sorted((*FIGURES, *CLAIMS), key=lambda s: ORDER.index(s.id.partition("-")[0]))
+}
+"""The statements by id: an experiment's id, a hyphen, and a number or a word."""
+
+
+def statements_of(experiment: str) -> tuple[Statement, ...]:
+    """Return the statements of an experiment, by its id."""
+    return tuple(s for id, s in STATEMENTS.items() if id.partition("-")[0] == experiment)
+
+
 @dataclass(frozen=True)
 class Claim:
-    """What was measured of a statement, by its id: numbers by the names of its parts, and what there is to add.
+    """The measurements of a statement, by its id: numbers by the names of its parts.
 
-    note: further numbers, in a sentence.  warning: why the numbers may be off, such as a loaded computer.  failure: why
-    there are none, or not all.  words: the statement with the sizes that were measured, where it names others.
-    ParameterError for an unknown id or part.
+    `note` has further numbers, in a sentence; `warning` says why the numbers may be off, such as a loaded computer;
+    `failure` why there are none, or not all. `words` is the statement with the sizes that were measured, where it names
+    others. Raises ParameterError for an unknown id or part.
     """
 
     id: str
@@ -57,20 +73,20 @@ class Claim:
 
     @property
     def verdict(self) -> Verdict | None:
-        """Whether it holds, by the rule; None where there are no numbers to say so."""
+        """The verdict by the rule; None where there are no numbers for one."""
         return self.statement.judge(self.numbers)
 
     @property
     def measured(self) -> str:
         """The claim's numbers in a line; why there are none, if so."""
-        sentences = [f"{part.name}: {part.said(self.numbers[part.name])}" for part in self._measured()]
+        sentences = [f"{part.name}: {part.formatted(self.numbers[part.name])}" for part in self._measured()]
         return "; ".join(sentences) or self.failure or "not measured"
 
     def _measured(self) -> list[Part]:
         return [part for part in self.statement.parts if part.name in self.numbers]
 
     def rows(self) -> list[tuple[Cell, ...]]:
-        """A row under `CLAIM_COLUMNS` for each part."""
+        """Return a row under `CLAIM_COLUMNS` for each part."""
         rows: list[tuple[Cell, ...]] = []
         for part in self.statement.parts:
             numbers = self.numbers.get(part.name)
@@ -80,6 +96,36 @@ class Claim:
                 figures = (number_of(numbers), *ends_of(numbers), *part.counts(numbers))
             rows.append((*about, part.judge(numbers) or "", *figures, part.rule, self.note, self.warning, self.failure))
         return rows
+
+
+class Gathered:
+    """Numbers by the names of statements' parts, of pictured and of random sources."""
+
+    def __init__(self) -> None:
+        self._pictured: dict[str, list[float]] = {}
+        self._random: dict[str, list[float]] = {}
+
+    def add(self, part: str, number: float, is_pictured: bool) -> None:
+        """Add a number to the part of a statement, or to parts of several statements, with that name."""
+        (self._pictured if is_pictured else self._random).setdefault(part, []).append(float(number))
+
+    def numbers(self, name: str) -> BySource | None:
+        """Return the numbers gathered under a name; None if there are none."""
+        if name not in self._pictured and name not in self._random:
+            return None
+        return BySource(tuple(self._pictured.get(name, ())), tuple(self._random.get(name, ())))
+
+    def claim(self, id: str, note: str = "", more: Mapping[str, Numbers] | None = None, failure: str = "") -> Claim:
+        """Return the claim of a statement with what was gathered of its parts and with `more` numbers of other parts.
+
+        `failure` says why some, or all, are missing.
+        """
+        numbers: dict[str, Numbers] = dict(more or {})
+        for name in STATEMENTS[id].names:
+            found = self.numbers(name)
+            if found is not None:
+                numbers[name] = found
+        return Claim(id, numbers, note, failure=failure)
 
 
 CLAIM_COLUMNS = (
@@ -105,12 +151,29 @@ MARKS = ("source", "anchor", "target", "candidate", "place", "minimum", "maximum
 class Panel:
     """One picture: a field (n,) on the surface of that name in `Result.surfaces`, or the bare surface without field.
 
-    row: panels of one row belong side by side.  style: "surface", or "height" for a flat domain whose field is drawn
-    as a height.  views: names of directions, "front", "back", "source" (the side that sees the row's
-    first mark best), or "zoom" (around `zoom_vertex`, showing `zoom_radius`, in the surface's unit).  Isolines:
-    `isoline_count` equally spaced ones.  exaggerate: colours show the field to this power; below 1 small values are
-    spread out.  failure: why a field is missing.  distance: what computes the field anew, from the mark of a source,
-    None where that is more than one distance.
+    Attributes
+    ----------
+    heading, surface : str
+        The heading, and the surface's name.
+    field : (n,) ndarray or None
+        The field.
+    row : str
+        Panels of one row belong side by side.
+    marks : tuple of Mark
+        Marked vertices.
+    views : tuple of str
+        Directions: "front", "back", "source" (the side that sees the row's first mark best), or "zoom" (around
+        `zoom_vertex`, showing `zoom_radius`, in the surface's unit).
+    style : {"surface", "height"}
+        "height" for a flat domain whose field is drawn as a height.
+    isoline_count : int
+        How many equally spaced isolines.
+    exaggerate : float
+        Colours show the field to this power; below 1 small values are spread out.
+    failure : str
+        Why a field is missing.
+    distance : Spec or None
+        The distance that computes the field anew, from the mark of a source; None where that is more than one.
     """
 
     heading: str
@@ -130,7 +193,7 @@ class Panel:
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """One curve of a chart: x and y (k,).  style: "line" or "points"."""
+    """A curve of a chart, x and y (k,), drawn in the style "line" or "points"."""
 
     name: str
     x: AnyArray
@@ -159,13 +222,13 @@ class Table:
     rows: tuple[tuple[Cell, ...], ...]
 
     def values(self, column: str, **where: Cell) -> list[Cell]:
-        """The cells of a column, in the rows that have the given cells in other columns."""
+        """Return the cells of a column, in the rows that have the given cells in other columns."""
         at = self.columns.index(column)
         tests = [(self.columns.index(key.replace("_", " ")), value) for key, value in where.items()]
         return [row[at] for row in self.rows if all(row[k] == value for k, value in tests)]
 
     def value(self, column: str, **where: Cell) -> float:
-        """The one number so described; ParameterError unless there is just one."""
+        """Return the one number so described; ParameterError unless there is just one."""
         found = self.values(column, **where)
         if len(found) != 1 or not isinstance(found[0], (int, float)):
             raise ParameterError(f"{self.heading}: {column} where {where} is {found}, not one number.")
@@ -173,11 +236,22 @@ class Table:
 
 
 @dataclass(frozen=True, eq=False)
+class Findings:
+    """The findings of one part of an experiment."""
+
+    surfaces: Mapping[str, Surface] = field(default_factory=dict)
+    panels: Sequence[Panel] = ()
+    charts: Sequence[Chart] = ()
+    tables: Sequence[Table] = ()
+    claims: Sequence[Claim] = ()
+
+
+@dataclass(frozen=True, eq=False)
 class Result:
     """The outcome of one experiment.
 
-    protocol: how it was done, in sentences: sources, sizes, thresholds, all fixed before looking.  seconds: how long it
-    took.  not_done: its parts that could not be done.
+    `protocol` says how it was done, in sentences: sources, sizes and thresholds, all fixed before looking. `seconds` is
+    how long it took, and `not_done` lists the parts that could not be done.
     """
 
     id: str
@@ -192,7 +266,7 @@ class Result:
     not_done: tuple[NotDone, ...] = ()
 
     def table(self, heading: str) -> Table:
-        """The table of that heading; ParameterError if there is none."""
+        """Return the table of that heading; ParameterError if there is none."""
         for table in self.tables:
             if table.heading == heading:
                 return table
@@ -209,7 +283,7 @@ class Result:
         except OSError as error:
             raise OutputError(f"{folder} cannot be made: {error.strerror or error}.") from None
         paths = [folder / f"{self.id}.npz"]
-        with whole_file(paths[0]) as temporary, temporary.open("wb") as file:
+        with atomic_write(paths[0]) as temporary, temporary.open("wb") as file:
             np.savez_compressed(file, allow_pickle=False, **self._arrays())
         for k, table in enumerate(self.tables, 1):
             paths.append(_write_csv(folder / f"{self.id}_table{k}.csv", table.columns, table.rows))
@@ -235,7 +309,7 @@ class Result:
 
 
 def _write_csv(path: Path, header: tuple[str, ...], rows: object) -> Path:
-    with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+    with atomic_write(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(header)
         writer.writerows(rows)  # type: ignore[arg-type]

@@ -6,7 +6,7 @@ function is its own; the piecewise linear one favours nothing, so that both stan
 
 import numpy as np
 
-from ..arrays import BoolArray, FloatArray, IntArray
+from ..arrays import BoolArray, FloatArray, IntArray, unit_columns
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..errors import ParameterError
 from ..laplacian import Component
@@ -18,11 +18,11 @@ BLOCK = 64
 class Smoothest:
     """The function with given values at some points and the least bending energy, sum_i (L f)_i^2 / A_i.
 
-    This is biharmonic interpolation over the mesh; L is the stiffness matrix, A the vertex areas.  The function is a
+    The points are local vertices (m,) of one component; ParameterError for none, and for one given twice.
+
+    This is biharmonic interpolation over the mesh; L is the stiffness matrix, A the vertex areas. The function is a
     constant and a sum of columns C_p of the Green's function at the points p, with weights of sum 0: L A^-1 L C_p is
     the unit mass at p less a term that is the same for all p.
-
-    points: (m,) local vertices of one component.  Raises ParameterError for none, and for one given twice.
     """
 
     def __init__(self, component: Component, points: IntArray) -> None:
@@ -32,8 +32,7 @@ class Smoothest:
         green = np.empty((len(component.vertices), m))
         for start in range(0, m, BLOCK):
             some = points[start : start + BLOCK]
-            b = np.zeros((len(green), len(some)))
-            b[some, np.arange(len(some))] = 1
+            b = unit_columns(len(green), some)
             half = component.centred(component.solve(b))
             green[:, start : start + BLOCK] = component.solve(component.areas[:, None] * half)
         system = np.ones((m + 1, m + 1))
@@ -42,7 +41,7 @@ class Smoothest:
         self._green, self._system = green, system
 
     def __call__(self, values: FloatArray) -> FloatArray:
-        """(n,) or (n, k) everywhere on the component, from values (m,) or (m, k) at the points."""
+        """Return (n,) or (n, k) everywhere on the component, from values (m,) or (m, k) at the points."""
         values = np.asarray(values, float)
         known = np.concatenate([values, np.zeros((1, *values.shape[1:]))])
         weights = np.linalg.solve(self._system, known)
@@ -51,13 +50,12 @@ class Smoothest:
 
 
 class PiecewiseLinear:
-    """Linear on the flat triangles between points whose Voronoi cells on the surface meet three at a time.
+    """An interpolant that is linear on the flat triangles between points whose Voronoi cells meet three at a time.
 
-    Cells are by distance along edges.  A vertex takes its value at the nearest place of the triangles of its own cell,
-    so never from a part of the surface that is near in space only.  Where two cells meet and no third one does, as
-    round a thin limb, there is a straight line instead.
-
-    points: (m,) vertices.  A vertex that no point can be reached from has no value.
+    The points are vertices (m,); cells are by distance along edges. A vertex takes its value at the nearest place of
+    the triangles of its own cell, so never from a part of the surface that is near in space only. Where two cells meet
+    and no third one does, as round a thin limb, there is a straight line instead. A vertex that no point can be reached
+    from has no value.
     """
 
     def __init__(self, surface: Surface, points: IntArray) -> None:
@@ -75,13 +73,13 @@ class PiecewiseLinear:
         self.corners[vertex[first]], self.weights[vertex[first]] = pieces[piece[first]], weights[first]
 
     def __call__(self, values: FloatArray) -> FloatArray:
-        """(n,) or (n, k) everywhere, from values (m,) or (m, k) at the points; NaN out of reach of them."""
+        """Return (n,) or (n, k) everywhere, from values (m,) or (m, k) at the points; NaN out of reach of them."""
         field: FloatArray = np.einsum("ic,ic...->i...", self.weights, np.asarray(values, float)[self.corners])
         return field
 
 
 def _meeting(cell: IntArray, surface: Surface, count: int) -> IntArray:
-    """(t, 3) the cells that meet: three in a face, or, repeated, two along an edge or one alone."""
+    """Return (t, 3) the cells that meet: three in a face, or, repeated, two along an edge or one alone."""
     corners = np.sort(cell[surface.faces], axis=1)
     triangles = np.unique(corners[(np.diff(corners, axis=1) > 0).all(axis=1) & (corners[:, 0] >= 0)], axis=0)
     lines = np.sort(cell[surface.edges], axis=1)
@@ -93,7 +91,7 @@ def _meeting(cell: IntArray, surface: Surface, count: int) -> IntArray:
 
 
 def _pairs(cell: IntArray, pieces: IntArray, count: int) -> tuple[IntArray, IntArray]:
-    """(k,) vertices and (k,) pieces of their cells, each pair once."""
+    """Return (k,) vertices and (k,) pieces of their cells, each pair once."""
     owner, number = pieces.ravel(), np.repeat(np.arange(len(pieces)), 3)
     owner, number = np.unique(np.stack([owner, number]), axis=1)
     start = np.searchsorted(owner, np.arange(count + 1))
@@ -105,9 +103,9 @@ def _pairs(cell: IntArray, pieces: IntArray, count: int) -> tuple[IntArray, IntA
 
 
 def nearest_in_triangles(points: FloatArray, triangles: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """(k, 3) barycentric weights of the place of each triangle (k, 3, 3) nearest to each point (k, 3); (k,) how far.
+    """Return (k, 3) barycentric weights of the place of each triangle (k, 3, 3) nearest to each point (k, 3).
 
-    Triangles may be lines or points.
+    (k,) how far. Triangles may be lines or points.
     """
     k = np.arange(len(points))
     best, away = np.zeros((len(points), 3)), np.full(len(points), np.inf)

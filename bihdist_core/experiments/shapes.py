@@ -1,7 +1,7 @@
 """The surfaces of the experiments, by name, with what is expensive to compute about them."""
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,13 +11,13 @@ from ..applications.resizing import at_most, resized
 from ..arrays import BoolArray, IntArray
 from ..distances.answers import Distances
 from ..distances.distance import Distance
+from ..distances.distance_types import Spec
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..distances.geodesic import GeodesicDistance
-from ..distances.kinds import Spec
 from ..errors import ParameterError
 from ..formats.mesh_io import read_surface
 from ..laplacian import Laplacian
-from ..progress import Progress, part
+from ..progress import Progress, steps
 from ..surface import Surface
 from .parts import Parts
 
@@ -31,22 +31,22 @@ SEEDS = ("vertex 0", "seed 1", "seed 2", "seed 3", "seed 4")
 """The first starts of every protocol: the first vertex, and some drawn at random once and for all."""
 
 STARTS = 25
-"""What depends on a start is taken from so many."""
+"""The number of starts for measurements that depend on one."""
 
 LARGE = 20_000
 """Vertices from which on a mesh of the reader's is simplified once, before smaller ones are made from it."""
 
 
 def starts(count: int = STARTS) -> tuple[str, ...]:
-    """The first starts of every protocol, as many as one likes; beyond the first they are random."""
+    """Return the first starts of every protocol, as many as one likes; beyond the first they are random."""
     return ("vertex 0", *(f"seed {number}" for number in range(1, count)))
 
 
 class Shapes:
     """The surfaces by name, read when first needed; or, in the place of all of them, the reader's own.
 
-    meshes: surfaces or paths of mesh files.  own: the reader's surface.  up: the axis that is up in all of them, such
-    as "z" or "-y".
+    `meshes` are surfaces or paths of mesh files, `own` is the reader's surface, and `up` the axis that is up in all of
+    them, such as "z" or "-y".
     """
 
     def __init__(
@@ -62,19 +62,19 @@ class Shapes:
         self._surfaces: dict[str, Surface] = {}
         self._laplacians: dict[str, Laplacian] = {}
         self.kept: dict[object, object] = {}
-        """What one experiment computed and another needs too."""
+        """Results of one experiment that another needs too."""
 
     @classmethod
     def from_folder(cls, folder: str | os.PathLike[str]) -> "Shapes":
-        """The meshes `NAME.ply` of a folder."""
+        """Return the meshes `NAME.ply` of a folder."""
         return cls({name: Path(folder) / f"{name}.ply" for name in NAMES if (Path(folder) / f"{name}.ply").exists()})
 
     def names(self, *names: str) -> tuple[str, ...]:
-        """The names of shapes that an experiment would look at; of the own surface instead, if there is one."""
+        """Return the names of shapes that an experiment would look at; of the own surface instead, if there is one."""
         return (self.own.name,) if self.own is not None else names
 
     def __getitem__(self, name: str) -> Surface:
-        """The surface of that name; ParameterError if there is none."""
+        """Return the surface of that name; ParameterError if there is none."""
         if self.own is not None and name == self.own.name:
             return self.own
         if name not in self._surfaces:
@@ -86,33 +86,38 @@ class Shapes:
         return self._surfaces[name]
 
     def laplacian(self, name: str) -> Laplacian:
-        """The Laplacian of a shape, shared by all distances on it."""
+        """Return the Laplacian of a shape, shared by all distances on it."""
         if name not in self._laplacians:
             self._laplacians[name] = Laplacian(self[name])
         return self._laplacians[name]
 
     def sized(self, name: str, count: int, progress: Progress | None = None) -> Surface:
-        """The surface with `count` vertices, kept for the next experiment."""
-        key = f"{name} with {count} vertices"
-        if key not in self._surfaces:
-            self._surfaces[key] = resized(self._near(name, count), count, progress)
-        return self._surfaces[key]
+        """Return the surface with `count` vertices, kept for the next experiment."""
+        return self._made(f"{name} with {count} vertices", resized, name, count, progress)
 
     def at_most(self, name: str, count: int, progress: Progress | None = None) -> Surface:
-        """The surface with at most `count` vertices if it goes: as it is, or simplified as far as it can be."""
-        key = f"{name} with at most {count} vertices"
+        """Return the surface with at most `count` vertices if it goes: as it is, or simplified as far as it can be."""
+        return self._made(f"{name} with at most {count} vertices", at_most, name, count, progress)
+
+    def _made(
+        self,
+        key: str,
+        change: Callable[[Surface, int, Progress | None], Surface],
+        name: str,
+        count: int,
+        progress: Progress | None,
+    ) -> Surface:
         if key not in self._surfaces:
-            self._surfaces[key] = at_most(self._near(name, count), count, progress)
+            self._surfaces[key] = change(self._near(name, count), count, progress)
         return self._surfaces[key]
 
     def sizes(self, name: str, counts: Sequence[int], parts: Parts, progress: Progress | None = None) -> list[int]:
-        """Of some numbers of vertices those that the surface can have; the others are noted as not done.
+        """Return the numbers of vertices that the surface can have, and note the others as not done.
 
         Raises ParameterError where there are none.
         """
         there = []
-        for k, count in enumerate(counts):
-            step = part(progress, k / len(counts), (k + 1) / len(counts))
+        for step, count in steps(progress, counts):
             if parts.do(f"{count:,} vertices", self.sized, name, count, step) is not None:
                 there.append(count)
         if not there:
@@ -120,19 +125,20 @@ class Shapes:
         return there
 
     def _near(self, name: str, count: int) -> Surface:
-        """The surface itself, or of a large one that which is `LARGE`: many sizes are then made in little time."""
+        """Return the surface, simplified to `LARGE` vertices if it has more; smaller sizes are made of that."""
         surface = self.connected(name)
         return self.at_most(name, LARGE) if count < LARGE < len(surface.vertices) else surface
 
     def connected(self, name: str) -> Surface:
-        """The largest component of the surface, without vertices of no face."""
+        """Return the largest component of the surface, without vertices of no face."""
         surface = self[name]
         if surface.n_components > 1 or surface.unreferenced_count:
             return surface.component(0)[0]
         return surface
 
     def vertex_at(self, surface: Surface, x: float, y: float, side: str = "front") -> int:
-        """The vertex of one of them seen at shares x and y of its width and height, from the "front" or the "back"."""
+        """Return the vertex of one of them seen at shares x and y of its width and height, from the "front" or the
+        "back"."""
         ids = np.flatnonzero(surface.component_of_vertex == 0)
         places = surface.vertices[ids] @ self.axes
         low, high = places.min(axis=0), places.max(axis=0)
@@ -144,7 +150,8 @@ class Shapes:
         return int(ids[near[np.argmin(depth) if side == "back" else np.argmax(depth)]])
 
     def pictured_source(self, name: str, side: str) -> int:
-        """The vertex that figures 1, 4 and 5 start from, on the "front" or the "back" of the surface of that name."""
+        """Return the vertex that figures 1, 4 and 5 start from, on the "front" or the "back" of the surface of that
+        name."""
         return self.vertex_at(self[name], *PLACES[side].get(name, PLACES[side]["figure"]), side)
 
 
@@ -152,10 +159,11 @@ DISTANCES = ("biharmonic", "geodesic", "diffusion t = 1")
 
 
 def distance(laplacian: Laplacian, kind: str, progress: Progress | None = None) -> Distance:
-    """A distance by the words of the experiments: "biharmonic", "diffusion t = 1/4" stands for "diffusion(t=1/4)".
+    """Return a distance by the words of the experiments: "biharmonic", "diffusion t = 1/4" stands for
+    "diffusion(t=1/4)".
 
-    Geodesic is exact where a field takes 5 s at most, else by the heat method; the label says which.
-    SolverError if it cannot be had, or not accurately.
+    Geodesic is exact where a field takes 5 s at most, else by the heat method; the label says which. SolverError if it
+    cannot be had, or not accurately.
     """
     made = Distances(laplacian).get(_spec(kind), progress)
     made.error_estimate()
@@ -163,7 +171,7 @@ def distance(laplacian: Laplacian, kind: str, progress: Progress | None = None) 
 
 
 def spec_of(kind: str, made: Distance) -> Spec:
-    """The spec of a distance by the words of the experiments, with the method by which it was made."""
+    """Return the spec of a distance by the words of the experiments, with the method by which it was made."""
     spec = _spec(kind)
     return spec.changed(method=made.method) if isinstance(made, GeodesicDistance) else spec
 
@@ -174,13 +182,16 @@ def _spec(kind: str) -> Spec:
 
 
 def distances_there(laplacian: Laplacian, parts: Parts, where: str) -> dict[str, Distance]:
-    """The distances of `DISTANCES` that can be had on a surface; why not of the others is noted, as "KIND on WHERE"."""
+    """Return the distances of `DISTANCES` that can be had on a surface.
+
+    Why not of the others is noted, as "KIND on WHERE".
+    """
     made = {kind: parts.do(f"{kind} on {where}", distance, laplacian, kind) for kind in DISTANCES}
     return {kind: each for kind, each in made.items() if each is not None}
 
 
 def start_vertex(surface: Surface, seed: str = "vertex 0") -> int:
-    """The vertex that a protocol starts from, on the largest component."""
+    """Return the vertex that a protocol starts from, on the largest component."""
     vertices = np.flatnonzero(surface.component_of_vertex == 0)
     number = 0 if seed == "vertex 0" else int(seed.removeprefix("seed "))
     return int(vertices[0] if number == 0 else np.random.default_rng(number).choice(vertices))
@@ -200,7 +211,7 @@ PLACES: dict[str, dict[str, tuple[float, float]]] = {
 
 
 def random_sources(surface: Surface, count: int, among: BoolArray | None = None) -> list[int]:
-    """(count,) vertices, equal each time: on the largest component, or `among` (n,) bool those of it.
+    """Return (count,) vertices, equal each time: on the largest component, or `among` (n,) bool those of it.
 
     Some may be equal where there are few.
     """
@@ -211,7 +222,7 @@ def random_sources(surface: Surface, count: int, among: BoolArray | None = None)
 
 
 def spread_points(surface: Surface, count: int, start: str | int = "vertex 0") -> IntArray:
-    """(count,) vertices by farthest-point sampling along edges, from the start of a protocol or from a vertex."""
+    """Return (count,) vertices by farthest-point sampling along edges, from a protocol's start or from a vertex."""
     component, ids = surface.component(0)
     lengths = EdgeGeodesic(component)
     first = start_vertex(surface, start) if isinstance(start, str) else start

@@ -44,7 +44,7 @@ Columns = Callable[[IntArray], FloatArray]
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """Times from a bare mesh to an (N, N) float32 array of distances (quick: N = 1k to 6k)."""
+    """Time the way from a bare mesh to an (N, N) float32 array of distances (quick: N = 1k to 6k)."""
     (name,) = shapes.names("figure")
     parts = Parts()
     sizes = shapes.sizes(name, QUICK_SIZES if quick else SIZES, parts, part(progress, 0, 0.1))
@@ -96,7 +96,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
 
 
 def all_pairs(surface: Surface, method: str) -> Time:
-    """How long all pairs of one surface take, from nothing."""
+    """Time all pairs of one surface, from nothing."""
     n = len(surface.vertices)
 
     def set_up() -> tuple[AnyArray, Columns]:

@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray, IntArray, unit_columns
 from ..distances.diffusion import DiffusionDistance
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..laplacian import Laplacian
@@ -47,7 +47,7 @@ Found = dict[tuple[int, int, str], list[Time]]
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """Times from a bare mesh to the (M, M) distances (quick: N = 2k, 4k, 8k)."""
+    """Time the way from a bare mesh to the (M, M) distances (quick: N = 2k, 4k, 8k)."""
     (name,) = shapes.names("figure")
     parts = Parts()
     sizes = shapes.sizes(name, QUICK_SIZES if quick else SIZES, parts, part(progress, 0, 0.2))
@@ -94,18 +94,18 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
 
 
 def subset_times(surface: Surface, subsets: Sequence[IntArray], method: str) -> list[Time]:
-    """How long the distances among the vertices of each subset take, each from nothing."""
+    """Time the distances among the vertices of each subset, each from nothing."""
     among, set_up = timed(partial(_set_up, surface, method))
     return [set_up + timed(partial(among, vertices))[1] for vertices in subsets]
 
 
 def distances_among(surface: Surface, vertices: IntArray, method: str) -> FloatArray:
-    """(m, m) distances among some vertices (m,) of one connected surface, as quickly as each method can."""
+    """Return (m, m) distances among some vertices (m,) of one connected surface, as quickly as each method can."""
     return _set_up(surface, method)(vertices)
 
 
 def _set_up(surface: Surface, method: str) -> PairwiseDistances:
-    """What gives the (m, m) distances among vertices (m,)."""
+    """Prepare a surface, and return a function for the (m, m) distances among vertices (m,)."""
     if method == "Dijkstra":
         edges = EdgeGeodesic(surface)
         return lambda vertices: edges.distances(vertices)[vertices]
@@ -120,8 +120,7 @@ def _set_up(surface: Surface, method: str) -> PairwiseDistances:
         # In blocks, as several copies of all columns would fill the memory.
         for start in range(0, len(vertices), BLOCK):
             block = vertices[start : start + BLOCK]
-            b = np.zeros((len(root), len(block)))
-            b[block, np.arange(len(block))] = 1
+            b = unit_columns(len(root), block)
             half[start : start + BLOCK] = component.centred(component.solve(b)).T * root
         green = half @ half.T
         diagonal = np.diag(green)
@@ -149,7 +148,7 @@ def _claims(found: Found, sizes: Sequence[int]) -> tuple[Claim, ...]:
     n = sizes[-1]
     warning = busy(t for (_, _, method), times in found.items() if method == "Dijkstra" for t in times)
 
-    def said(m: int) -> str:
+    def times_at(m: int) -> str:
         times = ", ".join(f"{method} {median(found[n, m, method]).processor:.3g} s" for method in METHODS)
         return f"At N = {n:,}, M = {m}: {times}."
 
@@ -159,7 +158,7 @@ def _claims(found: Found, sizes: Sequence[int]) -> tuple[Claim, ...]:
             for other in METHODS
             if other != best
         }
-        return Claim("table2-1" if m == SUBSETS[0] else "table2-2", ratios, said(m), warning)
+        return Claim("table2-1" if m == SUBSETS[0] else "table2-2", ratios, times_at(m), warning)
 
     few, many = (found[n, m, METHODS[2]] for m in (SUBSETS[0], SUBSETS[-1]))
     return (

@@ -32,12 +32,12 @@ class Time:
         return Time(self.processor + other.processor, self.wall + other.wall)
 
     def times(self, factor: float) -> "Time":
-        """So many times as long."""
+        """Return the time multiplied by a factor."""
         return Time(factor * self.processor, factor * self.wall)
 
 
 def timed(work: Callable[[], Result]) -> tuple[Result, Time]:
-    """What the work returns, and how long it takes."""
+    """Return the result of the work, and how long it takes."""
     with one_blas_thread():
         wall, processor = perf_counter(), process_time()
         result = work()
@@ -45,12 +45,13 @@ def timed(work: Callable[[], Result]) -> tuple[Result, Time]:
 
 
 def median(times: Sequence[Time]) -> Time:
-    """The median of several repetitions, of each of the two."""
+    """Return the median of several repetitions, of each of the two."""
     return Time(float(np.median([t.processor for t in times])), float(np.median([t.wall for t in times])))
 
 
 def ratio_estimate(above: Sequence[Time], below: Sequence[Time]) -> Estimate:
-    """The ratio of processor times measured in turns: the geometric mean of pairs (k,), with its Student interval."""
+    """Return the ratio of processor times measured in turns: the geometric mean of pairs (k,), with its Student
+    interval."""
     logs = [np.log(a.processor / b.processor) for a, b in zip(above, below, strict=True)]
     found = mean_estimate(logs)
     with np.errstate(over="ignore"):
@@ -59,7 +60,7 @@ def ratio_estimate(above: Sequence[Time], below: Sequence[Time]) -> Estimate:
 
 
 def busy(single: Iterable[Time]) -> str:
-    """A warning if the computer was busy with other work while work on one thread was timed; "" if it was not.
+    """Return a warning if the computer was busy with other work while work on one thread was timed; "" if it was not.
 
     It was where that waited for a processor, or where more wants to run than there are processors.
     """

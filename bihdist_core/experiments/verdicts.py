@@ -23,7 +23,7 @@ MOST = 0.9
 MAJORITY = 0.5
 """More than this share of them make it hold partly."""
 CONFIDENCE = 0.95
-"""Of the intervals of estimates."""
+"""The confidence level of the intervals of estimates."""
 
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -31,7 +31,7 @@ RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 @dataclass(frozen=True)
 class Limit:
-    """The numbers from low to high; strict: the ends do not belong to it.  unit: "%" for shares, else none."""
+    """The numbers from `low` to `high`, without the ends if `strict`; `unit` is "%" for fractions, else ""."""
 
     low: float = -np.inf
     high: float = np.inf
@@ -39,13 +39,13 @@ class Limit:
     strict: bool = False
 
     def meets(self, number: float) -> bool:
-        """Whether a number is within; NaN is not."""
+        """Return whether a number is within; NaN is not."""
         if self.strict:
             return bool(self.low < number < self.high)
         return bool(self.low <= number <= self.high)
 
-    def said(self, number: float) -> str:
-        """A number in the limit's unit."""
+    def formatted(self, number: float) -> str:
+        """Return a number in the limit's unit."""
         text, _, power = f"{100 * number if self.unit == '%' else number:.3g}".partition("e")
         if power:
             text = f"{text} × 10{str(int(power)).translate(RAISED)}".removeprefix("1 × ")
@@ -56,31 +56,31 @@ class Limit:
     def words(self) -> str:
         """The limit in words: "at most 5 %"."""
         if np.isinf(self.low):
-            return f"{'below' if self.strict else 'at most'} {self.said(self.high)}"
+            return f"{'below' if self.strict else 'at most'} {self.formatted(self.high)}"
         if np.isinf(self.high):
-            return f"{'above' if self.strict else 'at least'} {self.said(self.low)}"
+            return f"{'above' if self.strict else 'at least'} {self.formatted(self.low)}"
         if self.low == self.high:
-            return f"just {self.said(self.low)}"
-        return f"between {self.said(self.low)} and {self.said(self.high)}"
+            return f"just {self.formatted(self.low)}"
+        return f"between {self.formatted(self.low)} and {self.formatted(self.high)}"
 
 
 def at_most(high: float, unit: str = "") -> Limit:
-    """Numbers up to `high`, which is still good."""
+    """Return the limit of numbers up to `high`, which is still good."""
     return Limit(high=high, unit=unit)
 
 
 def at_least(low: float, unit: str = "") -> Limit:
-    """Numbers from `low` on, which is still good."""
+    """Return the limit of numbers from `low` on, which is still good."""
     return Limit(low=low, unit=unit)
 
 
 def above(low: float, unit: str = "") -> Limit:
-    """Numbers greater than `low`: a tie is not enough."""
+    """Return the limit of numbers greater than `low`: a tie is not enough."""
     return Limit(low=low, unit=unit, strict=True)
 
 
 def between(low: float, high: float, unit: str = "") -> Limit:
-    """Numbers from `low` to `high`, both still good."""
+    """Return the limit of numbers from `low` to `high`, both still good."""
     return Limit(low, high, unit)
 
 
@@ -93,13 +93,13 @@ class BySource:
 
     @property
     def known(self) -> BySource:
-        """Those that are numbers."""
+        """The measurements without NaN."""
         return BySource(*(tuple(x for x in each if not np.isnan(x)) for each in (self.pictured, self.random)))
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """A number and the interval that it is known within; count: how many measurements it comes from.
+    """A number, the interval that it is known within, and how many measurements it comes from.
 
     Without ends it has no spread: it is computed, not sampled.
     """
@@ -119,7 +119,8 @@ Numbers = BySource | Estimate
 
 
 def number_of(numbers: Numbers) -> float:
-    """The one number that stands for them: the estimate, or the median of the pictured sources, or of the others."""
+    """Return the one number that stands for them: the estimate, or the median of the pictured sources, or of the
+    others."""
     if isinstance(numbers, Estimate):
         return numbers.value
     known = numbers.known
@@ -127,7 +128,7 @@ def number_of(numbers: Numbers) -> float:
 
 
 def ends_of(numbers: Numbers) -> tuple[float, float]:
-    """The interval of an estimate; the least and the greatest of all sources' numbers."""
+    """Return the interval of an estimate; the least and the greatest of all sources' numbers."""
     if isinstance(numbers, Estimate):
         return numbers.low, numbers.high
     known = numbers.known
@@ -136,9 +137,9 @@ def ends_of(numbers: Numbers) -> tuple[float, float]:
 
 
 def mean_estimate(numbers: npt.ArrayLike) -> Estimate:
-    """The mean of numbers (k,), such as paired differences, with its Student interval; of one number it is unbounded.
+    """Return the mean of numbers (k,), such as paired differences, with its Student interval.
 
-    Raises ParameterError if there is none.
+    Of one number it is unbounded. Raises ParameterError if there is none.
     """
     x = np.asarray(numbers, np.float64).ravel()
     if not len(x):
@@ -149,9 +150,9 @@ def mean_estimate(numbers: npt.ArrayLike) -> Estimate:
 
 
 def exponent_estimate(x: npt.ArrayLike, y: npt.ArrayLike) -> Estimate:
-    """The exponent p of y ~ x^p by least squares of the logarithms of x and y (k,), with its Student interval.
+    """Return the exponent p of y ~ x^p by least squares of the logarithms of x and y (k,), with its Student interval.
 
-    Of two points it is unbounded.  Raises ParameterError for fewer, or for numbers that are not positive.
+    Of two points it is unbounded. Raises ParameterError for fewer, or for numbers that are not positive.
     """
     a, b = np.asarray(x, np.float64), np.asarray(y, np.float64)
     if len(a) != len(b) or len(a) < 2 or not ((a > 0).all() and (b > 0).all()):
@@ -167,7 +168,7 @@ def exponent_estimate(x: npt.ArrayLike, y: npt.ArrayLike) -> Estimate:
 
 
 def _span(limit: Limit, low: float, high: float) -> str:
-    first, last = limit.said(low), limit.said(high)
+    first, last = limit.formatted(low), limit.formatted(high)
     return first if first == last else f"{first.removesuffix(' %')} to {last}"
 
 
@@ -182,9 +183,9 @@ def _student(value: float, error: float, freedom: int, count: int) -> Estimate:
 class Part:
     """One number of a statement and its limit.
 
-    by: "sources" (pictured first, random ones as a distribution), "interval" (an estimate with its interval) or "once"
-    (a number without spread).  of: what is random, "sources" or "starts".  needed: without this part the statement does
-    not hold at all; without another one it holds partly.
+    `by` is "sources" (pictured first, random ones as a distribution), "interval" (an estimate with its interval) or
+    "once" (a number without spread); `of` says what is random, "sources" or "starts". Without a part that is `needed`
+    the statement does not hold at all; without another one it holds partly.
     """
 
     name: str
@@ -204,20 +205,20 @@ class Part:
         return f"{rule}, pictured {self.of} and {100 * MOST:g} % of random ones"
 
     def counts(self, numbers: Numbers) -> tuple[int, int | None]:
-        """How many random sources or measurements tell something, and how many of the sources meet the limit."""
+        """Count the random sources or measurements that tell something, and the sources that meet the limit."""
         if isinstance(numbers, Estimate):
             return numbers.count, None
         random = numbers.known.random
         return len(random), sum(self.limit.meets(number) for number in random)
 
-    def said(self, numbers: Numbers) -> str:
-        """The numbers with their spread, in words: "2.1 % pictured; 1.8 to 3 % from 24 random sources"."""
+    def formatted(self, numbers: Numbers) -> str:
+        """Return the numbers with their spread, in words: "2.1 % pictured; 1.8 to 3 % from 24 random sources"."""
         if isinstance(numbers, Estimate):
             if self.by == "once" or numbers.low == numbers.high:
-                return self.limit.said(numbers.value)
+                return self.limit.formatted(numbers.value)
             if np.isinf(numbers.high - numbers.low):
-                return f"{self.limit.said(numbers.value)} (no interval)"
-            value, ends = self.limit.said(numbers.value), _span(self.limit, numbers.low, numbers.high)
+                return f"{self.limit.formatted(numbers.value)} (no interval)"
+            value, ends = self.limit.formatted(numbers.value), _span(self.limit, numbers.low, numbers.high)
             return value if ends == value else f"{value} ({ends})"
         ranges = []
         known = numbers.known
@@ -235,7 +236,7 @@ class Part:
         return f"from {count} random {self.of if count > 1 else self.of[:-1]}"
 
     def judge(self, numbers: Numbers | None) -> Verdict | None:
-        """What the numbers say; None where there are none, or only 0/0 from the pictured sources.
+        """Return the verdict of the numbers; None where there are none, or only 0/0 from the pictured sources.
 
         Raises ParameterError for numbers of the other sort.
         """
@@ -258,7 +259,7 @@ class Part:
         return "partly" if shown or share > MAJORITY else "does not hold"
 
     def share(self, numbers: Sequence[float]) -> float:
-        """The share of numbers that meet the limit, 0 of none."""
+        """Return the share of numbers that meet the limit, 0 of none."""
         return sum(self.limit.meets(number) for number in numbers) / max(1, len(numbers))
 
 
@@ -266,9 +267,10 @@ class Part:
 class Statement:
     """A statement, whose it is, and the rule that judges it.
 
-    words: "paper" where the paper says so, in these or nearly these words, "ours" where we put into words what its
-    figure shows or what follows from it.  where: the place in the paper.  before: the verdict of the version before,
-    "yes" or "no", "" if it had none.  changed: how and why its protocol differs from that version's.
+    `words` is "paper" where the paper says so, in these or nearly these words, "ours" where we put into words what its
+    figure shows or what follows from it; `where` is the place in the paper. `before` is the verdict of the version
+    before,
+    "yes" or "no", "" if it had none, and `changed` tells how and why its protocol differs from that version's.
     """
 
     id: str
@@ -284,14 +286,14 @@ class Statement:
         object.__setattr__(self, "names", tuple(part.name for part in self.parts))
 
     def part(self, name: str) -> Part:
-        """The part of that name; ParameterError if there is none."""
+        """Return the part of that name; ParameterError if there is none."""
         for part in self.parts:
             if part.name == name:
                 return part
         raise ParameterError(f"{self.id} has no part {name!r} but {', '.join(self.names)}.")
 
     def judge(self, numbers: Mapping[str, Numbers]) -> Verdict | None:
-        """The verdict by the numbers of its parts; None if those that are needed, or all, were not measured.
+        """Return the verdict by the numbers of its parts; None if those that are needed, or all, were not measured.
 
         Raises ParameterError for a part that it does not have.
         """

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import json
 import os
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,17 +13,17 @@ from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..sentences import shortened
 from ..surface import Surface
-from ..whole_file import check_output, whole_file
-from .pins import PIN_FORMATS, Picked, picked_in, placed, written_points
+from .pins import PIN_FORMATS, Picked, picked_in, placed, write_rows
 
 COLUMNS = ("vertex", "value", "x", "y", "z", "name")
 
 
 @dataclass(frozen=True, eq=False)
 class Anchors:
-    """k vertices of a surface with values (k,), and names, which may be empty.
+    """Anchors: k vertices of a surface with values (k,), and names, which may be empty.
 
-    moved: (k,) how far the vertex is from the place that the file named, in the mesh's unit; 0 where it named none.
+    `moved` (k,) is how far each vertex is from the position that the file gave, in the mesh's unit; 0 where it gave
+    none.
     """
 
     vertices: IntArray
@@ -39,21 +36,20 @@ class Anchors:
 
 
 def read_anchors(path: str | os.PathLike[str], surface: Surface) -> Anchors:
-    """The anchors in a file, at vertices of a surface; the extension names the format.
+    """Read anchors at vertices of a surface; the extension names the format.
 
-    .csv: a header of `value` with `vertex`, or `x,y,z`, or both, and maybe `name`, in any order, then a line for each.
-    .json: {"anchors": [{"vertex", "position": [x, y, z], "value", "name"}, ...]}.
-    .pp: MeshLab's picked points, whose names are the values.
-    An anchor is at its vertex or, where the file names none, at the one nearest to its position.
-
-    Raises ParameterError, a sentence with the file, the place in it and the value, for anything else, and for the same
-    vertex twice.
+    ``.csv``: a header of `value` with `vertex`, or `x,y,z`, or both, and maybe `name`, in any order, then a line for
+    each.
+    ``.json``: ``{"anchors": [{"vertex", "position": [x, y, z], "value", "name"}, ...]}``.
+    ``.pp``: MeshLab's picked points, whose names are the values. An anchor is at its vertex or, where the file names
+    none, at the one nearest to its position. Raises ParameterError, with the file, the place in it and the value, for
+    anything else, and for the same vertex twice.
     """
     return anchors_at(picked_in(path), surface, Path(path).suffix.lower() == ".pp")
 
 
 def anchors_at(found: list[Picked], surface: Surface, are_named: bool = False) -> Anchors:
-    """Anchors as a file says them, at vertices of a surface; are_named: where no value is, the name is one."""
+    """Put the anchors of a file at vertices of a surface; if `are_named`, a name stands for a missing value."""
     values = []
     for pin in found:
         value = pin.value
@@ -86,29 +82,18 @@ def write_anchors(
 
     Raises OutputError if the file cannot be written; what was there then stays.
     """
-    extension = check_output(path, ANCHOR_FORMATS)
     ids = surface.check_vertices(vertices)
     numbers = np.asarray(values, np.float64)
     if numbers.shape != ids.shape or not np.isfinite(numbers).all():
         raise ParameterError(f"{len(ids)} anchors need as many finite values, not {numbers.shape}.")
     points = surface.vertices[ids].tolist()
-    rows = list(zip(ids.tolist(), numbers.tolist(), points, names or ("",) * len(ids), strict=True))
-    with whole_file(path) as temporary:
-        if extension == ".csv":
-            file = io.StringIO()
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(COLUMNS)
-            writer.writerows([vertex, repr(value), *map(repr, point), name] for vertex, value, point, name in rows)
-            text = file.getvalue()
-        elif extension == ".json":
-            lines = [
-                json.dumps({"vertex": vertex, "position": point, "value": value, "name": name}, ensure_ascii=False)
-                for vertex, value, point, name in rows
-            ]
-            text = '{"anchors": [\n' + ",\n".join(lines) + "\n]}\n"
-        else:
-            text = written_points([(point, repr(value)) for _, value, point, _ in rows], surface.name)
-        temporary.write_bytes(text.encode())
+    rows = [
+        {"vertex": vertex, "position": point, "value": value, "name": name}
+        for vertex, value, point, name in zip(
+            ids.tolist(), numbers.tolist(), points, names or ("",) * len(ids), strict=True
+        )
+    ]
+    write_rows(path, COLUMNS, "anchors", rows, surface.name)
 
 
 ANCHOR_FORMATS = PIN_FORMATS

@@ -21,7 +21,10 @@ _PLAIN = re.compile(r"[<>|=][biufcSU][1-9][0-9]{0,8}")
 
 
 def read_array(path: str | os.PathLike[str], what: str) -> AnyArray:
-    """The array in a .npy file.  ParameterError, with the file and the reason, for anything else; what: "map in"."""
+    """Read the array in a .npy file.
+
+    Raises ParameterError, with the file and the reason, for anything else; the message calls the file `what`, "map in".
+    """
     with open_regular(path, what) as file:
         try:
             return array_in(file, os.fstat(file.fileno()).st_size)
@@ -44,11 +47,11 @@ def put_array(file: BinaryIO, array: AnyArray) -> None:
 
 
 def array_in(file: BinaryIO, size: int) -> AnyArray:
-    """The array in an open .npy file of so many bytes; ParameterError, the end of a sentence, where there is none."""
+    """Read the array in an open .npy file of so many bytes; ParameterError, the end of a sentence, if there is none."""
     dtype, shape, is_fortran = _header(file)
     wanted, there = math.prod(shape) * dtype.itemsize, size - file.tell()
     if wanted != there:
-        raise ParameterError(f"its header tells of {wanted:,} bytes of numbers, and it has {there:,}.")
+        raise ParameterError(f"its header announces {wanted:,} bytes of numbers, and {there:,} follow.")
     content = file.read(wanted)
     if len(content) != wanted:
         raise ParameterError(f"it ends after {len(content):,} of {wanted:,} bytes of numbers.")
@@ -71,7 +74,7 @@ def _header(file: BinaryIO) -> tuple[np.dtype, tuple[int, ...], bool]:
         raise ParameterError("its header is damaged.") from None
     descr, is_fortran, shape = _facts(facts)
     if not isinstance(descr, str) or not _PLAIN.fullmatch(descr):
-        raise ParameterError("it holds something else than plain numbers.")
+        raise ParameterError("it does not hold plain numbers.")
     try:
         return np.dtype(descr), shape, is_fortran
     except (TypeError, ValueError):

@@ -9,16 +9,16 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from ..arrays import AnyArray, FloatArray, IntArray
-from ..whole_file import check_output, whole_file
-from .vtp_output import write_poly_data
+from ..file_output import atomic_write, check_output
+from .vtp import write_poly_data
 
 
 @dataclass(frozen=True, eq=False)
 class Curve:
     """A curve to be written, with numbers and arrays along it.
 
-    points: (k, 3) in order; a closed curve does not repeat its first.  numbers: by name; all curves of a file have
-    equal names.  along: arrays (k, ...) by name, that only .json holds.
+    `points` (k, 3) are in order; a closed curve does not repeat its first. `numbers` are by name; all curves of a file
+    have equal names. `along` has arrays (k, ...) by name, which only .json holds.
     """
 
     points: FloatArray
@@ -28,7 +28,7 @@ class Curve:
 
 
 def write_curves(path: str | os.PathLike[str], curves: Sequence[Curve], names: Sequence[str], word: str) -> None:
-    """Write curves with their numbers `names`; the extension names the format.  Coordinates read back exactly.
+    """Write curves with their numbers `names`; the extension names the format. Coordinates read back exactly.
 
     .csv: a line `line,NUMBERS,closed,x,y,z` for each point; closed is 1 where the last point joins the first.
     .obj: vertices, and an `l` element for each curve under a group named by its numbers.
@@ -38,7 +38,7 @@ def write_curves(path: str | os.PathLike[str], curves: Sequence[Curve], names: S
     Raises OutputError if the file cannot be written; what was at `path` before then stays.
     """
     extension = check_output(path, CURVE_FORMATS)
-    with whole_file(path) as temporary, temporary.open("wb") as file:
+    with atomic_write(path) as temporary, temporary.open("wb") as file:
         _WRITERS[extension](file, curves, names, word)
 
 
@@ -75,7 +75,7 @@ def _write_json(file: BinaryIO, curves: Sequence[Curve], names: Sequence[str], w
 
 
 def _corners(curves: Sequence[Curve]) -> list[IntArray]:
-    """For each curve the numbers of its points in the file; a closed one comes back to its first."""
+    """Return the numbers of each curve's points in the file; a closed one comes back to its first."""
     result, start = [], 0
     for curve in curves:
         ids = start + np.arange(len(curve.points))

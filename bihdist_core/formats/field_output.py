@@ -11,14 +11,14 @@ from typing import BinaryIO
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import AnyArray
+from ..arrays import AnyArray, ByteArray
 from ..errors import ParameterError
+from ..file_output import atomic_write, check_output
 from ..mesh_like import MeshLike
 from ..surface import Surface
-from ..whole_file import check_output, whole_file
 from .array_file import put_array
-from .gifti_output import write_gifti_values
-from .vtp_output import write_poly_data
+from .gifti import write_gifti_values
+from .vtp import write_poly_data
 
 Columns = dict[str, AnyArray]
 """(n,) float64 arrays by name, in order."""
@@ -40,15 +40,15 @@ def write_fields(path: str | os.PathLike[str], surface: MeshLike, fields: Mappin
     """
     surface = Surface.of(surface)
     extension = check_output(path, FIELD_FORMATS)
-    columns = _checked(fields, len(surface.vertices))
-    with whole_file(path) as temporary, temporary.open("wb") as file:
+    columns = checked_columns(fields, len(surface.vertices))
+    with atomic_write(path) as temporary, temporary.open("wb") as file:
         _FIELD_WRITERS[extension](file, surface, columns)
 
 
 def write_array(path: str | os.PathLike[str], array: npt.ArrayLike, header: Sequence[str] | None = None) -> None:
     """Write a (k,) or (k, m) array of numbers as .npy or .csv; `header` (m,) names the columns of a .csv.
 
-    In .csv whole numbers are written without a decimal point, other numbers so that they read back exactly.  Raises
+    In .csv whole numbers are written without a decimal point, other numbers so that they read back exactly. Raises
     OutputError as `write_fields`, ParameterError for anything else than one or two axes of real numbers, or a header
     that does not fit.
     """
@@ -59,14 +59,15 @@ def write_array(path: str | os.PathLike[str], array: npt.ArrayLike, header: Sequ
     columns = list(table.reshape(len(table), -1).T)
     if header is not None and len(header) != len(columns):
         raise ParameterError(f"{len(header)} column names were given for {len(columns):,} columns.")
-    with whole_file(path) as temporary, temporary.open("wb") as file:
+    with atomic_write(path) as temporary, temporary.open("wb") as file:
         if extension == ".npy":
             put_array(file, table)
         else:
             _write_csv(file, header, columns)
 
 
-def _checked(fields: Mapping[str, npt.ArrayLike], n: int) -> Columns:
+def checked_columns(fields: Mapping[str, npt.ArrayLike], n: int) -> Columns:
+    """Return fields (n,) by name as float64; ParameterError for anything else."""
     if not fields:
         raise ParameterError("there are no fields to write.")
     columns = {}
@@ -112,7 +113,7 @@ def _is_whole(column: AnyArray) -> bool:
 
 
 class _Lines:
-    """What csv.writer needs to write text into a binary file."""
+    """A binary file as csv.writer needs it, which writes text."""
 
     def __init__(self, file: BinaryIO) -> None:
         self.file = file
@@ -122,8 +123,8 @@ class _Lines:
 
 
 def ply_names(names: Sequence[str]) -> list[str]:
-    """Names that PLY can hold, all different, none of them x, y or z."""
-    taken, result = {"x", "y", "z"}, []
+    """Make names that PLY can hold, all different, none of them a coordinate or a colour."""
+    taken, result = {"x", "y", "z", "red", "green", "blue"}, []
     for name in names:
         plain = re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_") or "field"
         candidate, k = plain, 2
@@ -134,14 +135,23 @@ def ply_names(names: Sequence[str]) -> list[str]:
     return result
 
 
-def write_ply_mesh(file: BinaryIO, surface: Surface, columns: Columns) -> None:
-    """Write a surface as binary PLY, with a property of its vertices for each column, if any."""
-    names = ["x", "y", "z", *ply_names(list(columns))]
+def write_ply_mesh(file: BinaryIO, surface: Surface, columns: Columns, colours: ByteArray | None = None) -> None:
+    """Write a surface as binary PLY, with a property of its vertices for each column, if any.
+
+    `colours` (n, 3) are red, green and blue of the vertices, left out if None.
+    """
     header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(surface.vertices)}"]
-    header += [f"property double {name}" for name in names]
+    header += [f"property double {axis}" for axis in "xyz"]
+    header += [] if colours is None else [f"property uchar {name}" for name in ("red", "green", "blue")]
+    header += [f"property double {name}" for name in ply_names(list(columns))]
     header += [f"element face {len(surface.faces)}", "property list uchar int vertex_indices", "end_header", ""]
     file.write("\n".join(header).encode("ascii"))
-    file.write(np.column_stack([surface.vertices, *columns.values()]).astype("<f8").tobytes())
+    parts: list[AnyArray] = [surface.vertices, *([] if colours is None else [colours]), *columns.values()]
+    kinds = [("u1" if part.dtype == np.uint8 else "<f8", part.shape[1:]) for part in parts]
+    rows = np.empty(len(surface.vertices), np.dtype([(str(k), *kind) for k, kind in enumerate(kinds)]))
+    for k, part in enumerate(parts):
+        rows[str(k)] = part
+    file.write(rows.tobytes())
     faces = np.empty(len(surface.faces), np.dtype([("size", "u1"), ("corners", "<i4", 3)]))
     faces["size"], faces["corners"] = 3, surface.faces
     file.write(faces.tobytes())

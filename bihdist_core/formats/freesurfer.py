@@ -1,17 +1,21 @@
-"""FreeSurfer's files: surfaces of triangles (lh.pial), values at vertices (lh.thickness), annotations (lh.aparc.annot).
+"""FreeSurfer's files: surfaces (lh.pial), values at vertices (lh.thickness), annotations (lh.aparc.annot) and labels
+(lh.cortex.label).
 
 They have no extensions of their own, or share them; their first bytes tell them apart.  Coordinates are those of the
 file, of FreeSurfer's surfaces ("tkr"): what a file says of the volume it was made from is not applied.
 """
 
+import os
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..arrays import AnyArray, IntArray
+from ..counts import counted
 from ..errors import MeshError
+from .mesh_names import GZIP
 from .polygons import Polygons, checked_corners
-from .text_lines import shown
+from .text_lines import TextLines, shown
 
 _SURFACE, _QUADS, _VALUES = b"\xff\xff\xfe", b"\xff\xff\xfd", b"\xff\xff\xff"
 _TABLE_VERSION = -2
@@ -19,24 +23,24 @@ _TABLE_VERSION = -2
 
 @dataclass(frozen=True)
 class Annotation:
-    """labels: (n,) the place of each vertex's name in `names`, -1 where it has none."""
+    """Labels (n,): the place of each vertex's name in `names`, -1 where it has none."""
 
     labels: IntArray
     names: tuple[str, ...]
 
 
 def is_surface(raw: bytes) -> bool:
-    """Whether a file begins as a surface of triangles."""
+    """Return whether a file begins as a surface of triangles."""
     return raw[:3] == _SURFACE
 
 
 def is_values(raw: bytes) -> bool:
-    """Whether a file begins as one of values at vertices, such as thickness."""
+    """Return whether a file begins as one of values at vertices, such as thickness."""
     return raw[:3] == _VALUES
 
 
 def read_freesurfer(raw: bytes, name: str) -> Polygons:
-    """The triangles of a FreeSurfer surface; MeshError where it is none, or is cut off."""
+    """Read the triangles of a FreeSurfer surface; MeshError where it is none, or is cut off."""
     if raw[:3] == _QUADS:
         raise MeshError(f"{name} is a FreeSurfer surface of quads; FreeSurfer's mris_convert makes triangles of it.")
     if not is_surface(raw):
@@ -53,9 +57,12 @@ def read_freesurfer(raw: bytes, name: str) -> Polygons:
 
 
 def read_values(raw: bytes, name: str) -> AnyArray:
-    """(n,) float32 values of a FreeSurfer file such as lh.thickness; MeshError where it is none, or is cut off."""
+    """Read (n,) float32 values of a FreeSurfer file such as lh.thickness.
+
+    MeshError where it is none, or is cut off.
+    """
     if not is_values(raw):
-        what = "is a surface, and holds no values" if is_surface(raw) else "holds no values of FreeSurfer's"
+        what = "is a surface, and holds no values" if is_surface(raw) else "is not a FreeSurfer file of values"
         raise MeshError(f"{name} {what}: its first bytes are {raw[:3].hex()} where {_VALUES.hex()} belongs.")
     file = _Cursor(raw, name, len(_VALUES))
     n, _, each = file.whole("number of vertices"), file.whole("number of faces"), file.whole("number of values")
@@ -67,7 +74,7 @@ def read_values(raw: bytes, name: str) -> AnyArray:
 
 
 def read_annotation(raw: bytes, name: str) -> Annotation:
-    """The labels of a FreeSurfer annotation; MeshError where it is none, or is cut off or damaged."""
+    """Read the labels of a FreeSurfer annotation; MeshError where it is none, or is cut off or damaged."""
     file = _Cursor(raw, name)
     n = file.whole("number of vertices")
     ids, colours = file.numbers(2 * n, ">i4", "labels").reshape(-1, 2).astype(np.int64).T
@@ -82,12 +89,12 @@ def read_annotation(raw: bytes, name: str) -> Annotation:
     unknown = np.flatnonzero((table[labels] != of_vertex) & (of_vertex != 0))
     if len(unknown):
         k = unknown[0]
-        raise MeshError(f"{name}: vertex {k} has the colour {of_vertex[k]}, which the table of labels has not.")
+        raise MeshError(f"{name}: vertex {k} has the colour {of_vertex[k]}, which is not in the table of labels.")
     return Annotation(np.where(of_vertex == 0, -1, labels), names)
 
 
 def _table(file: "_Cursor") -> tuple[tuple[str, ...], IntArray]:
-    """The names of labels, and (k,) their colours, red + 256 green + 65536 blue; unused ones are ""."""
+    """Return the names of labels, and (k,) their colours, red + 256 green + 65536 blue; unused ones are ""."""
     if not file.at_end and file.integer() == 1:
         count = file.integer()
         if count == _TABLE_VERSION:
@@ -108,7 +115,7 @@ def _table(file: "_Cursor") -> tuple[tuple[str, ...], IntArray]:
                 red, green, blue, _ = file.numbers(4, ">i4", "colours").tolist()
                 colours[at] = red + (green << 8) + (blue << 16)
             return tuple(names), colours
-    raise MeshError(f"{file.name} has no table of labels; it is cut off, or no annotation of FreeSurfer.")
+    raise MeshError(f"{file.name} has no table of labels; it is cut off, or not a FreeSurfer annotation.")
 
 
 @dataclass
@@ -121,7 +128,7 @@ class _Cursor:
 
     @property
     def at_end(self) -> bool:
-        """Whether everything has been read."""
+        """True if everything has been read."""
         return self.at >= len(self.raw)
 
     def skip_line(self) -> None:
@@ -132,7 +139,7 @@ class _Cursor:
         self.at = end + 1
 
     def numbers(self, count: int, kind: str, what: str) -> AnyArray:
-        """(count,) numbers."""
+        """Read (count,) numbers."""
         size = np.dtype(kind).itemsize
         held = (len(self.raw) - self.at) // size
         if count > held:
@@ -142,18 +149,18 @@ class _Cursor:
         return found
 
     def integer(self) -> int:
-        """A number of four bytes."""
+        """Read a number of four bytes."""
         return int(self.numbers(1, ">i4", "numbers")[0])
 
     def whole(self, what: str) -> int:
-        """A count."""
+        """Read a count."""
         found = self.integer()
         if found < 0:
             raise MeshError(f"{self.name}: the {what} is {found}; it is damaged, or of another kind.")
         return found
 
     def text(self, what: str) -> str:
-        """A text, its length before it, that a zero byte ends."""
+        """Read a text, its length before it, that a zero byte ends."""
         count = self.whole(f"length of the {what}")
         found = self.numbers(count, "u1", f"bytes of the {what}").tobytes()
         return found.partition(b"\0")[0].decode("utf-8", "replace")
@@ -162,4 +169,62 @@ class _Cursor:
         """Refuse bytes behind the last."""
         if not self.at_end:
             rest = shown(self.raw[self.at : self.at + 20])
-            raise MeshError(f"{self.name} goes on behind its last value, with {rest}; its counts are wrong.")
+            raise MeshError(f"{self.name} continues after its last value, with {rest}; its counts are wrong.")
+
+
+# ---------------------------------------------------------------------- labels
+LABEL = ".label"
+_BEGINNING = b"#!ascii"
+
+
+def is_label(path: str | os.PathLike[str]) -> bool:
+    """Return whether a file is a label of FreeSurfer by its name."""
+    return os.path.basename(path).lower().removesuffix(GZIP).endswith(LABEL)
+
+
+def label_name(path: str | os.PathLike[str]) -> str:
+    """Name a label after its file: "cortex" for lh.cortex.label."""
+    name = os.path.basename(path)
+    name = name[: -len(GZIP)] if name.lower().endswith(GZIP) else name
+    name = name[: -len(LABEL)] if name.lower().endswith(LABEL) else name
+    return name[3:] if name[:3].lower() in ("lh.", "rh.") else name
+
+
+def read_label(raw: bytes, name: str, n_vertices: int | None = None) -> IntArray:
+    """Read (k,) the ids of the vertices in a label, in its order.
+
+    Raises MeshError, with the line, where it is no label, is cut off, or names a vertex that is not among `n_vertices`,
+    if that is known.
+    """
+    if not raw.startswith(_BEGINNING):
+        raise MeshError(f"{name} is not a FreeSurfer label: its first line does not begin with '#!ascii label'.")
+    lines = TextLines(raw, name, comment=b"#")
+    if not len(lines):
+        raise MeshError(f"{name} is cut off: the number of its vertices, on the second line, is missing.")
+    numbers = lines.numbers(np.ones(len(lines), bool))
+    count = numbers.values[0]
+    if numbers.sizes[0] != 1 or not (count.is_integer() and count >= 0):
+        raise MeshError(f"{name}, line {numbers.number[0]}: {lines.line(0)} is not the number of its vertices.")
+    if count != len(numbers) - 1:
+        announced = counted(int(count), "vertex", "vertices")
+        why = "it is cut off" if count > len(numbers) - 1 else "it continues after the last"
+        raise MeshError(f"{name} announces {announced} and lists {len(numbers) - 1:,}; {why}.")
+    wrong = np.flatnonzero(numbers.sizes[1:] != 5)
+    if len(wrong):
+        k = int(wrong[0]) + 1
+        raise MeshError(f"{name}, line {numbers.number[k]}: {lines.line(k)} is not a vertex, x, y, z and a value.")
+    ids = numbers.columns(5, slice(1, None))[:, 0] if count else np.empty(0)
+    unassigned = np.flatnonzero(ids == -1)
+    if len(unassigned):
+        line = numbers.number[unassigned[0] + 1]
+        raise MeshError(
+            f"{name}, line {line}: vertex -1 is a place that belongs to no vertex; map the label onto the surface "
+            "first, with FreeSurfer's mri_label2label."
+        )
+    most = np.inf if n_vertices is None else n_vertices
+    wrong = np.flatnonzero(~((ids >= 0) & (ids < min(most, 2**31)) & (ids == np.floor(ids))))
+    if len(wrong):
+        k = wrong[0]
+        there = "a whole number from 0" if n_vertices is None else f"one of the {n_vertices:,} of the surface"
+        raise MeshError(f"{name}, line {numbers.number[k + 1]}: vertex {ids[k]:g} is not {there}.")
+    return ids.astype(np.int64)

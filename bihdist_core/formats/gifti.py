@@ -1,4 +1,4 @@
-"""GIFTI files (.gii), surfaces of brains and values on them: a strict reader.
+"""GIFTI files (.gii), surfaces of brains and values on them: a strict reader, and a writer of values.
 
 Format: https://www.nitrc.org/projects/gifti/, version 1.0.  Coordinates are those of the array: the transforms to other
 coordinate systems that may stand beside it are not applied.  Numbers in files beside the file are not read.
@@ -9,16 +9,19 @@ import binascii
 import math
 import re
 import zlib
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import BinaryIO
 from xml.etree import ElementTree
+from xml.sax.saxutils import escape
 
 import numpy as np
 
 from ..arrays import AnyArray
 from ..errors import MeshError
-from .gzip_files import MOST_BYTES
+from .compression import MOST_BYTES
 from .polygons import Polygons, checked_corners
-from .text_lines import parsed_numbers
+from .text_lines import parsed_numbers, xml_root
 
 POINTS, TRIANGLES = "NIFTI_INTENT_POINTSET", "NIFTI_INTENT_TRIANGLE"
 _TYPES = {
@@ -30,14 +33,14 @@ _ORDERS = {"LittleEndian": "<", "BigEndian": ">"}
 
 @dataclass(frozen=True)
 class GiftiArray:
-    """An array of a file; intent: what it is, such as NIFTI_INTENT_POINTSET."""
+    """An array of a file with its intent, such as NIFTI_INTENT_POINTSET."""
 
     intent: str
     values: AnyArray
 
 
 def read_gifti(raw: bytes, name: str) -> Polygons:
-    """The surface in a GIFTI file; MeshError where it holds none, or several, or is cut off or damaged."""
+    """Read the surface in a GIFTI file; MeshError where it holds none, or several, or is cut off or damaged."""
     arrays = gifti_arrays(raw, name)
     found = {}
     for intent, what in ((POINTS, "points"), (TRIANGLES, "triangles")):
@@ -55,7 +58,7 @@ def read_gifti(raw: bytes, name: str) -> Polygons:
 
 
 def gifti_arrays(raw: bytes, name: str) -> list[GiftiArray]:
-    """All arrays of a GIFTI file; MeshError where it is none, or is cut off or damaged."""
+    """Read all arrays of a GIFTI file; MeshError where it is none, or is cut off or damaged."""
     root = _root(raw, name)
     elements = root.findall("DataArray")
     announced = root.get("NumberOfDataArrays", str(len(elements)))
@@ -65,7 +68,10 @@ def gifti_arrays(raw: bytes, name: str) -> list[GiftiArray]:
 
 
 def label_table(raw: bytes, name: str) -> dict[int, str]:
-    """The names of labels in a GIFTI file by their keys; MeshError as of `gifti_arrays`, and for a key that is none."""
+    """Read the names of labels in a GIFTI file by their keys.
+
+    MeshError as of `gifti_arrays`, and for a key that is none.
+    """
     names = {}
     for k, element in enumerate(_root(raw, name).iterfind("LabelTable/Label")):
         # Version 1.0 of the format calls it Key, files of older programs Index.
@@ -79,13 +85,7 @@ def label_table(raw: bytes, name: str) -> dict[int, str]:
 def _root(raw: bytes, name: str) -> ElementTree.Element:
     if b"<!ENTITY" in raw:
         raise MeshError(f"{name} declares XML entities, which no GIFTI file needs; it is not read.")
-    try:
-        root = ElementTree.fromstring(raw)
-    except (ElementTree.ParseError, LookupError, ValueError) as error:
-        raise MeshError(f"{name} is not a GIFTI file, or is cut off or damaged ({error}).") from None
-    if root.tag != "GIFTI":
-        raise MeshError(f"{name} is not a GIFTI file: its root element is {root.tag[:40]!r}, not 'GIFTI'.")
-    return root
+    return xml_root(raw, name, "a GIFTI file", "GIFTI")
 
 
 def _array(element: ElementTree.Element, where: str) -> GiftiArray:
@@ -102,10 +102,10 @@ def _array(element: ElementTree.Element, where: str) -> GiftiArray:
     elif encoding in ("Base64Binary", "GZipBase64Binary"):
         order = _ORDERS.get(element.get("Endian", ""))
         if order is None:
-            raise MeshError(f"{where} has the byte order {element.get('Endian', '')[:40]!r}, which there is not.")
+            raise MeshError(f"{where} has the unknown byte order {element.get('Endian', '')[:40]!r}.")
         content = _decoded(text, count * size if encoding.startswith("G") else None, where)
         if len(content) % size:
-            raise MeshError(f"{where} has {len(content)} bytes, no whole number of {kind} values.")
+            raise MeshError(f"{where} has {len(content)} bytes, which is not a whole number of {kind} values.")
         values = np.frombuffer(content, order + _TYPES[kind])
     elif encoding == "ExternalFileBinary":
         raise MeshError(f"{where} keeps its numbers in another file, which is not read; save it as one file.")
@@ -129,7 +129,10 @@ def _shape(element: ElementTree.Element, where: str) -> tuple[int, ...]:
 
 
 def _decoded(text: bytes, packed_size: int | None, where: str) -> bytes:
-    """The bytes of base64 text; unpacked, if they have a size then, so far that a damaged file fills no memory."""
+    """Return the bytes of base64 text.
+
+    Unpacked, if they have a size then, so far that a damaged file fills no memory.
+    """
     try:
         content = base64.b64decode(b"".join(text.split()), validate=True)
         if packed_size is None:
@@ -143,3 +146,35 @@ def _decoded(text: bytes, packed_size: int | None, where: str) -> bytes:
     if not stream.eof:
         raise MeshError(f"{where} is cut off: its compressed data do not end.")
     return found
+
+
+# ---------------------------------------------------------------------- output
+_LEFT, _RIGHT = (
+    re.compile(rf"(^|[._-])({words})(?=[._-]|$)", re.IGNORECASE) for words in ("lh|l|left|hemi-l", "rh|r|right|hemi-r")
+)
+
+
+def write_gifti_values(file: BinaryIO, surface_name: str, columns: Mapping[str, AnyArray]) -> None:
+    """Write an array (n,) for each name; the structure is that of the hemisphere that the surface's name says."""
+    hemisphere = "CortexLeft" if _LEFT.search(surface_name) else "CortexRight" if _RIGHT.search(surface_name) else ""
+    about = _meta_data({"AnatomicalStructurePrimary": hemisphere} if hemisphere else {})
+    arrays = "".join(_data_array(name, values) for name, values in columns.items())
+    file.write(
+        '<?xml version="1.0" encoding="UTF-8"?>\n'
+        '<!DOCTYPE GIFTI SYSTEM "http://www.nitrc.org/frs/download.php/115/gifti.dtd">\n'
+        f'<GIFTI Version="1.0" NumberOfDataArrays="{len(columns)}">\n{about}<LabelTable/>\n{arrays}</GIFTI>\n'.encode()
+    )
+
+
+def _data_array(name: str, values: AnyArray) -> str:
+    text = base64.b64encode(zlib.compress(values.astype("<f4").tobytes())).decode("ascii")
+    return (
+        '<DataArray Intent="NIFTI_INTENT_NONE" DataType="NIFTI_TYPE_FLOAT32" ArrayIndexingOrder="RowMajorOrder" '
+        f'Dimensionality="1" Dim0="{len(values)}" Encoding="GZipBase64Binary" Endian="LittleEndian" '
+        f'ExternalFileName="" ExternalFileOffset="">\n{_meta_data({"Name": name})}<Data>{text}</Data>\n</DataArray>\n'
+    )
+
+
+def _meta_data(texts: Mapping[str, str]) -> str:
+    entries = "".join(f"<MD><Name>{escape(k)}</Name><Value>{escape(v)}</Value></MD>" for k, v in texts.items())
+    return f"<MetaData>{entries}</MetaData>\n"

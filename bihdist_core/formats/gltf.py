@@ -25,7 +25,10 @@ _HARMLESS = re.compile("KHR_(materials|texture|lights|xmp|mesh_quantization|anim
 
 
 def read_gltf(raw: bytes, name: str) -> Polygons:
-    """The triangles of a glTF file; MeshError where it is none, is cut off or damaged, or needs what is not read."""
+    """Read the triangles of a glTF file.
+
+    MeshError where it is none, is cut off or damaged, or needs what is not read.
+    """
     file = gltf_file(raw, name)
     for extension in file.entries(file.data, "extensionsRequired"):
         if not isinstance(extension, str) or not _HARMLESS.match(extension):
@@ -34,7 +37,7 @@ def read_gltf(raw: bytes, name: str) -> Polygons:
 
 
 class _Joined:
-    """All triangles of a file's scene in one surface."""
+    """The triangles of a file's scene, joined to one surface."""
 
     def __init__(self, file: GltfFile) -> None:
         self.file = file
@@ -45,7 +48,7 @@ class _Joined:
         self.has_colours = self.is_posed = False
 
     def polygons(self) -> Polygons:
-        """Vertices and triangles, with what was left out."""
+        """Return vertices and triangles, with what was left out."""
         file = self.file
         if file.entries(file.data, "nodes"):
             for node, place in self._placed():
@@ -68,10 +71,10 @@ class _Joined:
         if self.has_colours:
             yield "colours and materials left out"
         if self.is_posed:
-            yield "skins and shapes to morph into left out"
+            yield "skins and morph targets left out"
 
     def _placed(self) -> Iterator[tuple[dict[str, Any], FloatArray]]:
-        """The nodes of the scene, a node before those below it, with their (4, 4) transforms."""
+        """Yield the nodes of the scene, a node before those below it, with their (4, 4) transforms."""
         file, scenes = self.file, self.file.entries(self.file.data, "scenes")
         if scenes:
             roots = file.entries(file.entry("scenes", file.data.get("scene", 0)), "nodes")
@@ -90,16 +93,16 @@ class _Joined:
             waiting += [(below, place) for below in reversed(file.entries(node, "children"))]
 
     def _transform(self, node: dict[str, Any], where: str) -> FloatArray:
-        """(4, 4) of a node: its matrix, which a file has by columns, or scale, then rotation, then translation."""
+        """Return a node's transform (4, 4): its matrix, stored by columns, or scale, rotation and translation."""
         if "matrix" in node:
             matrix = self.file.floats(node, "matrix", [0.0] * 16, where).reshape(4, 4).T
             if (matrix[3] != (0, 0, 0, 1)).any():
-                raise MeshError(f"{self.file.name}: the matrix of {where} is not one of an affine map.")
+                raise MeshError(f"{self.file.name}: the matrix of {where} is not affine.")
             return matrix
         x, y, z, w = self.file.floats(node, "rotation", [0.0, 0.0, 0.0, 1.0], where)
         length = float(np.sqrt(x * x + y * y + z * z + w * w))
         if not 0.5 < length < 2:
-            raise MeshError(f"{self.file.name}: the rotation of {where} is no unit quaternion.")
+            raise MeshError(f"{self.file.name}: the rotation of {where} is not a unit quaternion.")
         x, y, z, w = (c / length for c in (x, y, z, w))
         matrix = np.eye(4)
         matrix[:3, :3] = [
@@ -112,7 +115,7 @@ class _Joined:
         return matrix
 
     def _add(self, mesh: Any, place: FloatArray) -> None:
-        """The triangles of a mesh at a place."""
+        """Add the triangles of a mesh at a place."""
         file, first_of = self.file, dict[Any, tuple[int, int]]()
         entry = file.entry("meshes", mesh)
         before = self.primitives
@@ -138,7 +141,7 @@ class _Joined:
                 ids = self._checked(ids, n, where)
             triangles = _triangles(ids, mode)
             if triangles is None:
-                raise MeshError(f"{file.name}: {where} has {len(ids):,} corners, no whole number of triangles.")
+                raise MeshError(f"{file.name}: {where} has {len(ids):,} corners, which is not a multiple of 3.")
             file.take(triangles.nbytes)
             # A mirror image keeps its outside outside.
             ordered = triangles[:, [0, 2, 1]] if np.linalg.det(place[:3, :3]) < 0 else triangles
@@ -167,7 +170,7 @@ def _ids(found: Any) -> list[int]:
 
 
 def _triangles(ids: IntArray, mode: int) -> IntArray | None:
-    """(m, 3) of the corners in a row; None where they are not a whole number of triangles."""
+    """Return (m, 3) of the corners in a row; None where they are not a whole number of triangles."""
     if mode == _TRIANGLES:
         return None if len(ids) % 3 else ids.reshape(-1, 3)
     if mode == _STRIP:

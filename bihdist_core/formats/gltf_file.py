@@ -1,4 +1,4 @@
-"""What glTF files hold: their JSON, and the arrays that its accessors name.
+"""Contents of glTF files: their JSON, and the arrays that its accessors name.
 
 Format: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html.  Buffers stand in the file, or in files beside it.
 """
@@ -19,7 +19,7 @@ import numpy as np
 from ..arrays import AnyArray, FloatArray
 from ..errors import MeshError
 from ..file_content import json_value
-from .gzip_files import MOST_BYTES
+from .compression import MOST_BYTES
 
 _MAGIC, _JSON, _BIN = b"glTF", b"JSON", b"BIN\0"
 COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -38,31 +38,31 @@ class GltfFile:
     """Bytes that arrays have taken: a small file may name the same bytes again and again."""
 
     def entries(self, of: dict[str, Any], key: str) -> list[Any]:
-        """A list, empty if there is none."""
+        """Return a list, empty if there is none."""
         found = of.get(key, [])
         if not isinstance(found, list):
             raise MeshError(f"{self.name}: {key!r} is not a list.")
         return found
 
     def entry(self, kind: str, k: Any) -> dict[str, Any]:
-        """Object k of the list of this kind."""
+        """Return object k of the list of this kind."""
         entries = self.entries(self.data, kind)
         if isinstance(k, bool) or not isinstance(k, int) or not 0 <= k < len(entries):
-            raise MeshError(f"{self.name}: {kind} {str(k)[:40]} is named, and there are {len(entries):,}.")
+            raise MeshError(f"{self.name}: {kind} {str(k)[:40]} does not exist; there are {len(entries):,}.")
         if not isinstance(entries[k], dict):
             raise MeshError(f"{self.name}: {kind} {k} is not an object.")
         found: dict[str, Any] = entries[k]
         return found
 
     def count(self, of: dict[str, Any], key: str, where: str, default: int | None = 0) -> int:
-        """A whole number that is not negative."""
+        """Return a whole number that is not negative."""
         found = of.get(key, default)
         if isinstance(found, bool) or not isinstance(found, int) or not 0 <= found <= MOST_BYTES:
             raise MeshError(f"{self.name}: {key} of {where} is {str(found)[:40]}, not a count.")
         return found
 
     def floats(self, of: dict[str, Any], key: str, default: list[float], where: str) -> FloatArray:
-        """As many finite numbers as the default has."""
+        """Return as many finite numbers as the default has."""
         found = of.get(key, default)
         is_fine = isinstance(found, list) and len(found) == len(default)
         if is_fine:
@@ -78,7 +78,7 @@ class GltfFile:
             raise MeshError(f"{self.name} unfolds to more than {MOST_BYTES / 2**30:g} GiB; it is not read.")
 
     def buffer(self, k: int) -> bytes:
-        """The bytes of a buffer."""
+        """Return the bytes of a buffer."""
         if k not in self.read:
             entry = self.entry("buffers", k)
             size, uri = self.count(entry, "byteLength", f"buffer {k}", None), entry.get("uri")
@@ -98,7 +98,7 @@ class GltfFile:
         return self.read[k]
 
     def array(self, k: Any, kind: str, components: tuple[int, ...]) -> AnyArray:
-        """(count, width) numbers of an accessor of this type, "SCALAR" or "VEC3", as the file has them."""
+        """Return (count, width) numbers of an accessor of this type, "SCALAR" or "VEC3", as the file has them."""
         entry, where = self.entry("accessors", k), f"accessor {k}"
         component, count = entry.get("componentType"), self.count(entry, "count", where, None)
         if entry.get("type") != kind or component not in components:
@@ -123,13 +123,16 @@ class GltfFile:
 
 
 def gltf_file(raw: bytes, name: str) -> GltfFile:
-    """What a .gltf or .glb file holds; MeshError where it is none, or is cut off or damaged."""
+    """Read a .gltf or .glb file; MeshError where it is none, or is cut off or damaged."""
     text, inside = _chunks(raw, name) if raw[:4] == _MAGIC else (raw, None)
     return GltfFile(name, _parsed(text, name), inside)
 
 
 def with_buffers(content: bytes, path: Path) -> bytes:
-    """The content of a .gltf file with the files that it names inside it; these stand beside it, or are refused."""
+    """Return the content of a .gltf file with the files that it names inside it.
+
+    These stand beside it, or are refused.
+    """
     if content[:4] == _MAGIC or b'"uri"' not in content:
         return content
     data = _parsed(content, path.name)
@@ -143,7 +146,7 @@ def with_buffers(content: bytes, path: Path) -> bytes:
 
 
 def _beside(path: Path, uri: str, k: int) -> bytes:
-    """The bytes of the file beside a .gltf that its buffer k names."""
+    """Return the bytes of the file beside a .gltf that its buffer k names."""
     if not uri or uri in (".", "..") or re.search(r"[/\\:\0]", uri):
         raise MeshError(f"{path.name}: buffer {k} is {uri[:80]!r}; only a file in the folder of the .gltf is read.")
     other = path.parent / uri
@@ -161,7 +164,7 @@ def _beside(path: Path, uri: str, k: int) -> bytes:
 
 
 def _chunks(raw: bytes, name: str) -> tuple[bytes, bytes | None]:
-    """The JSON and the binary chunk of a .glb file, None if it has none."""
+    """Return the JSON and the binary chunk of a .glb file, None if it has none."""
     version, length = (int.from_bytes(raw[at : at + 4], "little") for at in (4, 8))
     if version != 2:
         raise MeshError(f"{name} is a GLB file of version {version}; only version 2 is read.")

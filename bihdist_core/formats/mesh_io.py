@@ -7,55 +7,46 @@ process down on a damaged one.)
 
 import os
 import stat
-from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 
 from ..counts import counted
 from ..errors import MeshError, MissingFileError
+from ..mesh_arrays import check_size
 from ..surface import Surface
-from .freesurfer import read_freesurfer
-from .gifti import read_gifti
-from .gltf import read_gltf
+from .compression import unpacked
 from .gltf_file import with_buffers
-from .gzip_files import unpacked
-from .mesh_names import FREESURFER, GZIP, MESH_FORMATS, mesh_format
-from .obj import read_obj
-from .off import read_off
-from .ply import read_ply
+from .mesh_names import FORMATS, GZIP, MESH_FORMATS, mesh_format
 from .polygons import Polygons, triangulated
-from .stl import read_stl
-from .vtk import read_vtk
-from .vtp import read_vtp
-
-_READERS: dict[str, Callable[[bytes, str], Polygons]] = {
-    ".off": read_off,
-    ".obj": read_obj,
-    ".ply": read_ply,
-    ".stl": read_stl,
-    ".vtk": read_vtk,
-    ".vtp": read_vtp,
-    ".vtu": read_vtp,
-    ".gltf": read_gltf,
-    ".glb": read_gltf,
-    ".gii": read_gifti,
-    FREESURFER: read_freesurfer,
-}
-LARGEST, SMALLEST = 1e75, 1e-75
-"""Squares of areas of larger and of smaller surfaces are beyond what a float holds."""
 
 
 def read_surface(path: str | os.PathLike[str]) -> Surface:
-    """The surface in a mesh file; the extension, in any case, names the format, or a name such as lh.pial.  With .gz
-    behind it the file is unpacked.
+    """Read a mesh file.
 
-    Polygons are divided into triangles, and in STL files coincident vertices are merged, which `Surface.facts` says;
-    what cannot be part of a surface is left out, which `Surface.repairs` says, both in words with counts.
+    Parameters
+    ----------
+    path : str or path-like
+        The extension, in any case, names the format, or a name such as lh.pial. A file with .gz behind it is unpacked.
 
-    Raises MeshError, one sentence with the file, the place and the value, for a file that is missing (then it is a
-    FileNotFoundError, too), unreadable, truncated, damaged or of another kind, and for a mesh without faces.
+    Returns
+    -------
+    Surface
+        The surface; vertex ids are the file's. Polygons are divided into triangles, and in STL files coincident
+        vertices are merged, which `Surface.facts` says; what cannot be part of a surface is left out, which
+        `Surface.repairs` says.
 
+    Raises
+    ------
+    MissingFileError
+        If there is no such file; it is a MeshError and a FileNotFoundError.
+    MeshError
+        For a file that is unreadable, truncated, damaged or of another kind, and for a mesh without faces. The message
+        names the file, the place in it and the value.
+
+    Examples
+    --------
     >>> import bihdist
     >>> from pathlib import Path
     >>> _ = Path("square.off").write_text('''OFF 4 1 0
@@ -69,7 +60,7 @@ def read_surface(path: str | os.PathLike[str]) -> Surface:
 
 
 def surface_in(content: bytes, name: str) -> Surface:
-    """The surface in the content of a mesh file of this name; as `read_surface`, of which it is the second half."""
+    """Make a surface of the content of a mesh file of this name; the second half of `read_surface`."""
     try:
         # Damaged bytes can be any number, a signalling NaN too; NumPy need not warn, Surface refuses and names them.
         with np.errstate(all="ignore"):
@@ -77,7 +68,7 @@ def surface_in(content: bytes, name: str) -> Surface:
                 content = unpacked(content, name)
                 if not content:
                     raise MeshError(f"{name} is empty.")
-            polygons = _READERS[mesh_format(name)](content, name)
+            polygons = read_polygons(content, name)
             if not len(polygons.sizes):
                 held = counted(len(polygons.vertices), "vertex", "vertices")
                 raise MeshError(f"{name} has {held} but no faces; a surface needs at least one triangle.")
@@ -90,30 +81,25 @@ def surface_in(content: bytes, name: str) -> Surface:
         raise MeshError(f"{name} is too large for the memory of this computer.") from None
 
 
+def read_polygons(content: bytes, name: str) -> Polygons:
+    """Read the polygons of a mesh file by the reader of its format."""
+    reader = FORMATS[mesh_format(name)].reader
+    polygons: Polygons = getattr(import_module(f".{reader}", __package__), f"read_{reader}")(content, name)
+    return polygons
+
+
 def _check_extent(surface: Surface) -> None:
-    """MeshError for a surface that nothing can be measured on: all of it in one place, too large or too small."""
+    """Raise MeshError for a surface that nothing can be measured on: all of it in one place, too large or too small."""
     x, name = surface.vertices, surface.name
-    # All is small only where the first face is.
-    if np.ptp(x[surface.faces[0]], axis=0).max() < SMALLEST:
-        extent = float(np.ptp(x[surface.faces], axis=(0, 1)).max())
-        if extent == 0:
-            place = ", ".join(f"{c:g}" for c in x[surface.faces[0, 0]])
-            raise MeshError(f"{name}: all corners of its faces are at ({place}); there is nothing to measure.")
-        if extent < SMALLEST:
-            raise MeshError(f"{name} measures {extent:g}; below {SMALLEST:g} areas have no numbers, so scale it up.")
-    if max(float(x.max()), -float(x.min())) > LARGEST:
-        k, axis = np.argwhere(np.abs(x) > LARGEST)[0]
-        raise MeshError(
-            f"{name}: vertex {k} has the coordinate {x[k, axis]:g}; beyond {LARGEST:g} areas have no numbers, so scale "
-            "it down."
-        )
+    # All is in one place only where the first face is.
+    if not np.ptp(x[surface.faces[0]], axis=0).any() and not np.ptp(x[surface.faces], axis=(0, 1)).any():
+        place = ", ".join(f"{c:g}" for c in x[surface.faces[0, 0]])
+        raise MeshError(f"{name}: all corners of its faces are at ({place}); there is nothing to measure.")
+    check_size(x, surface.faces, name)
 
 
 def mesh_content(path: str | os.PathLike[str]) -> bytes:
-    """The bytes of a mesh file; as `read_surface`, of which it is the first half.
-
-    Of a .gltf with the files that it names beside it, inside it.
-    """
+    """Read the bytes of a mesh file, a .gltf with the files that it names; the first half of `read_surface`."""
     path = Path(path)
     try:
         kind = path.stat().st_mode

@@ -1,16 +1,60 @@
-"""What the name of a mesh file says: its format, and what the mesh is called."""
+"""The formats of mesh files, and what a file's name says: its format, and what the mesh is called.
+
+This module is imported for help texts and file dialogs; it needs no NumPy.
+"""
 
 import gzip
 import os
 import re
 import zlib
+from dataclasses import dataclass
 from pathlib import Path
 
-MESH_FORMATS = (".off", ".obj", ".ply", ".stl", ".vtk", ".vtp", ".vtu", ".gltf", ".glb", ".gii")
-"""The extensions of mesh files, each with its dot, in lower case; .gz may follow."""
 GZIP = ".gz"
 FREESURFER = "FreeSurfer"
 """The format of files whose names begin with the hemisphere, such as lh.pial."""
+
+
+@dataclass(frozen=True)
+class MeshFormat:
+    """A format of mesh files.
+
+    Parameters
+    ----------
+    name : str
+        The extension in lower case, with its dot, or FREESURFER.
+    reader : str
+        A module of this package; ``"off"`` has the function ``read_off(content, name)``, which returns `Polygons`.
+    y_bonus : float
+        How much better than y the direction z has to be before it is taken as up (see `upright`): programs that write
+        OBJ have y up, and glTF has it by definition, while z is up in files of brains.
+    """
+
+    name: str
+    reader: str
+    y_bonus: float = 0.5
+
+
+FORMATS = {
+    each.name: each
+    for each in (
+        MeshFormat(".off", "off", y_bonus=1.0),
+        MeshFormat(".obj", "obj", y_bonus=2.5),
+        MeshFormat(".ply", "ply"),
+        MeshFormat(".stl", "stl", y_bonus=-0.5),
+        MeshFormat(".vtk", "vtk"),
+        MeshFormat(".vtp", "vtp"),
+        MeshFormat(".vtu", "vtp"),
+        MeshFormat(".gltf", "gltf", y_bonus=4.0),
+        MeshFormat(".glb", "gltf", y_bonus=4.0),
+        MeshFormat(".gii", "gifti", y_bonus=-4.0),
+        MeshFormat(FREESURFER, "freesurfer", y_bonus=-4.0),
+    )
+}
+"""All formats by their names, in the order in which they are listed."""
+
+MESH_FORMATS = tuple(name for name in FORMATS if name.startswith("."))
+"""The extensions of mesh files; .gz may follow."""
 
 _HEMISPHERE = re.compile(r"(^|[._-])[lr]h\.[a-z]", re.IGNORECASE)
 _OTHER_GIFTI = re.compile(r"\.(func|shape|label|time|rgba|vector|tensor|coord|topo)\.gii(\.gz)?$", re.IGNORECASE)
@@ -19,7 +63,10 @@ _SEARCHED = 1 << 26
 
 
 def mesh_format(path: str | os.PathLike[str]) -> str:
-    """The extension that names the format of a mesh file, without .gz; FREESURFER, or "" for a file of another name."""
+    """Return the extension that names the format of a mesh file, without .gz.
+
+    FREESURFER, or "" for a file of another name.
+    """
     name = os.path.basename(path).lower().removesuffix(GZIP)
     extension = os.path.splitext(name)[1]
     if extension in MESH_FORMATS:
@@ -28,12 +75,12 @@ def mesh_format(path: str | os.PathLike[str]) -> str:
 
 
 def has_hemisphere(name: str) -> bool:
-    """Whether a file is named as FreeSurfer names those of a hemisphere: lh.pial, sub-01_rh.thickness."""
+    """Return whether a file is named as FreeSurfer names those of a hemisphere: lh.pial, sub-01_rh.thickness."""
     return bool(_HEMISPHERE.search(name))
 
 
 def mesh_name(path: str | os.PathLike[str]) -> str:
-    """What a mesh is called: its file's name without what tells the format, `lh.pial` of lh.pial.surf.gii.gz."""
+    """Name a mesh after its file, without the endings of the format: `lh.pial` for lh.pial.surf.gii.gz."""
     name = os.path.basename(path)
     if name.lower().endswith(GZIP):
         name = name[: -len(GZIP)]
@@ -44,7 +91,7 @@ def mesh_name(path: str | os.PathLike[str]) -> str:
 
 
 def is_mesh_file(path: Path) -> bool:
-    """Whether a file of a folder is a mesh, by its name; a GIFTI or FreeSurfer file also by what it holds.
+    """Return whether a file of a folder is a mesh, by its name; a GIFTI or FreeSurfer file also by what it holds.
 
     One that cannot be read counts as a mesh, so that reading it says why.
     """

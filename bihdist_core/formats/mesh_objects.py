@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import MeshError, ParameterError
+from ..sentences import shortened
 from ..surface import Surface
 from .mesh_io import read_surface
 from .polygons import Polygons, triangulated
@@ -24,8 +25,13 @@ KNOWN = (
 
 
 def surface_of(mesh: Any, faces: Any = None, name: str | None = None) -> Surface:
-    """The surface of a mesh of any kind that `Surface.of` lists; raises as that does."""
+    """Return the surface of a mesh of any kind that `Surface.of` lists; raises as that does."""
     if faces is not None:
+        if isinstance(mesh, str | os.PathLike):
+            raise ParameterError(
+                f"{os.fspath(mesh)!r} names a file, which has its own faces; leave out {shortened(repr(faces), 60)}, "
+                "or take what `read_surface` reads."
+            )
         return Surface(mesh, faces, name or "surface")
     if isinstance(mesh, Surface):
         return mesh
@@ -97,4 +103,4 @@ READERS: tuple[tuple[Callable[[Any], bool], Callable[[Any, str], Surface]], ...]
     (lambda mesh: hasattr(mesh, "to_legacy"), _of_open3d_tensors),
     (lambda mesh: hasattr(mesh, "parts") and hasattr(mesh.parts, "keys"), _of_parts),
 )
-"""Whether an object is of a library, and its surface."""
+"""A test whether an object is of a library, and a reader of its surface."""

@@ -38,9 +38,9 @@ class _Text(Structure):
 
 @dataclass(frozen=True)
 class MeshText:
-    """What a text holds: `vertices` (n, 3), polygon `sizes` (p,), `corners` (sum of sizes,) as vertex ids from 0.
+    """The mesh in a text: `vertices` (n, 3), polygon `sizes` (p,), and `corners` (sum of sizes,) as vertex ids from 0.
 
-    `loose`: how many lines of loose points and edges an OBJ file has.
+    `loose` counts the lines of loose points and edges of an OBJ file.
     """
 
     vertices: FloatArray
@@ -52,7 +52,7 @@ class MeshText:
 def mesh_text(
     function: str, arguments: tuple[Any, ...], raw: bytes, allowed: Sequence[int], comment: bytes = b"", begin: int = 0
 ) -> MeshText | None:
-    """The mesh in a text from `begin` on, which a function of the kernel takes whole; None if it does not.
+    """Return the mesh in a text from `begin` on, which a function of the kernel takes whole; None if it does not.
 
     A vertex may have any of `allowed` numbers (each below 64), of which three are kept.
     """
@@ -84,7 +84,7 @@ def mesh_text(
 
 
 def _complete(points: FloatArray, words: IntArray, raw: bytes) -> bool:
-    """Puts in the numbers that the kernel has left, (k, 3) begin, end and place; whether all are numbers."""
+    """Fill in the words (k, 3), begin, end and place, that the kernel has left; return whether all are numbers."""
     values = parsed(b" ".join([raw[begin:end] for begin, end, _ in words.tolist()]), len(words))
     if values is None:
         return False
@@ -95,7 +95,10 @@ def _complete(points: FloatArray, words: IntArray, raw: bytes) -> bool:
 
 @cache
 def _powers_of_five() -> AnyArray:
-    """(651, 2) the leading 128 bits of 5^e for e from -342 to 308, high word first; rounded up for -27 <= e < 0."""
+    """Return (651, 2) the leading 128 bits of 5^e for e from -342 to 308, high word first.
+
+    Rounded up for -27 <= e < 0.
+    """
     found = []
     for e in range(-342, 309):
         power = 5 ** abs(e)

@@ -44,13 +44,16 @@ _LAST_FACE = re.compile(rb"(?:^|[\r\n])[ \t]*f((?:[ \t][^\r\n#]*)?)\Z")
 
 
 def read_obj(raw: bytes, name: str) -> Polygons:
-    """The polygons of an OBJ file; MeshError naming the line where it is not one, or its last face is cut off."""
+    """Read the polygons of an OBJ file.
+
+    MeshError naming the line where it is not one, or its last face is cut off.
+    """
     _check_end(raw, name)
     return _read_plain(raw) or _read_any(raw, name)
 
 
 def _read_plain(raw: bytes) -> Polygons | None:
-    """The polygons, read by the compiled kernel; None if it leaves the file to the other reader."""
+    """Read the polygons by the compiled kernel; None if it leaves the file to the other reader."""
     if b"\\" in raw and re.search(rb"\\[\r\n#]", raw):
         return None
     keywords = np.array([keyword_code(word.encode()) for word in ("v", "f", "l", "p", *_OTHER_STATEMENTS)], np.uint64)
@@ -59,7 +62,7 @@ def _read_plain(raw: bytes) -> Polygons | None:
 
 
 def _check_end(raw: bytes, name: str) -> None:
-    """MeshError for a file that ends within a face: with no line end, too few corners, or half a corner."""
+    """Raise MeshError for a file that ends within a face: with no line end, too few corners, or half a corner."""
     if raw.endswith((b"\n", b"\r")):
         return
     last = _LAST_FACE.search(raw, max(raw.rfind(b"\n"), raw.rfind(b"\r"), 0))
@@ -98,7 +101,7 @@ def _read_any(raw: bytes, name: str) -> Polygons:
 
 
 def _may_be_damaged(words: list[bytes]) -> bool:
-    """Whether an unknown statement may be what is left of a vertex or a face: nothing but numbers behind a word."""
+    """Return whether an unknown statement may be left of a vertex or a face: nothing but numbers behind a word."""
     first, *others = words
     return all(map(_NUMBERS.fullmatch, others)) if others else bool(re.search(rb"\d", first))
 
@@ -119,7 +122,7 @@ def _vertices(rows: NumberLines, name: str) -> FloatArray:
 
 
 def _corners(rows: NumberLines, before: IntArray, n: int, name: str) -> IntArray:
-    """The corners of all faces as ids from 0; `before` (p,) counts the vertices above each face line."""
+    """Return the corners of all faces as ids from 0; `before` (p,) counts the vertices above each face line."""
     sizes = rows.sizes
     ids, bad = whole_numbers(rows.values)
     # -1 is the last vertex above the face's line.

@@ -22,14 +22,14 @@ _HEAD = 1 << 14
 
 
 def read_off(raw: bytes, name: str) -> Polygons:
-    """The polygons of an OFF file; MeshError naming the line where it is not one."""
+    """Read the polygons of an OFF file; MeshError naming the line where it is not one."""
     if head := re.match(rb"\s*(\w*OFF)[ \t]+BINARY[ \t\r]*\n", raw[:200]):
         return _read_binary(raw, head, name)
     return _read_plain(raw, name) or _read_any(raw, name)
 
 
 def _read_plain(raw: bytes, name: str) -> Polygons | None:
-    """The polygons, read by the compiled kernel; None if it leaves the file to the other reader."""
+    """Read the polygons by the compiled kernel; None if it leaves the file to the other reader."""
     try:
         n, p, allowed, header = _header(TextLines(raw[: raw.rfind(b"\n", 0, _HEAD) + 1], name, comment=b"#"))
     except MeshError:
@@ -68,7 +68,10 @@ def _read_any(raw: bytes, name: str) -> Polygons:
 
 
 def _read_row(lines: TextLines, header: int, n: int, p: int, allowed: list[int]) -> Polygons | None:
-    """The polygons of a text with lines that end anywhere, as one row of numbers; None unless that fits to the last."""
+    """Return the polygons of a text with lines that end anywhere, as one row of numbers.
+
+    None unless that fits to the last.
+    """
     if 3 * n + p > lines.word_count[header:].sum():
         return None
     try:
@@ -84,7 +87,7 @@ def _read_row(lines: TextLines, header: int, n: int, p: int, allowed: list[int])
 
 
 def _header(lines: TextLines) -> tuple[int, int, list[int], int]:
-    """Vertices, faces, how many numbers a vertex line may hold, and the lines used up."""
+    """Return the numbers of vertices and faces, how many numbers a vertex line may hold, and the lines used up."""
     name = lines.name
     if not len(lines):
         raise MeshError(f"{name} holds nothing but blanks and comments.")
@@ -103,7 +106,7 @@ def _header(lines: TextLines) -> tuple[int, int, list[int], int]:
 
 
 def _kind(line: bytes, name: str) -> tuple[list[int], bytes]:
-    """How many numbers a vertex may have by the first line, and what stands behind its first word."""
+    """Return the numbers that a vertex may have by the first line, and the rest of that line."""
     found = _HEADER.fullmatch(line)
     if not found:
         raise MeshError(f"{name} is not an OFF file: its first line is {shown(line)} where OFF belongs.")
@@ -115,7 +118,7 @@ def _kind(line: bytes, name: str) -> tuple[list[int], bytes]:
 
 
 def _faces(numbers: NumberLines, vertex_count: int, name: str) -> tuple[IntArray, IntArray]:
-    """(p,) polygon sizes and their corners; each line is a size, that many ids and perhaps a colour."""
+    """Return (p,) polygon sizes and their corners; each line is a size, that many ids and perhaps a colour."""
     first = numbers.first[vertex_count:-1]
     held = numbers.sizes[vertex_count:]
     sizes, bad = whole_numbers(numbers.values[first])
@@ -137,11 +140,11 @@ def _faces(numbers: NumberLines, vertex_count: int, name: str) -> tuple[IntArray
 
 
 def _read_binary(raw: bytes, head: re.Match[bytes], name: str) -> Polygons:
-    """Big-endian: three counts, the vertices as floats, then of each face its corners and its colour, counts first."""
+    """Read big-endian numbers: three counts, the vertices, then the corners and colour of each face, counts first."""
     width, at = _kind(head[1], name)[0][-1], head.end()
     counts = np.frombuffer(raw, ">i4", min(3, (len(raw) - at) // 4), at).tolist()
     if len(counts) < 3 or min(counts) < 0:
-        raise MeshError(f"{name} is cut off or damaged: the counts behind its first line are {counts}.")
+        raise MeshError(f"{name} is cut off or damaged: the counts after its first line are {counts}.")
     n, p, _ = counts
     at += 12
     held = (len(raw) - at) // 4
@@ -157,7 +160,8 @@ def _read_binary(raw: bytes, head: re.Match[bytes], name: str) -> Polygons:
 
 
 def _binary_faces(values: IntArray, p: int, name: str) -> tuple[IntArray, IntArray]:
-    """(p,) sizes and the corners of faces that fill the values, each with a number of corners, and one of colours."""
+    """Return (p,) sizes and the corners of faces that fill the values, each with a number of corners, and one of
+    colours."""
     starts, at, entries = np.empty(p, np.int64), 0, values.tolist()
     for k in range(p):
         starts[k] = at

@@ -17,22 +17,18 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray, IntArray, array_of
 from ..errors import ParameterError, VertexError
 from ..file_content import file_text, json_value
+from ..file_output import atomic_write, check_output
 from ..mesh_like import MeshLike
-from ..number_arrays import array_of
 from ..sentences import shortened
 from ..surface import Surface
-from ..whole_file import check_output, whole_file
 
 COLUMNS = ("id", "vertex", "x", "y", "z", "name")
 WITH_VALUES = (*COLUMNS, "value")
-"""What is read: files of anchors (`anchors`) are files of pins, too."""
+"""Columns that are read; files of anchors (`anchors`) are files of pins, too."""
 
-
-Row = tuple[int, int, list[float], str]
-"""A pin as files hold it: id, vertex, position and name."""
 
 MOST = 10**18
 """Ids have less digits."""
@@ -40,10 +36,21 @@ MOST = 10**18
 
 @dataclass(frozen=True, eq=False)
 class Pins:
-    """k vertices of a surface, in order: ids (k,), all different, vertices (k,), and names, which may be empty.
+    """Pins: k named vertices of a surface, in order.
 
-    moved: (k,) how far the vertex is from the place that the file named, in the mesh's unit; 0 where it named none.
+    Attributes
+    ----------
+    ids : (k,) int64 ndarray
+        All different.
+    vertices : (k,) int64 ndarray
+        The vertices.
+    names : tuple of str
+        Names, which may be empty.
+    moved : (k,) float64 ndarray
+        How far each vertex is from the position that a file gave, in the mesh's unit; 0 where it gave none.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> pins = bihdist.Pins.of(plane, [0, 40], names=["corner", "middle"])
@@ -60,11 +67,33 @@ class Pins:
     def of(
         cls, surface: MeshLike, vertices: npt.ArrayLike, names: Sequence[str] = (), ids: npt.ArrayLike | None = None
     ) -> Pins:
-        """Pins at vertices (k,), with ids from 1 unless others are given.
+        """Make pins at vertices.
 
-        Raises VertexError for a bad vertex; ParameterError for no vertices, another number of names (none is fine) or
-        ids, or ids that are not whole numbers or not different.
+        Parameters
+        ----------
+        surface : MeshLike
+            The mesh.
+        vertices : (k,) array_like
+            At least one vertex.
+        names : (k,) sequence of str
+            Their names; none by default.
+        ids : (k,) array_like, optional
+            Different whole numbers; 1 to k by default.
 
+        Returns
+        -------
+        Pins
+            The pins.
+
+        Raises
+        ------
+        VertexError
+            If a vertex is not on the surface.
+        ParameterError
+            For no vertices, another number of names or ids, and ids that are not different whole numbers.
+
+        Examples
+        --------
         >>> import bihdist, pyvista
         >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
         >>> bihdist.Pins.of(plane, [0, 40], ids=[7, 3]).ids.tolist()
@@ -86,16 +115,31 @@ class Pins:
 
 
 def read_pins(path: str | os.PathLike[str], surface: MeshLike) -> Pins:
-    """The pins in a file, at vertices of a surface; the extension names the format.
+    """Read pins from a file.
 
-    .csv: a header of some of `id,vertex,x,y,z,name`, in any order, then a line for each pin.
-    .json: {"pins": [{"id", "vertex", "position": [x, y, z], "name"}, ...]}.
-    .pp: the active points of MeshLab's PickPoints.
-    A pin is at its vertex or, where the file names none, at the one nearest to its position; `Pins.moved` tells how far
-    off that is.  Ids count from 1 where there are none.
+    Parameters
+    ----------
+    path : str or path-like
+        The extension names the format.
+        ``.csv``: a header of some of `id,vertex,x,y,z,name`, in any order, then a line for each pin.
+        ``.json``: ``{"pins": [{"id", "vertex", "position": [x, y, z], "name"}, ...]}``.
+        ``.pp``: the active points of MeshLab's PickPoints.
+    surface : MeshLike
+        The mesh that the pins are on.
 
-    Raises ParameterError, a sentence with the file, the place in it and the value, for anything else.
+    Returns
+    -------
+    Pins
+        Each pin is at its vertex or, where the file names none, at the vertex nearest to its position; `Pins.moved`
+        tells how far off that is. Ids count from 1 where there are none.
 
+    Raises
+    ------
+    ParameterError
+        For anything else; the message names the file, the place in it and the value.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> from pathlib import Path
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
@@ -109,15 +153,15 @@ def read_pins(path: str | os.PathLike[str], surface: MeshLike) -> Pins:
 
 
 def picked_in(path: str | os.PathLike[str]) -> list[Picked]:
-    """What a file of pins says, as it stands there; at least one.  Raises ParameterError as `read_pins`."""
+    """Read the pins of a file as they stand there, at least one. Raises ParameterError as `read_pins`."""
     path = Path(path)
     if path.suffix.lower() not in PIN_FORMATS:
-        raise ParameterError(f"{path} is no file of pins; these are {', '.join(PIN_FORMATS)}.")
+        raise ParameterError(f"{path} is not a file of pins; such files are {', '.join(PIN_FORMATS)}.")
     return picked_from(file_text(path, "pins in"), path.name, path.suffix.lower())
 
 
 def picked_from(text: str, name: str, format: str) -> list[Picked]:
-    """What the text of a file of pins says; name: how messages call it; format: one of PIN_FORMATS."""
+    """Read the pins in a text of one of PIN_FORMATS; messages call it `name`."""
     found = _READERS[format](text, name)
     if not found:
         raise ParameterError(f"{name} holds no pins.")
@@ -125,7 +169,7 @@ def picked_from(text: str, name: str, format: str) -> list[Picked]:
 
 
 def pins_format(text: str) -> str:
-    """Which of PIN_FORMATS a text has by how it begins, "" if none of them."""
+    """Guess which of PIN_FORMATS a text has by how it begins; "" for none."""
     begins = text.lstrip()
     if begins[:1] in ("{", "<"):
         return ".json" if begins[0] == "{" else ".pp"
@@ -134,10 +178,24 @@ def pins_format(text: str) -> str:
 
 
 def write_pins(path: str | os.PathLike[str], surface: MeshLike, pins: Pins) -> None:
-    """Write pins in a form that `read_pins` reads, with the positions of their vertices, exactly.
+    """Write pins to a file that `read_pins` reads, with the exact positions of their vertices.
 
-    MeshLab's .pp has no place for ids.  Raises OutputError if the file cannot be written; what was there then stays.
+    Parameters
+    ----------
+    path : str or path-like
+        The extension names the format: .csv, .json or .pp. MeshLab's .pp has no place for ids.
+    surface : MeshLike
+        The mesh.
+    pins : Pins
+        The pins.
 
+    Raises
+    ------
+    OutputError
+        If the file cannot be written; what was there then stays.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> from pathlib import Path
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
@@ -147,16 +205,19 @@ def write_pins(path: str | os.PathLike[str], surface: MeshLike, pins: Pins) -> N
     1,40,0.0,0.0,0.0,middle
     """
     surface = Surface.of(surface)
-    extension = check_output(path, PIN_FORMATS)
     points = surface.vertices[pins.vertices].tolist()
-    rows = list(zip(pins.ids.tolist(), pins.vertices.tolist(), points, pins.names, strict=True))
-    with whole_file(path) as temporary:
-        temporary.write_bytes(_WRITERS[extension](rows, surface.name).encode())
+    rows = [
+        {"id": number, "vertex": vertex, "position": point, "name": name}
+        for number, vertex, point, name in zip(
+            pins.ids.tolist(), pins.vertices.tolist(), points, pins.names, strict=True
+        )
+    ]
+    write_rows(path, COLUMNS, "pins", rows, surface.name)
 
 
 @dataclass(frozen=True)
 class Picked:
-    """A pin or an anchor as a file says it; where: the place in the file, in words."""
+    """A pin or an anchor as a file says it; `where` is its place in the file, in words."""
 
     where: str
     id: int | None
@@ -167,7 +228,7 @@ class Picked:
 
 
 def placed(found: list[Picked], surface: Surface) -> Pins:
-    """The vertices that a file's pins are, or are nearest to."""
+    """Put the pins of a file at their vertices, or at the vertices nearest to their positions."""
     from scipy.spatial import cKDTree
 
     ids: dict[int, str] = {}
@@ -221,9 +282,9 @@ def _header(words: list[str], where: str) -> list[str]:
     for word in header:
         if word not in WITH_VALUES:
             known = ", ".join(COLUMNS)
-            raise ParameterError(f"{where}: {_cut(word)} is no column of pins; the first line has {known}.")
+            raise ParameterError(f"{where}: {_cut(word)} is not a column of pins; columns are {known}.")
         if header.count(word) > 1:
-            raise ParameterError(f"{where}: the column {word} is there twice.")
+            raise ParameterError(f"{where}: the column {word} is given twice.")
     if "vertex" not in header and not {"x", "y", "z"} <= set(header):
         raise ParameterError(f"{where}: pins need the column vertex, or x, y and z.")
     return header
@@ -272,14 +333,6 @@ def _position(words: Sequence[Any], where: str) -> tuple[float, ...]:
     return numbers
 
 
-def _written_csv(rows: list[Row], surface: str) -> str:
-    file = io.StringIO()
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    writer.writerows([number, vertex, *map(repr, point), name] for number, vertex, point, name in rows)
-    return file.getvalue()
-
-
 # ---------------------------------------------------------------------- JSON
 def _read_json(text: str, name: str) -> list[Picked]:
     try:
@@ -295,7 +348,7 @@ def _read_json(text: str, name: str) -> list[Picked]:
 def _of_entry(entry: Any, where: str) -> Picked:
     known = ("id", "vertex", "position", "name", "value")
     if not isinstance(entry, dict) or not set(entry) <= set(known):
-        raise ParameterError(f"{where}: {_cut(entry)} is no pin; it has {', '.join(known)}.")
+        raise ParameterError(f"{where}: {_cut(entry)} is not a pin; a pin has {', '.join(known)}.")
     for key in ("id", "vertex"):
         found = entry.get(key)
         if not isinstance(found, (int, type(None))) or isinstance(found, bool) or not -MOST < (found or 0) < MOST:
@@ -319,15 +372,6 @@ def _cut(value: Any) -> str:
     return shortened(repr(value), 60)
 
 
-def _written_json(rows: list[Row], surface: str) -> str:
-    # A line of the file for each pin.
-    pins = [
-        json.dumps({"id": number, "vertex": vertex, "position": point, "name": name}, ensure_ascii=False)
-        for number, vertex, point, name in rows
-    ]
-    return '{"pins": [\n' + ",\n".join(pins) + "\n]}\n"
-
-
 # ---------------------------------------------------------------------- MeshLab
 def _read_pp(text: str, name: str) -> list[Picked]:
     if "<!ENTITY" in text:
@@ -348,12 +392,39 @@ def _read_pp(text: str, name: str) -> list[Picked]:
     return found
 
 
-def _written_pp(rows: list[Row], surface: str) -> str:
-    return written_points([(point, name or str(number)) for number, _, point, name in rows], surface)
+_READERS: dict[str, Callable[[str, str], list[Picked]]] = {".csv": _read_csv, ".json": _read_json, ".pp": _read_pp}
+PIN_FORMATS = tuple(_READERS)
+"""The extensions that `read_pins` and `write_pins` know."""
+
+
+# ---------------------------------------------------------------------- output
+def write_rows(
+    path: str | os.PathLike[str], columns: Sequence[str], kind: str, rows: Sequence[dict[str, Any]], surface: str
+) -> None:
+    """Write pins or anchors, each with a "position" and other values by column, to a file that reads back exactly.
+
+    `columns` are those of a .csv, `kind` is the name of the list in a .json. The points of a .pp are named by their
+    values, by their names, or else by their ids.
+    """
+    extension = check_output(path, PIN_FORMATS)
+    if extension == ".csv":
+        file = io.StringIO()
+        writer = csv.DictWriter(file, columns, extrasaction="ignore", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({**row, **dict(zip("xyz", row["position"], strict=True))} for row in rows)
+        text = file.getvalue()
+    elif extension == ".json":
+        lines = ",\n".join(json.dumps(row, ensure_ascii=False) for row in rows)
+        text = f'{{"{kind}": [\n{lines}\n]}}\n'
+    else:
+        names = [repr(row["value"]) if "value" in row else row["name"] or str(row["id"]) for row in rows]
+        text = written_points([(row["position"], name) for row, name in zip(rows, names, strict=True)], surface)
+    with atomic_write(path) as temporary:
+        temporary.write_bytes(text.encode())
 
 
 def written_points(points: list[tuple[list[float], str]], surface: str) -> str:
-    """Named positions as MeshLab's picked points."""
+    """Write named positions as MeshLab's picked points."""
     lines = [
         f'    <point x="{x!r}" y="{y!r}" z="{z!r}" name={quoteattr(name)} active="1"/>\n' for (x, y, z), name in points
     ]
@@ -362,13 +433,3 @@ def written_points(points: list[tuple[list[float], str]], surface: str) -> str:
         f"        <DataFileName name={quoteattr(surface)}/>\n"
         f'        <templateName name=""/>\n    </DocumentData>\n{"".join(lines)}</PickedPoints>\n'
     )
-
-
-_READERS: dict[str, Callable[[str, str], list[Picked]]] = {".csv": _read_csv, ".json": _read_json, ".pp": _read_pp}
-_WRITERS: dict[str, Callable[[list[Row], str], str]] = {
-    ".csv": _written_csv,
-    ".json": _written_json,
-    ".pp": _written_pp,
-}
-PIN_FORMATS = tuple(_READERS)
-"""The extensions that `read_pins` and `write_pins` know."""

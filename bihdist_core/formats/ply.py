@@ -46,7 +46,7 @@ _Column = AnyArray | tuple[IntArray, AnyArray]
 
 
 def read_ply(raw: bytes, name: str) -> Polygons:
-    """The polygons of a PLY file; MeshError where it is none, or does not hold what its header announces."""
+    """Read the polygons of a PLY file; MeshError where it is none, or does not hold what its header announces."""
     order, elements, body = _header(raw, name)
     if order is None and (plain := _read_plain(raw, elements, body)):
         return plain
@@ -69,7 +69,7 @@ def read_ply(raw: bytes, name: str) -> Polygons:
 
 
 def _from_strips(vertices: FloatArray, values: FloatArray, name: str) -> Polygons:
-    """Triangles of strips, which -1 ends."""
+    """Return the triangles of strips, which -1 ends."""
     whole, _ = whole_numbers(values)
     breaks = np.append(np.flatnonzero(whole == -1), len(whole))
     sizes = np.diff(np.append(-1, breaks)) - 1
@@ -80,7 +80,7 @@ def _from_strips(vertices: FloatArray, values: FloatArray, name: str) -> Polygon
 
 
 def _header(raw: bytes, name: str) -> tuple[str | None, list[_Element], int]:
-    """Byte order ('<', '>', None for text), the elements, and where the body begins."""
+    """Return the byte order ('<', '>', None for text), the elements, and where the body begins."""
     found = re.match(rb"(?:\xef\xbb\xbf)?ply[ \t]*(\r\n|\r|\n)", raw)
     if not found:
         raise MeshError(f"{name} is not a PLY file: it does not begin with the line 'ply'.")
@@ -123,7 +123,7 @@ def _list_sizes(values: FloatArray, element: _Element, name: str) -> IntArray:
 
 # ---------------------------------------------------------------------- text
 def _read_plain(raw: bytes, elements: list[_Element], body: int) -> Polygons | None:
-    """The polygons, read by the compiled kernel; None if it leaves the file to the other reader."""
+    """Read the polygons by the compiled kernel; None if it leaves the file to the other reader."""
     match [element for element in elements if element.properties]:
         case [_Element("vertex", n, columns), _Element("face", p, [ids])]:
             names = [column.name for column in columns if not column.count_kind]
@@ -168,7 +168,10 @@ def _text_body(body: bytes, elements: list[_Element], name: str) -> dict[str, di
 
 
 def _text_row(lines: TextLines, elements: list[_Element]) -> dict[str, dict[str, _Column]] | None:
-    """The columns of a text with lines that end anywhere, as one row of numbers; None unless that fits to the last."""
+    """Return the columns of a text with lines that end anywhere, as one row of numbers.
+
+    None unless that fits to the last.
+    """
     if sum(e.count * len(e.properties) for e in elements) > lines.word_count.sum():
         return None
     try:
@@ -246,7 +249,7 @@ class _Binary:
         )
 
     def _even(self, element: _Element) -> dict[str, _Column] | None:
-        """All records at once if every list is as long as in the first record, else None."""
+        """Return all records at once if every list is as long as in the first record, else None."""
         parts: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
         sizes, at = {}, self.at
         for k, p in enumerate(element.properties):
@@ -275,7 +278,7 @@ class _Binary:
         }
 
     def _uneven(self, element: _Element) -> dict[str, _Column]:
-        """Record by record."""
+        """Read record by record."""
         letters = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "f4": "f", "f8": "d"}
         raw, at = self.raw, self.at
         steps = [

@@ -15,7 +15,7 @@ EAR_CLIPPING_LIMIT = 512
 
 @dataclass(frozen=True)
 class Polygons:
-    """What a file says: `vertices` (n, 3), `sizes` (p,) corners of each polygon, `corners` (sum of sizes,) vertex ids.
+    """The polygons of a file: `vertices` (n, 3), `sizes` (p,) and `corners` (sum of sizes,) as vertex ids.
 
     `repairs` tells in words what reading has already changed or left out, `facts` how else the file was taken.
     """
@@ -28,13 +28,13 @@ class Polygons:
 
 
 def runs(starts: IntArray, sizes: IntArray) -> IntArray:
-    """(sum of sizes,) the indices start, start + 1, ... of each run, one run after the other."""
+    """Return (sum of sizes,) the indices start, start + 1, ... of each run, one run after the other."""
     ends = np.cumsum(sizes)
     return np.repeat(starts - (ends - sizes), sizes) + np.arange(ends[-1] if len(ends) else 0)
 
 
 def whole_numbers(values: AnyArray) -> tuple[IntArray, BoolArray]:
-    """`values` as int64, and the mask of those that are not whole numbers (these become -1)."""
+    """Return `values` as int64, and the mask of those that are not whole numbers (these become -1)."""
     if values.dtype.kind in "iu":
         return values.astype(np.int64), values.astype(np.float64) > 2.0**53
     with np.errstate(invalid="ignore"):
@@ -43,7 +43,10 @@ def whole_numbers(values: AnyArray) -> tuple[IntArray, BoolArray]:
 
 
 def checked_corners(values: AnyArray, sizes: IntArray, n: int, where: Callable[[int], str]) -> IntArray:
-    """The corners as int64 ids from 0 to n - 1; MeshError beginning with `where(polygon)` at the first that is not."""
+    """Return the corners as int64 ids from 0 to n - 1.
+
+    MeshError beginning with `where(polygon)` at the first that is not.
+    """
     ids, bad = whole_numbers(values)
     bad |= (ids < 0) | (ids >= n)
     if bad.any():
@@ -55,7 +58,10 @@ def checked_corners(values: AnyArray, sizes: IntArray, n: int, where: Callable[[
 
 
 def list_starts(values: IntArray, count: int) -> IntArray:
-    """(k,) where the first k of `count` lists begin, each a size and so many entries; fewer where they do not fit."""
+    """Return (k,) where the first k of `count` lists begin, each a size and so many entries.
+
+    Fewer where they do not fit.
+    """
     starts, at, size = np.empty(min(count, len(values)), np.int64), 0, len(values)
     entries = values.tolist()
     for k in range(len(starts)):
@@ -67,7 +73,7 @@ def list_starts(values: IntArray, count: int) -> IntArray:
 
 
 def lists_in(values: IntArray, count: int) -> tuple[IntArray, IntArray] | None:
-    """(count,) sizes and (sum of sizes,) entries of lists that fill the values; None if they do not."""
+    """Return (count,) sizes and (sum of sizes,) entries of lists that fill the values; None if they do not."""
     if len(values) == 4 * count and (values[::4] == 3).all():
         return np.full(count, 3), values.reshape(-1, 4)[:, 1:].ravel()
     starts = list_starts(values, count)
@@ -78,7 +84,7 @@ def lists_in(values: IntArray, count: int) -> tuple[IntArray, IntArray] | None:
 
 
 def strip_triangles(sizes: IntArray, corners: IntArray) -> IntArray:
-    """(m, 3) triangles of triangle strips, every second one turned so that all keep the strip's orientation."""
+    """Return (m, 3) triangles of triangle strips, every second one turned so that all keep the strip's orientation."""
     count = np.maximum(sizes - 2, 0)
     starts = np.cumsum(sizes) - sizes
     first = runs(starts, count)
@@ -87,7 +93,7 @@ def strip_triangles(sizes: IntArray, corners: IntArray) -> IntArray:
 
 
 def triangulated(polygons: Polygons) -> tuple[IntArray, list[str], list[str]]:
-    """(m, 3) triangles in the order of the polygons; in words what was left out, and what was divided.
+    """Return (m, 3) triangles in the order of the polygons; in words what was left out, and what was divided.
 
     A fan about the first corner where that covers the polygon, else about another corner, else by clipping ears;
     a polygon that no cut divides cleanly (self-intersecting, all corners in line) stays a fan.
@@ -116,13 +122,13 @@ def triangulated(polygons: Polygons) -> tuple[IntArray, list[str], list[str]]:
 
 
 def _fan(start: int, size: int) -> IntArray:
-    """(size - 2, 3) the fan about one corner, as places in the ring."""
+    """Return (size - 2, 3) the fan about one corner, as places in the ring."""
     k = np.arange(1, size - 1)
     return np.stack([np.full(size - 2, start), (start + k) % size, (start + k + 1) % size], axis=1)
 
 
 def _divided(vertices: FloatArray, rings: IntArray) -> IntArray:
-    """(r, k - 2, 3) the triangles of r polygons of k corners, as places in the ring."""
+    """Return (r, k - 2, 3) the triangles of r polygons of k corners, as places in the ring."""
     size = rings.shape[1]
     local = np.repeat(_fan(0, size)[None], len(rings), axis=0)
     if size == 3 or not len(vertices):
@@ -131,15 +137,15 @@ def _divided(vertices: FloatArray, rings: IntArray) -> IntArray:
     with np.errstate(over="ignore", invalid="ignore"):
         x = vertices[rings] - vertices[rings[:, :1]]
         normal = np.cross(x[:, 1:-1], x[:, 2:]).sum(axis=1)
-        best = _smallest_share(x, normal, local[0])
+        best = _smallest_fraction(x, normal, local[0])
         unsettled = np.flatnonzero(~(best > 0))
         for start in range(1, size if size <= EAR_CLIPPING_LIMIT else 0):
             if not len(unsettled):
                 break
             fan = _fan(start, size)
-            share = _smallest_share(x[unsettled], normal[unsettled], fan)
-            better = share > best[unsettled]
-            local[unsettled[better]], best[unsettled[better]] = fan, share[better]
+            fraction = _smallest_fraction(x[unsettled], normal[unsettled], fan)
+            better = fraction > best[unsettled]
+            local[unsettled[better]], best[unsettled[better]] = fan, fraction[better]
             unsettled = unsettled[~(best[unsettled] > 0)]
         if 5 < size <= EAR_CLIPPING_LIMIT:
             for ring in unsettled[best[unsettled] < 0]:
@@ -147,16 +153,19 @@ def _divided(vertices: FloatArray, rings: IntArray) -> IntArray:
     return local
 
 
-def _smallest_share(x: FloatArray, normal: FloatArray, fan: IntArray) -> FloatArray:
-    """(r,) the smallest oriented triangle area of a fan over the polygon's; below 0 where it leaves the polygon."""
+def _smallest_fraction(x: FloatArray, normal: FloatArray, fan: IntArray) -> FloatArray:
+    """Return (r,) the smallest oriented triangle area of a fan over the polygon's.
+
+    Below 0 where it leaves the polygon.
+    """
     a, b, c = (x[:, fan[:, k]] for k in range(3))
     area = np.einsum("rtk,rk->rt", np.cross(b - a, c - a), normal)
-    share = area.min(axis=1) / np.maximum(np.einsum("rk,rk->r", normal, normal), np.finfo(float).tiny)
-    return np.where(np.abs(share) < 1e-12, 0.0, share)
+    fraction = area.min(axis=1) / np.maximum(np.einsum("rk,rk->r", normal, normal), np.finfo(float).tiny)
+    return np.where(np.abs(fraction) < 1e-12, 0.0, fraction)
 
 
 def _clipped(x: FloatArray, normal: FloatArray, fan: IntArray) -> IntArray:
-    """(k - 2, 3) one polygon divided by clipping ears; the given fan where it has none left to clip."""
+    """Return (k - 2, 3) one polygon divided by clipping ears; the given fan where it has none left to clip."""
     length = np.linalg.norm(normal)
     if not length > 0:
         return fan

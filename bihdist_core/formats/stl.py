@@ -23,7 +23,7 @@ _WORDS = ("solid", "facet", "outer", "vertex", "endloop", "endfacet", "endsolid"
 
 
 def read_stl(raw: bytes, name: str) -> Polygons:
-    """The triangles of an STL file, corners merged; MeshError where it is none or is cut off."""
+    """Read the triangles of an STL file, corners merged; MeshError where it is none or is cut off."""
     # Binary files, too, may begin with the word solid.
     says_text = re.match(rb"(?:\xef\xbb\xbf)?\s*solid", raw, re.IGNORECASE)
     if says_text and not _has_binary_length(raw) and b"\0" not in raw[:1000]:
@@ -41,7 +41,7 @@ def read_stl(raw: bytes, name: str) -> Polygons:
         f"{counted(len(corners), 'triangle corner')} at {counted(len(vertices), 'place')} merged into one vertex each, "
         "numbered in the order of the file"
     )
-    facts = (fact, f"{counted(left, 'byte')} behind the last triangle ignored") if left else (fact,)
+    facts = (fact, f"{counted(left, 'byte')} after the last triangle ignored") if left else (fact,)
     return Polygons(vertices, np.full(len(corners) // 3, 3), ids, facts=facts)
 
 
@@ -50,7 +50,7 @@ def _has_binary_length(raw: bytes) -> bool:
 
 
 def _binary_corners(raw: bytes, name: str) -> tuple[FloatArray, int]:
-    """The corners, and how many bytes come behind the last triangle."""
+    """Return the corners, and how many bytes come behind the last triangle."""
     if len(raw) < _HEAD:
         raise MeshError(f"{name} is not an STL file: it has {len(raw)} bytes, fewer than an STL header.")
     announced, held = int.from_bytes(raw[80:84], "little"), (len(raw) - _HEAD) / _TRIANGLE.itemsize

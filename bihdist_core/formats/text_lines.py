@@ -4,6 +4,7 @@ import re
 import warnings
 from dataclasses import dataclass
 from functools import cached_property
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -31,11 +32,11 @@ class NumberLines:
 
     @property
     def sizes(self) -> IntArray:
-        """(l,) how many numbers each line holds."""
+        """The number of numbers in each line (l,)."""
         return np.diff(self.first)
 
     def columns(self, count: int, which: slice | IntArray | BoolArray = slice(None)) -> FloatArray:
-        """(k, count) the first numbers of each of the lines `which`; these must hold that many."""
+        """Return (k, count) the first numbers of each of the lines `which`; these must hold that many."""
         first = self.first[:-1][which]
         if len(first) and np.all(np.diff(first) == count):
             return self.values[first[0] : first[-1] + count].reshape(-1, count)
@@ -46,8 +47,8 @@ class NumberLines:
 class TextLines:
     """The lines of a text file that hold more than blanks and comments.
 
-    `start`, `end` (l,) positions in `text`; `number` (l,) line numbers in the file, from 1.  Windows and old Macintosh
-    line ends and a byte order mark are accepted.  MeshError if the bytes are no text.
+    `start`, `end` (l,) positions in `text`; `number` (l,) line numbers in the file, from 1. Windows and old Macintosh
+    line ends and a byte order mark are accepted. MeshError if the bytes are no text.
     """
 
     def __init__(self, raw: bytes, name: str, comment: bytes = b"", continuation: bool = False) -> None:
@@ -73,12 +74,12 @@ class TextLines:
         return len(self.start)
 
     def line(self, k: int) -> str:
-        """The text of one line, cut short for use in a message."""
+        """Return the text of one line, cut short for use in a message."""
         return shown(self.text[self.start[k] : self.end[k]])
 
     @cached_property
     def keyword(self) -> AnyArray:
-        """(l,) the first word of each line, cut to 8 characters, as `keyword_code` gives it."""
+        """The first word of each line (l,), cut to 8 characters, as `keyword_code` gives it."""
         byte = np.frombuffer(self.text + b" " * 8, np.uint8)
         code, inside = np.zeros(len(self), np.uint64), np.ones(len(self), bool)
         for k in range(8):
@@ -88,7 +89,7 @@ class TextLines:
         return code
 
     def numbers(self, which: BoolArray, keyword: bytes = b"", slashes: bool = False) -> NumberLines:
-        """The numbers of the lines in the mask `which` (l,), all of which begin with `keyword` if one is given.
+        """Return the numbers of the lines in the mask `which` (l,), all of which begin with `keyword` if one is given.
 
         With `slashes`, what follows a slash inside a word is left out: 7/2/9 is 7.
         MeshError naming the line and the word where something is not a number.
@@ -101,7 +102,7 @@ class TextLines:
         return NumberLines(values, first, self.number[chosen])
 
     def _joined(self, chosen: IntArray, skip: int) -> bytes:
-        """The text of some lines without their first `skip` characters."""
+        """Return the text of some lines without their first `skip` characters."""
         if not len(chosen):
             return b""
         text = np.frombuffer(self.text, np.uint8)
@@ -128,7 +129,7 @@ class TextLines:
 
 
 def plain_text(raw: bytes, name: str) -> bytes:
-    """The bytes with line ends '\\n' and no byte order mark; MeshError where they are no text."""
+    """Return the bytes with line feeds as line ends and no byte order mark; MeshError where they are no text."""
     if raw[:2] in (b"\xff\xfe", b"\xfe\xff"):
         raise MeshError(f"{name} is UTF-16 text; save it as plain ASCII or UTF-8.")
     if b"\0" in raw:
@@ -138,18 +139,18 @@ def plain_text(raw: bytes, name: str) -> bytes:
 
 
 def keyword_code(word: bytes) -> int:
-    """A word, cut to 8 characters, as the number that `TextLines.keyword` holds for it."""
+    """Return a word, cut to 8 characters, as the number that `TextLines.keyword` holds for it."""
     return int.from_bytes(word[:8], "little")
 
 
 def shown(words: bytes) -> str:
-    """Bytes of a file as a short quotation for a message."""
+    """Quote bytes of a file for a message, cut short."""
     text = words.decode("utf-8", "replace").strip()
     return repr(text if len(text) <= 40 else text[:37] + "...")
 
 
 def parsed_numbers(text: bytes, name: str, what: str) -> FloatArray:
-    """(t,) the numbers of a text without line structure; MeshError that says `what` they should have been."""
+    """Return (t,) the numbers of a text without line structure; MeshError that says `what` they should have been."""
     values = parsed(text, len(_word_starts(np.frombuffer(text, np.uint8))))
     if values is None:
         bad = next((word for word in text.split() if not _NUMBER.fullmatch(word)), b"?")
@@ -164,7 +165,7 @@ def _word_starts(byte: AnyArray) -> IntArray:
 
 
 def parsed(text: bytes, words: int, slashes: bool = False) -> FloatArray | None:
-    """(words,) the numbers of a text; None unless each word is exactly one number."""
+    """Return (words,) the numbers of a text; None unless each word is exactly one number."""
     if not words:
         return np.empty(0)
     if slashes and b"/" in text:
@@ -184,7 +185,10 @@ def parsed(text: bytes, words: int, slashes: bool = False) -> FloatArray | None:
 
 
 def _without_slashes(text: bytes) -> bytes | None:
-    """The text with blanks in place of each first slash of a word and what follows it there; None if that is no id."""
+    """Return the text with blanks in place of each first slash of a word and what follows it there.
+
+    None if that is no id.
+    """
     byte = np.frombuffer(text, np.uint8)
     slash, blank = byte == ord("/"), byte <= 32
     # From each slash or blank to the next of them, characters are hidden if it was a slash.
@@ -196,3 +200,14 @@ def _without_slashes(text: bytes) -> bytes | None:
     if slash[0] or (slash[1:] & blank[:-1]).any() or not (allowed[byte] | ~hidden).all():
         return None
     return np.where(hidden, np.uint8(32), byte).tobytes()
+
+
+def xml_root(content: bytes, name: str, what: str, tag: str) -> ElementTree.Element:
+    """Parse an XML file; MeshError where it is not `what`, such as "a GIFTI file", with a root element of this tag."""
+    try:
+        root = ElementTree.fromstring(content)
+    except (ElementTree.ParseError, LookupError, ValueError) as error:
+        raise MeshError(f"{name} is not {what}, or is cut off or damaged ({error}).") from None
+    if root.tag != tag:
+        raise MeshError(f"{name} is not {what}: its root element is {root.tag[:40]!r}, not {tag!r}.")
+    return root

@@ -10,13 +10,12 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from ..arrays import IntArray
+from ..arrays import IntArray, array_of
 from ..errors import ParameterError
+from ..file_output import atomic_write, check_output
 from ..mesh_like import MeshLike
-from ..number_arrays import array_of
 from ..sentences import shortened
 from ..surface import Surface
-from ..whole_file import check_output, whole_file
 from .field_output import write_array
 from .whole_numbers import NUMBER_FORMATS, WHOLE, read_whole_numbers, text_lines
 
@@ -26,13 +25,28 @@ IDENTITY = "identity"
 
 
 def read_map(path: str | os.PathLike[str], source: MeshLike, target: MeshLike) -> IntArray:
-    """(n,) for each vertex of the source surface a vertex of the target, -1 for none.
+    """Read a map between the vertices of two surfaces.
 
-    path: a .npy file with (n,) or (n, 1) whole numbers, a .txt file with one on each line, or the word `identity`: the
-    same ids, where both have as many vertices.  Ids count from 0.
+    Parameters
+    ----------
+    path : str or path-like
+        A .npy file with (n,) or (n, 1) whole numbers, a .txt file with one on each line, or the word ``identity``: the
+        same ids, where both surfaces have as many vertices. Ids count from 0.
+    source, target : MeshLike
+        The surface that is mapped, with n vertices, and the one it is mapped to.
 
-    Raises ParameterError, a sentence with the file, the place in it and the value, for anything else.
+    Returns
+    -------
+    (n,) int64 ndarray
+        A vertex of the target for each vertex of the source, -1 for none.
 
+    Raises
+    ------
+    ParameterError
+        For anything else; the message names the file, the place in it and the value.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=1, j_resolution=1)
     >>> bihdist.write_map("map.txt", [3, 2, -1, 0])
@@ -44,12 +58,12 @@ def read_map(path: str | os.PathLike[str], source: MeshLike, target: MeshLike) -
     if str(path) == IDENTITY:
         if n != most:
             raise ParameterError(
-                f"{source.name} has {n:,} vertices and {target.name} {most:,}, so the same ids are no map between them."
+                f"{source.name} has {n:,} vertices and {target.name} {most:,}, and the same ids are not a map."
             )
         return np.arange(n)
     path = Path(path)
     if path.suffix.lower() not in MAP_FORMATS:
-        raise ParameterError(f"{path} is no map; these are {', '.join(MAP_FORMATS)} files, or the word {IDENTITY}.")
+        raise ParameterError(f"{path} is not a map; maps are {', '.join(MAP_FORMATS)} files, or the word {IDENTITY}.")
     found = read_whole_numbers(path, "map")
     if len(found) != n:
         raise ParameterError(f"{path} maps {len(found):,} vertices, and {source.name} has {n:,}.")
@@ -63,10 +77,24 @@ def read_map(path: str | os.PathLike[str], source: MeshLike, target: MeshLike) -
 
 
 def write_map(path: str | os.PathLike[str], found: npt.ArrayLike) -> None:
-    """Write a map (n,) so that `read_map` reads it.
+    """Write a map to a file that `read_map` reads.
 
-    Raises OutputError if the file cannot be written, ParameterError for a map that is not whole numbers.
+    Parameters
+    ----------
+    path : str or path-like
+        The extension names the format: .npy or .txt.
+    found : (n,) array_like
+        Whole numbers, -1 for no vertex.
 
+    Raises
+    ------
+    OutputError
+        If the file cannot be written.
+    ParameterError
+        For a map that is not whole numbers.
+
+    Examples
+    --------
     >>> import bihdist
     >>> from pathlib import Path
     >>> bihdist.write_map("map.txt", [3, 2, -1, 0])
@@ -79,16 +107,15 @@ def write_map(path: str | os.PathLike[str], found: npt.ArrayLike) -> None:
     if check_output(path, MAP_FORMATS) == ".npy":
         write_array(path, ids)
         return
-    with whole_file(path) as temporary:
+    with atomic_write(path) as temporary:
         temporary.write_text("".join(f"{id}\n" for id in ids.tolist()), encoding="ascii")
 
 
 def read_pairs(path: str | os.PathLike[str], source: Surface | None = None, target: Surface | None = None) -> IntArray:
-    """(k, 2) ids from a file with a line `i,j`, `i:j` or `i j` for each pair; a first line of words is a header.
+    """Read pairs of ids (k, 2) from a file with a line `i,j`, `i:j` or `i j` for each, perhaps below a header.
 
-    source, target: the surfaces whose vertices i and j must be, if they are known.
-
-    Raises ParameterError, a sentence with the file, the line and the value, for anything else.
+    `source` and `target` are the surfaces whose vertices i and j must be, if they are known. Raises ParameterError,
+    with the file, the line and the value, for anything else.
     """
     return pairs_in(text_lines(Path(path), "pairs"), str(path), source, target)
 
@@ -96,7 +123,7 @@ def read_pairs(path: str | os.PathLike[str], source: Surface | None = None, targ
 def pairs_in(
     lines: Sequence[tuple[int, str]], path: str, source: Surface | None = None, target: Surface | None = None
 ) -> IntArray:
-    """(k, 2) ids from numbered lines such as `read_pairs` reads; path: how messages call the file."""
+    """Read pairs of ids (k, 2) from numbered lines such as those of `read_pairs`; messages call the file `path`."""
     pairs = []
     for number, line in lines:
         words = re.split(r"\s*[,;:]\s*|\s+", line)
@@ -117,8 +144,8 @@ def pairs_in(
 
 
 def write_pairs(path: str | os.PathLike[str], pairs: npt.ArrayLike) -> None:
-    """Write pairs (k, 2) so that `read_pairs` reads them.  Raises OutputError if the file cannot be written."""
+    """Write pairs (k, 2) so that `read_pairs` reads them. Raises OutputError if the file cannot be written."""
     check_output(path, PAIR_FORMATS)
     ids = np.asarray(pairs, np.int64).reshape(-1, 2)
-    with whole_file(path) as temporary:
+    with atomic_write(path) as temporary:
         temporary.write_text("".join(f"{i},{j}\n" for i, j in ids.tolist()), encoding="ascii")

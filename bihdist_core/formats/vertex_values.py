@@ -10,31 +10,46 @@ import numpy as np
 from ..arrays import AnyArray, IntArray
 from ..counts import counted
 from ..errors import MeshError, ParameterError
-from .freesurfer import read_annotation, read_values
-from .freesurfer_label import LABEL, is_label, read_label
+from .compression import unpacked
+from .freesurfer import LABEL, is_label, read_annotation, read_label, read_values
 from .gifti import POINTS, TRIANGLES, gifti_arrays
-from .gzip_files import unpacked
 from .mesh_names import GZIP, has_hemisphere
 
 VALUE_FILES = ".gii, .annot, .label, FreeSurfer's lh.thickness"
-"""What is read, for a message."""
+"""The formats that are read, for a message."""
 
 
 def is_vertex_values(path: str | os.PathLike[str]) -> bool:
-    """Whether a file is one of values at vertices by its name; a file with another known extension comes before."""
+    """Tell by its name whether a file holds values at vertices; other known extensions take precedence."""
     name = os.path.basename(path).lower().removesuffix(GZIP)
     return name.endswith((".gii", ".annot", LABEL)) or (has_hemisphere(name) and not name.endswith((".npy", ".txt")))
 
 
 def read_vertex_values(path: str | os.PathLike[str], what: str = "values", n_vertices: int | None = None) -> AnyArray:
-    """(n,) the values at the vertices in a GIFTI file (.func.gii, .shape.gii, .label.gii) or a FreeSurfer file.
+    """Read values at vertices from a GIFTI or FreeSurfer file.
 
-    Labels of GIFTI files are their keys, those of an annotation (.annot) the places in its table, -1 for none; values
-    such as thickness are float32.  A label (.label) lists vertices, which have 1, and all others 0: n_vertices says how
-    many there are.  .gz may follow.  what: how a message speaks of them.
+    Parameters
+    ----------
+    path : str or path-like
+        A file .func.gii, .shape.gii, .label.gii, .annot, .label, or such as lh.thickness; .gz may follow.
+    what : str
+        How messages speak of the values.
+    n_vertices : int, optional
+        How many vertices the surface has, which a .label file needs.
 
-    Raises ParameterError, a sentence with the file and the place in it, for anything else.
+    Returns
+    -------
+    (n,) ndarray
+        The values. Labels of GIFTI files are their keys, those of an annotation the places in its table, -1 for none.
+        The vertices that a .label lists have 1, all others 0. Values such as thickness are float32.
 
+    Raises
+    ------
+    ParameterError
+        For anything else; the message names the file and the place in it.
+
+    Examples
+    --------
     >>> import bihdist
     >>> from pathlib import Path
     >>> _ = Path("lh.V1.label").write_text('''#!ascii label
@@ -50,9 +65,9 @@ def read_vertex_values(path: str | os.PathLike[str], what: str = "values", n_ver
 
 
 def read_label_vertices(path: str | os.PathLike[str], n_vertices: int) -> IntArray:
-    """(k,) the vertices that a FreeSurfer label lists, of a surface with n_vertices.
+    """Read (k,) the vertices that a FreeSurfer label lists, of a surface with n_vertices.
 
-    ParameterError as of `read_vertex_values`.
+    Raises ParameterError as `read_vertex_values`.
     """
     with value_file(path, "label") as content:
         return read_label(content, Path(path).name, n_vertices)
@@ -60,7 +75,7 @@ def read_label_vertices(path: str | os.PathLike[str], n_vertices: int) -> IntArr
 
 @contextmanager
 def value_file(path: str | os.PathLike[str], what: str) -> Iterator[bytes]:
-    """What a file of values holds, unpacked; what is wrong with it, on reading and inside, is a ParameterError."""
+    """Open a file of values, unpacked; what is wrong with it, on reading and inside, is a ParameterError."""
     path = Path(path)
     try:
         content = path.read_bytes() if path.is_file() else None
@@ -77,7 +92,7 @@ def _values_in(content: bytes, name: str, what: str, n_vertices: int | None) -> 
     lower = name.lower().removesuffix(GZIP)
     if is_label(name):
         if n_vertices is None:
-            raise MeshError(f"{name} lists the vertices of a label, and has no value for each: it is no {what}.")
+            raise MeshError(f"{name} lists the vertices of a label; the {what} needs a value for each vertex.")
         mask = np.zeros(n_vertices, np.int64)
         mask[read_label(content, name, n_vertices)] = 1
         return mask

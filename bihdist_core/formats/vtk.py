@@ -33,7 +33,7 @@ NO_CELLS: Cells = (np.empty(0, np.int64), np.empty(0, np.int64))
 
 
 def read_vtk(raw: bytes, name: str) -> Polygons:
-    """The polygons of a legacy VTK file; MeshError where it is none or is cut off."""
+    """Read the polygons of a legacy VTK file; MeshError where it is none or is cut off."""
     head = re.match(rb"(?:\xef\xbb\xbf)?# vtk DataFile Version[^\n]*\n[^\n]*\n\s*(ASCII|BINARY)[ \t\r]*\n", raw, re.I)
     if not head:
         raise MeshError(
@@ -59,7 +59,7 @@ def read_vtk(raw: bytes, name: str) -> Polygons:
 
 
 def polygons_of_cells(points: FloatArray, cells: Mapping[str, Cells], name: str) -> Polygons:
-    """Polygons, then the triangles of strips; all other kinds of cells are counted and left out."""
+    """Return polygons, then the triangles of strips; all other kinds of cells are counted and left out."""
     sizes, corners = cells.get("POLYGONS", NO_CELLS)
     ids = checked_corners(corners, sizes, len(points), lambda k: f"{name}: polygon {k}")
     left_out, divided = [], []
@@ -86,7 +86,7 @@ class _Cursor:
     _bounds: list[IntArray] = field(default_factory=list)
 
     def words(self) -> list[str]:
-        """The words of the next line that is not blank; none at the end of the file."""
+        """Return the words of the next line that is not blank; none at the end of the file."""
         while self.at < len(self.body):
             end = self.body.find(b"\n", self.at)
             end = len(self.body) if end < 0 else end
@@ -101,7 +101,7 @@ class _Cursor:
         self.at = end.end() if end else len(self.body)
 
     def numbers(self, count: int, kind: str, what: str) -> AnyArray:
-        """(count,) numbers: binary of type `kind`, big-endian, or the next words of a text."""
+        """Return (count,) numbers: binary of type `kind`, big-endian, or the next words of a text."""
         if kind.lower() not in _TYPES:
             raise MeshError(f"{self.name}: {what} are of the type {kind[:40]!r}, which is not read.")
         dtype = np.dtype(">" + _TYPES[kind.lower()])
@@ -190,7 +190,7 @@ def _cells(words: list[str], file: _Cursor) -> Cells:
 
 
 def cells_of_offsets(offsets: IntArray, corners: AnyArray, where: str) -> Cells:
-    """Cells given by the (p + 1,) places where each begins, 0 first, and the number of corners last."""
+    """Return cells given by the (p + 1,) places where each begins, 0 first, and the number of corners last."""
     if not len(offsets):
         offsets = np.zeros(1, np.int64)
     sizes = np.diff(offsets)
@@ -200,7 +200,7 @@ def cells_of_offsets(offsets: IntArray, corners: AnyArray, where: str) -> Cells:
 
 
 def cells_by_type(cells: Cells, types: IntArray, name: str) -> dict[str, Cells]:
-    """The cells of a grid by their kinds; MeshError where there are volumes and no polygons."""
+    """Return the cells of a grid by their kinds; MeshError where there are volumes and no polygons."""
     sizes, corners = cells
     if len(types) != len(sizes):
         raise MeshError(f"{name} has {len(sizes):,} cells and {len(types):,} types of cells.")

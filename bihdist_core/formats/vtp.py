@@ -1,4 +1,5 @@
-"""VTP and VTU files (VTK's XML formats for polygonal data and for grids of cells): a strict reader of polygons.
+"""VTP and VTU files (VTK's XML formats for polygonal data and for grids of cells): a strict reader of polygons,
+and a writer of points, lines and polygons.
 
 Text, base64 and raw appended arrays, plain or compressed with zlib, LZ4 or LZMA, of either byte order; pieces are put
 one after the other.  Point and cell data are read over.  Ids are the order of the points.
@@ -9,16 +10,19 @@ import binascii
 import lzma
 import re
 import zlib
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import BinaryIO
 from xml.etree import ElementTree
+from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
 from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import MeshError
-from .lz4_blocks import unpacked_block
+from .compression import unpacked_block
 from .polygons import Polygons, whole_numbers
-from .text_lines import parsed_numbers
+from .text_lines import parsed_numbers, xml_root
 from .vtk import Cells, cells_by_type, cells_of_offsets, polygons_of_cells
 
 _TYPES = {f"{sign}Int{8 * size}": f"{sign.lower() or 'i'}{size}" for sign in ("", "U") for size in (1, 2, 4, 8)}
@@ -28,7 +32,7 @@ _GRID = {"Cells": "CELLS"}
 
 
 def read_vtp(raw: bytes, name: str) -> Polygons:
-    """The polygons of a VTP or VTU file; MeshError where it is none or is cut off."""
+    """Read the polygons of a VTP or VTU file; MeshError where it is none or is cut off."""
     file = _opened(raw, name)
     grids = file.root.findall("UnstructuredGrid/Piece")
     pieces = grids or file.root.findall("PolyData/Piece")
@@ -71,7 +75,7 @@ class _File:
     base64: bool
 
     def array(self, element: ElementTree.Element, count: int | None, what: str) -> AnyArray:
-        """The numbers of a DataArray; MeshError unless there are `count` of them (None: any number)."""
+        """Return the numbers of a DataArray; MeshError unless there are `count` of them (None: any number)."""
         kind = element.get("type", "")
         if kind not in _TYPES:
             raise MeshError(f"{self.name}: {what} have the type {kind[:40]!r}, which is not read.")
@@ -100,7 +104,9 @@ class _File:
     def _numbers(self, content: bytes, dtype: np.dtype, what: str) -> AnyArray:
         content = self._decompressed(content, what) if self.decompress else self._plain(content, what)
         if len(content) % dtype.itemsize:
-            raise MeshError(f"{self.name}: {what} have {len(content)} bytes, no whole number of {dtype.name} values.")
+            raise MeshError(
+                f"{self.name}: {what} have {len(content)} bytes, not a multiple of {dtype.itemsize} ({dtype.name})."
+            )
         return np.frombuffer(content, dtype)
 
     def _lengths(self, content: bytes, first: int, count: int, what: str) -> list[int]:
@@ -116,7 +122,7 @@ class _File:
         return content[head : head + size]
 
     def _decompressed(self, content: bytes, what: str) -> bytes:
-        """Blocks behind their number, their size, the size of the last (0 if whole) and their compressed sizes."""
+        """Unpack blocks behind their number, size, size of the last (0 if whole) and their compressed sizes."""
         blocks = self._lengths(content, 0, 1, what)[0]
         if not blocks:
             return b""
@@ -159,14 +165,9 @@ def _opened(raw: bytes, name: str) -> _File:
             raise MeshError(f"{name} is cut off: its appended data do not end.")
         tree, appended = raw[: found.start()] + raw[end + len(b"</AppendedData>") :], raw[found.end() : end]
         coded = b"base64" in found[1]
-    try:
-        root = ElementTree.fromstring(tree)
-    except (ElementTree.ParseError, LookupError, ValueError) as error:
-        raise MeshError(f"{name} is not an XML file of VTK's, or is cut off or damaged ({error}).") from None
+    root = xml_root(tree, name, "an XML file of VTK's", "VTKFile")
     compressor = root.get("compressor", "")
     known = {f"vtk{word}DataCompressor": word.lower() for word in ("ZLib", "LZ4", "LZMA")} | {"": ""}
-    if root.tag != "VTKFile":
-        raise MeshError(f"{name} is not an XML file of VTK's: its root element is {root.tag[:40]!r}, not 'VTKFile'.")
     if compressor not in known:
         raise MeshError(f"{name} is compressed by {compressor[:40]!r}, which is not read; save it with zlib.")
     order = ">" if root.get("byte_order") == "BigEndian" else "<"
@@ -214,9 +215,70 @@ def _announced(file: _File, piece: ElementTree.Element, key: str) -> int:
 
 
 def _from_base64(text: bytes, where: str) -> bytes:
-    """The bytes of base64 text in which each part may be padded on its own."""
+    """Return the bytes of base64 text in which each part may be padded on its own."""
     try:
         parts = re.findall(rb"[^=]+={0,2}", b"".join(text.split()))
         return b"".join(base64.b64decode(part, validate=True) for part in parts)
     except binascii.Error as error:
         raise MeshError(f"{where} are damaged base64 text ({error}).") from None
+
+
+# ---------------------------------------------------------------------- output
+NOTHING: Mapping[str, AnyArray] = {}
+
+
+def write_poly_data(
+    file: BinaryIO,
+    points: FloatArray,
+    lines: Sequence[IntArray] | IntArray = (),
+    polygons: Sequence[IntArray] | IntArray = (),
+    point_data: Mapping[str, FloatArray] = NOTHING,
+    cell_data: Mapping[str, AnyArray] = NOTHING,
+) -> None:
+    """Write points (n, 3), and lines and polygons as the ids (k,) of their corners, or (m, k) where all have as many.
+
+    `point_data` and `cell_data` are arrays by name, with a value for each point or cell.
+    """
+    blocks: list[bytes] = []
+    offset = 0
+
+    def array(name: str, values: AnyArray, components: int = 1) -> str:
+        nonlocal offset
+        kind = "Float64" if values.dtype.kind == "f" else "Int64"
+        content = values.astype("<f8" if kind == "Float64" else "<i8").tobytes()
+        tag = f'<DataArray type="{kind}" Name={quoteattr(name)}'
+        tag += f' NumberOfComponents="{components}"' if components > 1 else ""
+        tag += f' format="appended" offset="{offset}"/>\n'
+        blocks.extend([len(content).to_bytes(8, "little"), content])
+        offset += 8 + len(content)
+        return tag
+
+    def section(name: str, tags: str) -> str:
+        return f"<{name}>\n{tags}</{name}>\n" if tags else ""
+
+    parts = [
+        section("PointData", "".join(array(name, values) for name, values in point_data.items())),
+        section("CellData", "".join(array(name, values) for name, values in cell_data.items())),
+        section("Points", array("Points", points, components=3)),
+    ]
+    for name, cells in (("Lines", lines), ("Polys", polygons)):
+        if len(cells):
+            corners, ends = _flat(cells)
+            parts.append(section(name, array("connectivity", corners) + array("offsets", ends)))
+    file.write(
+        '<?xml version="1.0" encoding="UTF-8"?>\n'
+        '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
+        f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="0" NumberOfLines="{len(lines)}" NumberOfStrips="0" '
+        f'NumberOfPolys="{len(polygons)}">\n{"".join(parts)}</Piece>\n</PolyData>\n'
+        '<AppendedData encoding="raw">\n_'.encode()
+    )
+    for block in blocks:
+        file.write(block)
+    file.write(b"\n</AppendedData>\n</VTKFile>\n")
+
+
+def _flat(cells: Sequence[IntArray] | IntArray) -> tuple[IntArray, IntArray]:
+    """Return the corners of all cells in a row, and where each cell ends."""
+    if isinstance(cells, np.ndarray):
+        return cells.ravel(), cells.shape[1] * np.arange(1, len(cells) + 1)
+    return np.concatenate(cells), np.cumsum([len(cell) for cell in cells])

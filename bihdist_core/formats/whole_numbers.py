@@ -2,6 +2,8 @@
 
 import os
 import re
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +13,10 @@ from ..errors import ParameterError
 from ..file_content import file_text
 from ..sentences import shortened
 from .array_file import read_array
-from .vertex_values import VALUE_FILES, is_vertex_values, read_vertex_values
+from .freesurfer import label_name, read_annotation
+from .gifti import label_table
+from .mesh_names import GZIP
+from .vertex_values import VALUE_FILES, is_vertex_values, read_vertex_values, value_file
 
 NUMBER_FORMATS = (".npy", ".txt")
 WHOLE = re.compile("-?[0-9]{1,15}")
@@ -20,7 +25,7 @@ MOST = 10**15
 
 
 def read_whole_numbers(path: str | os.PathLike[str], what: str, n_vertices: int | None = None) -> IntArray:
-    """(n,) the numbers in a file, of which a message speaks as `what`: "map", "mask".
+    """Read (n,) the numbers in a file, of which a message speaks as `what`: "map", "mask".
 
     .npy, .txt, and what `read_vertex_values` reads: .gii, .annot, values of FreeSurfer, and labels
     (.label), whose vertices have 1 among n_vertices.
@@ -31,14 +36,16 @@ def read_whole_numbers(path: str | os.PathLike[str], what: str, n_vertices: int 
     if is_vertex_values(path):
         return _whole_values(read_vertex_values(path, what, n_vertices), path, what)
     if path.suffix.lower() not in NUMBER_FORMATS:
-        raise ParameterError(f"{path} is no {what}; these are {', '.join(NUMBER_FORMATS)}, {VALUE_FILES} files.")
+        raise ParameterError(
+            f"{path} is not a file of the {what}; such files are {', '.join(NUMBER_FORMATS)}, {VALUE_FILES}."
+        )
     return _array_in(path, what) if path.suffix.lower() == ".npy" else _numbers_in(path, what)
 
 
 def _array_in(path: Path, what: str) -> IntArray:
     array = read_array(path, f"{what} in")
     if array.ndim not in (1, 2):
-        raise ParameterError(f"The {what} in {path} is no array of whole numbers.")
+        raise ParameterError(f"The {what} in {path} is not an array of whole numbers.")
     if array.ndim == 2 and 1 not in array.shape:
         raise ParameterError(
             f"The {what} in {path} has shape {array.shape}; a {what} is one whole number for each vertex."
@@ -66,7 +73,7 @@ def _numbers_in(path: Path, what: str) -> IntArray:
 
 
 def _whole(word: str, where: str) -> int:
-    """A whole number, which may be written as a float is."""
+    """Return a whole number, which may be written as a float is."""
     if WHOLE.fullmatch(word):
         return int(word)
     try:
@@ -79,10 +86,39 @@ def _whole(word: str, where: str) -> int:
 
 
 def text_lines(path: Path, what: str) -> list[tuple[int, str]]:
-    """The lines that are not empty, with their numbers; ParameterError if the file cannot be read."""
+    """Return the lines that are not empty, with their numbers; ParameterError if the file cannot be read."""
     return numbered_lines(file_text(path, f"{what} in"))
 
 
 def numbered_lines(text: str) -> list[tuple[int, str]]:
-    """The lines of a text that are not empty, with their numbers."""
+    """Return the lines of a text that are not empty, with their numbers."""
     return [(number, line.strip()) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
+
+
+# ---------------------------------------------------------------------- labels
+@dataclass(frozen=True, eq=False)
+class ParcelLabels:
+    """Labels of vertices, values (n,) below 0 for none, and names by value where the file has them."""
+
+    values: IntArray
+    names: Mapping[int, str]
+
+
+def read_labels(path: str | os.PathLike[str], n_vertices: int) -> ParcelLabels:
+    """Read the labels of a surface's vertices, of any file that `read_whole_numbers` reads, and their names.
+
+    Those of GIFTI (.label.gii) and of an annotation (.annot) are in the file; the vertices of a FreeSurfer label
+    (lh.V1.label) have 0, which is called as the file, and all others -1. Raises ParameterError, a sentence with the
+    file and the place in it, for what cannot be read.
+    """
+    name = os.path.basename(path).lower().removesuffix(GZIP)
+    if name.endswith(".label"):
+        return ParcelLabels(read_whole_numbers(path, "labels", n_vertices) - 1, {0: label_name(path)})
+    values = read_whole_numbers(path, "labels", n_vertices)
+    if name.endswith(".annot"):
+        with value_file(path, "labels") as content:
+            return ParcelLabels(values, dict(enumerate(read_annotation(content, Path(path).name).names)))
+    if name.endswith(".gii"):
+        with value_file(path, "labels") as content:
+            return ParcelLabels(values, label_table(content, Path(path).name))
+    return ParcelLabels(values, {})

@@ -40,7 +40,7 @@ Command = tuple[str, ...]
 
 
 class NotCompiled(Exception):
-    """Why there is no library."""
+    """The library could not be built."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -101,7 +101,7 @@ def check() -> None:
 
 
 def candidates() -> list[Command]:
-    """The commands of compilers that there are; CC, if set, is the only one."""
+    """Return the commands of compilers that there are; CC, if set, is the only one."""
     if os.environ.get("CC"):
         return [tuple(shlex.split(os.environ["CC"], posix=os.name != "nt"))]
     # Commonly `cc` is another name of one of the others.
@@ -110,7 +110,7 @@ def candidates() -> list[Command]:
 
 
 def compiler() -> Command:
-    """The first compiler that makes a library which this Python can load, or NotCompiled."""
+    """Return the first compiler that makes a library which this Python can load, or NotCompiled."""
     reason = "there is no C compiler, nor PyPI's ziglang."
     for command in candidates():
         # Windows keeps the file of a library that is loaded.
@@ -134,7 +134,7 @@ def call(command: Command, *options: str) -> None:
     except OSError as error:
         raise NotCompiled(f"{shlex.join(command)}: {error}") from error
     if said.returncode:
-        lines = said.stdout.splitlines() or ["it fails and does not say why"]
+        lines = said.stdout.splitlines() or ["it fails without a message"]
         raise NotCompiled(f"{shlex.join(command)}: {next((line for line in lines if 'error' in line), lines[-1])}")
 
 
@@ -151,7 +151,7 @@ def machine(command: Command, target: str | None = None) -> list[str]:
 
 
 def suffix(target: str | None = None) -> str:
-    """What the names of libraries end with."""
+    """Return the ending of library names."""
     system = target or sys.platform
     if "macos" in system or "darwin" in system:
         return ".dylib"

@@ -1,4 +1,4 @@
-"""What pip builds both distributions with: setuptools, and the kernel is compiled for the machine that is named.
+"""The build backend of both distributions: setuptools, with the kernel compiled for the machine that is named.
 
     pip wheel . --config-settings=--build-option=--plat-name=macosx_11_0_arm64
 
@@ -13,10 +13,11 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-from setuptools import build_meta
+from setuptools import Distribution, build_meta
 from setuptools.build_meta import *  # noqa: F403
 from setuptools.command.bdist_wheel import bdist_wheel
 from setuptools.command.build_py import build_py
+from setuptools.command.egg_info import egg_info
 from setuptools.errors import PlatformError
 
 KERNEL = Path(__file__).resolve().parent
@@ -32,7 +33,7 @@ TARGETS = {
     "macosx_11_0_arm64": "aarch64-macos.11.0",
     "win_amd64": "x86_64-windows-gnu",
 }
-"""What zig calls the platforms of wheels."""
+"""The platforms of wheels by their names in zig."""
 
 ANY = "any"
 """The platform of a wheel without a compiled kernel."""
@@ -41,23 +42,49 @@ Settings = dict[str, Any] | None
 
 
 def get_requires_for_build_wheel(config_settings: Settings = None) -> list[str]:
-    """What has to be installed to build a wheel: zig where another machine is named, or where there is no compiler."""
+    """Return the packages to install for a build: zig where another machine is named, or where there is no compiler."""
     needs_zig = "plat-name" in str(config_settings) or _lacks_compiler()
     return [*build_meta.get_requires_for_build_wheel(config_settings), *([ZIG] if needs_zig else [])]
 
 
 def get_requires_for_build_editable(config_settings: Settings = None) -> list[str]:
-    """What has to be installed to install a checkout as it is."""
+    """List the packages needed to install a checkout in place."""
     return [*build_meta.get_requires_for_build_editable(config_settings), *([ZIG] if _lacks_compiler() else [])]
 
 
 def _lacks_compiler() -> bool:
-    """Whether there is no compiler yet, and none is named."""
+    """Return whether there is no compiler yet, and none is named."""
     try:
         build["compiler"]()
     except build["NotCompiled"]:
         return not os.environ.get("CC")
     return False
+
+
+def name_packages(distribution: Distribution) -> None:
+    """Give the packages found the names they are installed under, and add the folders of package-dir.
+
+    With package-dir `bihdist = "app"`, `app.qt` becomes `bihdist.qt`; with `bihdist_core = "."`, `solver` becomes
+    `bihdist_core.solver`.
+    """
+    if set(distribution.package_dir) <= set(distribution.packages):
+        return  # another command named them
+    names = {folder: name for name, folder in distribution.package_dir.items()}
+
+    def named(package: str) -> str:
+        top, dot, rest = package.partition(".")
+        return f"{names['.']}.{package}" if "." in names else names.get(top, top) + dot + rest
+
+    distribution.packages = sorted({*map(named, distribution.packages), *names.values()})
+
+
+class NamedPackages(egg_info):
+    """The description of a distribution, with the names its packages are installed under."""
+
+    def initialize_options(self) -> None:
+        """Name the packages before any file is listed."""
+        name_packages(self.distribution)
+        super().initialize_options()
 
 
 class WheelWithKernel(bdist_wheel):
@@ -84,15 +111,23 @@ class WheelWithKernel(bdist_wheel):
         super().run()
 
     def get_tag(self) -> tuple[str, str, str]:
-        """The wheel's tags: Python, binary interface, platform."""
+        """Return the wheel's tags: Python, binary interface, platform."""
         return ("py3", "none", super().get_tag()[2])
 
 
 class CheckoutWithKernel(build_py):
     """An editable installation has its library beside the sources."""
 
+    def initialize_options(self) -> None:
+        """Name the packages before any file is copied."""
+        name_packages(self.distribution)
+        super().initialize_options()
+
     def run(self) -> None:
         """Compile there; for a wheel that is done where it is put together."""
         super().run()
+        if Path(self.build_lib, "bihdist", "guide").is_dir():
+            # The guide has been built: its text would be in the wheel twice.
+            shutil.rmtree(Path(self.build_lib, "bihdist_assets", "guide"))
         if self.editable_mode:
             build["main"](["--output", str(KERNEL)])

@@ -20,18 +20,18 @@ from ..arrays import AnyArray
 from ..errors import Cancelled, PlainSolverWarning
 
 DONE, STOPPED, NOT_POSITIVE, OUTSIDE, ASYMMETRIC, NO_ROOM, TOO_MUCH, LOST = 0, -1, -2, -3, -4, -5, -6, -7
-"""What functions return; `kernel.h` and `geodesic.h` say it."""
+"""Status codes of the functions, as in `kernel.h` and `geodesic.h`."""
 
 FOLDER = Path(__file__).parent
 SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
-"""Where libraries are, and what their names end with."""
+"""The folder of libraries, and the ending of their names."""
 
 PLAIN = "BIHDIST_PLAIN"
 """The environment variable that, if set, leaves the compiled kernel aside."""
 
 
 class Watch(Structure):
-    """Whether to stop, and how much is done."""
+    """A flag to stop a computation, and a counter of its work."""
 
     _fields_ = (("stop", c_int32), ("done", c_int64))
 
@@ -111,7 +111,7 @@ CELL = np.dtype([
     ("part", float), *((name, np.int32, 3) for name in ("corner", "edge")), ("face", np.int32), ("before", np.int32),
     ("step", np.int32, 3), ("is_there", np.int32),
 ])  # fmt: skip
-"""What a face, or a part of it, has become where degenerate faces are taken out."""
+"""The parts of faces, and what has become of them where degenerate faces are taken out."""
 
 FLAT = 16
 """Bytes of a flat face that waits, in `Cells`."""
@@ -140,7 +140,7 @@ SIDE = np.dtype([*((name, float) for name in ("length", "x", "y")), *((name, np.
 """A side of a face in its own frame."""
 
 REACHED = np.dtype([*((name, float) for name in ("distance", "px", "py")), ("rest", np.int32, 4)])
-"""How a vertex or a place was reached."""
+"""The way in which a vertex or a place was reached."""
 
 
 class Run(Structure):
@@ -176,7 +176,7 @@ class Run(Structure):
 
 
 _START: Any = ctypes.c_char * 0
-"""Where an array begins."""
+"""The address of an array."""
 
 
 class _Array:
@@ -234,12 +234,12 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
 
 
 class _Unfit(Exception):
-    """Why a library is not used, as a sentence without its end."""
+    """A library that cannot be used; the message is a sentence without its full stop."""
 
 
 @cache
 def library() -> Any:
-    """The best library for this processor, with its functions' signatures; None without one, or if PLAIN is set.
+    """Return the best library for this processor, with its functions' signatures; None without one, or if PLAIN is set.
 
     Without one a PlainSolverWarning says so, and why, once.
     """
@@ -258,7 +258,7 @@ def library() -> Any:
 
 
 def why_plain() -> str:
-    """Why the compiled kernel is not used, and what to do, as a sentence without its end; "" where it is used."""
+    """Say why the compiled kernel is not used and what to do, without a full stop; "" where it is used."""
     if os.environ.get(PLAIN):
         return f"the environment variable {PLAIN} is set"
     try:
@@ -270,14 +270,14 @@ def why_plain() -> str:
 
 
 def description() -> str:
-    """Which kernel the solver runs on: "compiled, AVX2", "compiled", or "plain NumPy: " and why."""
+    """Describe the kernel in use: "compiled, AVX2", "compiled", or "plain NumPy: " and the reason."""
     if why := why_plain():
         return f"plain NumPy: {why}"
     return "compiled, AVX2" if "avx2" in Path(library()._name).name else "compiled"
 
 
 def _loaded(name: str) -> Any:
-    """The library of that name; _Unfit where there is none that fits this machine and this code."""
+    """Return the library of that name; _Unfit where there is none that fits this machine and this code."""
     path = FOLDER / (name + SUFFIX)
     if not path.exists():
         raise _Unfit(f"there is no compiled kernel {path}")
@@ -289,14 +289,17 @@ def _loaded(name: str) -> Any:
         try:
             bound = getattr(found, f"bih_{function}")
         except AttributeError:
-            reason = f"the compiled kernel {path} is of other sources than this program: it has no bih_{function}"
+            reason = (
+                f"the compiled kernel {path} was built from other sources than this program: it has no bih_{function}"
+            )
             raise _Unfit(reason) from None
         bound.restype, bound.argtypes = result, arguments
     return found
 
 
 def at(array: AnyArray | None) -> int | None:
-    """The address of a contiguous array, for a structure; the array must outlive it.  TypeError if it has gaps."""
+    """Return the address of a contiguous array, for a structure; the array must outlive it.  TypeError if it has
+    gaps."""
     if array is None:
         return None
     if array.flags.writeable:
@@ -307,7 +310,7 @@ def at(array: AnyArray | None) -> int | None:
 
 
 def rows_of(start: AnyArray, index: AnyArray, value: AnyArray | None = None) -> Rows:
-    """A sparse matrix by rows of int32 start (n + 1,) and index (e,), float64 value (e,)."""
+    """Return a sparse matrix by rows of int32 start (n + 1,) and index (e,), float64 value (e,)."""
     return Rows(len(start) - 1, at(start), at(index), at(value))
 
 

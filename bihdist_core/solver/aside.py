@@ -12,18 +12,18 @@ from collections.abc import Callable
 from queue import Empty
 from typing import Any, BinaryIO, TypeVar
 
-from ..child_process import ANSWER, REPORT, SERVED, ChildProcess, framed, send
+from ..child_process import ANSWER, ChildProcess, read_request, send, send_report
 from ..errors import SolverError
-from ..progress import REPORT_EVERY, Progress, silent
+from ..progress import REPORT_EVERY_S, Progress, silent
 from .worker_threads import is_alone
 
 Result = TypeVar("Result")
 
 
 def aside(work: Callable[..., Result], *arguments: Any, progress: Progress | None = None) -> Result:
-    """work(*arguments, progress=progress) in a process of its own; what the work raises is raised here.
+    """Run ``work(*arguments, progress=progress)`` in a process of its own; what the work raises is raised here.
 
-    work: a function of a module; its arguments and what it returns go through pipes as pickles.
+    `work` is a function of a module; its arguments and its result go through pipes as pickles.
     `progress` is called from this thread every 0.1 s with what the work told last; what it raises ends the process.
     Within `without_workers`, and where there is no Python interpreter to start, the work is done here.  SolverError if
     the process dies.
@@ -31,19 +31,17 @@ def aside(work: Callable[..., Result], *arguments: Any, progress: Progress | Non
     report = progress or silent
     if is_alone() or not sys.executable or getattr(sys, "frozen", False):
         return work(*arguments, progress=report)
-    child = ChildProcess(SERVED, framed(__name__.encode()))
-    reports: list[memoryview] = []
+    child = ChildProcess(__name__)
+    reports: list[tuple[float, str]] = []
     try:
-        pieces = _packed((work, arguments))
-        length = sum(memoryview(piece).nbytes for piece in pieces)
-        answers = child.ask([length.to_bytes(8, sys.byteorder), *pieces], reports.append)
+        answers = child.ask(_packed((work, arguments)), lambda *told: reports.append(told))
         while True:
             try:
-                answer = answers.get(timeout=REPORT_EVERY)
+                answer = answers.get(timeout=REPORT_EVERY_S)
                 break
             except Empty:
                 if reports:
-                    report(*pickle.loads(reports[-1]))
+                    report(*reports[-1])
                     del reports[:-1]
                 else:
                     report(0.0, "starting a process")
@@ -52,23 +50,27 @@ def aside(work: Callable[..., Result], *arguments: Any, progress: Progress | Non
     if isinstance(answer, str):
         raise SolverError(f"A computation was lost: {answer}. There may not be enough memory for it.")
     value, error = _unpacked(answer)
-    if error is not None:
-        raise error
+    try:
+        if error is not None:
+            raise error
+    finally:
+        # The error's traceback refers to this frame, and so to the arguments.
+        del error
     result: Result = value
     return result
 
 
 def serve(requests: BinaryIO, answers: BinaryIO) -> None:
-    """What the process does: the work that is asked for."""
-    work, arguments = _unpacked(bytearray(requests.read(int.from_bytes(requests.read(8), sys.byteorder))))
+    """Do the work that is asked for, in the process."""
+    work, arguments = _unpacked(bytearray(read_request(requests)))
     threading.Thread(target=_end_with_parent, daemon=True).start()
     last = -1.0
 
     def report(fraction: float, text: str) -> None:
         nonlocal last
-        if time.monotonic() - last >= REPORT_EVERY / 2:
+        if time.monotonic() - last >= REPORT_EVERY_S / 2:
             last = time.monotonic()
-            send(answers, REPORT, [pickle.dumps((fraction, text))])
+            send_report(answers, fraction, text)
 
     outcome: tuple[Any, Exception | None]
     try:
@@ -79,13 +81,13 @@ def serve(requests: BinaryIO, answers: BinaryIO) -> None:
 
 
 def _end_with_parent() -> None:
-    """Nothing more comes through the pipe but its end, when the parent has ended in whatever way."""
+    """Exit when the pipe ends, as it does when the parent has ended in whatever way."""
     os.read(0, 1)
     os._exit(1)
 
 
 def _packed(value: object) -> list[bytes | memoryview]:
-    """A pickle whose arrays are not copied: the number of its pieces and their lengths, and the pieces."""
+    """Return a pickle whose arrays are not copied: the number of its pieces and their lengths, and the pieces."""
     arrays: list[pickle.PickleBuffer] = []
     head = pickle.dumps(value, 5, buffer_callback=arrays.append)
     pieces: list[bytes | memoryview] = [head, *(array.raw() for array in arrays)]

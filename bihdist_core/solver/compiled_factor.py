@@ -12,7 +12,7 @@ from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..kernel.library import at, check_stopped, library, rows_of
-from ..machine_memory import REMEDY, check_memory
+from ..machine_memory import MEMORY_ADVICE, check_memory
 from .compiled_tree import PAD, CompiledTree, padded
 from .worker_threads import WORKERS, Arena, Job, Run, Workspaces
 
@@ -26,7 +26,10 @@ NEVER = ctypes.byref(kernel.Watch())
 class Blocks:
     """Blocks of fronts that tasks hand to each other, each kept until it is released as often as it is used.
 
-    address: (fronts,) where the block of a front lies, 0 where there is none.
+    Attributes
+    ----------
+    address : (fronts,) ndarray
+        The address of the block of each front, 0 where there is none.
     """
 
     def __init__(self, fronts: int, arena: Arena) -> None:
@@ -41,7 +44,7 @@ class Blocks:
         self._held[front] = part, [None] * uses
 
     def release(self, front: int) -> None:
-        """One of its uses is over."""
+        """End one of its uses."""
         part, uses = self._held[front]
         uses.pop()  # at once, whatever other threads do
         if not uses:
@@ -49,7 +52,7 @@ class Blocks:
 
 
 class CompiledFactor:
-    """The factor of a matrix as `canonical` makes it; areas: (n,), for what needs derivatives.
+    """The factor of a matrix as `canonical` makes it; `areas` (n,) are needed for derivatives.
 
     Raises SolverError if the matrix is not positive definite, ParameterError if it has an entry outside the pattern.
     """
@@ -81,7 +84,7 @@ class CompiledFactor:
 
     @property
     def nbytes(self) -> int:
-        """How many bytes its blocks take."""
+        """Bytes of its blocks."""
         return self._pivots.nbytes + self._boundaries.nbytes
 
     @cached_property
@@ -93,12 +96,12 @@ class CompiledFactor:
         return {name: value for name, value in self.__dict__.items() if name != "_struct"}
 
     def _take_memory(self, sizes: list[int], room: int) -> None:
-        """For the factor, whose arrays have these sizes, where there are so many doubles besides to make it in."""
-        check_memory(8.0 * (sum(sizes) + room), f"The factor for {self.tree.n:,} vertices", REMEDY)
+        """Take memory for the arrays of the factor, of these sizes, if `room` more doubles are free to make it in."""
+        check_memory(8.0 * (sum(sizes) + room), f"The factor for {self.tree.n:,} vertices", MEMORY_ADVICE)
         self._pivots, self._boundaries = map(np.empty, sizes)
 
     def _factor_alone(self, matrix: sp.csr_matrix, room: int) -> None:
-        """All of it, diagonals included, by one call."""
+        """Factor by one call, diagonals included."""
         lib, where = library(), np.empty(2, np.int64)
         rows = rows_of(matrix.indptr, matrix.indices, matrix.data)
         is_dual = self._areas is not None
@@ -141,7 +144,7 @@ class CompiledFactor:
         job.run(eliminate, tree.tasks, tree.after)
 
     def diagonals(self, job: Job) -> tuple[FloatArray, FloatArray]:
-        """(n,) diag(G) and (n,) diag(G A G); to be called once, after the elimination."""
+        """Return (n,) diag(G) and (n,) diag(G A G); to be called once, after the elimination."""
         if self._diagonals is not None:
             found, self._diagonals = self._diagonals, None
             return found
@@ -204,13 +207,14 @@ class CompiledFactor:
             run(down, tree.branches)
 
     def _places(self, task: tuple[int, int]) -> tuple[int, int]:
-        """The first place of a task's pivots, and the first after them."""
+        """Return the first place of a task's pivots, and the first after them."""
         return int(self.tree.first[task[0]]), int(self.tree.first[task[1] + 1])
 
     def each_sandwich_piece(
         self, index: IntArray, run: Run, receive: Callable[[AnyArray, FloatArray], None], workspaces: Workspaces
     ) -> None:
-        """The columns `index` (k,) of G A G in pieces: receive(vertices (r,), values (r, k)), which it may change."""
+        """Compute the columns `index` (k,) of G A G in pieces: receive(vertices (r,), values (r, k)), which it may
+        change."""
         width = _width(len(index))
         with workspaces.of(self.tree.n * 2 * width) as xy:
             self._sweep_columns(index, run, receive, xy.reshape(self.tree.n, 2 * width))
@@ -241,7 +245,7 @@ class CompiledFactor:
 
 
 def _check(status: int, where: IntArray) -> None:
-    """Raise what an elimination tells; where: the entry that it tells of."""
+    """Raise the error of an elimination's status; `where` is the entry that it is about."""
     if status == kernel.NOT_POSITIVE:
         raise SolverError("The matrix is not positive definite to working accuracy, so it cannot be factored.")
     if status == kernel.OUTSIDE:
@@ -250,5 +254,5 @@ def _check(status: int, where: IntArray) -> None:
 
 
 def _width(columns: int) -> int:
-    """How many columns the kernel takes beside each other instead of so many."""
+    """Round a number of columns up to what the kernel stores side by side."""
     return 1 if columns == 1 else -(-columns // PAD) * PAD

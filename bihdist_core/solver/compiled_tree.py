@@ -35,7 +35,7 @@ TASKS = 8
 CUT_ALONE = 20_000
 """Smaller graphs are dissected by one thread."""
 CUTS = 3
-"""How often larger ones are cut before the pieces are dissected side by side."""
+"""Cuts of larger graphs before the pieces are dissected side by side."""
 
 
 class CompiledTree:
@@ -62,13 +62,13 @@ class CompiledTree:
     factor_size: list[int]
     """Numbers of all K and of all N, without derivatives."""
     work: int
-    """How long an elimination takes, in the unit of `Job.advance`."""
+    """The work of an elimination, in the unit of `Job.advance`."""
     blocks_room: int
     """Numbers of all that tasks hand to each other, with derivatives."""
     longest_row: int
     """Numbers of the longest row of a front, with its padding."""
     tasks: list[tuple[int, int]]
-    """What is done as one: the first front of each and the last."""
+    """The first front and the last of each group that is eliminated as one."""
     after: list[list[int]]
     before: list[list[int]]
     """The numbers of the tasks that come before each, bottom up and top down."""
@@ -92,7 +92,7 @@ class CompiledTree:
 
     @property
     def _is_small(self) -> bool:
-        """Whether one thread does all of it, and nobody wants to hear how far it is."""
+        """True if one thread does all of it, and nobody hears of its progress."""
         return self.n <= CUT_ALONE // 4
 
     def __getstate__(self) -> dict[str, Any]:
@@ -100,12 +100,12 @@ class CompiledTree:
 
     @property
     def sizes(self) -> tuple[IntArray, IntArray]:
-        """(fronts,), (fronts,): how many pivots and how many boundary rows each front has."""
+        """The numbers of pivots (fronts,) and of boundary rows (fronts,) of each front."""
         return np.diff(self.first).astype(np.int64), np.diff(self.bound)
 
     @property
     def nbytes(self) -> int:
-        """How many bytes its arrays take."""
+        """Bytes of its arrays."""
         return sum(getattr(self, name).nbytes for name in ("order", *TREE_ARRAYS))
 
     @cached_property
@@ -125,18 +125,18 @@ class CompiledTree:
 
     @cached_property
     def order(self) -> IntArray:
-        """(n,) `vertices` as NumPy takes indices at once, which gathers in half the time."""
+        """The `vertices` (n,) as NumPy takes indices at once, which gathers in half the time."""
         return self.vertices.astype(np.intp)
 
     @cached_property
     def top_places(self) -> IntArray:
-        """(r,) the places of their pivots."""
+        """The places (r,) of their pivots."""
         if len(self.tasks) == 1:
             return np.empty(0, np.int64)
         return np.array([p for q in self.tops for p in range(self.first[q], self.first[q + 1])], np.int64)
 
     def workspace(self, width: int) -> FloatArray:
-        """What sweeps of so many columns need to work."""
+        """Return the workspace for sweeps of so many columns."""
         return np.empty((self.longest_row + 2 * PAD) * width + 2 * PAD)
 
     # ------------------------------------------------------------------ ordering
@@ -151,7 +151,7 @@ class CompiledTree:
     def _dissect(
         self, matrix: Rows, x: FloatArray, dissection: AnyArray, progress: Progress
     ) -> tuple[AnyArray, AnyArray]:
-        """What `_dissect_alone` does, side by side."""
+        """Do what `_dissect_alone` does, in several threads."""
         lib, n = library(), self.n
         edges = _checked_symmetric(lib.bih_begin_dissection(ctypes.byref(matrix), x, dissection))
         job = Job(progress, "Ordering the vertices", n)
@@ -211,7 +211,7 @@ class CompiledTree:
         self.before = [[number[int(parent[q])]] if parent[q] >= 0 else [] for q in task]
 
     def _first_below(self, front: int) -> int:
-        """The first front of a subtree."""
+        """Return the first front of a subtree."""
         while (child := self.children[front, 0]) >= 0:
             front = int(child)
         return front
@@ -226,7 +226,7 @@ class _Cut:
         self.fronts: tuple[AnyArray, AnyArray] = np.empty(0), np.empty(0)
 
     def all_fronts(self) -> tuple[AnyArray, AnyArray]:
-        """Those of the halves, and the separator's."""
+        """Return the fronts of the halves, and the separator's."""
         if not self.halves:
             return self.fronts
         (one, one_subtrees), (other, other_subtrees) = (half.all_fronts() for half in self.halves)

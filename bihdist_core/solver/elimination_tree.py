@@ -20,9 +20,19 @@ from .worker_threads import WORKERS
 class EliminationTree:
     """Order and layout for all matrices with one sparsity pattern.
 
-    pattern: (n, n) sparse, symmetric; only where it has entries matters, and its diagonal does not.
-    coordinates: (n, 3), finite, used for the ordering only.  Raises ParameterError if the shapes do not fit, the
-    pattern is not symmetric or a coordinate is not finite.
+    Parameters
+    ----------
+    pattern : (n, n) sparse matrix
+        Symmetric; only the places of its entries off the diagonal matter.
+    coordinates : (n, 3) ndarray
+        Finite, used for the ordering only.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``.
+
+    Raises
+    ------
+    ParameterError
+        If the shapes do not fit, the pattern is not symmetric or a coordinate is not finite.
     """
 
     def __init__(self, pattern: sp.spmatrix, coordinates: FloatArray, progress: Progress | None = None) -> None:
@@ -36,17 +46,17 @@ class EliminationTree:
 
     @property
     def sizes(self) -> tuple[IntArray, IntArray]:
-        """(fronts,), (fronts,): how many pivots and how many boundary rows each front has."""
+        """The numbers of pivots (fronts,) and of boundary rows (fronts,) of each front."""
         return self.layout.sizes
 
     @property
     def nbytes(self) -> int:
-        """How many bytes its arrays take."""
+        """Bytes of its arrays."""
         return self.layout.nbytes
 
 
 def canonical(matrix: sp.spmatrix) -> sp.csr_matrix:
-    """A float64 matrix by rows with int32 indices, ascending and each once; the argument stays as it is."""
+    """Return a float64 matrix by rows with int32 indices, ascending and each once; the argument stays as it is."""
     is_one = isinstance(matrix, sp.csr_matrix) and matrix.dtype == np.float64
     rows = matrix if is_one else sp.csr_matrix(matrix, dtype=np.float64)
     if not rows.has_canonical_format:

@@ -27,13 +27,13 @@ ReceivePiece = Callable[[AnyArray, slice, FloatArray], None]
 """Takes some rows (r,), a slice of the columns asked for, and the values (r, k) there, which it may overwrite."""
 
 WIDE = 32
-"""How many columns are solved for together: more would not stay in the cache."""
+"""Columns that are solved for together; more would not stay in the cache."""
 
 FEW = 1 << 16
 """Of fewer vertices as many columns stay in the cache where each has one of G beside it."""
 
 WITH_DIAGONALS = 6
-"""How many times as long it takes with derivatives and diagonals."""
+"""The cost with derivatives and diagonals over the cost without."""
 
 USUAL = 50
 """Multiplications of a factor of n vertices, times n^1.5, on round shapes; on long ones a third of them."""
@@ -46,13 +46,26 @@ SMALL = 1 << 23
 
 
 class Factor:
-    """Factor of one matrix on an elimination tree that it may share with others.  Usable from several threads.
+    """Factor of one matrix on an elimination tree that it may share with others; usable from several threads.
 
-    matrix: (n, n) sparse, symmetric positive definite, with no entry outside the tree's pattern; only the diagonal and
-    one side of it are read.  areas: (n,), at least 0: the diagonal of A, needed for `diagonal`, `sandwich_diagonal` and
-    `sandwich_columns`.  `progress` is called from the calling thread only.
+    Parameters
+    ----------
+    tree : EliminationTree
+        The order and layout.
+    matrix : (n, n) sparse matrix
+        Symmetric and positive definite, with no entry outside the tree's pattern; only the diagonal and one side of it
+        are read.
+    areas : (n,) array_like, optional
+        The diagonal of A, at least 0, needed for `diagonal`, `sandwich_diagonal` and `sandwich_columns`.
+    progress : callable, optional
+        Called from the calling thread only.
 
-    Raises SolverError if the matrix is not positive definite, ParameterError if shapes or values do not fit.
+    Raises
+    ------
+    SolverError
+        If the matrix is not positive definite.
+    ParameterError
+        If shapes or values do not fit.
     """
 
     def __init__(
@@ -84,22 +97,22 @@ class Factor:
 
     @property
     def has_diagonals(self) -> bool:
-        """Whether it was made with areas."""
+        """True if the factor was made with areas, and so has diagonals."""
         return self._diagonals is not None
 
     @property
     def diagonal(self) -> FloatArray:
-        """(n,) diag(matrix^-1), read-only; SolverError without areas."""
+        """The diagonal (n,) of matrix^-1, read-only; SolverError without areas."""
         return self._with_areas()[0]
 
     @property
     def sandwich_diagonal(self) -> FloatArray:
-        """(n,) diag(matrix^-1 A matrix^-1), read-only; SolverError without areas."""
+        """The diagonal (n,) of matrix^-1 A matrix^-1, read-only; SolverError without areas."""
         return self._with_areas()[1]
 
     @property
     def nbytes(self) -> int:
-        """How many bytes the factor holds, the tree not counted."""
+        """Bytes of the factor, without the tree."""
         return self._blocks.nbytes + sum(d.nbytes for d in self._diagonals or ())
 
     def solve(self, b: npt.ArrayLike, progress: Progress | None = None) -> FloatArray:
@@ -121,7 +134,8 @@ class Factor:
         return result.reshape(b.shape)
 
     def sandwich_columns(self, index: npt.ArrayLike) -> FloatArray:
-        """(n, k): the columns `index` (k,) of matrix^-1 A matrix^-1, in one sweep down; SolverError without areas."""
+        """Return (n, k): the columns `index` (k,) of matrix^-1 A matrix^-1, in one sweep down; SolverError without
+        areas."""
         result = np.empty((self.tree.n, np.size(index)))
 
         def keep(rows: AnyArray, columns: slice, values: FloatArray) -> None:
@@ -176,18 +190,18 @@ class Factor:
 
 
 def share_of_ordering(n: int, diagonals: bool) -> float:
-    """Which share of the time that a tree and a factor of n vertices take is the tree's."""
+    """Return the tree's fraction of the time that a tree and a factor of n vertices take."""
     return expected_seconds("ordering", n, WORKERS) / usual_seconds(n, diagonals)
 
 
 def usual_seconds(n: int, diagonals: bool) -> float:
-    """About how long a tree and a factor of n vertices take, before there is a tree."""
+    """Return about how long a tree and a factor of n vertices take, before there is a tree."""
     multiplications = USUAL * n**1.5 * (WITH_DIAGONALS if diagonals else 1)
     return expected_seconds("ordering", n, WORKERS) + expected_seconds("factor", multiplications, WORKERS)
 
 
 def usual_bytes(n: int) -> int:
-    """About how many bytes a factor of n vertices with its diagonals holds, before there is a tree."""
+    """Return about how many bytes a factor of n vertices with its diagonals holds, before there is a tree."""
     return USUAL_BYTES * n
 
 

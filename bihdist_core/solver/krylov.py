@@ -20,9 +20,9 @@ from .tall import centre, gram, multiply, own_gram, recombine, subtract
 WIDTHS = 8, 32
 """Fewest and most columns of a block.  Wide blocks are cheaper per column; narrow ones need fewer columns."""
 PAIRS_PER_COLUMN = 12
-"""How many pairs asked for make the block one column wider; measured."""
+"""Wanted pairs for each column of the block; measured."""
 CHECK = 1.07
-"""By how much the basis grows until the errors, which take a dense eigenproblem, are looked at again."""
+"""The growth of the basis after which the errors, which take a dense eigenproblem, are checked again."""
 MEMORY = 2e9
 """Bytes the basis may fill before it is restarted, unless the pairs asked for need more."""
 PATIENCE = 8
@@ -44,11 +44,11 @@ def largest_eigenpairs(
     known: tuple[FloatArray, FloatArray],
     progress: Progress,
 ) -> FloatArray:
-    """(n, count) vectors that span the eigenvectors of the `count` largest eigenvalues mu.
+    """Return (n, count) vectors that span the eigenvectors of the `count` largest eigenvalues mu.
 
-    apply(x): T x for x (n, k); it and x are A-orthogonal to constants.  weights: (n,) the diagonal of A.
-    tolerance: for ||T x - mu x||_A / mu, not promised.  known: eigenvalues (j,) and eigenvectors (n, j) to begin with.
-    `count` must be well below n.  progress is called before and after each use of `apply`.
+    `apply(x)` returns T x for x (n, k), both A-orthogonal to constants; `weights` (n,) is the diagonal of A. The
+    `tolerance` is for ||T x - mu x||_A / mu, and not promised. `known` are eigenvalues (j,) and eigenvectors (n, j) to
+    begin with. `count` must be well below n. `progress` is called before and after each use of `apply`.
     """
     n = len(weights)
     width = _width(count)
@@ -89,7 +89,7 @@ def largest_eigenpairs(
 
 
 def usual_columns(count: int) -> float:
-    """How many columns a basis usually has that holds `count` pairs."""
+    """Return the usual number of columns of a basis for `count` pairs."""
     return 3.5 * count + 8 * _width(count)
 
 
@@ -115,7 +115,7 @@ class _Space:
     """The basis V, the block Q to expand by next, and H and B ("couple") of the module's formula."""
 
     def __init__(self, weights: FloatArray, room: int, values: FloatArray, vectors: FloatArray, error: float) -> None:
-        """error: about how far what is known (values, vectors) is from eigenpairs, as a fraction of T."""
+        """Begin with known pairs (values, vectors), which are about `error` from eigenpairs, as a fraction of T."""
         n, self.size = vectors.shape
         self.weights = weights
         self.basis: list[FloatArray] = [np.array(vectors, order="C")] if self.size else []
@@ -174,7 +174,7 @@ class _Space:
         self.block, self.size, self.couple = q, new, np.hstack([np.zeros((len(r), old)), r])
 
     def ritz(self, count: int) -> tuple[FloatArray, FloatArray]:
-        """The `count` largest eigenvalues of H, descending, and its eigenvectors (size, count)."""
+        """Return the `count` largest eigenvalues of H, descending, and its eigenvectors (size, count)."""
         h = self.h[: self.size, : self.size]
         # NumPy's, for which other Python threads need not stand still as for SciPy's; it takes no longer for all.
         mu, y = np.linalg.eigh((h + h.T) / 2)

@@ -23,7 +23,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 
 from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
-from ..machine_memory import REMEDY, check_memory
+from ..machine_memory import MEMORY_ADVICE, check_memory
 from ..progress import Progress
 from .blas import one_blas_thread
 from .worker_threads import Job
@@ -37,7 +37,7 @@ STIFF = 3e-2
 rows have entries of size 1 / h, and what K lacks comes back in S magnified by that."""
 
 FRONTS = 3
-"""How many blocks of a front's size there are at a time while it is eliminated."""
+"""Blocks of a front's size in memory at a time while it is eliminated."""
 
 SEPARATOR = 2
 """The side of vertices in neither half, 0 or 1, of a region."""
@@ -46,7 +46,7 @@ SEPARATOR = 2
 class Front(NamedTuple):
     """A dense block of the elimination: `rows` (s,), ascending places of its c pivots and then of its boundary.
 
-    children: numbers of the fronts below it, each with where its boundary is among `rows`.
+    `children` are the numbers of the fronts below it, each with the places of its boundary among `rows`.
     """
 
     c: int
@@ -55,20 +55,28 @@ class Front(NamedTuple):
 
     @property
     def pivots(self) -> IntArray:
-        """(c,) the places that it eliminates."""
+        """The places (c,) that it eliminates."""
         return self.rows[: self.c]
 
     @property
     def boundary(self) -> IntArray:
-        """(m,) the later places that its pivots touch."""
+        """The later places (m,) that its pivots touch."""
         return self.rows[self.c :]
 
 
 class PlainTree:
     """The elimination tree of a pattern (n, n), by rows as `canonical` makes them; x (n, 3), in [-1, 1].
 
-    vertices: (n,) in elimination order; place: (n,) where each is in it; fronts: in postorder, children before parents.
     Raises ParameterError if the pattern is not symmetric.
+
+    Attributes
+    ----------
+    vertices : (n,) ndarray
+        The vertices in elimination order.
+    place : (n,) ndarray
+        The place of each vertex in that order.
+    fronts : list of Front
+        The fronts in postorder, children before parents.
     """
 
     vertices: IntArray
@@ -92,18 +100,18 @@ class PlainTree:
 
     @property
     def sizes(self) -> tuple[IntArray, IntArray]:
-        """(fronts,), (fronts,): how many pivots and how many boundary rows each front has."""
+        """The numbers of pivots (fronts,) and of boundary rows (fronts,) of each front."""
         c, s = np.array([(front.c, len(front.rows)) for front in self.fronts]).T
         return c, s - c
 
     @property
     def work(self) -> float:
-        """How long an elimination takes, in the unit of `Job.advance`."""
+        """The work of an elimination, in the unit of `Job.advance`."""
         return float(sum(_work(front) for front in self.fronts))
 
     @property
     def nbytes(self) -> int:
-        """How many bytes its arrays take."""
+        """Bytes of its arrays."""
         ups = (up for front in self.fronts for _, up in front.children)
         return sum(each.nbytes for each in (self.vertices, self.place, *ups, *(front.rows for front in self.fronts)))
 
@@ -138,7 +146,8 @@ class PlainTree:
 
 # ---------------------------------------------------------------------- nested dissection
 class Region(NamedTuple):
-    """What becomes a front: the vertices (c,) of a separator, or of a leaf, and the numbers of the fronts below it."""
+    """A region that becomes a front: the vertices (c,) of a separator, or of a leaf, and the numbers of the fronts
+    below it."""
 
     vertices: IntArray
     children: list[int]
@@ -160,7 +169,7 @@ def _dissect(vertices: IntArray, graph: sp.csr_matrix, x: FloatArray, regions: l
 
 
 def _cut(graph: sp.csr_matrix, x: FloatArray) -> AnyArray:
-    """(k,) the sides of vertices: no edge joins the halves, and the separator is small.
+    """Return (k,) the sides of vertices: no edge joins the halves, and the separator is small.
 
     It is tried across the widest direction, and, as that fails on folded sheets, across edge counts from a far end.
     One component after the other, so that at most one of them is cut.  Small regions are one separator, and so are
@@ -178,7 +187,8 @@ def _cut(graph: sp.csr_matrix, x: FloatArray) -> AnyArray:
 
 
 def _separated(graph: sp.csr_matrix, order: IntArray) -> AnyArray:
-    """(k,) sides by halves of an order of the vertices: one half loses those of its vertices that touch the other."""
+    """Return (k,) sides by halves of an order of the vertices: one half loses those of its vertices that touch the
+    other."""
     side = np.zeros(len(order), np.int8)
     side[order[len(order) // 2 :]] = 1
     i, j = graph.nonzero()
@@ -188,7 +198,7 @@ def _separated(graph: sp.csr_matrix, order: IntArray) -> AnyArray:
 
 
 def _along_widest_direction(x: FloatArray) -> FloatArray:
-    """(k,) positions along the first principal axis of points x (k, 3)."""
+    """Return (k,) positions along the first principal axis of points x (k, 3)."""
     x = x - x.mean(axis=0)
     _, axes = np.linalg.eigh(x.T @ x)
     along: FloatArray = x @ axes[:, -1]
@@ -196,7 +206,7 @@ def _along_widest_direction(x: FloatArray) -> FloatArray:
 
 
 def _hops_from_far_end(graph: sp.csr_matrix, component: AnyArray) -> FloatArray:
-    """(k,) edge counts from a vertex of each component that is far away from another."""
+    """Return (k,) edge counts from a vertex of each component that is far away from another."""
     _, start = np.unique(component, return_index=True)
     for _ in range(2):
         hops: FloatArray = dijkstra(graph, indices=start, unweighted=True, min_only=True)
@@ -206,7 +216,7 @@ def _hops_from_far_end(graph: sp.csr_matrix, component: AnyArray) -> FloatArray:
 
 # ---------------------------------------------------------------------- the algebra of a front
 class Blocks(NamedTuple):
-    """What a front leaves of the factor: K (c, c), N (c, m), and K1 and N1, which are empty without areas."""
+    """The blocks of a front in the factor: K (c, c), N (c, m), and K1 and N1, which are empty without areas."""
 
     K: FloatArray
     N: FloatArray
@@ -253,7 +263,8 @@ def _derive(front1: FloatArray, K: FloatArray, N: FloatArray) -> tuple[FloatArra
 
 
 def _invert(blocks: Blocks, Z22: FloatArray, H22: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """A front's blocks (s, s) Z of G and H of G A G, given those of its boundary (Takahashi's selected inversion)."""
+    """Return a front's blocks (s, s) Z of G and H of G A G, given those of its boundary (Takahashi's selected
+    inversion)."""
     K, N, K1, N1 = blocks
     Z12 = N @ Z22
     H12 = N1 @ Z22 + N @ H22
@@ -268,7 +279,7 @@ def _work(front: Front) -> int:
 
 # ---------------------------------------------------------------------- the factor
 class PlainFactor:
-    """The factor of a matrix as `canonical` makes it; areas: (n,), for what needs derivatives.
+    """The factor of a matrix as `canonical` makes it; `areas` (n,) are needed for derivatives.
 
     Raises SolverError if the matrix is not positive definite, ParameterError if it has an entry outside the pattern.
     """
@@ -276,13 +287,13 @@ class PlainFactor:
     @one_blas_thread()
     def __init__(self, tree: PlainTree, matrix: sp.csr_matrix, areas: FloatArray | None, job: Job) -> None:
         self.tree = tree
-        check_memory(tree.factor_bytes(areas is not None), f"The factor for {tree.n:,} vertices", REMEDY)
+        check_memory(tree.factor_bytes(areas is not None), f"The factor for {tree.n:,} vertices", MEMORY_ADVICE)
         self._blocks: list[Blocks] = []
         job.run(lambda rows: self._eliminate(rows, areas, job), [matrix[tree.vertices][:, tree.vertices]])
 
     @property
     def nbytes(self) -> int:
-        """How many bytes its blocks take."""
+        """Bytes of its blocks."""
         return sum(block.nbytes for blocks in self._blocks for block in blocks)
 
     def _eliminate(self, matrix: sp.csr_matrix, areas: FloatArray | None, job: Job) -> None:
@@ -305,7 +316,8 @@ class PlainFactor:
             job.advance(_work(front))
 
     def _entries(self, front: Front, matrix: sp.csr_matrix) -> FloatArray:
-        """(s, s) the entries of the matrix in the rows and columns of a front's pivots, read right of the diagonal."""
+        """Return (s, s) the entries of the matrix in the rows and columns of a front's pivots, read right of the
+        diagonal."""
         own = matrix[front.pivots].tocoo()
         row, column = front.pivots[own.row], own.col
         read = (column >= row) & (own.data != 0)
@@ -321,7 +333,7 @@ class PlainFactor:
 
     @one_blas_thread()
     def diagonals(self, job: Job) -> tuple[FloatArray, FloatArray]:
-        """(n,) diag(G) and (n,) diag(G A G)."""
+        """Return (n,) diag(G) and (n,) diag(G A G)."""
         [diagonals] = job.run(self._invert, [job])
         return diagonals
 
@@ -356,7 +368,7 @@ class PlainFactor:
     def each_sandwich_piece(
         self, index: IntArray, _run: object, receive: Callable[[IntArray, FloatArray], None], _workspaces: object
     ) -> None:
-        """The columns `index` (k,) of G A G, in one piece: receive(vertices (n,), values (n, k)).
+        """Compute the columns `index` (k,) of G A G, in one piece: receive(vertices (n,), values (n, k)).
 
         The sweeps of a solve, with their derivatives: they turn unit vectors x into columns of G, and y = 0 into those
         of G A G.

@@ -44,11 +44,18 @@ COPY = 1.3
 class Spectrum:
     """Eigenpairs L phi_k = lambda_k A phi_k, smallest first, without the constant.
 
-    eigenvalues: (k,), ascending, unit 1 / length squared.  eigenvectors: (n, k), one per column, phi^T A phi = 1 and
-    A-orthogonal to each other and to constants; unit 1 / length.
-    residuals: (k,) ||L phi - lambda A phi|| / lambda, measured in the norm (sum_i r_i^2 / A_i)^(1/2): some exact
-    eigenvalue is within this share of lambda.  No unit; empty where they were not measured.
+    Attributes
+    ----------
+    eigenvalues : (k,) float64 ndarray
+        Ascending; unit 1 / length squared.
+    eigenvectors : (n, k) float64 ndarray
+        One per column, phi^T A phi = 1 and A-orthogonal to each other and to constants; unit 1 / length.
+    residuals : (k,) float64 ndarray
+        The norm (sum_i r_i^2 / A_i)^(1/2) of r = L phi - lambda A phi, over lambda: some exact eigenvalue is within
+        this fraction of lambda.  No unit; empty where they were not measured.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> laplacian = bihdist.Laplacian(pyvista.Icosphere(nsub=3))
     >>> spectrum = bihdist.eigenpairs(laplacian, 3)
@@ -73,21 +80,56 @@ def smallest_eigenpairs(
     start: Spectrum | None = None,
     progress: Progress | None = None,
 ) -> Spectrum:
-    """The `count` smallest eigenpairs of a stiffness matrix whose kernel is the constants.
+    """Compute the `count` smallest eigenpairs of a stiffness matrix whose kernel is the constants.
 
-    stiffness: (n, n), positive semi-definite.  areas: (n,), not negative.  solve(b): G b for b (n,) or (n, k), as
-    a new array; G is the inverse of the stiffness matrix without one vertex' row and column, padded with zeros.
-    tolerance: for the residuals (see `Spectrum`), or what rounding allows.  Eigenvalues are right to about its
-    square over their relative distance from the first one left out; 1e-6 keeps distances made of the pairs within
-    1e-7 of the largest, 1e-4 within 1e-5, in about a fifth less time.
-    start: pairs of the same operators computed before; kept if they meet the tolerance.
-    progress: may raise Cancelled.
+    Parameters
+    ----------
+    stiffness : (n, n) sparse matrix
+        Positive semi-definite.
+    areas : (n,) ndarray
+        Not negative.
+    solve : callable
+        ``solve(b)`` returns G b for b (n,) or (n, k) as a new array; G is the inverse of the stiffness matrix without
+        one vertex' row and column, padded with zeros.
+    count : int
+        The number of pairs.
+    tolerance : float
+        Bound of the residuals (see `Spectrum`), as far as rounding allows. Eigenvalues are right to about its square
+        over their relative distance from the first one left out; 1e-6 keeps distances made of the pairs within 1e-7 of
+        the largest, 1e-4 within 1e-5, in about a fifth less time.
+    start : Spectrum, optional
+        Pairs of the same operators computed before; kept if they meet the tolerance.
+    progress : callable, optional
+        Called as ``progress(fraction, text)``; may raise Cancelled.
 
-    Raises ParameterError unless there are `count` pairs; SolverError if the tolerance is not reached.
+    Raises
+    ------
+    ParameterError
+        Unless there are `count` pairs.
+    SolverError
+        If the tolerance is not reached.
     """
     areas = np.asarray(areas, np.float64)
     _check(stiffness, areas, count, tolerance)
-    progress = progress or silent
+    # The same digits on every scale: the area is brought near 1 by a power of two.
+    scale = 2.0 ** round(np.log2(areas.sum()) / 2)
+    if start is not None:
+        start = Spectrum(start.eigenvalues * scale * scale, start.eigenvectors * scale, start.residuals)
+    found = _pairs_for_unit_area(stiffness, areas / scale / scale, solve, count, tolerance, start, progress or silent)
+    vectors = np.divide(found.eigenvectors, scale, out=found.eigenvectors)
+    return Spectrum(found.eigenvalues / scale / scale, vectors, found.residuals)
+
+
+def _pairs_for_unit_area(
+    stiffness: sp.csr_matrix,
+    areas: FloatArray,
+    solve: Solve,
+    count: int,
+    tolerance: float,
+    start: Spectrum | None,
+    progress: Progress,
+) -> Spectrum:
+    """Find the pairs of `smallest_eigenpairs` for areas that add up to about 1."""
     known = np.empty(0), np.empty((len(areas), 0))
     if start is not None and _accepted(start, stiffness, areas, tolerance):
         known = 1 / start.eigenvalues, start.eigenvectors
@@ -129,12 +171,14 @@ def smallest_eigenpairs(
 
 
 def dense_is_faster(n: int, count: int) -> bool:
-    """Whether all of T, as a dense matrix of n rows, costs less than a block method for `count` pairs; measured."""
+    """Return whether all of T, as a dense matrix of n rows, costs less than a block method for `count` pairs;
+    measured."""
     return n <= max(400, min(8 * count, 1500), 3 * count)
 
 
 def is_long(n: int, count: int) -> bool:
-    """Whether `count` eigenpairs of n rows take steps of half a second and more, in which nobody can be asked to stop.
+    """Return whether `count` eigenpairs of n rows take steps of half a second and more, in which nobody can be asked to
+    stop.
 
     These are eigenproblems of dense matrices, and products of bases (see `krylov`).
     """
@@ -172,7 +216,7 @@ def _check(stiffness: sp.csr_matrix, areas: FloatArray, count: int, tolerance: f
 
 
 def _dense(areas: FloatArray, apply: Callable[[FloatArray], FloatArray], count: int, progress: Progress) -> FloatArray:
-    """(n, count) eigenvectors, from all of T: exact also where `count` is all there is."""
+    """Return (n, count) eigenvectors, from all of T: exact also where `count` is all there is."""
     n = len(areas)
     root = np.sqrt(areas)
     unroot = np.divide(1, root, out=np.zeros(n), where=root > 0)
@@ -194,7 +238,7 @@ def _dense(areas: FloatArray, apply: Callable[[FloatArray], FloatArray], count: 
 def _arnoldi(
     areas: FloatArray, apply: Callable[[FloatArray], FloatArray], count: int, progress: Progress
 ) -> FloatArray:
-    """(n, count) eigenvectors by ARPACK: slower by far, and independent of our own iteration."""
+    """Return (n, count) eigenvectors by ARPACK: slower by far, and independent of our own iteration."""
     from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
     n = len(areas)
@@ -253,12 +297,12 @@ def _refined(stiffness: sp.csr_matrix, areas: FloatArray, vectors: FloatArray, p
 
 
 def _over_areas(squares: FloatArray, areas: FloatArray) -> FloatArray:
-    """(k,) sums of squares (n, k) over areas; a vertex without area has no say."""
+    """Return (k,) sums of squares (n, k) over areas; a vertex without area has no say."""
     return np.divide(1, areas, out=np.zeros(len(areas)), where=areas > 0) @ squares
 
 
 def _accepted(spectrum: Spectrum, stiffness: sp.csr_matrix, areas: FloatArray, tolerance: float) -> bool:
-    """Whether the residuals are within the tolerance, or within what rounding alone makes of them."""
+    """Return whether the residuals are within the tolerance, or within what rounding alone makes of them."""
     values, residuals = spectrum.eigenvalues, spectrum.residuals
     if len(residuals) < len(values) or not (values > 0).all():
         return False

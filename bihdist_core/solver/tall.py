@@ -23,11 +23,11 @@ ROWS = 1024
 """Rows multiplied at a time: enough to keep a core busy, few enough to stay in its cache."""
 
 PAIR_NUMBERS = 1 << 20
-"""How many coordinates of pairs of points are taken out at a time."""
+"""Coordinates of pairs of points that are gathered at a time."""
 
 
 def gram(blocks: Blocks, y: FloatArray, weights: FloatArray) -> FloatArray:
-    """(j, k) products x^T diag(weights) y of x (n, j), in blocks of columns, and y (n, k)."""
+    """Return (j, k) products x^T diag(weights) y of x (n, j), in blocks of columns, and y (n, k)."""
 
     def one(rows: slice) -> Any:
         weighted = weights[rows, None] * y[rows]
@@ -38,7 +38,7 @@ def gram(blocks: Blocks, y: FloatArray, weights: FloatArray) -> FloatArray:
 
 
 def own_gram(x: FloatArray, weights: FloatArray) -> FloatArray:
-    """(k, k) products x^T diag(weights) x of x (n, k), weights of at least 0: half the work."""
+    """Return (k, k) products x^T diag(weights) x of x (n, k), weights of at least 0: half the work."""
     root = np.sqrt(weights)
 
     def one(rows: slice) -> Any:
@@ -50,7 +50,7 @@ def own_gram(x: FloatArray, weights: FloatArray) -> FloatArray:
 
 
 def multiply(blocks: Blocks, c: FloatArray) -> FloatArray:
-    """(n, k) product of x (n, j), in blocks of columns, and c (j, k)."""
+    """Return (n, k) product of x (n, j), in blocks of columns, and c (j, k)."""
     out = np.empty((len(blocks[0]), c.shape[1]))
 
     over_rows(lambda rows: np.matmul(_joined(blocks, rows), c, out=out[rows]), len(out))
@@ -97,12 +97,12 @@ def recombine(blocks: list[FloatArray], c: FloatArray) -> list[FloatArray]:
 
 
 def _joined(blocks: Blocks, rows: slice) -> FloatArray:
-    """Some rows of x."""
+    """Return some rows of x."""
     return blocks[0][rows] if len(blocks) == 1 else np.concatenate([x[rows] for x in blocks], axis=1)
 
 
 def _with_rows(blocks: Blocks, c: FloatArray) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """Each block with the rows of c (j, ...) that belong to its columns."""
+    """Yield each block with the rows of c (j, ...) that belong to its columns."""
     first = 0
     for x in blocks:
         yield x, c[first : first + x.shape[1]]
@@ -110,7 +110,8 @@ def _with_rows(blocks: Blocks, c: FloatArray) -> Iterator[tuple[FloatArray, Floa
 
 
 def point_distances(x: FloatArray, y: FloatArray, progress: Progress | None = None) -> FloatArray:
-    """(n, j) Euclidean distances of points x (n, k) from points y (j, k), of their differences: nothing cancels."""
+    """Return (n, j) Euclidean distances of points x (n, k) from points y (j, k), of their differences: nothing
+    cancels."""
     out, job = np.empty((len(x), len(y))), Job(progress, "Measuring points", len(x) * len(y))
 
     def one(rows: slice) -> None:
@@ -128,7 +129,7 @@ def point_distances(x: FloatArray, y: FloatArray, progress: Progress | None = No
 
 
 def pair_distances(points: FloatArray, i: IntArray, j: IntArray, progress: Progress | None = None) -> FloatArray:
-    """(q,) Euclidean distances of q pairs of points i, j (q,) of the points (n, k)."""
+    """Return (q,) Euclidean distances of q pairs of points i, j (q,) of the points (n, k)."""
     out, step = np.empty(len(i)), max(1, PAIR_NUMBERS // max(1, points.shape[1]))
     for start in range(0, len(i), step):
         (progress or silent)(start / len(i), "Measuring pairs of points")
@@ -139,14 +140,14 @@ def pair_distances(points: FloatArray, i: IntArray, j: IntArray, progress: Progr
 
 
 def sparse_rows(matrix: sp.csr_matrix, rows: slice) -> sp.csr_matrix:
-    """Some rows of a sparse matrix, sharing its memory."""
+    """Return some rows of a sparse matrix, sharing its memory."""
     first, last = matrix.indptr[rows.start], matrix.indptr[rows.stop]
     parts = (matrix.data[first:last], matrix.indices[first:last], matrix.indptr[rows.start : rows.stop + 1] - first)
     return sp.csr_matrix(parts, shape=(rows.stop - rows.start, matrix.shape[1]))
 
 
 def over_rows(work: Callable[[slice], Result], n: int) -> list[Result]:
-    """What `work` returns for each chunk of n rows, in order."""
+    """Do `work` for each chunk of n rows, and return the results in order."""
     return side_by_side(work, chunks_of(n))
 
 

@@ -29,7 +29,7 @@ WORKERS = min(16, len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity
 """As many as there are cores for this process."""
 REPORT_SECONDS = 0.1
 CACHE_LINE = 8
-"""How many numbers a line of the cache has."""
+"""Numbers in a line of the cache."""
 
 
 _alone: ContextVar[bool] = ContextVar("alone", default=False)
@@ -46,7 +46,7 @@ def without_workers() -> Iterator[None]:
 
 
 def is_alone() -> bool:
-    """Whether that is so."""
+    """Return whether this thread works alone."""
     return _alone.get()
 
 
@@ -89,10 +89,11 @@ def side_by_side(function: Callable[[Item], Result], items: Sequence[Item]) -> l
     try:
         lane()
     finally:
-        wait([other for other in lanes if not other.cancel()])
-    for other in lanes:
-        if not other.cancelled():
-            other.result()
+        lanes = [other for other in lanes if not other.cancel()]
+        wait(lanes)
+    while lanes:
+        # Without a name: a future refers to its error, whose traceback refers to all that this frame does.
+        lanes.pop(0).result()
     return [results[k] for k in range(len(items))]
 
 
@@ -108,8 +109,8 @@ def in_turn(function: Callable[[Item], Result], items: Iterable[Item]) -> list[R
 class Job:
     """Long work in the worker threads, while the thread that asked for it reports progress and may stop it.
 
-    work: how much there is to do in all, in any unit.  `watch` is for functions of the compiled kernel, which count it
-    there and look whether they are to stop; others call `advance`.
+    `work` is how much there is to do in all, in any unit. `watch` is for functions of the compiled kernel, which
+    count it there and look whether they are to stop; others call `advance`.
     """
 
     def __init__(self, progress: Progress | None, text: str, work: float) -> None:
@@ -120,7 +121,7 @@ class Job:
 
     @property
     def is_silent(self) -> bool:
-        """Whether nobody is told how far it is, so that nobody stops it either."""
+        """True if nobody hears of its progress, so that nobody stops it either."""
         return self._progress is None
 
     def advance(self, work: int) -> None:
@@ -143,10 +144,11 @@ class Job:
     def run(
         self, function: Callable[[Item], Result], items: Iterable[Item], after: Sequence[Sequence[int]] | None = None
     ) -> list[Result]:
-        """[function(item) for item in items] in the workers; their first error, or the progress', ends all of it.
+        """Return [function(item) for item in items], run in the workers.
 
-        after: for each item the numbers of those that come before it; without it they are independent.  A single item,
-        if there is no progress, and all of them within `without_workers`, are done by the thread that asks.
+        The first error, theirs or the progress', ends all of it. `after` holds for each item the numbers of those that
+        come before it; without it they are independent. A single item, if there is no progress, and all of them within
+        `without_workers`, are done by the calling thread.
         """
         items = list(items)
         here = _alone.get() or (self._progress is None and len(items) == 1)
@@ -181,7 +183,12 @@ class Job:
                         pending[_pool().submit(_quietly, function, items[k])] = k
                 if pending:
                     for future in wait(pending, REPORT_SECONDS, FIRST_COMPLETED).done:
-                        finished(pending.pop(future), future.result())
+                        k = pending.pop(future)
+                        try:
+                            finished(k, future.result())
+                        finally:
+                            # It refers to its error, whose traceback refers to all that this frame does.
+                            del future
                     self.report()
         finally:
             # After an error nothing may be left running; after success there is nothing to stop.
@@ -205,7 +212,7 @@ class Arena:
         self._lock = threading.Lock()
 
     def take(self, size: int) -> FloatArray:
-        """(size,) numbers, of any value, until they are released."""
+        """Return (size,) numbers, of any value, until they are released."""
         with self._lock:
             start = 0
             for begin, end in sorted(self._taken.items()):
@@ -224,7 +231,7 @@ class Arena:
 
     @contextmanager
     def of(self, size: int) -> Iterator[FloatArray]:
-        """(size,) numbers within it."""
+        """Yield (size,) numbers within it."""
         part = self.take(size)
         try:
             yield part
@@ -240,7 +247,7 @@ class Workspaces:
 
     @contextmanager
     def of(self, size: int) -> Iterator[FloatArray]:
-        """(size,) numbers, of any value."""
+        """Yield (size,) numbers, of any value."""
         try:
             work = self._free.get_nowait()
         except Empty:

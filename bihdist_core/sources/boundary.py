@@ -10,7 +10,7 @@ DIGITS = 9
 
 
 def boundary_loops(surface: Surface) -> list[IntArray]:
-    """For each connected piece of the boundary its edges (k, 2), as indices into `Surface.boundary_edges`' rows (k,).
+    """Return the edges of each connected piece of the boundary, as indices (k,) into rows of `Surface.boundary_edges`.
 
     The longest first; those of equal length by their least vertex.
     """

@@ -20,8 +20,8 @@ from .words import short_words_of
 Rows = tuple[IntArray, FloatArray, FloatArray, bool]
 """Faces, weights at both ends, and whether they are parts of a line."""
 
-MOST_KEPT = 16
-"""Of each surface so many sources are kept."""
+MOST_CACHED = 16
+"""Sources that are kept for each surface."""
 _found: WeakKeyDictionary[Surface, OrderedDict[Source, "Pieces"]] = WeakKeyDictionary()
 _lock = Lock()
 
@@ -30,8 +30,16 @@ _lock = Lock()
 class Pieces:
     """Straight pieces of faces, some of them points.
 
-    faces (k,): in which each lies; corners (k, 3): the vertices of these; start and stop (k, 3): the corners' weights
-    at both ends, which are the same for a point.  along (k,): whether a piece is part of a line.
+    Attributes
+    ----------
+    faces : (k,) ndarray
+        The face in which each lies.
+    corners : (k, 3) ndarray
+        The vertices of these faces.
+    start, stop : (k, 3) ndarray
+        The corners' weights at both ends, which are the same for a point.
+    along : (k,) bool ndarray
+        True for pieces of a line.
     """
 
     faces: IntArray
@@ -43,20 +51,20 @@ class Pieces:
     def __len__(self) -> int:
         return len(self.faces)
 
-    def some(self, which: IntArray | BoolArray) -> "Pieces":
-        """The pieces with these numbers, or where a mask is true."""
+    def select(self, which: IntArray | BoolArray) -> "Pieces":
+        """Return the pieces with these numbers, or where a mask is true."""
         return Pieces(self.faces[which], self.corners[which], self.start[which], self.stop[which], self.along[which])
 
     @property
     def vertices(self) -> IntArray | None:
-        """(k,) ids, each once, if all pieces are vertices; else None."""
+        """The vertices' ids (k,), each once, if all pieces are vertices; else None."""
         if self.along.any() or not (self.start == 1).any(axis=1).all():
             return None
         return np.unique(self.corners[self.start == 1])
 
     @property
     def touched(self) -> IntArray:
-        """(k, 3) the corners that have a weight, at any end; those without are replaced by one that has."""
+        """The corners (k, 3) that have a weight, at any end; those without are replaced by one that has."""
         has = (self.start > 0) | (self.stop > 0)
         some = np.take_along_axis(self.corners, has.argmax(axis=1)[:, None], axis=1)
         return np.where(has, self.corners, some)
@@ -75,22 +83,22 @@ class Pieces:
 
     @property
     def points(self) -> "Pieces":
-        """Those that are points."""
-        return self.some(np.flatnonzero(~self.along))
+        """The pieces that are points."""
+        return self.select(np.flatnonzero(~self.along))
 
     @property
     def lines(self) -> "Pieces":
-        """Those that are parts of lines."""
-        return self.some(np.flatnonzero(self.along))
+        """The pieces that are parts of lines."""
+        return self.select(np.flatnonzero(self.along))
 
     def positions(self, vertices: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """(k, 3) both ends of each, of a surface whose vertices are at (n, 3)."""
+        """Return (k, 3) both ends of each, of a surface whose vertices are at (n, 3)."""
         at = vertices[self.corners]
         return np.einsum("kc,kcx->kx", self.start, at), np.einsum("kc,kcx->kx", self.stop, at)
 
 
 def pieces_of(source: Source, surface: Surface) -> Pieces:
-    """A source on a surface, found once for whoever asks.
+    """Return a source on a surface, found once for whoever asks.
 
     Raises VertexError for a vertex that does not exist or belongs to no face, ParameterError for a face or a boundary
     loop that does not exist, and for a curve whose points cannot be joined.
@@ -105,7 +113,7 @@ def pieces_of(source: Source, surface: Surface) -> Pieces:
             array.flags.writeable = False
     with _lock:
         known[source] = pieces
-        while len(known) > MOST_KEPT:
+        while len(known) > MOST_CACHED:
             known.popitem(last=False)
     return pieces
 

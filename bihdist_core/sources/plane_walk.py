@@ -1,4 +1,4 @@
-"""From one place to another across faces, where a plane upright on the surface cuts it."""
+"""Walks from one place to another across faces, where a plane upright on the surface cuts it."""
 
 import numpy as np
 
@@ -25,7 +25,7 @@ class PlaneWalk:
         self._edges = edge_faces(surface)
 
     def between(self, start: SurfacePoint, stop: SurfacePoint) -> list[Step] | None:
-        """The shorter of the ways in the plane through both that is upright on the surface.
+        """Return the shorter of the ways in the plane through both that is upright on the surface.
 
         Where there is none, or only one that is far longer than the straight line, the shortest in other planes; None
         if these have none either.
@@ -51,7 +51,7 @@ class PlaneWalk:
     def _in_plane(
         self, start: SurfacePoint, stop: SurfacePoint, first: list[int], last: list[int], normal: FloatArray
     ) -> tuple[list[Step] | None, float]:
-        """The shortest way in a plane with this normal, and its length."""
+        """Return the shortest way in a plane with this normal, and its length."""
         p, q = self._position(start), self._position(stop)
         heights = _Heights(self._surface.vertices, p, normal)
         shortest, length = None, FURTHEST * float(np.linalg.norm(q - p))
@@ -103,7 +103,7 @@ class PlaneWalk:
         return None, far
 
     def _faces_at(self, place: SurfacePoint) -> list[int]:
-        """The faces that hold a place: one, two at an edge, all around a vertex."""
+        """Return the faces that hold a place: one, two at an edge, all around a vertex."""
         corners = self._surface.faces[place.face][np.array(place.weights) > 0]
         if len(corners) == 3:
             return [place.face]
@@ -112,7 +112,7 @@ class PlaneWalk:
         return [int(face) for face in np.flatnonzero((self._surface.faces == corners[0]).any(axis=1))]
 
     def _weights(self, place: SurfacePoint, face: int) -> FloatArray:
-        """(3,) the weights of a place in a face that holds it."""
+        """Return (3,) the weights of a place in a face that holds it."""
         weights = np.zeros(3)
         for corner, weight in zip(self._surface.faces[place.face], place.weights, strict=True):
             if weight > 0:
@@ -135,7 +135,7 @@ class PlaneWalk:
 
 
 class _Heights(dict[int, float]):
-    """Of vertices over a plane through a point, found when they are asked for: a way meets few of a surface's."""
+    """Heights of vertices over a plane, found when they are asked for, as a way meets few of a surface's."""
 
     def __init__(self, vertices: FloatArray, point: FloatArray, normal: FloatArray) -> None:
         self._vertices, self._point, self._normal = vertices, point, normal
@@ -146,7 +146,7 @@ class _Heights(dict[int, float]):
 
 
 def joined(walk: PlaneWalk, start: SurfacePoint, stop: SurfacePoint, name: str) -> list[Step]:
-    """The way between two places; ParameterError, with the name of the way, if there is none."""
+    """Return the way between two places; ParameterError, with the name of the way, if there is none."""
     way = walk.between(start, stop)
     if way is None:
         raise ParameterError(

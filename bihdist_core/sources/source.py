@@ -1,4 +1,4 @@
-"""What a distance may start from, as frozen values that know no surface; no numpy is imported here.
+"""Sources of distances, as frozen values that know no surface; no numpy is imported here.
 
 A source is a vertex id, a `SurfacePoint` in a face, a `BoundaryLoop`, a `Curve`, or a `SourceSet` of these, whose
 distance is the least of its members'.
@@ -19,8 +19,22 @@ MOST_PARTS = 100_000
 
 @dataclass(frozen=True)
 class SurfacePoint:
-    """A place in a face: its corners' weights, which are at least 0 and add up to 1.
+    """A place in a face.
 
+    Parameters
+    ----------
+    face : int
+        The number of the face.
+    weights : tuple of float
+        The barycentric coordinates at its three corners, at least 0 and of sum 1.
+
+    Raises
+    ------
+    ParameterError
+        For other weights, or a face below 0.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> distance = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3))
     >>> middle = bihdist.SurfacePoint(0, (1 / 3, 1 / 3, 1 / 3))
@@ -39,7 +53,7 @@ class SurfacePoint:
         except (TypeError, ValueError):
             weights = ()
         if self.face < 0:
-            raise ParameterError(f"Faces are numbered from 0; {self.face} is none.")
+            raise ParameterError(f"Faces are numbered from 0, so {self.face} is not one.")
         # isclose is false for what is no number.
         if len(weights) != 3 or not all(w >= 0 for w in weights) or not math.isclose(sum(weights), 1):
             raise ParameterError(
@@ -49,8 +63,27 @@ class SurfacePoint:
 
     @staticmethod
     def of(face: int, first: float, second: float) -> "SurfacePoint":
-        """A place by the weights of the first two corners; the third gets the rest.  ParameterError if none is left.
+        """Make a place from the weights of the first two corners.
 
+        Parameters
+        ----------
+        face : int
+            The number of the face.
+        first, second : float
+            The weights, at least 0; the third corner gets the rest.
+
+        Returns
+        -------
+        SurfacePoint
+            The place.
+
+        Raises
+        ------
+        ParameterError
+            If a weight is below 0, or both are more than 1 together.
+
+        Examples
+        --------
         >>> import bihdist
         >>> bihdist.SurfacePoint.of(311, 0.2, 0.5)
         SurfacePoint(face=311, weights=(0.2, 0.5, 0.3))
@@ -71,10 +104,20 @@ class SurfacePoint:
 
 @dataclass(frozen=True)
 class BoundaryLoop:
-    """A connected piece of the boundary, all along its edges.
+    """A connected piece of the boundary as a source, all along its edges.
 
-    Numbered by length, the longest first, those of equal length (to nine digits) by their least vertex.
+    Parameters
+    ----------
+    number : int
+        The position by length, 0 for the longest; loops of equal length (to nine digits) come by their least vertex.
 
+    Raises
+    ------
+    ParameterError
+        For a number below 0.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> from_rim = bihdist.GeodesicDistance(plane).from_source(bihdist.BoundaryLoop(0))
@@ -87,16 +130,32 @@ class BoundaryLoop:
     def __post_init__(self) -> None:
         object.__setattr__(self, "number", whole_number(self.number, "The number of a boundary loop"))
         if self.number < 0:
-            raise ParameterError(f"Boundary loops are numbered from 0, the longest; {self.number} is none.")
+            raise ParameterError(f"Boundary loops are numbered from 0, the longest, so {self.number} is not one.")
 
 
 @dataclass(frozen=True)
 class Curve:
-    """A curve on the surface, all along it, through places; closed: from the last back to the first.
+    """A curve on the surface as a source, all along it.
 
+    Parameters
+    ----------
+    places : tuple of SurfacePoint
+        The points it leads through.
+    closed : bool
+        Whether it leads from the last back to the first.
+
+    Raises
+    ------
+    ParameterError
+        For too few or too many places, or what is not a SurfacePoint.
+
+    Notes
+    -----
     Places in one face are joined straight, others where a plane through both cuts the surface: upright on it, or turned
     where that does not lead from one to the other.
 
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> left = bihdist.SurfacePoint(0, (1, 0, 0))
@@ -130,8 +189,18 @@ Member = int | SurfacePoint | BoundaryLoop | Curve
 class SourceSet:
     """Several vertices, places, loops or curves as one source; the distance is from the nearest.
 
-    members: each once.
+    Parameters
+    ----------
+    members : tuple
+        Vertex ids, SurfacePoint, BoundaryLoop and Curve objects; each is kept once.
 
+    Raises
+    ------
+    ParameterError
+        For a set without members or with too many, and for a member that cannot be a source.
+
+    Examples
+    --------
     >>> import bihdist, pyvista
     >>> plane = pyvista.Plane(i_resolution=8, j_resolution=8)
     >>> distance = bihdist.GeodesicDistance(plane)
@@ -152,11 +221,11 @@ class SourceSet:
 
 
 Source = int | SurfacePoint | BoundaryLoop | Curve | SourceSet
-"""Where a distance starts; an int is a vertex id."""
+"""The start of a distance; an int is a vertex id."""
 
 
 def checked_source(value: Any) -> Source:
-    """A source as it is, or from a whole number or words (see `words`); ParameterError for anything else."""
+    """Return a source as it is, or read from a whole number or words; ParameterError for anything else."""
     if isinstance(value, str):
         from .words import source_from_words
 
@@ -178,5 +247,5 @@ def _member(value: Any) -> Member:
             f"{value!r}."
         ) from None
     if vertex < 0:
-        raise ParameterError(f"Vertex ids start at 0; {vertex} is none.")
+        raise ParameterError(f"Vertex ids start at 0, so {vertex} is not one.")
     return vertex

@@ -16,9 +16,18 @@ SNAP = 1e-6
 class Split:
     """A surface with vertices at some places; its shape stays, and so do lengths and linear fields.
 
-    surface: the vertices of the whole one first, then one for each place that is none of them.  vertices (k,): those at
-    the places.  parents (m,): the face of the whole surface that each face is part of.  Faces that are divided come
-    last; corners (p, 3, 3): the weights of the corners of these in their parents.
+    Attributes
+    ----------
+    whole : Surface
+        The surface before.
+    surface : Surface
+        The divided surface: the vertices of the whole one first, then one for each place that is none of them.
+    vertices : (k,) ndarray
+        The vertices at the places.
+    parents : (m,) ndarray
+        The face of the whole surface that each face is part of; divided faces come last.
+    corners : (p, 3, 3) ndarray
+        The weights of the corners of these in their parents.
     """
 
     whole: Surface
@@ -28,7 +37,8 @@ class Split:
     corners: FloatArray
 
     def weights_in_parents(self, faces: IntArray, weights: FloatArray) -> FloatArray:
-        """(k, 3) weights in the faces `parents[faces]` of places with weights (k, 3) in faces (k,) of this surface."""
+        """Return (k, 3) weights in the faces `parents[faces]` of places with weights (k, 3) in faces (k,) of this
+        surface."""
         part = faces - (len(self.parents) - len(self.corners))
         found = weights.copy()
         divided = np.flatnonzero(part >= 0)
@@ -37,17 +47,20 @@ class Split:
 
 
 def split_at(surface: Surface, faces: IntArray, weights: FloatArray, snap: float = SNAP) -> Split:
-    """The surface divided so that the places in faces (k,), with weights (k, 3), are vertices.
+    """Return the surface divided so that the places in faces (k,), with weights (k, 3), are vertices.
 
-    A point in a face divides it in three, one on an edge the faces at that edge in two each.  snap: weights below it
-    are 0.  Points of one line come best one after another, its ends first: then the line consists of edges.
+    A point in a face divides it in three, one on an edge the faces at that edge in two each. Weights below `snap` are
+    0. Points of one line come best one after another, its ends first: then the line consists of edges.
     """
     division = _Division(surface, snap)
     return division.result(np.array([division.put(*each) for each in zip(faces.tolist(), weights, strict=True)]))
 
 
 class _Division:
-    """parts: of each face that is divided, its parts, as vertices and the weights (3, 3) of these in the face."""
+    """A surface while it is divided.
+
+    `_parts` holds the parts of each face that is divided, as vertices and the weights (3, 3) of these in the face.
+    """
 
     def __init__(self, surface: Surface, snap: float) -> None:
         self._surface, self._snap = surface, snap
@@ -68,7 +81,7 @@ class _Division:
         return Split(old, divided, vertices, np.concatenate([whole, parents]), corners)
 
     def put(self, face: int, weights: FloatArray) -> int:
-        """The vertex at a place, new if there is none."""
+        """Return the vertex at a place, new if there is none."""
         weights = np.where(weights < self._snap, 0, weights)
         weights = weights / weights.sum()
         corners = self._surface.faces[face]

@@ -18,9 +18,11 @@ from ..file_content import file_json
 from ..sentences import shortened
 from .source import BoundaryLoop, Curve, Member, Source, SourceSet, SurfacePoint
 
-HOW = "write a vertex (12), several (12+40+7), a place in a face (f311:0.2,0.5), a boundary loop (loop:0) or a curve's "
-HOW += "file (curve.json)"
-SHORTEST, LONGEST = 3, 60
+SYNTAX = (
+    "write a vertex (12), several (12+40+7), a place in a face (f311:0.2,0.5), a boundary loop (loop:0) or a curve's "
+    "file (curve.json)"
+)
+NAMED_MEMBERS, MOST_CHARACTERS = 3, 60
 """Members that are named of a set, and letters that are repeated."""
 
 _VERTEX = re.compile(r"[0-9]{1,18}")
@@ -28,14 +30,33 @@ _FACE = re.compile(r"f([0-9]{1,18}):([^,]*),([^,]*)")
 _LOOP = re.compile(r"loop:([0-9]{1,18})")
 
 
-NONE: Mapping[Any, Any] = MappingProxyType({})
+EMPTY: Mapping[Any, Any] = MappingProxyType({})
 
 
-def source_from_words(text: str, known: Mapping[str, Member] = NONE, files: dict[Curve, str] | None = None) -> Source:
-    """The source that words mean; ParameterError, with what could have been written, for what means none.
+def source_from_words(text: str, known: Mapping[str, Member] = EMPTY, files: dict[Curve, str] | None = None) -> Source:
+    """Read a source: ``12``, ``f311:0.2,0.5``, ``loop:0``, ``curve.json``, or several of them, ``12+40+7``.
 
-    A curve's file is read; `files` gets its path.  known: what other words mean.
+    Parameters
+    ----------
+    text : str
+        The words; a curve's file is read.
+    known : mapping of str, optional
+        Members of sources by other words that may be used.
+    files : dict, optional
+        Gets the absolute path of each curve that was read.
 
+    Returns
+    -------
+    int, SurfacePoint, BoundaryLoop, Curve or SourceSet
+        The source.
+
+    Raises
+    ------
+    ParameterError
+        For words that mean none; the message says what could have been written.
+
+    Examples
+    --------
     >>> import bihdist
     >>> bihdist.source_from_words("12+40"), bihdist.source_from_words("loop:0")
     (SourceSet(members=(12, 40)), BoundaryLoop(number=0))
@@ -52,7 +73,7 @@ def source_from_words(text: str, known: Mapping[str, Member] = NONE, files: dict
 
 
 def _parts(words: str) -> list[str]:
-    """What a plus stands between, which a file that is there may have in its name."""
+    """Split words at the pluses that are not part of an existing file's name."""
     pieces, parts = words.split("+"), []
     while pieces:
         for count in range(len(pieces), 0, -1):
@@ -75,7 +96,7 @@ def _member(word: str, whole: str) -> Member:
         except ValueError:
             first = second = math.nan
         if not (math.isfinite(first) and math.isfinite(second)):
-            raise ParameterError(f"{_shown(word)} has weights that are no numbers; write f311:0.2,0.5.")
+            raise ParameterError(f"{_shown(word)} has weights that are not numbers; write f311:0.2,0.5.")
         return SurfacePoint.of(int(found[1]), first, second)
     if _is_file(word):
         return read_curve(word)
@@ -83,11 +104,11 @@ def _member(word: str, whole: str) -> Member:
     if not word and among:
         raise ParameterError(f"A plus{among} has nothing beside it; write several as 12+40+7.")
     meant = _meant(word)
-    raise ParameterError(f"{_shown(word)}{among} is no source{meant or f'; {HOW}.'}")
+    raise ParameterError(f"{_shown(word)}{among} is not a source{meant or f'; {SYNTAX}.'}")
 
 
 def _meant(word: str) -> str:
-    """What may have been meant, as the end of a sentence; "" if that cannot be told."""
+    """Suggest what may have been meant, as the end of a sentence; "" if that cannot be told."""
     head, colon, rest = word.lower().partition(":")
     if colon and rest.isdigit() and get_close_matches(head, ["loop"], 1, 0.5):
         return f"; did you mean loop:{rest}?"
@@ -96,14 +117,15 @@ def _meant(word: str) -> str:
     if re.fullmatch(r"f[0-9]+(:[^,]*)?", word):
         return "; a place in a face has two weights: f311:0.2,0.5."
     if re.fullmatch(r"[0-9]+([,; ]+[0-9]+)+", word):
-        return f"; did you mean {'+'.join(re.findall('[0-9]+', word))[:LONGEST]}?"
+        return f"; did you mean {'+'.join(re.findall('[0-9]+', word))[:MOST_CHARACTERS]}?"
     if re.fullmatch(r"-[0-9]+", word):
         return "; vertex ids start at 0."
     return ""
 
 
-def words_of(source: Source, files: Mapping[Curve, str] = NONE) -> str:
-    """The words that mean a source, which give it back; of a curve its file, or what it is where none is known."""
+def words_of(source: Source, files: Mapping[Curve, str] = EMPTY) -> str:
+    """Return the words that mean a source, which give it back; of a curve its file, or what it is where none is
+    known."""
     if isinstance(source, SourceSet):
         return "+".join(words_of(member, files) for member in source.members)
     if isinstance(source, SurfacePoint):
@@ -120,20 +142,20 @@ def short_words_of(source: Source) -> str:
     if isinstance(source, SurfacePoint):
         return f"f{source.face}:{source.weights[0]:.3g},{source.weights[1]:.3g}"
     if isinstance(source, SourceSet):
-        named = "+".join(short_words_of(member) for member in source.members[:SHORTEST])
-        more = len(source.members) - SHORTEST
+        named = "+".join(short_words_of(member) for member in source.members[:NAMED_MEMBERS])
+        more = len(source.members) - NAMED_MEMBERS
         return f"{named} and {more} more" if more > 0 else named
     return words_of(source)
 
 
 # ---------------------------------------------------------------------- curves
 def read_curve(path: str | os.PathLike[str]) -> Curve:
-    """The curve in a file; ParameterError, with the file, the element and its value, for what is none."""
+    """Return the curve in a file; ParameterError, with the file, the element and its value, for what is none."""
     data = file_json(path, "curve", "a curve")
     if not isinstance(data, dict) or "points" not in data:
         raise ParameterError(f'{path} is not a curve, which is {{"points": [[face, b0, b1], ...]}}.')
     for name in data.keys() - {"points", "closed"}:
-        raise ParameterError(f"{path} has the unknown key {name!r}; a curve has points, and perhaps closed.")
+        raise ParameterError(f"{path} has the unknown key {name!r}; the keys of a curve are points and closed.")
     closed = data.get("closed", False)
     if not isinstance(closed, bool):
         raise ParameterError(f"{path}: closed is true or false, not {_shown(closed)}.")
@@ -160,12 +182,12 @@ def _row(row: Any, where: str) -> SurfacePoint:
 
 
 def curve_rows(curve: Curve) -> list[list[int | float]]:
-    """The points of a curve as they are written."""
+    """Return the points of a curve as they are written."""
     return [[place.face, *place.weights[:2]] for place in curve.places]
 
 
 def curve_text(curve: Curve) -> str:
-    """A curve as the text of its file."""
+    """Return a curve as the text of its file."""
     return json.dumps({"points": curve_rows(curve), **({"closed": True} if curve.closed else {})}) + "\n"
 
 
@@ -182,4 +204,4 @@ def _is_number(value: Any) -> bool:
 
 
 def _shown(value: Any) -> str:
-    return shortened(repr(value) if isinstance(value, str) else json.dumps(value, default=repr), LONGEST)
+    return shortened(repr(value) if isinstance(value, str) else json.dumps(value, default=repr), MOST_CHARACTERS)

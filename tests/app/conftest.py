@@ -9,6 +9,7 @@ import pytest
 from app.document.document import COMPARISON, comparison
 from app.document.edits import move_source, show_in
 from app.session.session import Session
+from tests.waiting import PATIENCE
 
 
 class RecordingView:
@@ -51,7 +52,7 @@ class Desk:
         self.view.failures_are_expected = True
         self.until(lambda: any(words in told for told in self.view.told))
 
-    def until(self, condition, seconds=600):
+    def until(self, condition, seconds=PATIENCE):
         end = time.monotonic() + seconds
         while not condition():
             assert time.monotonic() < end, f"waited in vain; told: {self.view.told}"
@@ -94,6 +95,15 @@ class Desk:
         self.post, after = kept.append, self.post
         return kept, after
 
+    def hold_reading(self, ask):
+        """Ask for a mesh and read it, but keep it back; what is returned lets it come."""
+        kept, after = self.post_later()
+        ask()
+        # What was posted has a mesh with it.
+        self.until(lambda: any("_take" in function.__code__.co_names for function in kept))
+        self.post = after
+        return lambda: [function() for function in kept]
+
     @property
     def source(self):
         return self.session.document.point("source").at
@@ -107,7 +117,7 @@ class Desk:
     @property
     def sources_shown(self):
         shown = self.session.shown
-        return [shown[p.id].asked.at if p.id in shown else None for p in self.session.document.panels]
+        return [shown[p.id].question.at if p.id in shown else None for p in self.session.document.panels]
 
 
 @pytest.fixture

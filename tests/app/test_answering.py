@@ -13,14 +13,15 @@ from app.document.document import MeshFile
 from app.document.edits import add_panel
 from app.document.quantities import DistanceFrom
 from app.session import loaded_mesh
-from app.session.answer_cache import AnswerCache
+from app.session.answering import AnswerCache
 from app.session.questions import DistanceQuestion
 from bihdist_core import BiharmonicDistance, Cancelled
-from bihdist_core.distances import kinds
+from bihdist_core.distances import distance_types
 from bihdist_core.distances.answers import Answer
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.formats.mesh_io import surface_in
 from tests.shapes import bumpy, grid
+from tests.waiting import PATIENCE
 
 BIHARMONIC, COMMUTE = Spec.of("biharmonic"), Spec.of("commute-time")
 
@@ -183,7 +184,7 @@ class DeafSpec(Spec):
 
     def build(self, laplacian, progress=None):
         self.slow.started.release()
-        assert self.slow.allowed.acquire(timeout=60)
+        assert self.slow.allowed.acquire(timeout=PATIENCE)
         return BiharmonicDistance(laplacian)
 
 
@@ -214,21 +215,21 @@ def test_a_file_whose_reading_asks_nobody_does_not_hold_up_the_next(desk, mesh_f
     def held(path):
         if "long" in path:
             begun.set()
-            assert gate.wait(60)
+            assert gate.wait(PATIENCE)
         return read(path)
 
     monkeypatch.setattr(loaded_mesh, "mesh_content", held)
     d.loaded(mesh_file(bumpy(60)))
     d.session.open(mesh_file(bumpy(80), "long.off"))
-    assert begun.wait(60)
+    assert begun.wait(PATIENCE)
     d.until(lambda: "load" in d.session.progress)
     d.session.cancel()
     d.until(lambda: "load" not in d.session.progress)
     d.session.open(mesh_file(bumpy(100), "next.off"))
-    d.until(lambda: len(d.session.surface.vertices) == 100)
+    d.until(lambda: len(d.session.mesh().surface.vertices) == 100)
     gate.set()
     d.complete()
-    assert len(d.session.surface.vertices) == 100
+    assert len(d.session.mesh().surface.vertices) == 100
 
 
 def test_the_checksum_is_of_the_bytes_that_were_read(mesh_file, monkeypatch):
@@ -279,7 +280,7 @@ def test_a_drag_hands_on_what_it_computes_in_order_and_is_one_step(desk, mesh_fi
     session = d.loaded(mesh_file(bumpy(3000)), source=0)
     seen = []
     answer_changed = d.view.answer_changed
-    d.view.answer_changed = lambda id: (answer_changed(id), seen.append((id, session.shown[id].asked.at)))
+    d.view.answer_changed = lambda id: (answer_changed(id), seen.append((id, session.shown[id].question.at)))
     for vertex in range(1, 60):
         d.click(vertex, key="drag", live=True)
         time.sleep(0.004)
@@ -322,7 +323,7 @@ def test_in_a_drag_what_gets_stuck_gives_way_to_the_next(desk, mesh_file, monkey
 
 
 def test_in_a_drag_geodesic_panels_show_the_heat_method_until_release(desk, mesh_file, monkeypatch):
-    monkeypatch.setattr(kinds, "FRAME", 0)  # as on a large mesh
+    monkeypatch.setattr(distance_types, "FRAME_VERTICES", 0)  # as on a large mesh
     d = desk([Spec.of("geodesic", method="exact")])
     session = d.loaded(mesh_file(bumpy(200)), source=0)
     for vertex in (5, 6, 7):
@@ -374,7 +375,7 @@ def test_drags_are_steps_of_their_own(desk, mesh_file):
 
 
 def test_answers_are_kept_up_to_a_number(monkeypatch):
-    monkeypatch.setattr("app.session.answer_cache.MOST", 3)
+    monkeypatch.setattr("app.session.answering.MOST", 3)
     kept = AnswerCache()
     asked = [DistanceQuestion(MeshFile("A", ""), "voronoi", BIHARMONIC, vertex) for vertex in range(5)]
     for question in asked:

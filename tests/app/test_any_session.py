@@ -2,14 +2,20 @@
 
 import json
 import os
-import queue
-import time
 from dataclasses import replace
 from functools import cache
 
 import numpy as np
+import pytest
 from hypothesis import HealthCheck, settings, strategies as st
-from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
+from hypothesis.stateful import (
+    RuleBasedStateMachine,
+    initialize,
+    invariant,
+    precondition,
+    rule,
+    run_state_machine_as_test,
+)
 
 from app.document.camera import Camera
 from app.document.document import Document, comparison, content
@@ -19,8 +25,9 @@ from app.document.history import History
 from app.document.quantities import Difference, DistanceFrom
 from app.session.session import Session
 from bihdist_core import Laplacian
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from tests.shapes import bumpy, grid, two_pieces
+from tests.silent_view import SilentView
 
 SURFACES = (bumpy(60), grid(5, 4), two_pieces())
 LAPLACIANS = {(k, areas): Laplacian(s, areas) for k, s in enumerate(SURFACES) for areas in ("voronoi", "barycentric")}
@@ -40,7 +47,7 @@ SPECS = st.sampled_from(
 VERTICES = st.integers(0, 29)  # which all surfaces have, on their largest component
 STEPS = int(os.environ.get("SESSION_STEPS", "50"))
 """Steps of a run; SESSION_STEPS=1000 for a long one."""
-PATIENCE = 600
+RUNS, NIGHTLY_RUNS = 20, 200
 """Seconds: lanes stand back, so that on a busy machine they get next to nothing."""
 
 
@@ -55,32 +62,27 @@ class AnySession(RuleBasedStateMachine):
 
     @initialize()
     def begin(self):
-        self.posted = queue.Queue()
-        self.session = Session(self, self.posted.put, known_up=lambda sha256: "y")  # guessing it takes a while
+        self.view = SilentView()
+        self.session = Session(
+            self.view, self.view.posted.put, known_up=lambda sha256: "y"
+        )  # guessing it takes a while
         self.meshes = [self.session.given.add_surface(surface) for surface in SURFACES]
         document = comparison("", (Spec.of("biharmonic"),), (3,))
         # Open once, a surface is there at once afterwards.
         for mesh in reversed(self.meshes):
             self.session.show(replace(document, surfaces=(mesh,)))
-            self.run_until(lambda mesh=mesh: self.document.surfaces == (mesh,) and self.session.surface is not None)
+            self.view.run_until(
+                lambda mesh=mesh: self.document.surfaces == (mesh,) and self.session.loaded() is not None
+            )
         self.session.history = History(self.document)
         self.steps, self.place, self.key = [self.document], 0, ""
-
-    # ------------------------------------------------------------------ the session's view
-    def document_changed(self, before): ...
-    def answer_changed(self, panel): ...
-    def error_estimate_changed(self, panel): ...
-    def progress_changed(self): ...
-
-    def failed(self, message):
-        raise AssertionError(message)
 
     @property
     def document(self) -> Document:
         return self.session.document
 
     def show(self, document, key="", live=False):
-        self.session.show(document, key, live)
+        self.session.show(document, key, live=live)
         if content(document) == content(self.steps[self.place]):
             self.key = key and self.key
             self.steps[self.place] = document
@@ -155,7 +157,7 @@ class AnySession(RuleBasedStateMachine):
     @rule(z=st.floats(1, 9))
     def look(self, z):
         camera = Camera((0.0, 0.0, z), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.5, 0.5))
-        self.session.look(camera)
+        self.session.set_view(camera)
         if camera == self.steps[self.place].camera:
             self.key = ""  # the present itself ends a row of equal keys, and a camera that moves does not
         self.steps[self.place] = replace(self.steps[self.place], camera=camera)
@@ -205,16 +207,7 @@ class AnySession(RuleBasedStateMachine):
         """Until every panel is answered; after `cancel` only what is asked again is."""
         self.session.show(self.document)
         self.key = ""
-        self.run_until(lambda: self.session.is_complete)
-
-    def run_until(self, condition):
-        end = time.monotonic() + PATIENCE
-        while not condition():
-            assert time.monotonic() < end, "waited in vain"
-            try:
-                self.posted.get(timeout=0.02)()
-            except queue.Empty:
-                continue
+        self.view.run_until(lambda: self.session.is_complete)
 
     @rule()
     def what_is_shown_is_what_a_fresh_computation_gives(self):
@@ -251,11 +244,16 @@ class AnySession(RuleBasedStateMachine):
             self.session.close()
 
 
-TestAnySession = AnySession.TestCase
-TestAnySession.settings = settings(
-    max_examples=int(os.environ.get("SESSION_RUNS", "60")),
-    stateful_step_count=STEPS,
-    deadline=None,
-    suppress_health_check=list(HealthCheck),
-    derandomize="SESSION_STEPS" not in os.environ,
-)
+def test_random_edits_show_what_a_fresh_computation_gives():
+    _run(RUNS)
+
+
+@pytest.mark.nightly
+def test_many_random_edits_show_what_a_fresh_computation_gives():
+    _run(NIGHTLY_RUNS)
+
+
+def _run(count):
+    is_derandomized = "SESSION_STEPS" not in os.environ
+    options = {"deadline": None, "suppress_health_check": list(HealthCheck), "derandomize": is_derandomized}
+    run_state_machine_as_test(AnySession, settings=settings(max_examples=count, stateful_step_count=STEPS, **options))

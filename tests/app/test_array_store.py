@@ -14,7 +14,7 @@ from app.document.quantities import Difference, OwnField, quantity
 from app.session.array_store import ArrayStore, comparison_of_arrays, is_archive
 from app.session.recipe_file import recipe_written
 from bihdist_core import BiharmonicDistance, MeshError, OutputError, ParameterError, Surface
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from tests.shapes import bumpy, grid
 
 SURFACE = bumpy(60)
@@ -68,15 +68,15 @@ def test_a_field_is_shown_once_whatever_the_number_of_sources():
     ("name", "values", "words"),
     [
         ("mine", np.ones((3, 2)), r"shape \(3, 2\)"),
-        ("mine", ["a", "b"], "no array of real numbers"),
-        ("mine", ["1", "2"], "no array of real numbers"),
-        (1, [1.0], "a text for a name"),
-        ("mine", np.ones(3) * 1j, "no array of real numbers"),
+        ("mine", ["a", "b"], "not an array of real numbers"),
+        ("mine", ["1", "2"], "not an array of real numbers"),
+        (1, [1.0], "is a string"),
+        ("mine", np.ones(3) * 1j, "not an array of real numbers"),
         ("mine", [0, 1, np.inf], "is inf at vertex 2"),
-        ("", [1.0], "no name"),
-        (" mine", [1.0], "no name"),
-        ("a - b", [1.0], "no name"),
-        ("raw mine", [1.0], "no name"),
+        ("", [1.0], "not a name"),
+        (" mine", [1.0], "not a name"),
+        ("a - b", [1.0], "not a name"),
+        ("raw mine", [1.0], "not a name"),
         ("mi\nne", [1.0], "printable"),
         ("m" * 61, [1.0], "up to 60 characters"),
         ("biharmonic", [1.0], "is a distance"),
@@ -287,13 +287,13 @@ def _of_objects(path: Path):
 @pytest.mark.parametrize(
     ("damage", "words"),
     [
-        (lambda path: path.unlink(), "is not there"),
-        (lambda path: path.write_bytes(b"no archive"), "no archive"),
-        (lambda path: path.write_bytes(path.read_bytes()[:500]), "no archive"),
+        (lambda path: path.unlink(), "are missing"),
+        (lambda path: path.write_bytes(b"not an archive"), "not an archive"),
+        (lambda path: path.write_bytes(path.read_bytes()[:500]), "not an archive"),
         (lambda path: path.write_bytes(path.read_bytes().replace(b"\x00\x00\xf0\x3f", b"\x01\x00\xf0\x3f")), "damaged"),
         (_without("field/mine"), "has no 'field/mine'"),
         (_without("surface/A/faces"), "has no 'surface/A/faces'"),
-        (_with_other_values, "is not what it was"),
+        (_with_other_values, "has changed since"),
         (_of_objects, "has no 'surface"),
     ],
 )
@@ -310,14 +310,14 @@ def test_nothing_is_unpickled(tmp_path):
     document, given = comparison_of_arrays("hand", [], {"mine": HEIGHT}, (3,))
     recipe = written(tmp_path / "s.json", document, given)
     _of_objects(archive_of(tmp_path / "s.json"))
-    with pytest.raises(ParameterError, match="something else than plain numbers"):
+    with pytest.raises(ParameterError, match="does not hold plain numbers"):
         ArrayStore.read(recipe)
 
 
 def test_what_was_never_given_is_missed():
-    with pytest.raises(ParameterError, match="is not there any more"):
+    with pytest.raises(ParameterError, match="is no longer available"):
         ArrayStore().field("0" * 64, "mine")
-    with pytest.raises(ParameterError, match="is not there any more"):
+    with pytest.raises(ParameterError, match="is no longer available"):
         ArrayStore().surface(replace(comparison("hand").surfaces[0], path=""))
 
 

@@ -2,15 +2,15 @@
 
 import json
 import re
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from app.document.file import read_recipe
+from app.document.looks import Colours
 from app.main import _with_values, main
+from app.scene.field_actor import lookup_table
+from app.scene.style import PAPER, style_of
 from bihdist_core import (
     BiharmonicDistance,
     CommuteTimeDistance,
@@ -22,10 +22,9 @@ from bihdist_core import (
     TruncatedBiharmonicDistance,
     read_surface,
 )
-from tests.app.refusals import refused
+from tests.commands import ran, refused
+from tests.programs import run_python
 from tests.shapes import bumpy, caps, grid, two_pieces
-
-ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
@@ -49,6 +48,7 @@ def test_field_writes_one_column_per_source(mesh, tmp_path, capsys):
         (["truncated(k=20)"], lambda s: TruncatedBiharmonicDistance(s, k=20)),
         (["diffusion(t=1/4)"], lambda s: DiffusionDistance(s, t=0.25)),
         (["truncated", "--k", "20"], lambda s: TruncatedBiharmonicDistance(s, k=20)),
+        (["commute"], CommuteTimeDistance),
         (["power", "--k", "20", "--alpha", "3"], lambda s: PowerDistance(s, alpha=3, k=20)),
         (["commute-time"], CommuteTimeDistance),
         (["diffusion", "--t", "0.25"], lambda s: DiffusionDistance(s, t=0.25)),
@@ -141,30 +141,25 @@ def test_answers_come_with_their_accuracy(mesh, tmp_path, capsys):
         ["pairs", mesh, "--pairs", "1:2"],
         ["pairs", mesh, "--sources", "all"],
     ):
-        assert main([*command, "-o", out]) == 0
-        assert ACCURATE.search(capsys.readouterr().out)
-    assert main(["field", mesh, "--sources", "3", "--distance", "geodesic", "-o", out]) == 0
-    assert "accurate" not in capsys.readouterr().out
+        assert ACCURATE.search(ran(capsys, *command, "-o", out).out)
+    assert "accurate" not in ran(capsys, "field", mesh, "--sources", "3", "--distance", "geodesic", "-o", out).out
     assert main(["field", mesh, "--sources", "3", "--distance", "truncated", "--k", "9", "-o", out]) == 0
     of_what = (
         r"accurate to \de-\d\d of the maximum as a sum of 9 eigenpairs; all of them would change it by at most \de"
     )
     assert re.search(of_what, capsys.readouterr().out)
-    assert main(["info", mesh, "--accuracy"]) == 0
-    assert len(ACCURATE.findall(capsys.readouterr().out)) == 2
+    assert len(ACCURATE.findall(ran(capsys, "info", mesh, "--accuracy").out)) == 2
 
 
 def test_a_poor_accuracy_is_a_warning_and_one_that_need_not_be_is_refused(mesh, tmp_path, capsys, monkeypatch):
     out = tmp_path / "d.npy"
     monkeypatch.setattr(BiharmonicDistance, "_estimated_accuracy", lambda *_: 9e-4)
-    assert main(["field", mesh, "--sources", "3", "-o", str(out)]) == 0
-    said = capsys.readouterr()
+    said = ran(capsys, "field", mesh, "--sources", "3", "-o", out)
     assert "accurate to 9e-04" in said.out
     assert "warning" not in said.err
     for method, words in (("heat", r"[\d.]+ % of the maximum in the mean"), ("dijkstra", "10 % of the maximum typ")):
         by = ["--distance", "geodesic", "--method", method]
-        assert main(["field", mesh, "--sources", "3", *by, "-o", str(out)]) == 0
-        said = capsys.readouterr()
+        said = ran(capsys, "field", mesh, "--sources", "3", *by, "-o", out)
         assert re.search(f"accurate to {words}", said.out)
         assert re.search(f"on mesh.off is only accurate to {words}", said.err)
     assert main(["figure", mesh, *by, "-o", str(tmp_path / "d.png")]) == 0
@@ -182,25 +177,20 @@ def test_a_poor_accuracy_is_a_warning_and_one_that_need_not_be_is_refused(mesh, 
 
 def test_flat_faces_are_told_with_their_count(mesh_file, tmp_path, capsys):
     flat = mesh_file(caps(bumpy(60), 1e-9, every=10))
-    words = "12 faces of (nearly) no area held in shape as if 1e-07 of the longest side high"
-    assert main(["info", flat]) == 0
-    assert words in capsys.readouterr().out
-    assert main(["field", flat, "--sources", "3", "-o", str(tmp_path / "d.npy")]) == 0
-    assert words in capsys.readouterr().err
+    words = "12 faces of almost no area, treated as 1e-7 of the longest side high"
+    assert words in ran(capsys, "info", flat).out
+    assert words in ran(capsys, "field", flat, "--sources", "3", "-o", tmp_path / "d.npy").err
 
 
 def test_all_pairs_and_info_are_as_accurate_as_the_worst_component(mesh_file, tmp_path, capsys):
     s, g = bumpy(60), grid(3, 2)
     squashed = g.vertices * [1, 1e-9, 1] + 5
     both = mesh_file(Surface(np.concatenate([s.vertices, squashed]), [*s.faces.tolist(), *(g.faces + 60).tolist()]))
-    assert main(["field", both, "--sources", "3", "-o", str(tmp_path / "d.npy")]) == 0
-    capsys.readouterr()
+    ran(capsys, "field", both, "--sources", "3", "-o", tmp_path / "d.npy")
     out = tmp_path / "all.npy"
-    assert main(["pairs", both, "--sources", "all", "-o", str(out)]) == 2
-    assert "Remeshing would help" in capsys.readouterr().err
+    assert "Remeshing would help" in refused(capsys, "pairs", both, "--sources", "all", "-o", out)
     assert not out.exists()
-    assert main(["info", both, "--accuracy"]) == 0
-    assert "accurate" not in capsys.readouterr().out.replace("accurately", "")
+    assert "accurate" not in ran(capsys, "info", both, "--accuracy").out.replace("accurately", "")
 
 
 # ---------------------------------------------------------------------- a panel that fails
@@ -239,8 +229,7 @@ def test_a_recipe_with_more_eigenpairs_than_another_mesh_has_fails_in_that_panel
 
 # ---------------------------------------------------------------------- info and version
 def test_info_counts_what_is_there(mesh_file, capsys):
-    assert main(["info", mesh_file(two_pieces())]) == 0
-    said = dict(line.split("  ", 1) for line in capsys.readouterr().out.splitlines())
+    said = dict(line.split("  ", 1) for line in ran(capsys, "info", mesh_file(two_pieces())).out.splitlines())
     facts = {name.strip(): value.strip() for name, value in said.items()}
     assert facts["vertices"] == "65"
     assert facts["components"] == "2"
@@ -254,10 +243,8 @@ def test_info_counts_what_is_there(mesh_file, capsys):
 def test_info_says_whether_the_solver_is_compiled(mesh_file, capsys, monkeypatch):
     from bihdist_core.kernel.library import PLAIN, description, library
 
-    assert main(["info", "--solver"]) == 0
-    assert capsys.readouterr().out == f"solver                    {description()}\n"
-    assert main(["info", mesh_file(two_pieces()), "--solver", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["solver"] == description()
+    assert ran(capsys, "info", "--solver").out == f"solver                    {description()}\n"
+    assert json.loads(ran(capsys, "info", mesh_file(two_pieces()), "--solver", "--json").out)["solver"] == description()
     monkeypatch.setenv(PLAIN, "1")
     library.cache_clear()
     try:
@@ -265,23 +252,28 @@ def test_info_says_whether_the_solver_is_compiled(mesh_file, capsys, monkeypatch
         assert json.loads(capsys.readouterr().out)["solver"] == f"plain NumPy: the environment variable {PLAIN} is set"
     finally:
         library.cache_clear()
-    assert main(["info"]) == 2
-    assert "name a mesh" in capsys.readouterr().err
+    assert "name a mesh" in refused(capsys, "info")
 
 
 def test_samples_open_by_name(capsys):
-    assert main(["info", "figure"]) == 0
-    assert "components                1" in capsys.readouterr().out
+    assert "components                1" in ran(capsys, "info", "figure").out
 
 
 def test_version_and_help(capsys):
-    with pytest.raises(SystemExit) as stop:
-        main(["--version"])
-    assert stop.value.code == 0
-    assert capsys.readouterr().out.startswith("bihdist ")
-    with pytest.raises(SystemExit):
-        main(["field", "--help"])
-    assert "--sources" in capsys.readouterr().out
+    for words, said in (
+        (["--version"], "bihdist "),
+        (["-V"], "bihdist "),
+        (["version"], "bihdist "),
+        (["help"], "COMMAND"),
+    ):
+        with pytest.raises(SystemExit) as stop:
+            main(words)
+        assert stop.value.code == 0
+        assert said in capsys.readouterr().out
+    for words in (["field", "--help"], ["help", "field"]):
+        with pytest.raises(SystemExit):
+            main(words)
+        assert "usage: bihdist field" in capsys.readouterr().out
 
 
 def test_light_commands_import_nothing_heavy():
@@ -291,14 +283,14 @@ def test_light_commands_import_nothing_heavy():
         "main(['info', 'figure'])\n"
         "print([m for m in sys.modules if m.split('.')[0] in ('pyvista', 'vtkmodules', 'PyQt5', 'qtpy')])"
     )
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    done = run_python("-c", code)
     assert done.stdout.splitlines()[-1] == "[]"
 
 
 @pytest.mark.parametrize(
     ("given", "joined"),
     [
-        (["--up", "-z", "-o", "a.png"], ["--up=-z", "-o", "a.png"]),
+        (["--viewup", "-z", "-o", "a.png"], ["--viewup=-z", "-o", "a.png"]),
         (["--camera", "-1,0,2e-3,-.5", "--hints"], ["--camera=-1,0,2e-3,-.5", "--hints"]),
         (["--sources", "-1", "-o"], ["--sources", "-1", "-o"]),
         (["--distance", "alpha", "-o", "-1,2"], ["--distance", "alpha", "-o", "-1,2"]),
@@ -311,6 +303,63 @@ def test_values_that_begin_with_a_minus_belong_to_their_option(given, joined):
 def test_a_figure_with_minus_z_up_and_isolines_below_0(mesh, tmp_path):
     out = tmp_path / "a.png"
     camera = ["--camera", "-3,1,2,0,0,0,0,1,0,0.4,0.4"]
-    assert main(["figure", mesh, "--up", "-z", *camera, "--isoline-values", "-1,0.1", "-o", str(out)]) == 0
+    assert main(["figure", mesh, "--viewup", "-z", *camera, "--isoline-values", "-1,0.1", "-o", str(out)]) == 0
     document = read_recipe(out.with_suffix(".json")).document
     assert (document.up, document.isolines.values) == ("-z", (-1.0, 0.1))
+
+
+# ---------------------------------------------------------------------- colours
+def colours_in(path):
+    """(n, 3) of the vertices of a .ply."""
+    return np.asarray(pytest.importorskip("pyvista").read(path).point_data["RGB"])
+
+
+@pytest.mark.parametrize(
+    ("words", "colours", "share"),
+    [
+        ([], Colours(), 1),
+        (["--cmap", "viridis"], Colours("uniform"), 1),
+        (["--cmap", "safe", "--flip-scalars"], Colours("safe", (), True), 1),
+        (["--clim", "0.4"], Colours(), 0.4),
+    ],
+)
+def test_field_colours_vertices_as_panels_do(mesh_file, tmp_path, capsys, words, colours, share):
+    """NaN, on the other piece, is grey, and what is beyond the range has the last colour."""
+    mesh, out = mesh_file(two_pieces()), tmp_path / "d.ply"
+    assert main(["field", mesh, "--sources", "3", *words, "-o", str(out)]) == 0
+    field = BiharmonicDistance(read_surface(mesh)).from_source(3)
+    top = np.nanmax(field) if share == 1 else share
+    assert f"colours from 0 to {top:.4g}" in capsys.readouterr().out
+    table = lookup_table(style_of("paper", colours))
+    shown = np.zeros((len(field), 3))
+    for colour, value in zip(shown, field, strict=True):
+        table.GetColor(-1.0 if np.isnan(value) else min(value / top, 1.0), colour)
+    # The panel's table has 512 colours.
+    assert np.abs(colours_in(out) - 255 * shown).max() <= 2
+    assert len(np.unique(colours_in(out), axis=0)) > 20
+    assert np.isnan(field).any()
+    assert (field > top).any() == (share != 1)
+
+
+def test_a_difference_has_the_colours_of_both_sides(mesh, tmp_path):
+    out = tmp_path / "d.ply"
+    words = ["--sources", "3", "--distance", "biharmonic - geodesic", "--clim", "0.05"]
+    assert main(["field", mesh, *words, "-o", str(out)]) == 0
+    assert main(["field", mesh, *words[:-2], "-o", str(tmp_path / "d.npy")]) == 0
+    field = np.load(tmp_path / "d.npy")  # percentage points
+    expected = PAPER.vertex_colours(field, 5.0, signed=True)
+    assert np.array_equal(colours_in(out), expected)
+    assert (np.abs(field) > 5).any()
+
+
+def test_colours_are_of_one_field_and_of_formats_that_have_them(mesh, tmp_path, capsys):
+    field = ["field", mesh, "--sources", "3,4"]
+    assert main([*field, "-o", str(tmp_path / "two.ply")]) == 0
+    assert b"red" not in (tmp_path / "two.ply").read_bytes()[:500]
+    for words in (["-o", tmp_path / "d.obj"], ["-o", tmp_path / "d.glb"], ["--cmap", "safe", "-o", tmp_path / "d.ply"]):
+        assert "show one field, and --sources names 2; name one, or write .vtp" in refused(capsys, *field, *words)
+    for option in (["--cmap", "safe"], ["--flip-scalars"], ["--clim", "2"]):
+        said = refused(capsys, *field, *option, "-o", tmp_path / "d.csv")
+        assert f"{option[0]} goes with .ply, .obj, .glb; .csv has no colours" in said
+    assert "There is no colour map 'jet'" in refused(capsys, *field[:3], "3", "--cmap", "jet", "-o", tmp_path / "d.ply")
+    assert not [*tmp_path.glob("d.*")]

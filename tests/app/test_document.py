@@ -7,14 +7,24 @@ from dataclasses import replace
 import pytest
 
 from app.document.camera import Camera
-from app.document.document import COMPARISON, Document, MeshFile, Panel, Point, Zoom, comparison
-from app.document.edits import add_panel, move_panel, move_source, open_mesh, put_point, remove_panel, show_in
+from app.document.document import COMPARISON, Document, Inset, MeshFile, Panel, Point, comparison
+from app.document.edits import (
+    add_another,
+    add_panel,
+    move_panel,
+    move_source,
+    open_mesh,
+    put_point,
+    remove_panel,
+    show_in,
+)
 from app.document.form import document_data, document_from
 from app.document.history import LONGEST, History
+from app.document.looks import Colours, Isolines, Shading
 from app.document.quantities import DistanceFrom, quantity
 from app.tools.interpolation.part import Anchor, Anchors
 from bihdist_core import ParameterError, SurfacePoint
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 
 FRONT = Camera((0.0, 0.0, 5.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.5, 0.5))
 
@@ -48,15 +58,15 @@ def test_documents_hash_pickle_and_compare(document):
         (lambda d: replace(d, next_id=2), "next_id is 2"),
         (lambda d: replace(d, areas="round"), "no areas 'round'"),
         (lambda d: replace(d, camera="above"), "no view 'above'"),
-        (lambda d: replace(d, isolines=-1), "steps between isolines"),
-        (lambda d: replace(d, height=float("nan")), "height of a height field"),
+        (lambda d: replace(d, isolines=-1), "isoline steps is from 0"),
+        (lambda d: replace(d, warp_factor=float("nan")), "warp factor of a height field"),
         (lambda d: move_source(d, 9, 3), "no panel 9"),
         (lambda d: d.point("here"), "no point 'here'"),
         (lambda d: d.mesh("B"), "no surface 'B'"),
         (lambda d: Panel(0, d.panels[0].shows, maximum=float("inf")), "colour bar ends"),
         (lambda d: Anchor("source", float("nan")), "value of an anchor"),
-        (lambda d: Zoom(3, 1.0), "more than 1"),
-        (lambda d: Zoom(3, 2.0, "middle"), "no corner 'middle'"),
+        (lambda d: Inset(3, 1.0), "more than 1"),
+        (lambda d: Inset(3, 2.0, "middle"), "no corner 'middle'"),
         (lambda d: SurfacePoint(0, (0.5, 0.6, 0.1)), "add up to 1"),
         (lambda d: Point("source", -1), "start at 0"),
     ],
@@ -83,6 +93,24 @@ def test_panels_are_added_removed_and_moved_and_ids_are_never_given_twice(docume
         remove_panel(again, 3)
 
 
+def test_the_panel_that_is_added_to_the_usual_three_is_the_difference_of_the_first_two(document):
+    two = add_another(remove_panel(document, 2))
+    assert str(two.panels[-1].shows) == "diffusion"
+    four = add_another(two)
+    assert [str(panel.shows) for panel in four.panels] == [
+        "biharmonic",
+        "geodesic",
+        "diffusion",
+        "biharmonic - geodesic",
+    ]
+    assert four.panels[-1].shows.points == ("source",)
+    # Once: the next is a distance again, as it is where the two do not start from one point.
+    assert add_another(four).panels[-1].shows.is_distance
+    apart = comparison("a.off", sources=(5, 7))
+    apart = replace(apart, panels=(apart.panels[0], apart.panels[4], apart.panels[2]))
+    assert add_another(apart).panels[-1].shows.is_distance
+
+
 def test_another_quantity_has_a_colour_bar_of_its_own(document):
     fixed = replace(document, panels=tuple(replace(panel, maximum=2.0) for panel in document.panels))
     shown = show_in(fixed, 1, DistanceFrom(Spec.of("commute-time")))
@@ -92,12 +120,36 @@ def test_another_quantity_has_a_colour_bar_of_its_own(document):
 
 def test_another_mesh_leaves_behind_what_was_tied_to_the_old_one(document):
     tied = put_point(document, "tip", 8)
-    tied = replace(tied, zooms=(Zoom(3),), height=0.2, camera=FRONT, isolines=7).with_part(
+    tied = replace(tied, insets=(Inset(3),), warp_factor=0.2, camera=FRONT, isolines=7).with_part(
         Anchors((Anchor("tip", 1.0),))
     )
     other = open_mesh(tied, MeshFile("A", "b.off"), 4)
     expected = replace(document, surfaces=(MeshFile("A", "b.off"),), points=(Point("source", 4),), isolines=7)
     assert other == expected
+
+
+TASTE = (
+    {"colours": Colours("ember", reversed=True, bands=True)},
+    {"shading": Shading("flat", show_edges=True)},
+    {"parallel_projection": True, "axes": True, "extrema": True, "areas": "barycentric", "snap": False},
+)
+
+
+@pytest.mark.parametrize(
+    ("changed", "kept"),
+    [
+        ({"range": "shared"}, {}),
+        ({"isolines": Isolines(spacing=0.1)}, {}),
+        ({"isolines": Isolines(values=(0.1, 0.2))}, {}),
+        ({"isolines": Isolines(7, bold=5, labels=True, through=("source",))}, {"isolines": Isolines(7)}),
+        ({"isolines": Isolines(7, round=False)}, {"isolines": Isolines(7, round=False)}),
+        *((taste, taste) for taste in TASTE),
+    ],
+)
+def test_another_mesh_begins_with_the_users_taste_and_not_with_values_of_the_old_one(document, changed, kept):
+    other = open_mesh(replace(document, **changed), MeshFile("A", "b.off"), 4)
+    expected = replace(document, surfaces=(MeshFile("A", "b.off"),), points=(Point("source", 4),))
+    assert other == replace(expected, **kept)
 
 
 # ---------------------------------------------------------------------- the history
@@ -159,7 +211,7 @@ def test_undo_to_another_mesh_sees_it_as_it_was_seen_last(document):
 def test_only_so_many_steps_are_kept():
     history = History(Document())
     for count in range(LONGEST + 5):
-        history.change(Document(isolines=count % 7, height=count / 1e5))
+        history.change(Document(isolines=count % 7, warp_factor=count / 1e5))
     steps = 0
     while history.can_undo:
         history.undo()
@@ -185,7 +237,7 @@ def test_quantities_are_read_as_they_are_written(text, written):
     ("text", "words"),
     [
         ("biharmonic - geodesic - diffusion", "a difference has two"),
-        ("raw biharmonic", "is no difference"),
+        ("raw biharmonic", "is not a difference"),
         ("biharmonic - euclidean", "no distance 'euclidean'"),
         ("- biharmonic", "no distance"),
     ],

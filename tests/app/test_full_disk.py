@@ -1,24 +1,29 @@
 """Where there is no room for it, what is written is one sentence, and what was there stays; no half file is left."""
 
-import os
-import subprocess
+import json
 import sys
-from pathlib import Path
 
 import pytest
 
+from tests.conftest import write_off
+from tests.programs import run_python
 from tests.shapes import bumpy
 
-ROOT = Path(__file__).resolve().parents[2]
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="a limit stands for a full disk there")
 
 LIMITED = """
-import resource, sys
-resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
+import contextlib, io, json, resource, sys
 from app.program import run
-sys.argv[0] = "bihdist"
-sys.exit(run())
+resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
+ends = []
+for words in json.loads(sys.argv[1]):
+    sys.argv = ["bihdist", *words]
+    with contextlib.redirect_stderr(io.StringIO()) as said:
+        code = run()
+    ends.append((code, said.getvalue()))
+print(json.dumps(ends))
 """
+"""Runs one command after the other, and prints their exit codes and what each has said."""
 
 COMMANDS = {
     "field.npy": "field MESH --sources 5 -o OUT",
@@ -30,37 +35,45 @@ COMMANDS = {
     "near.npz": "pairs MESH --nearest --k 5 -o OUT",
     "lines.vtp": "isolines MESH --sources 5 -o OUT",
     "ids.csv": "samples MESH --sources farthest:200 -o OUT",
-    "figure.png": "figure MESH -o OUT",
-    "figure.svg": "figure MESH -o OUT",
-    "figure.pdf": "figure MESH -o OUT",
+    "figure.png": "figure MESH --distance biharmonic --size 85mm -o OUT",
+    "figure.svg": "figure MESH --distance biharmonic --size 85mm -o OUT",
+    "figure.pdf": "figure MESH --distance biharmonic --size 85mm -o OUT",
     "movie.gif": "movie MESH --frames 2 --size 200x200 -o OUT",
+    "batch": "batch MESH -o OUT --do fields --workers 1",
 }
 
 
-def limited(words, folder):
-    command = [sys.executable, "-c", LIMITED, *words]
+@pytest.fixture(scope="module")
+def ended(tmp_path_factory):
+    """What has become of each output: its path, the command's exit code, and what that has said."""
+    folder = tmp_path_factory.mktemp("full")
+    mesh, paths, commands = write_off(bumpy(300), folder / "mesh.off"), {}, []
+    for name, words in COMMANDS.items():
+        out = paths[name] = folder / name.replace(".", "-") / name
+        if name != "batch":
+            out.parent.mkdir()
+            out.write_text("old")
+        commands.append([{"MESH": mesh, "OUT": str(out)}.get(word, word) for word in words.split()])
     # What others keep for the next time would be cut off, too, and be found by it.
-    own = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", "MPLCONFIGDIR": str(folder)}
-    return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, timeout=300, check=False, env=own)
+    own = {"PYTHONDONTWRITEBYTECODE": "1", "MPLCONFIGDIR": str(folder)}
+    done = run_python("-c", LIMITED, json.dumps(commands), **own)
+    assert done.returncode == 0, done.stderr
+    ends = json.loads(done.stdout.splitlines()[-1])
+    return {name: (paths[name], *end) for name, end in zip(COMMANDS, ends, strict=True)}
 
 
-@pytest.mark.parametrize(("name", "words"), COMMANDS.items(), ids=COMMANDS)
-def test_no_half_file_is_left(name, words, mesh_file, tmp_path):
-    mesh, out = mesh_file(bumpy(300)), tmp_path / "out" / name
-    out.parent.mkdir()
-    out.write_text("old")
-    done = limited([{"MESH": mesh, "OUT": str(out)}.get(word, word) for word in words.split()], tmp_path)
-    assert done.returncode == 2, done.stderr
-    assert done.stderr.splitlines()[-1] == f"bihdist: {out} could not be written: File too large."
-    assert "Traceback" not in done.stderr
+@pytest.mark.parametrize("name", [name for name in COMMANDS if name != "batch"])
+def test_no_half_file_is_left(name, ended):
+    out, code, said = ended[name]
+    assert code == 2, said
+    assert said.splitlines()[-1] == f"bihdist: {out} could not be written: File too large."
+    assert "Traceback" not in said
     assert out.read_text() == "old"
     assert [each.name for each in out.parent.iterdir() if not each.name.endswith(".part")] == [name]
 
 
-def test_results_of_a_batch_are_failures(mesh_file, tmp_path):
-    mesh_file(bumpy(300))
-    out = tmp_path / "out"
-    done = limited(["batch", str(tmp_path), "-o", str(out), "--do", "fields", "--workers", "1"], tmp_path)
-    assert done.returncode == 1, done.stderr
+def test_results_of_a_batch_are_failures(ended):
+    out, code, said = ended["batch"]
+    assert code == 1, said
     assert "could not be written: File too large." in (out / "failures.csv").read_text()
     assert sorted(each.name for each in out.iterdir()) == ["failures.csv", "summary.csv"]

@@ -1,11 +1,20 @@
-"""`bihdist guide` opens the installed guide, says where it is, or how to build it."""
+"""`bihdist guide` opens the guide, or its text where it has not been built, and says where it is."""
 
+import re
 import webbrowser
+from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 import pytest
 
 from app.guide_pages import GUIDE
 from app.main import main
+from app.version import version
+from assets.guide.building.links import wrong_links
+from tests.commands import ran, refused
+
+GUIDE_SOURCES = Path(__file__).parents[2] / "assets/guide"
 
 
 @pytest.fixture
@@ -27,19 +36,48 @@ def test_it_opens_in_the_browser(built_guide, opened, capsys):
 
 
 def test_its_path_alone(built_guide, opened, capsys):
-    assert main(["guide", "--where"]) == 0
-    assert (capsys.readouterr().out, opened) == (f"{built_guide}\n", [])
+    assert (ran(capsys, "guide", "--where").out, opened) == (f"{built_guide}\n", [])
 
 
 def test_no_browser(built_guide, monkeypatch, capsys):
     monkeypatch.setattr(webbrowser, "open", lambda address: False)
-    assert main(["guide"]) == 2
-    assert capsys.readouterr().err == f"bihdist: No browser could be started; open {built_guide} in one.\n"
+    assert refused(capsys, "guide") == f"bihdist: No browser could be started; open {built_guide} in one."
 
 
-def test_a_guide_that_is_not_built(built_guide, opened, capsys):
+@pytest.fixture
+def cache(built_guide, monkeypatch, tmp_path):
+    """A new user's cache; the guide has not been built."""
     built_guide.unlink()
-    assert main(["guide"]) == 2
-    said = capsys.readouterr().err
-    assert said.startswith(f"bihdist: The guide has not been built: there is no {built_guide}. Run `make guide`")
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda name: tmp_path / "cache" / name)
+    return tmp_path / "cache" / "bihdist"
+
+
+def test_a_guide_that_is_not_built_opens_as_text(cache, opened, capsys):
+    page = Path(ran(capsys, "guide").out.strip())
+    assert page == cache / f"guide-{version()}/index.html"
+    assert opened == [page.as_uri()]
+    pages = {path.relative_to(page.parent).with_suffix(".md") for path in page.parent.rglob("*.html")}
+    assert pages == {path.relative_to(GUIDE_SOURCES) for path in GUIDE_SOURCES.rglob("*.md")}
+    text = "".join(path.read_text(encoding="utf-8") for path in page.parent.rglob("*.html"))
+    pictures = re.findall(r'<img src="([^"]+)"', text)
+    assert pictures
+    assert all(
+        address.startswith("file:") and Path(url2pathname(urlsplit(address).path)).is_file() for address in pictures
+    )
+    assert [told for told in wrong_links(page.parent) if "='file:" not in told] == []
+
+
+def test_the_text_reads_well(cache, opened):
+    main(["guide", "--where"])
+    text = "".join(path.read_text(encoding="utf-8") for path in cache.rglob("*.html"))
+    assert "bihdist figure animal" in text
+    assert "<kbd>G</kbd>" in text
+    assert r"\frac{1}{A_i}" in text
+    assert not re.search(r"\{(shell|python|toctree|kbd|doc|py:\w+)\}|:hide-|:link|:::", text)
+
+
+def test_a_cache_that_cannot_be_written(cache, opened, capsys):
+    cache.parent.mkdir()
+    cache.write_text("a file")
+    assert refused(capsys, "guide").startswith(f"bihdist: The guide cannot be written into {cache}")
     assert opened == []

@@ -5,18 +5,16 @@ import time
 import weakref
 from dataclasses import replace
 
+import numpy as np
+
 from app.document.document import comparison, content
 from app.document.edits import move_source
 from app.document.history import History
-from bihdist_core.distances.kinds import Spec
+from app.document.shared_parts.selections import select
+from bihdist_core.distances.distance_types import Spec
 from tests.shapes import bumpy, grid
 
 BIHARMONIC, COMMUTE = Spec.of("biharmonic"), Spec.of("commute-time")
-
-
-def is_read(kept):
-    """Whether what was posted has a mesh with it."""
-    return any("_take" in function.__code__.co_names for function in kept)
 
 
 # ---------------------------------------------------------------------- history
@@ -30,6 +28,69 @@ def test_many_steps_are_kept_and_no_more(monkeypatch):
     assert back == [6, 5, 4, 3, 2, 2, 2]
 
 
+def selected(document, count):
+    """With so many selected vertices, no two beside each other, which takes about 150 bytes for each."""
+    return select(document, "painted", 2 * np.arange(count))
+
+
+def steps_back(history):
+    count = 0
+    while history.can_undo:
+        history.undo()
+        count += 1
+    return count
+
+
+def test_large_steps_are_kept_up_to_so_many_bytes(monkeypatch):
+    monkeypatch.setattr("app.document.history.MOST_BYTES", 1_000_000)
+    document = comparison("mesh.off", [BIHARMONIC])
+    history = History(document)
+    for count in range(1_000, 1_020):
+        history.change(selected(document, count))
+    kept, discarded = steps_back(history), history.discarded
+    assert 1_000_000 / 300_000 < kept < 1_000_000 / 75_000
+    assert kept + discarded == 20
+    while history.can_redo:
+        history.redo()
+    assert steps_back(history) == kept
+    assert history.discarded == discarded
+
+
+def test_what_steps_share_counts_once(monkeypatch):
+    monkeypatch.setattr("app.document.history.MOST_BYTES", 1_000_000)
+    history = History(selected(comparison("mesh.off", [BIHARMONIC]), 2_000))
+    for vertex in range(50):
+        history.change(move_source(history.present, 0, vertex))
+    assert history.discarded == 0
+    assert steps_back(history) == 50
+
+
+def test_what_the_oldest_step_shares_with_later_ones_counts_after_it_is_discarded(monkeypatch):
+    monkeypatch.setattr("app.document.history.MOST_BYTES", 1_000_000)
+    history = History(selected(comparison("mesh.off", [BIHARMONIC]), 4_000))
+    for count in range(500, 550):
+        history.change(select(history.present, "other", 2 * np.arange(count)))
+    # The selection that all share leaves room for about five others; 13 would fit without it.
+    assert steps_back(history) < 9
+
+
+def test_the_last_step_is_kept_however_large(monkeypatch):
+    monkeypatch.setattr("app.document.history.MOST_BYTES", 1_000)
+    history = History(comparison("mesh.off", [BIHARMONIC]))
+    for count in (100, 200, 300):
+        history.change(selected(history.present, count))
+    assert steps_back(history) == 1
+
+
+def test_a_file_that_holds_what_is_shown_already_leaves_nothing_behind():
+    first = comparison("mesh.off", [BIHARMONIC])
+    history = History(first)
+    edited = move_source(first, 0, 1)
+    history.change(edited)
+    history.change(edited, is_opened=True)
+    assert history.closed == []
+
+
 def test_the_memory_of_a_mesh_that_is_forgotten_is_given_back(desk, mesh_file, monkeypatch):
     monkeypatch.setattr("app.session.surfaces.SPARED", 0)
     d = desk([BIHARMONIC])
@@ -39,7 +100,7 @@ def test_the_memory_of_a_mesh_that_is_forgotten_is_given_back(desk, mesh_file, m
     try:
         for name in ("second.off", "third.off"):
             d.show(mesh_file(grid(3, 3), name))
-            d.until(lambda name=name: session.is_complete and session.surface.name == name)
+            d.until(lambda name=name: session.is_complete and session.mesh().surface.name == name)
         d.until(lambda: laplacian() is None, 60)
     finally:
         gc.enable()
@@ -76,7 +137,7 @@ def test_undo_brings_back_the_mesh_before(desk, mesh_file):
     session = d.loaded(mesh_file(bumpy(60)), source=5)
     before = session.document
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
-    d.until(lambda: session.surface.name == "other.off" and session.is_complete)
+    d.until(lambda: session.mesh().surface.name == "other.off" and session.is_complete)
     session.undo()
     d.complete()
     assert session.document == before
@@ -88,7 +149,7 @@ def test_undo_to_a_mesh_that_is_gone_is_refused_and_nothing_changes(desk, mesh_f
     d = desk([BIHARMONIC])
     session = d.loaded(mesh_file(bumpy(60)), source=5)
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
-    d.until(lambda: session.surface.name == "other.off" and session.is_complete)
+    d.until(lambda: session.mesh().surface.name == "other.off" and session.is_complete)
     before = session.document
     (tmp_path / "mesh.off").unlink()
     session.undo()
@@ -105,7 +166,7 @@ def test_steps_taken_while_a_mesh_is_read_count(desk, mesh_file, monkeypatch):
     d.click(9)
     second = session.document
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
-    d.until(lambda: session.surface.name == "other.off" and session.is_complete)
+    d.until(lambda: session.mesh().surface.name == "other.off" and session.is_complete)
     third = session.document
     session.undo()
     session.undo()
@@ -124,7 +185,7 @@ def test_steps_taken_while_a_mesh_is_read_count(desk, mesh_file, monkeypatch):
     session.redo()
     d.click(11)  # takes the step's place
     d.complete()
-    assert (session.surface.name, d.source) == ("mesh.off", 11)
+    assert (session.mesh().surface.name, d.source) == ("mesh.off", 11)
     assert not session.history.can_redo
 
 
@@ -133,14 +194,14 @@ def test_a_step_back_on_its_way_counts_no_more_once_something_was_done(desk, mes
     d = desk([BIHARMONIC])
     session = d.loaded(mesh_file(bumpy(60)), source=5)
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
-    d.until(lambda: session.surface.name == "other.off" and session.is_complete)
+    d.until(lambda: session.mesh().surface.name == "other.off" and session.is_complete)
     session.undo()
     assert (session.can_undo, session.can_redo) == (False, True)
     d.click(9)
     assert (session.can_undo, session.can_redo) == (True, False)
     session.undo()
     d.complete()
-    assert (session.surface.name, d.source) == ("other.off", 7)
+    assert (session.mesh().surface.name, d.source) == ("other.off", 7)
 
 
 def test_of_two_documents_from_files_the_later_is_shown_though_its_mesh_is_there(desk, mesh_file):
@@ -153,7 +214,7 @@ def test_of_two_documents_from_files_the_later_is_shown_though_its_mesh_is_there
     d.complete()
     time.sleep(0.3)
     d.until(lambda: d.posted.empty())
-    assert (arrived, session.surface.name, session.document.isolines.count) == (["same"], "mesh.off", 3)
+    assert (arrived, session.mesh().surface.name, session.document.isolines.count) == (["same"], "mesh.off", 3)
 
 
 def test_a_click_while_the_mesh_of_an_undone_step_is_read_takes_its_place(desk, mesh_file, monkeypatch):
@@ -161,44 +222,32 @@ def test_a_click_while_the_mesh_of_an_undone_step_is_read_takes_its_place(desk, 
     d = desk([BIHARMONIC])
     session = d.loaded(mesh_file(bumpy(60)), source=5)
     session.open(mesh_file(grid(3, 3), "other.off"), source=7)
-    d.until(lambda: session.surface.name == "other.off" and session.is_complete)
-    kept, after = d.post_later()
-    session.undo()
-    d.until(lambda: is_read(kept))
-    d.post = after
+    d.until(lambda: session.mesh().surface.name == "other.off" and session.is_complete)
+    let_come = d.hold_reading(session.undo)
     d.click(9)
-    for function in kept:
-        function()
+    let_come()
     d.complete()
-    assert (session.surface.name, d.source) == ("other.off", 9)
+    assert (session.mesh().surface.name, d.source) == ("other.off", 9)
 
 
 # ---------------------------------------------------------------------- a mesh that comes too late
 def test_a_mesh_that_was_cancelled_is_not_shown_when_it_comes(desk, mesh_file):
     d = desk()
-    kept, after = d.post_later()
-    d.show(mesh_file(bumpy(60)))
-    d.until(lambda: is_read(kept))
+    let_come = d.hold_reading(lambda: d.show(mesh_file(bumpy(60))))
     d.session.cancel()
-    d.post = after
-    for function in kept:
-        function()
-    assert d.session.surface is None
+    let_come()
+    assert d.session.loaded() is None
     assert "document" not in d.view.told
 
 
 def test_of_two_meshes_the_later_is_shown_with_its_own_source(desk, mesh_file):
     d = desk()
-    kept, after = d.post_later()
-    d.show(mesh_file(bumpy(60)), source=5)
-    d.until(lambda: is_read(kept))
-    d.post = after
+    let_come = d.hold_reading(lambda: d.show(mesh_file(bumpy(60)), source=5))
     d.show(mesh_file(grid(3, 3), "other.off"), source=7)
-    for function in kept:
-        function()
-    assert d.session.surface is None
+    let_come()
+    assert d.session.loaded() is None
     d.complete()
-    assert d.session.surface.name == "other.off"
+    assert d.session.mesh().surface.name == "other.off"
     assert d.source == 7
     assert d.view.told.count("document") == 1
 
@@ -206,48 +255,38 @@ def test_of_two_meshes_the_later_is_shown_with_its_own_source(desk, mesh_file):
 def test_a_click_while_another_mesh_is_read_does_not_keep_it_away(desk, mesh_file):
     d = desk([BIHARMONIC])
     session = d.loaded(mesh_file(bumpy(60)), source=5)
-    kept, after = d.post_later()
-    session.open(mesh_file(grid(3, 3), "other.off"), source=7)
-    d.until(lambda: is_read(kept))
-    d.post = after
+    let_come = d.hold_reading(lambda: session.open(mesh_file(grid(3, 3), "other.off"), source=7))
     d.click(9)
     assert d.source == 9
-    for function in kept:
-        function()
+    let_come()
     d.complete()
-    assert (session.surface.name, d.source) == ("other.off", 7)
+    assert (session.mesh().surface.name, d.source) == ("other.off", 7)
 
 
 # ---------------------------------------------------------------------- before there is a mesh
 def begin_late(desk, document):
-    """A session that begins with a document, whose mesh is kept back by what `post_later` gives."""
+    """A session that begins with a document, and what lets its mesh come."""
     d = desk(document=document)
-    kept, after = d.post_later()
-    d.session.show(document)
-    d.until(lambda: is_read(kept))
-    d.post = after
-    return d, kept
+    return d, d.hold_reading(lambda: d.session.show(document))
 
 
 def test_what_is_chosen_while_the_first_mesh_is_read_is_shown_with_it(desk, mesh_file):
-    d, kept = begin_late(desk, comparison(mesh_file(bumpy(60)), (BIHARMONIC,), (5,)))
+    d, let_come = begin_late(desk, comparison(mesh_file(bumpy(60)), (BIHARMONIC,), (5,)))
     d.choose(0, COMMUTE)
     d.session.show(replace(d.session.document, isolines=7))
-    for function in kept:
-        function()
+    let_come()
     d.complete()
     assert (d.answers[0].label, d.session.document.isolines.count, d.source) == ("commute-time, exact", 7, 5)
     assert not d.session.history.can_undo
 
 
 def test_what_is_chosen_while_another_first_mesh_is_read_does_not_keep_it_away(desk, mesh_file):
-    d, kept = begin_late(desk, comparison(mesh_file(bumpy(60)), (BIHARMONIC,), (5,)))
+    d, let_come = begin_late(desk, comparison(mesh_file(bumpy(60)), (BIHARMONIC,), (5,)))
     d.session.open(mesh_file(grid(3, 3), "other.off"), source=7)
     d.session.show(replace(d.session.document, isolines=7))
-    for function in kept:
-        function()
+    let_come()
     d.complete()
-    assert (d.session.surface.name, d.source, d.session.document.isolines.count) == ("other.off", 7, 7)
+    assert (d.session.mesh().surface.name, d.source, d.session.document.isolines.count) == ("other.off", 7, 7)
 
 
 def test_what_is_chosen_after_the_first_mesh_failed_is_shown_with_the_next(desk, mesh_file):

@@ -1,5 +1,7 @@
 """`bihdist isolines`: curves and regions as Python has them, by the same words as figures."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -8,7 +10,8 @@ from app.scene.levels import round_step
 from bihdist_core import BiharmonicDistance, GeodesicDistance, band, difference, isolines, read_surface
 from bihdist_core.analysis.level_words import region_from_words, value_from_words
 from bihdist_core.errors import ParameterError
-from tests.shapes import bumpy
+from tests.commands import ran, refused
+from tests.shapes import bumpy, grid
 
 
 @pytest.fixture
@@ -41,6 +44,14 @@ def test_curves_are_those_of_python(mesh, tmp_path, capsys):
     assert np.unique(rows(out)["value"]).tolist() == pytest.approx(np.arange(step, field.max(), step))
 
 
+def test_a_ridge_at_the_value_is_one_curve(mesh_file, tmp_path, capsys):
+    mesh, out = mesh_file(grid(6, 2)), str(tmp_path / "lines.obj")
+    # From the columns at 0 and 2: a ridge between them, and a usual isoline at 3.
+    words = ["isolines", mesh, "--distance", "geodesic", "--sources", "0+7+14+2+9+16", "--isoline-values", "1"]
+    facts = json.loads(ran(capsys, *words, "-o", out, "--json").out)
+    assert (facts["n_curves"], facts["length"]) == (2, 4)
+
+
 def test_values_may_be_named_and_lie_on_both_sides_of_0(mesh, tmp_path):
     surface, out = read_surface(mesh), str(tmp_path / "lines.csv")
     words = ["isolines", mesh, "--sources", "7+90", "--distance", "biharmonic - geodesic", "-o", out]
@@ -56,8 +67,7 @@ def test_percent_of_a_difference_are_points_and_not_shares_of_its_largest(mesh, 
     words = ["isolines", mesh, "--sources", "7+90", "--distance", "biharmonic - geodesic"]
     said = []
     for region in ("1%:", "0.01:"):
-        assert main([*words, "--region", region]) == 0
-        said.append(capsys.readouterr().out.partition(": ")[2])
+        said.append(ran(capsys, *words, "--region", region).out.partition(": ")[2])
     assert said[0] == said[1]
     # Nowhere do they differ by half of their maxima.
     assert main([*words, "--region", "50%:"]) == 2
@@ -79,8 +89,8 @@ def test_a_region_between_two_values(mesh, tmp_path, capsys):
     ("words", "said"),
     [
         ([], "nothing to do"),
-        (["--region", "5"], "no region"),
-        (["--region", "a:b"], "'a' is no value"),
+        (["--region", "5"], "not a region"),
+        (["--region", "a:b"], "'a' is not a value"),
         (["--region", "40%:20%"], "smaller first"),
         (["--region-ids", "ids.txt", "-o", "l.csv"], "Which region"),
         (["-o", "l.png"], ".csv"),
@@ -91,8 +101,7 @@ def test_a_region_between_two_values(mesh, tmp_path, capsys):
 )
 def test_what_cannot_be_done_says_why(mesh, words, said, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    assert main(["isolines", mesh, "--sources", "7", *words]) == 2
-    assert said in capsys.readouterr().err
+    assert said in refused(capsys, "isolines", mesh, "--sources", "7", *words)
     assert not list(tmp_path.glob("l.*"))
 
 

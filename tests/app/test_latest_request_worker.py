@@ -8,6 +8,7 @@ import pytest
 
 from app.session.latest_request_worker import NICE, LatestRequestWorker
 from bihdist_core import Cancelled
+from tests.waiting import PATIENCE
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="threads have priorities of their own on Linux only")
@@ -27,7 +28,7 @@ def test_a_lane_and_the_threads_it_starts_stand_back():
     before = os.getpriority(os.PRIO_PROCESS, threading.get_native_id())
     worker = LatestRequestWorker("lane", work, lambda *_: None, lambda *_: None)
     worker.submit("anything")
-    assert done.wait(10)
+    assert done.wait(PATIENCE)
     worker.close()
     assert nice == [min(before + NICE, 19)] * 2
     assert os.getpriority(os.PRIO_PROCESS, threading.get_native_id()) == before
@@ -56,7 +57,7 @@ class Told:
         progress = worker.progress(lambda latest: latest == word, quiet=0)
         self.begun[word].set()
         try:
-            assert self.gates[word].wait(60)
+            assert self.gates[word].wait(PATIENCE)
             progress(0.5, word)
             self.outcome[word] = "done"
         except Cancelled:
@@ -81,21 +82,21 @@ def told():
 @pytest.mark.parametrize("between", [[], [None]], ids=["by another request", "by a stop"])
 def test_the_next_request_does_not_wait_for_work_that_is_given_up_and_asks_nobody(told, between):
     told.worker.submit("first")
-    assert told.begun["first"].wait(60)
+    assert told.begun["first"].wait(PATIENCE)
     for request in (*between, "second"):
         told.worker.submit(request)
     told.gates["second"].set()
-    assert told.ended["second"].wait(60)
+    assert told.ended["second"].wait(PATIENCE)
     assert told.outcome == {"second": "done"}, "while the first goes on"
 
 
 def test_work_that_is_given_up_is_not_heard_of_any_more(told):
     told.worker.submit("first")
-    assert told.begun["first"].wait(60)
+    assert told.begun["first"].wait(PATIENCE)
     told.worker.submit(None)
-    assert told.quiet.wait(60), "nothing is going on, though the first has not noticed"
+    assert told.quiet.wait(PATIENCE), "nothing is going on, though the first has not noticed"
     told.gates["first"].set()
-    assert told.ended["first"].wait(60)
+    assert told.ended["first"].wait(PATIENCE)
     told.close()
     assert (told.outcome, told.failures) == ({"first": "given up"}, [])
     assert "first" not in told.reports
@@ -103,9 +104,9 @@ def test_work_that_is_given_up_is_not_heard_of_any_more(told):
 
 def test_work_goes_on_for_a_request_that_wants_it(told):
     told.worker.submit("first")
-    assert told.begun["first"].wait(60)
+    assert told.begun["first"].wait(PATIENCE)
     told.worker.submit("first")
     told.gates["first"].set()
-    assert told.ended["first"].wait(60)
+    assert told.ended["first"].wait(PATIENCE)
     assert told.outcome == {"first": "done"}
     assert len(told.worker._threads) == 1

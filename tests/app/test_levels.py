@@ -5,10 +5,9 @@ import pytest
 from hypothesis import given, strategies as st
 
 from app.document.document import comparison
-from app.document.edits import open_mesh
-from app.document.isoline_edits import pass_through, pass_through_none
+from app.document.edits import open_mesh, pass_through, pass_through_none
 from app.document.looks import TWENTY_STEPS, Isolines
-from app.scene.levels import half_steps, in_unit, levels, round_step, too_many, with_kept_step
+from app.scene.levels import in_unit, levels, round_step, too_many, with_kept_step
 from app.tools.interpolation.part import Anchor, Anchors
 
 
@@ -41,7 +40,7 @@ def test_usual_lines_are_at_round_values():
 @given(st.floats(1e-12, 1e12), st.integers(1, 1000))
 def test_round_steps_are_near_the_count_and_nothing_is_missing(signed, top, count):
     found = levels(Isolines(count), top, top, signed).values
-    steps = half_steps(count) if signed else count
+    steps = max(1, round(count / 2)) if signed else count
     step = round_step(top, steps)
     digits = step / 10 ** np.floor(np.log10(step) + 1e-9)
     assert any(digits == pytest.approx(each, rel=1e-9) for each in (1, 2, 2.5, 5))

@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.document.docks import DockPlaces
-from app.document.document import FieldArray, Panel, comparison
+from app.document.document import DockPlaces, FieldArray, Panel, comparison
 from app.document.edits import open_mesh, remove_panel, show_dock
 from app.document.quantities import OwnField
 from app.document.runs import ids_of, runs_from_words, runs_of
@@ -19,7 +18,7 @@ from app.tools.regions.part import DividedPanels, divide, divided_panels, show_r
 from app.tools.scatter.part import Scatter
 from bihdist_core import BoundaryLoop, ParameterError, SurfacePoint
 from bihdist_core.applications.changes import words_of_runs
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from tests.shapes import grid
 
 DOCUMENT = comparison("mesh.off", sources=(5,))
@@ -101,9 +100,9 @@ def test_another_mesh_has_no_pins_of_the_old_one():
         (lambda: replace(DOCUMENT, docks=("pins", "kitchen")), "no dock 'kitchen'"),
         (lambda: DOCUMENT.with_part(Profile(("source", "tip"))), "no point 'tip'"),
         (lambda: Pin("a", "x" * 61), "up to 60 printable characters"),
-        (lambda: Pin("a", colour=10), "none is 10"),
-        (lambda: Selection("a", ((3, 5), (6, 7))), "do not touch"),
-        (lambda: Selection("a", ((3, 2),)), "go up"),
+        (lambda: Pin("a", colour=10), "not 10"),
+        (lambda: Selection("a", ((3, 5), (6, 7))), "increasing, separate"),
+        (lambda: Selection("a", ((3, 2),)), "increasing, separate"),
         (lambda: Profile(("a",)), "two points or more"),
         (lambda: Profile(way="guess"), "no way 'guess'"),
         (lambda: DockPlaces(0, 600, ""), "not 0 x 600"),
@@ -127,7 +126,7 @@ def test_panels_show_regions_by_their_numbers():
         ((3,), "Panel 3 shows no distance"),
         ((4,), "no panel 4; they are numbered from 1 to 3"),
         ((0,), "no panel 0"),
-        ("every", "not by 'every'"),
+        ("every", "not on 'every'"),
     ):
         with pytest.raises(ParameterError, match=words):
             divide(document, which)

@@ -9,11 +9,11 @@ import pytest
 from app.paper import reproduce as reproducing, verdicts
 from app.paper.charts import chart_svg
 from app.paper.page import Section, page
-from app.paper.pictures import figures
+from app.paper.pictures import figure_of, name_of, rows_of
 from app.paper.reproduce import reproduce
 from bihdist_core import OutputError, ParameterError
 from bihdist_core.experiments import EXPERIMENTS, Chart, Claim, Mark, Panel, Result, Series, Table
-from bihdist_core.experiments.statements import STATEMENTS
+from bihdist_core.experiments.result import STATEMENTS
 from bihdist_core.experiments.verdicts import BySource, Estimate, above, at_least, at_most
 from tests.shapes import bumpy, grid
 
@@ -42,13 +42,13 @@ def result(**changes):
 
 
 def test_each_row_of_panels_is_a_figure():
-    drawn = {name: figure for name, _, figure in figures(result())}
+    drawn = {name_of(result(), row): figure_of(result(), panels) for row, panels in rows_of(result()).items()}
     assert list(drawn) == ["fig1-first", "fig1-second-row"]
     first, second = drawn["fig1-first"].panels, drawn["fig1-second-row"].panels
     assert first[0].views == ("front", "back")
     assert first[1].views[0] == "front"
     assert first[1].views[1].focal_point == pytest.approx(bumpy(150).vertices[4])
-    assert second[0].height > 0
+    assert second[0].warp_factor > 0
     assert second[1].field is None
 
 
@@ -211,7 +211,7 @@ def test_what_cannot_be_is_refused(mesh_file, tmp_path):
     with pytest.raises(ParameterError, match="bundled meshes only"):
         reproduce(str(tmp_path), ["fig2"], mesh_file(bumpy(100)))
     (tmp_path / "empty").mkdir()
-    with pytest.raises(ParameterError, match="holds no meshes"):
+    with pytest.raises(ParameterError, match="There is no mesh in"):
         reproduce(str(tmp_path / "out"), [], str(tmp_path / "empty"))
     (tmp_path / "file").write_text("x")
     with pytest.raises(OutputError, match="cannot be made"):

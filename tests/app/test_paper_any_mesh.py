@@ -9,6 +9,7 @@ from app.main import main
 from app.paper import reproduce
 from bihdist_core import Cancelled, OutputError, SolverError, Surface, write_mesh
 from bihdist_core.experiments import Parts, _claims_growth, claims
+from tests.commands import ran
 from tests.shapes import bumpy
 
 
@@ -108,8 +109,7 @@ def test_what_fails_beside_the_experiments_leaves_the_page(mesh_file, tmp_path, 
     folder, out = tmp_path / "meshes", tmp_path / "out"
     folder.mkdir()
     Path(mesh_file(bumpy(120))).rename(folder / "a.off")
-    assert main(["paper", "--mesh", str(folder), "--quick", "--only", "fig3", "-o", str(out)]) == 1
-    said = capsys.readouterr()
+    said = ran(capsys, "paper", "--mesh", folder, "--quick", "--only", "fig3", "-o", out, status=1)
     assert "2 parts could not be done" in said.err
     page = (out / "index.html").read_text(encoding="utf-8")
     for part in ("which way a.off is up", "a.off on the contact sheet"):
@@ -126,8 +126,7 @@ def test_a_folder_has_its_page_with_each_mesh_and_what_cannot_be_read(mesh_file,
     write_mesh(folder / "c.ply", bumpy(120))
     (folder / "b.off").write_text("OFF\n1 1 0\n")
     out = tmp_path / "out"
-    assert main(["paper", "--mesh", str(folder), "--quick", "--only", "fig3", "-o", str(out)]) == 1
-    assert "not done" in capsys.readouterr().out
+    assert "not done" in ran(capsys, "paper", "--mesh", folder, "--quick", "--only", "fig3", "-o", out, status=1).out
     page = (out / "index.html").read_text(encoding="utf-8")
     assert page.count("Not done") == 1
     for name in ("a", "c-off", "c-ply"):

@@ -11,8 +11,8 @@ from app.paper import reproduce as reproducing
 from app.paper.live import live_pages
 from app.paper.reproduce import reproduce
 from app.scene.camera import directions
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.distances.geodesic import GeodesicDistance
-from bihdist_core.distances.kinds import Spec
 from bihdist_core.experiments import Mark, Panel, Result, Shapes
 from bihdist_core.experiments.fig1 import compute
 from bihdist_core.experiments.shapes import spec_of

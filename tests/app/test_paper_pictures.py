@@ -5,15 +5,16 @@ import itertools
 import numpy as np
 import pytest
 
-from app.figures.composition import page_pixels
-from app.figures.draw import Composition, draw_figure, lay_out, take_shots
+from app.figures.draw import ComposedPage, draw_figure, lay_out, take_shots
+from app.figures.page_output import page_pixels
+from app.paper import reproduce as reproducing
 from app.paper.charts import colours_of, drawn, plain
 from app.paper.drawing import Pictures, png
 from app.paper.page import Section, page
-from app.paper.pictures import ANCHOR, CANDIDATE, FINER, TARGET, WIDTH, figures
+from app.paper.pictures import ANCHOR, CANDIDATE, FINER, TARGET, WIDTH, figure_of
 from app.paper.reproduce import reproduce
 from app.scene.camera import directions
-from bihdist_core import BihdistError
+from bihdist_core import BihdistError, SolverError
 from bihdist_core.experiments import EXPERIMENTS, Chart, Mark, Panel, Result, Series
 from bihdist_core.progress import silent
 from tests.shapes import bumpy
@@ -33,8 +34,7 @@ def result(*panels, charts=()):
 
 
 def only(panels):
-    (made,) = figures(result(*panels))
-    return made[2]
+    return figure_of(result(*panels), panels)
 
 
 def correspondence():
@@ -172,7 +172,7 @@ def test_pictures_have_twice_the_pixels_of_the_page_and_look_as_its_size_says(tm
     assert layout.label == pytest.approx(8 / 0.75)
     assert 5 < layout.mark < 20
     shots = take_shots(figure, layout, silent)
-    assert (page_pixels(Composition(figure, layout, shots)) == pixels).all()
+    assert (page_pixels(ComposedPage(figure, layout, shots)) == pixels).all()
 
 
 def test_the_page_shows_a_picture_half_as_wide_as_it_is():
@@ -241,9 +241,6 @@ def test_numbers_at_ticks():
 
 
 def test_a_picture_that_cannot_be_drawn_is_listed(tmp_path, monkeypatch):
-    from app.paper import reproduce as reproducing
-    from bihdist_core import SolverError
-
     def broken(*_):
         raise SolverError("There is no light.")
 
@@ -258,7 +255,7 @@ def test_a_picture_that_cannot_be_drawn_is_listed(tmp_path, monkeypatch):
 
 
 def test_pictures_are_drawn_by_a_process_that_begins_with_the_first(tmp_path):
-    ((_, _, figure),) = figures(result(Panel("one", "bumpy", FIELD, "row")))
+    figure = only([Panel("one", "bumpy", FIELD, "row")])
     with Pictures() as pictures:
         assert pictures._worker is None
         asked = [pictures.draw(tmp_path, name, figure) for name in ("a", "b")]
@@ -269,19 +266,17 @@ def test_pictures_are_drawn_by_a_process_that_begins_with_the_first(tmp_path):
 
 
 def test_a_picture_that_ends_the_process_leaves_the_others(tmp_path):
-    ((_, _, figure),) = figures(result(Panel("one", "bumpy", FIELD, "row")))
+    figure = only([Panel("one", "bumpy", FIELD, "row")])
     with Pictures() as pictures:
         pictures.draw(tmp_path, "a", figure)()
         pictures._worker._child.process.kill()
-        with pytest.raises(BihdistError, match="ended without a word"):
+        with pytest.raises(BihdistError, match="process ended unexpectedly"):
             pictures.draw(tmp_path, "b", figure)()
         assert pictures.draw(tmp_path, "c", figure)() == png(figure)
     assert {path.name for path in tmp_path.iterdir()} == {"a.png", "c.png"}
 
 
 def test_what_is_timed_comes_first(tmp_path, monkeypatch):
-    from app.paper import reproduce as reproducing
-
     monkeypatch.setattr(reproducing.Experiment, "compute", lambda *_: result(Panel("one", "bumpy", FIELD, "row")))
     said = []
     page = reproduce(str(tmp_path), ["fig1", "claims", "table2", "alpha"], say=said.append).page.read_text("utf-8")

@@ -5,14 +5,14 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
 
 from app.program import run
+from tests.programs import ROOT, run as run_program, run_python
 from tests.shapes import bumpy
+from tests.waiting import PATIENCE
 
-ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = (sys.executable, "-m", "app")
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="of shells and /dev/full")
 
@@ -32,18 +32,13 @@ sys.exit(run())
 """
 
 
-def ran(*arguments, shell="", **options):
+def ran(*arguments, shell=""):
     """What has become of the program; shell: what a shell does with its streams."""
-    command = [*PROGRAM, *map(str, arguments)]
-    if shell:
-        command = ["sh", "-c", f'exec "$@" {shell}', "sh", *command]
-    return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, timeout=120, check=False, **options)
+    return run_program("sh", "-c", f'exec "$@" {shell}', "sh", *PROGRAM, *arguments)
 
 
 def test_an_interruption_while_it_is_loaded_is_a_word():
-    done = subprocess.run(
-        [sys.executable, "-c", WHILE_LOADED], capture_output=True, text=True, cwd=ROOT, timeout=60, check=False
-    )
+    done = run_python("-c", WHILE_LOADED)
     assert (done.returncode, done.stderr, done.stdout) == (130, "bihdist: interrupted.\n", "")
 
 
@@ -61,8 +56,7 @@ sys.argv = ["bihdist", *{words!r}]
 def when_imported(module, number, words, start):
     """What becomes of the program that gets a signal when it begins to import a module."""
     code = WHEN_IMPORTED.format(module=module, signal=number, words=words)
-    command = [sys.executable, "-c", f"{code}\n{start}"]
-    return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, timeout=60, check=False)
+    return run_python("-c", f"{code}\n{start}")
 
 
 @pytest.mark.parametrize("module", ["bihdist_core", "app.main"])
@@ -77,7 +71,7 @@ def test_an_interruption_at_the_first_import_is_a_word(module, start):
 
 def test_before_the_program_listens_it_imports_nothing_else_of_ours():
     code = "import sys; before = {*sys.modules}; import app.program; print(*sorted({*sys.modules} - before))"
-    done = subprocess.run([sys.executable, "-S", "-c", code], capture_output=True, text=True, cwd=ROOT, check=True)
+    done = run_python("-S", "-c", code)
     there = {*done.stdout.split()}
     assert {"app", "app.program"} <= there
     assert not [
@@ -127,7 +121,7 @@ def test_an_interruption_in_the_first_moments_shows_no_code(after, tmp_path):
     process.stdout.readline()
     time.sleep(after)
     process.send_signal(signal.SIGINT)
-    said = process.communicate(timeout=60)[1]
+    said = process.communicate(timeout=PATIENCE)[1]
     assert "Traceback" not in said
     assert said.endswith("bihdist: interrupted.\n")
     assert process.returncode == 130
@@ -135,9 +129,7 @@ def test_an_interruption_in_the_first_moments_shows_no_code(after, tmp_path):
 
 def test_an_interruption_that_is_ignored_stays_so():
     words = WHILE_LOADED.replace("import builtins", "import signal; signal.signal(2, signal.SIG_IGN); import builtins")
-    done = subprocess.run(
-        [sys.executable, "-c", words], capture_output=True, text=True, cwd=ROOT, timeout=60, check=False
-    )
+    done = run_python("-c", words)
     assert done.returncode == 0
 
 
@@ -176,7 +168,7 @@ def test_whoever_has_read_enough_is_told_nothing(arguments):
     read, write = os.pipe()
     os.close(read)
     done = subprocess.run(
-        [*PROGRAM, *arguments], stdout=write, stderr=subprocess.PIPE, cwd=ROOT, timeout=60, check=False
+        [*PROGRAM, *arguments], stdout=write, stderr=subprocess.PIPE, cwd=ROOT, timeout=PATIENCE, check=False
     )
     os.close(write)
     assert (done.returncode, b"Broken" in done.stderr, b"Traceback" in done.stderr) == (0, False, False)
@@ -186,4 +178,4 @@ def test_what_is_typed_is_repeated_in_one_short_line():
     done = ran("pairs", "figure", "--sources", "x\ny" * 2000, "-o", "a.csv")
     assert done.returncode == 2
     assert len(done.stderr.splitlines()[-1]) < 1100
-    assert done.stderr.splitlines()[-1].startswith("bihdist pairs: error: ")
+    assert done.stderr.startswith("bihdist: ")

@@ -14,7 +14,7 @@ from app.session.array_store import ArrayStore
 from app.session.loaded_mesh import open_mesh
 from app.session.recipe_file import recipe_written
 from bihdist_core import BiharmonicDistance, ParameterError, farthest_points, voronoi_regions
-from bihdist_core.formats.mesh_output import write_mesh
+from bihdist_core.formats.surface_output import write_mesh
 from tests.core.mesh_samples import gifti, gifti_array
 from tests.core.test_cutting import by_hand
 from tests.core.test_merging import torn
@@ -188,7 +188,7 @@ def test_a_document_opens_its_mesh_cut_and_reopens_it(mesh, tmp_path):
     document = with_repairs(comparison(str(folder / "mesh.ply")), str(folder / "{name}.mask.npy"), None)
     loaded = open_mesh(document.surfaces[0])
     assert loaded.surface.n_faces == surface.without(~keeps).n_faces
-    document = loaded.settled(document)
+    document = loaded.resolve_points(document)
     assert document.surfaces[0].repairs.cut_sha256
     assert loaded.is_of(document.surfaces[0])
     path = tmp_path / "a" / "recipe.json"
@@ -200,7 +200,7 @@ def test_a_document_opens_its_mesh_cut_and_reopens_it(mesh, tmp_path):
     assert again.repairs.cut_sha256 == document.surfaces[0].repairs.cut_sha256
     assert open_mesh(again).surface.n_faces == loaded.surface.n_faces
     np.save(folder / "mesh.mask.npy", np.ones(N))
-    with pytest.raises(ParameterError, match=r"is not what it was when .* Name another\."):
+    with pytest.raises(ParameterError, match=r"has changed since .* Name another\."):
         open_mesh(again, remedy="Name another.")
 
 

@@ -11,12 +11,13 @@ from app.commands.result import as_json
 from app.main import COMMANDS, main
 from app.version import version
 from bihdist_core import BiharmonicDistance, farthest_points, field_statistics, read_surface, write_mesh
+from tests.commands import ran, refused
 from tests.shapes import bumpy, two_pieces
 
 GUIDE = Path(__file__).parents[2] / "assets/guide/reference/command-line.md"
 
 COMMON = {"command", "version", "exit_status", "notes"}
-DISTANCE = {"distance", "label", "unit", "accuracy", "accuracy_text"}
+DISTANCE = {"distance", "label", "unit", "accuracy", "accuracy_text", "accuracy_sources"}
 FIELD = DISTANCE | {"maximum", "failure"}
 LINES = {
     "info": "info a.off --accuracy --solver",
@@ -152,8 +153,7 @@ def test_notes_are_in_it_said_or_not(folder, capsys):
 
 
 def test_what_fails_is_said_in_it_and_on_standard_error(folder, capsys):
-    assert main(["field", "a.off", "--sources", "999", "-o", "f.npy", "--json", "--quiet"]) == 2
-    out, err = capsys.readouterr()
+    out, err = ran(capsys, "field", "a.off", "--sources", "999", "-o", "f.npy", "--json", "--quiet", status=2)
     said = json.loads(out)
     assert err == f"bihdist: {said['error']}\n"
     assert "no vertex 999" in said["error"]
@@ -182,8 +182,7 @@ def test_results_with_gaps_say_what_is_missing(folder, capsys, no_exact_geodesic
 
 
 def test_standard_output_has_one_of_both(folder, capsys):
-    assert main(["field", "a.off", "--sources", "3", "-o", "-", "--json"]) == 2
-    assert "either the file or the JSON" in capsys.readouterr().err
+    assert "either the file or the JSON" in refused(capsys, "field", "a.off", "--sources", "3", "-o", "-", "--json")
 
 
 def test_numbers_that_json_does_not_know_are_null():

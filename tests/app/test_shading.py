@@ -1,12 +1,16 @@
 """What faces look like: normals split at creases, sides that tell the inside from the outside, and edges."""
 
 from contextlib import closing
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from app.document.looks import AS_IT_IS, Isolines, Shading, shaded
+from app.document.document import comparison
+from app.document.looks import AS_IT_IS, Isolines, Shading
+from app.document.page import Recipe
+from app.figures.options import with_options
 from app.figures.raster import RenderWindow
 from app.samples import mesh_path, sample_names
 from app.scene.camera import Projection, standard_camera
@@ -14,7 +18,7 @@ from app.scene.creases import face_normals as normals_of_faces
 from app.scene.drawable import copies_of, drawable, has_backs, poly_data
 from app.scene.style import PAPER
 from app.scene.winding import winding
-from bihdist_core import Surface, read_surface
+from bihdist_core import ParameterError, Surface, read_surface
 from tests.shapes import MESHES, bumpy, fin, grid, needs_meshes, slivers, sphere, torus, two_pieces
 
 SMOOTH, CREASED, FLAT = Shading("smooth"), Shading("creased"), Shading("flat")
@@ -132,10 +136,25 @@ def test_of_the_shared_meshes_the_car_and_the_aeroplanes_have():
     assert split == {"beetle.off", "plane.obj", "plane_holes.obj"}
 
 
-def test_an_angle_alone_makes_it_creased():
-    assert shaded(FLAT, crease=30) == Shading("creased", 30)
-    assert shaded(FLAT, "auto", 30, True) == Shading("auto", 30, True)
-    assert shaded(Shading("flat", 20, True)) == Shading("flat", 20, True)
+@pytest.mark.parametrize(
+    ("before", "values", "after"),
+    [
+        (AS_IT_IS, {"feature_angle": 30.0}, Shading("creased", 30)),
+        (AS_IT_IS, {"split_sharp_edges": True}, Shading("creased")),
+        (AS_IT_IS, {"split_sharp_edges": False, "feature_angle": 30.0}, Shading("smooth", 30)),
+        (AS_IT_IS, {"smooth_shading": False, "show_edges": True}, Shading("flat", show_edges=True)),
+        (Shading("flat", 20, True), {"smooth_shading": True}, Shading("auto", 20, True)),
+        (Shading("flat", 20, True), {"show_edges": False}, Shading("flat", 20)),
+    ],
+)
+def test_options_change_the_shading_that_was(before, values, after):
+    recipe = Recipe(replace(comparison("hand"), shading=before))
+    assert with_options(recipe, values).document.shading == after
+
+
+def test_flat_shading_has_no_edges_to_split():
+    with pytest.raises(ParameterError, match="smooth_shading"):
+        with_options(Recipe(comparison("hand")), {"smooth_shading": False, "split_sharp_edges": True})
 
 
 # ---------------------------------------------------------------------- sides
@@ -257,17 +276,17 @@ def test_flat_faces_have_one_shade_each():
 
 def test_edges_are_seen_until_they_are_dense_and_move_no_isoline():
     surface, field = grid(8, 8), np.linspace(0, 1, 81)
-    plain, wired = picture(surface, field=field), picture(surface, Shading(wireframe=True), field=field)
+    plain, wired = picture(surface, field=field), picture(surface, Shading(show_edges=True), field=field)
     differs = np.abs(wired.astype(int) - plain).max(axis=-1) > 8
     assert 0.05 < differs.mean() < 0.3
     fine = grid(150, 150)
     field = np.linspace(0, 1, 151**2)
-    plain, wired = picture(fine, field=field), picture(fine, Shading(wireframe=True), field=field)
+    plain, wired = picture(fine, field=field), picture(fine, Shading(show_edges=True), field=field)
     assert np.abs(wired.astype(int) - plain).max() <= 1
     # The field reaches the fragments past the shader that makes the edges.
     surface, field = grid(8, 8), np.tile(np.linspace(0, 1, 9), 9)
     plain = picture(surface, field=field, steps=5)
-    wired = picture(surface, Shading(wireframe=True), field=field, steps=5)
+    wired = picture(surface, Shading(show_edges=True), field=field, steps=5)
     lines = (plain[..., :3] > 240).all(axis=-1)
     assert lines.mean() > 0.01
     assert (wired[lines][:, :3] > 235).all()

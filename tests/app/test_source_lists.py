@@ -1,10 +1,14 @@
-"""`--sources` and other lists in one word: what they mean, on meshes, from files and from standard input."""
+"""Sources, pairs and points in words and files, on one mesh and on two."""
 
 import io
+import json
 
 import numpy as np
 import pytest
 
+import app
+from app.document.document import starting_points
+from app.document.file import read_recipe
 from app.document.lists import pair_from_words, pairs_from_words, pairs_text, split_list
 from app.document.sources import Sources, sources_from_words
 from app.main import main
@@ -19,6 +23,7 @@ from bihdist_core import (
     read_surface,
 )
 from bihdist_core.analysis.sampling import farthest_points
+from tests.commands import ran, refused
 from tests.shapes import bumpy, two_pieces
 
 PLACE = SurfacePoint.of(17, 0.2, 0.5)
@@ -72,6 +77,7 @@ def test_a_comma_has_something_beside_it(text):
         ("random:100", Sources("random", count=100)),
         ("random:100:7", Sources("random", count=100, seed=7)),
         ("@ids.txt", Sources("file", file="ids.txt")),
+        ("xyz:.1,-5,1e-3", Sources("file", file="xyz:.1,-5,1e-3", text="x,y,z\n.1,-5,1e-3")),
     ],
 )
 def test_sources_from_words(text, sources):
@@ -81,16 +87,24 @@ def test_sources_from_words(text, sources):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("some", "'some' is no source"),
+        ("some", "'some' is not a source"),
         ("lop:0", "did you mean loop:0"),
         ("farthest", "write 12,40"),
-        ("farthest:", "no number of sources from 1"),
-        ("farthest:0", "no number of sources from 1"),
-        ("farthest:5:x", "'x' is no source"),
-        ("random:many", "no number of sources from 1"),
-        ("random:5:x", "no seed from 0"),
-        ("@", "'@' is no sources"),
+        ("farthest:", "needs a number of sources"),
+        ("farthest:0", "needs a number of sources"),
+        ("farthest:5:x", "'x' is not a source"),
+        ("random:many", "needs a number of sources"),
+        ("random:5:x", "needs a seed"),
+        ("@", "'@' is not a list of sources"),
         ("12,40,", "has nothing beside it"),
+        ("12 40 7", "has no commas; write 12,40,7"),
+        ("12; 40", "has no commas; write 12,40"),
+        ("0.1,0.5,0.1", "for the vertex nearest to a position write xyz:0.1,0.5,0.1"),
+        ("-1,2,3", "write xyz:-1,2,3"),
+        ("xyz:0.1,0.5", "'xyz:0.1,0.5' is not a position; write xyz:0.1,0.5,0.1"),
+        ("xyz:", "is not a position"),
+        ("xyz:1,2,3,4", "is not a position"),
+        ("xyz:1,2,3,xyz:a,b,c", "'xyz:a,b,c' is not a position"),
     ],
 )
 def test_what_is_no_sources_is_refused(text, said):
@@ -122,6 +136,14 @@ def test_pairs_from_words(monkeypatch):
 # ---------------------------------------------------------------------- on a surface
 def found(text, surface, **how):
     return chosen_sources(sources_from_words(text), surface, lambda: BiharmonicDistance(surface), **how)
+
+
+def test_positions_are_the_vertices_nearest_to_them():
+    surface = two_pieces()
+    near = [",".join(map(repr, (surface.vertices[vertex] + 1e-9).tolist())) for vertex in (7, 61)]
+    chosen = found(",".join(f"xyz:{each}" for each in near), surface)
+    assert chosen.sources == [7, 61]
+    assert chosen.pins.moved.max() < 1e-8
 
 
 def test_rules_choose_on_a_surface():
@@ -177,8 +199,8 @@ def test_ids_of_an_array_and_points_beside_the_mesh(tmp_path):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("3\none\n", "line 2: 'one' is no source"),
-        ("# none\n", "There is no source in"),
+        ("3\none\n", "line 2: 'one' is not a source"),
+        ("# none\n", "names no source"),
         ("3\n99\n", "has no vertex 99"),
     ],
 )
@@ -258,9 +280,68 @@ def test_figures_take_rules_and_files(mesh, tmp_path):
 
 
 def test_pins_are_points_and_numbers_are_of_their_kind(mesh, capsys):
-    assert main(["figure", mesh, "--pins", "3+4", "-o", "x.png"]) == 2
-    assert "and 3+4 is neither" in capsys.readouterr().err
-    for words in (["--isoline-through", "x"], ["--zoom", "3:x"], ["--anchors", "3=nan"], ["--isolines", "x"]):
+    assert "and 3+4 is neither" in refused(capsys, "figure", mesh, "--pins", "3+4", "-o", "x.png")
+    for words in (["--isoline-through", "x"], ["--insets", "3:x"], ["--anchors", "3=nan"], ["--isolines", "x"]):
         with pytest.raises(SystemExit):
             main(["figure", mesh, *words, "-o", "x.png"])
-        assert f"argument {words[0]}: " in capsys.readouterr().err
+        assert f"{words[0]}: " in capsys.readouterr().err
+
+
+# ---------------------------------------------------------------------- sources of two meshes
+SMALL = ["--distance", "biharmonic", "--size", "200x100"]
+
+
+@pytest.fixture
+def meshes(mesh_file):
+    return [mesh_file(bumpy(60), "a.off"), mesh_file(bumpy(80), "b.off")]
+
+
+def starts(path):
+    return [(point.at, point.surface) for point in starting_points(read_recipe(path).document)]
+
+
+def test_the_second_source_is_of_the_second_mesh(meshes, tmp_path, capsys):
+    assert main(["figure", *meshes, "--sources", "7,70", *SMALL, "-o", str(tmp_path / "x.png")]) == 0
+    assert starts(tmp_path / "x.json") == [(7, "A"), (70, "B")]
+    assert "--sources" not in capsys.readouterr().err
+    picture = app.figure(meshes[0], ["biharmonic"], ["7", 70], second_mesh=meshes[1], layout={"size": "200x100"})
+    assert [(point.at, point.surface) for point in starting_points(picture.document)] == [(7, "A"), (70, "B")]
+
+
+def test_one_source_is_of_the_first_mesh_which_is_said(meshes, tmp_path, capsys):
+    printed = ran(capsys, "figure", *meshes, "--sources", "7", *SMALL, "-o", tmp_path / "x.png", "--json")
+    assert "starts from its highest vertex; one of each is named as 7,40" in printed.err
+    assert json.loads(printed.out)["sources"][0] == 7
+    assert starts(tmp_path / "x.json")[1][0] != 7
+    picture = app.figure(meshes[0], ["biharmonic"], [7], second_mesh=meshes[1], layout={"size": "200x100"})
+    assert starting_points(picture.document)[1].at == starts(tmp_path / "x.json")[1][0]
+
+
+@pytest.mark.parametrize("command", ["figure", "view"])
+@pytest.mark.parametrize("words", ["1,2,3", "farthest:2", "random:3"])
+def test_more_than_one_of_each_mesh_is_refused(meshes, tmp_path, capsys, words, command):
+    output = ["-o", str(tmp_path / "x.png")] if command == "figure" else ["--screenshot", str(tmp_path / "x.png")]
+    assert main([command, *meshes, "--sources", words, "--distance", "biharmonic", *output]) == 2
+    assert "Two meshes have a source each" in capsys.readouterr().err
+    assert not list(tmp_path.glob("*.png"))
+
+
+def test_more_than_one_of_each_mesh_is_refused_in_python(meshes):
+    with pytest.raises(ParameterError, match="Two meshes have a source each, not 3"):
+        app.figure(meshes[0], ["biharmonic"], [1, 2, 3], second_mesh=meshes[1])
+
+
+def test_a_vertex_that_the_second_mesh_lacks_is_named_with_it(meshes, tmp_path, capsys):
+    assert main(["figure", *meshes, "--sources", "7,80", *SMALL, "-o", str(tmp_path / "x.png")]) == 2
+    assert "b.off has no vertex 80" in capsys.readouterr().err
+
+
+def test_a_recipe_of_two_meshes_takes_a_source_for_each(meshes, tmp_path, capsys):
+    first, second = tmp_path / "x.json", tmp_path / "y.json"
+    assert main(["figure", *meshes, "--sources", "7,7", *SMALL, "-o", str(tmp_path / "x.png")]) == 0
+    again = ["figure", "--recipe", str(first), "-o", str(tmp_path / "y.png")]
+    assert main([*again, "--sources", "3,50"]) == 0
+    assert starts(second) == [(3, "A"), (50, "B")]
+    assert "start from 2 sources, and --sources names 1; name as many" in refused(capsys, *again, "--sources", "3")
+    assert main([*again, "--distance", "geodesic"]) == 2
+    assert "--distance makes the panels of one mesh; this recipe has 2" in capsys.readouterr().err

@@ -10,7 +10,7 @@ from app.scene.field_actor import UNDEFINED
 from app.scene.offscreen_renderer import OffscreenRenderer
 from app.scene.stand_in import stand_in
 from bihdist_core import Surface
-from bihdist_core.applications.carrying import position_colours
+from bihdist_core.applications.correspondence import position_colours
 from tests.app.test_shading import box, turned, without
 from tests.shapes import bumpy, grid, sphere
 
@@ -127,35 +127,35 @@ def test_a_scene_draws_it_only_while_it_is_told_to():
     try:
         scene = offscreen.new_scene()
         scene.show_surface(mesh, mesh.GetBounds())
-        scene.show_field(surface.vertices[:, 2] + 2)
-        scene.show_stand_in(True)  # there is none yet
-        assert not scene.is_stand_in
+        scene.field_actor.show_field(surface.vertices[:, 2] + 2)
+        scene.field_actor.show_stand_in(True)  # there is none yet
+        assert not scene.field_actor.stand_in.is_shown
         scene.renderer.ResetCamera(*scene.bounds)
 
         def picture():
             return offscreen.picture(scene, (300, 300)).astype(int)
 
         full = picture()
-        scene.take_stand_in(stand_in(mesh, CLUSTERS))
+        scene.field_actor.stand_in.take(stand_in(mesh, CLUSTERS))
         assert np.array_equal(picture(), full)
-        scene.show_stand_in(True)
+        scene.field_actor.show_stand_in(True)
         standing = picture()
-        assert scene.is_stand_in
+        assert scene.field_actor.stand_in.is_shown
         assert 0.02 < (np.abs(standing - full).max(axis=-1) > 3).mean() < 0.5
         assert np.abs(standing - full).mean() < 6  # of 255: the same shape, colours and lines
         # What the field becomes meanwhile is seen, too.
-        scene.show_field(surface.vertices[:, 0] + 2)
-        scene.show_stand_in(True)
+        scene.field_actor.show_field(surface.vertices[:, 0] + 2)
+        scene.field_actor.show_stand_in(True)
         changed = picture()
-        scene.show_stand_in(False)
+        scene.field_actor.show_stand_in(False)
         assert np.abs(changed - picture()).mean() < 6 < np.abs(changed - standing).mean()
-        scene.show_field(surface.vertices[:, 2] + 2)
+        scene.field_actor.show_field(surface.vertices[:, 2] + 2)
         assert np.array_equal(picture(), full)
         # Another surface has nothing that stands in until it is given.
-        scene.show_stand_in(True)
+        scene.field_actor.show_stand_in(True)
         scene.show_surface(mesh, mesh.GetBounds())
-        assert not scene.is_stand_in
-        assert not scene.can_stand_in
+        assert not scene.field_actor.stand_in.is_shown
+        assert scene.field_actor.stand_in.stand_in is None
     finally:
         offscreen.close()
 
@@ -168,29 +168,29 @@ def test_colours_of_vertices_are_drawn_in_means_too():
         scene = offscreen.new_scene()
         scene.show_surface(mesh, mesh.GetBounds())
         scene.renderer.ResetCamera(*scene.bounds)
-        scene.take_stand_in(stand_in(mesh, CLUSTERS))
+        scene.field_actor.stand_in.take(stand_in(mesh, CLUSTERS))
 
         def picture(colours=None):
             if colours is not None:
-                scene.show_colours(colours)
+                scene.field_actor.show_colours(colours)
             return offscreen.picture(scene, (300, 300)).astype(int)
 
-        scene.show_bare()
+        scene.field_actor.show_bare()
         bare = picture()
         colours = position_colours(surface)
         full = picture(colours)
         assert np.abs(full - bare).mean() > 6
-        scene.show_stand_in(True)
+        scene.field_actor.show_stand_in(True)
         standing = picture()
-        assert scene.is_stand_in
+        assert scene.field_actor.stand_in.is_shown
         assert np.abs(standing - full).mean() < 6
-        scene.show_stand_in(False)
+        scene.field_actor.show_stand_in(False)
         assert np.array_equal(picture(), full)
         # What is mapped nowhere is as bare as the rest was, and a field takes the place of colours.
         assert np.array_equal(picture(np.full((20_000, 3), np.nan)), bare)
         red = picture(np.tile([1.0, 0, 0], (20_000, 1)))[150, 150]
         assert red[0] > 2 * red[1]
-        scene.show_field(surface.vertices[:, 2] + 2)
+        scene.field_actor.show_field(surface.vertices[:, 2] + 2)
         assert np.abs(picture() - full).mean() > 6
     finally:
         offscreen.close()

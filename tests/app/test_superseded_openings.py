@@ -7,6 +7,7 @@ import pytest
 from bihdist_core import write_mesh
 from bihdist_core.analysis import upright
 from tests.shapes import bumpy
+from tests.waiting import PATIENCE
 
 
 def loading():
@@ -22,7 +23,7 @@ def guess(monkeypatch):
     def held(feet, centre):
         gate.threads.append(threading.current_thread())
         if len(gate.threads) <= gate.holds:
-            assert gate.wait(60)
+            assert gate.wait(PATIENCE)
         return ground(feet, centre)
 
     gate.holds = 2

@@ -10,22 +10,22 @@ import numpy as np
 import pytest
 
 from app.document.document import MeshFile
-from app.session.farthest_points import SamplesQuestion, Sampling
 from app.session.latest_request_worker import LatestRequestWorker
 from app.session.loaded_mesh import LoadedMesh
 from app.session.questions import DistanceQuestion
 from app.tools.pins.pairwise_distances import PairwiseDistances
 from app.tools.profile.paths import PathWanted, PathWorker
-from app.tools.quality.judgement import Quality
+from app.tools.quality.quality_worker import QualityWorker
 from app.tools.regions.division import Dividing, RegionsQuestion
 from bihdist_core import MeshError
 from bihdist_core.distances.answers import failure_in_words
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.unexpected import LOG, note_unexpected
 from tests.shapes import bumpy
+from tests.waiting import PATIENCE
 
 BIHARMONIC = Spec.of("biharmonic")
-SAID = "Something went wrong that should not have: ZeroDivisionError: once"
+SAID = "Unexpected error: ZeroDivisionError: once"
 
 
 @pytest.fixture
@@ -73,7 +73,7 @@ def fails_once(monkeypatch):
 
 
 def check_noted(noted):
-    sentence, details = noted.get(timeout=30)
+    sentence, details = noted.get(timeout=PATIENCE)
     assert sentence == SAID
     assert "Traceback" in details
     assert details.endswith("ZeroDivisionError: once")
@@ -82,7 +82,7 @@ def check_noted(noted):
 
 def pumped(posted, done):
     while not done():
-        posted.get(timeout=60)()
+        posted.get(timeout=PATIENCE)()
 
 
 def test_an_error_that_was_foreseen_is_not_noted(noted):
@@ -105,11 +105,11 @@ def test_a_lane(noted):
     work = Once(lambda request, lane: done.put(request))
     lane = LatestRequestWorker("a", work, lambda *_: None, lambda request, error: told.put((request, error)))
     lane.submit(1)
-    request, error = told.get(timeout=30)
+    request, error = told.get(timeout=PATIENCE)
     assert (request, str(error)) == (1, "once")
     check_noted(noted)
     lane.submit(2)
-    assert done.get(timeout=30) == 2
+    assert done.get(timeout=PATIENCE) == 2
     lane.close()
 
 
@@ -132,18 +132,18 @@ def test_a_lane_whose_listener_fails_goes_on(noted, who):
     lane.submit(1)
     check_noted(noted)
     lane.submit(2)
-    while done.get(timeout=30) != 2:
+    while done.get(timeout=PATIENCE) != 2:
         pass
     lane.close()
 
 
 def test_quality(noted, loaded, fails_once):
-    fails_once("app.tools.quality.judgement.other_extrema")
+    fails_once("app.tools.quality.quality_worker.other_extrema")
     posted = queue.Queue()
-    quality = Quality(posted.put, lambda: None)
+    quality = QualityWorker(posted.put, lambda: None)
     one, other = (DistanceQuestion(loaded.mesh, "voronoi", BIHARMONIC, at) for at in (3, 5))
     for question in (one, other):
-        quality.ask({question: (loaded, loaded.answer(question))})
+        quality.ask({question: (loaded, question.answer(loaded))})
         pumped(posted, lambda question=question: quality.found(question).is_whole)
     assert quality.found(one).failure == SAID
     assert quality.found(other).whole is not None
@@ -152,11 +152,11 @@ def test_quality(noted, loaded, fails_once):
 
 
 def test_triangles(noted, loaded, fails_once):
-    fails_once("app.tools.quality.judgement.triangle_samples")
+    fails_once("app.tools.quality.quality_worker.triangle_samples")
     posted = queue.Queue()
-    quality = Quality(posted.put, lambda: None)
+    quality = QualityWorker(posted.put, lambda: None)
     question = DistanceQuestion(loaded.mesh, "voronoi", BIHARMONIC, 3)
-    quality.ask({question: (loaded, loaded.answer(question))})
+    quality.ask({question: (loaded, question.answer(loaded))})
     pumped(posted, lambda: quality.found(question).is_sampled)
     assert quality.found(question).triangles_failure == SAID
     check_noted(noted)
@@ -176,30 +176,16 @@ def test_regions(noted, loaded, fails_once):
     dividing.close()
 
 
-def test_samples(noted, loaded, fails_once):
-    fails_once("app.session.farthest_points.farthest_points")
-    posted, told = queue.Queue(), []
-    sampling = Sampling(posted.put, told.append, lambda *_: None)
-    for count in (1, 2):
-        sampling.ask(SamplesQuestion(loaded.mesh, "voronoi", BIHARMONIC, 3, 4), loaded)
-        pumped(posted, lambda count=count: len(told) == count)
-    assert told[0].failure == SAID
-    assert len(told[1].vertices) == 4
-    check_noted(noted)
-    sampling.close()
-
-
 def test_distances_among_pins(noted, loaded, fails_once):
     fails_once("app.tools.pins.pairwise_distances.distances_among")
     posted = queue.Queue()
     among = PairwiseDistances(posted.put, lambda: None)
-    key = (loaded, "voronoi", BIHARMONIC)
     among.ask(loaded, "voronoi", [BIHARMONIC], [3, 5])
-    pumped(posted, lambda: among.failure(*key))
-    assert among.failure(*key) == SAID
+    pumped(posted, lambda: among.failure(BIHARMONIC))
+    assert among.failure(BIHARMONIC) == SAID
     check_noted(noted)
     among.ask(loaded, "barycentric", [BIHARMONIC], [3, 5])
-    pumped(posted, lambda: among.matrix(loaded, "barycentric", BIHARMONIC, [3, 5]) is not None)
+    pumped(posted, lambda: among.matrix(BIHARMONIC) is not None)
     among.close()
 
 
@@ -209,15 +195,15 @@ def test_paths(noted, monkeypatch):
     worker._maker = SimpleNamespace(path=Once(worker._maker.path))
     surface = bumpy(200)
     worker.ask(PathWanted(surface, (3, 50), "auto"))
-    assert told.get(timeout=30) == SAID
+    assert told.get(timeout=PATIENCE) == SAID
     check_noted(noted)
     worker.ask(PathWanted(surface, (3, 60), "auto"))
-    assert np.isfinite(told.get(timeout=30).length)
+    assert np.isfinite(told.get(timeout=PATIENCE).length)
     worker.close()
 
 
 def test_answers(noted, desk, mesh_file, monkeypatch):
-    monkeypatch.setattr(LoadedMesh, "answer", Method(Once(LoadedMesh.answer)))
+    monkeypatch.setattr(DistanceQuestion, "answer", Method(Once(DistanceQuestion.answer)))
     d = desk([BIHARMONIC])
     d.show(mesh_file(bumpy(200)), 3)
     d.complete()
@@ -236,11 +222,11 @@ def test_reading(noted, desk, mesh_file):
     check_noted(noted)
     d.view.unexpected.clear()
     d.session.open(path)
-    assert d.complete().surface.n_vertices == 200
+    assert d.complete().mesh().surface.n_vertices == 200
 
 
-def test_a_document_that_cannot_be_settled(noted, desk, mesh_file, monkeypatch):
-    monkeypatch.setattr(LoadedMesh, "settled", Method(Once(LoadedMesh.settled)))
+def test_a_document_that_cannot_be_resolve_points(noted, desk, mesh_file, monkeypatch):
+    monkeypatch.setattr(LoadedMesh, "resolve_points", Method(Once(LoadedMesh.resolve_points)))
     d = desk([BIHARMONIC])
     path = mesh_file(bumpy(200))
     d.show(path, 3)
@@ -248,7 +234,7 @@ def test_a_document_that_cannot_be_settled(noted, desk, mesh_file, monkeypatch):
     check_noted(noted)
     d.view.unexpected.clear()
     d.session.open(path)
-    assert d.complete().surface.n_vertices == 200
+    assert d.complete().mesh().surface.n_vertices == 200
 
 
 class Method:

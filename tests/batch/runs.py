@@ -5,8 +5,6 @@ from pathlib import Path
 
 from app.main import main
 
-ROOT = Path(__file__).parents[2]
-
 
 def batch(meshes, out, *options):
     """The exit status; by one process, which is begun sooner than two, unless the options say otherwise."""

@@ -14,14 +14,17 @@ import numpy as np
 import pytest
 from scipy.io import loadmat
 
-from app.batch.drive import found_meshes
 from app.batch.engines import Processes
+from app.batch.mesh_files import find_mesh_files
 from app.main import main
 from bihdist_core import BiharmonicDistance, Laplacian, ParameterError, read_surface, write_mesh
 from bihdist_core.analysis.sampling import farthest_points
 from bihdist_core.laplacian import eigenpairs
-from tests.batch.runs import ROOT, batch, rows
+from tests.batch.runs import batch, rows
+from tests.commands import ran
+from tests.programs import ROOT
 from tests.shapes import bumpy, torus, two_pieces
+from tests.waiting import PATIENCE
 
 
 @pytest.fixture(scope="module")
@@ -268,7 +271,7 @@ def test_a_run_that_was_killed_goes_on_where_it_was(folder, tmp_path):
     words += ["--sources", "farthest:40", "--workers", "2"]
     run = subprocess.Popen(words, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     begin = time.monotonic()
-    while len(list(out.glob("*.json"))) < 3 and time.monotonic() - begin < 100:
+    while len(list(out.glob("*.json"))) < 3 and time.monotonic() - begin < PATIENCE:
         time.sleep(0.02)
     run.send_signal(signal.SIGKILL)
     run.wait()
@@ -310,26 +313,26 @@ def test_files_of_the_same_name_are_called_by_their_folders(tmp_path):
             write_mesh(tmp_path / subject / f"{mesh}.off", bumpy(50))
     path = tmp_path / "list.txt"
     path.write_text("one/left.off\ntwo/left.off\none/one.off\n")
-    assert list(found_meshes([], str(path)).paths) == ["one_left", "two_left", "one"]
+    assert list(find_mesh_files([], str(path)).paths) == ["one_left", "two_left", "one"]
     # A mesh that is named twice is one.
     path.write_text("one/left.off\none/left.off\n")
-    assert list(found_meshes([str(tmp_path / "one")], str(path)).paths) == ["left", "one"]
+    assert list(find_mesh_files([str(tmp_path / "one")], str(path)).paths) == ["left", "one"]
     shutil.copytree(tmp_path / "one", tmp_path / "more" / "one")
     path.write_text("one/left.off\nmore/one/left.off\n")
     with pytest.raises(ParameterError, match="the same name, one_left"):
-        found_meshes([], str(path))
+        find_mesh_files([], str(path))
 
 
 def test_meshes_are_named_by_files_folders_samples_and_lists(folder, tmp_path):
     path = tmp_path / "list.txt"
     path.write_text(f"# two\n{os.path.relpath(folder / 'ring.off', tmp_path)}\nhand\n")
-    assert list(found_meshes([], str(path)).paths) == ["ring", "hand"]
-    assert list(found_meshes([str(folder / "ring.off"), "part"], str(path)).paths) == ["ring", "part", "hand"]
-    found = found_meshes(["gone.off", str(folder)])
+    assert list(find_mesh_files([], str(path)).paths) == ["ring", "hand"]
+    assert list(find_mesh_files([str(folder / "ring.off"), "part"], str(path)).paths) == ["ring", "part", "hand"]
+    found = find_mesh_files(["gone.off", str(folder)])
     assert list(found.paths) == ["bumpy", "pieces", "ring"]
     assert found.missing == {"gone": "There is no file or folder gone.off, nor a sample of that name."}
     (tmp_path / "empty").mkdir()
-    assert "no mesh in the folder" in found_meshes([str(tmp_path / "empty"), "hand"]).missing["empty"]
+    assert "no mesh in the folder" in find_mesh_files([str(tmp_path / "empty"), "hand"]).missing["empty"]
 
 
 @pytest.mark.parametrize(
@@ -345,22 +348,21 @@ def test_a_list_that_is_wrong_is_refused(tmp_path, text, words):
     if text is not None:
         path.write_text(text)
     with pytest.raises(ParameterError, match=words):
-        found_meshes([], str(path))
+        find_mesh_files([], str(path))
 
 
 def test_no_mesh_at_all_is_refused():
     with pytest.raises(ParameterError, match="Which meshes"):
-        found_meshes([])
+        find_mesh_files([])
     with pytest.raises(ParameterError, match=r"no file or folder gone\.off"):
-        found_meshes(["gone.off"])
+        find_mesh_files(["gone.off"])
 
 
 def test_what_it_says_has_the_folder_as_it_was_typed(folder, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for typed in ("out", "out/", str(tmp_path / "out")):
         words = [str(folder / "ring.off"), "gone.off", "--do", "fields", "--workers", "1"]
-        assert main(["batch", *words, "-o", typed]) == 1
-        told, place = capsys.readouterr(), typed.rstrip("/")
+        told, place = ran(capsys, "batch", *words, "-o", typed, status=1), typed.rstrip("/")
         assert f"{place}: 1 result of 2 meshes" in told.out.splitlines()[0]
         assert f"1 result missing; {place}/failures.csv says why." in told.err
         assert told.out.startswith(place)
@@ -402,7 +404,7 @@ BOTH = ("--distance", "biharmonic,geodesic")
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--do", "dance", "--samples", "3"), "no work 'dance'"),
+        (("--do", "dance", "--samples", "3"), "no task 'dance'"),
         (("--do", "pairs"), "Pairs are among several sources"),
         (("--do", "fps"), "Farthest points need a number"),
         (("--do", "evaluate"), "evaluated with --maps"),

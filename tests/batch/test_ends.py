@@ -8,19 +8,23 @@ import sys
 import time
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from app.batch.drive import drive, found_meshes, tasks_for
 from app.batch.engines import Processes
 from app.batch.execution import PARTS
-from app.batch.task import Part, Report, refused
+from app.batch.mesh_files import find_mesh_files
+from app.batch.scheduler import run_tasks, tasks_for
+from app.batch.task import Report, TaskPart, refused_report
 from app.batch.work_order import WorkOrder
 from app.commands import batch as command
 from bihdist_core import write_mesh
-from tests.batch.runs import ROOT, batch, rows
+from tests.batch.runs import batch, rows
+from tests.programs import ROOT, run_python
 from tests.shapes import bumpy
+from tests.waiting import PATIENCE
 
-GOES_ON = "The same command goes on from there."
+GOES_ON = "Run the same command to resume."
 
 
 @pytest.fixture(scope="module")
@@ -36,14 +40,13 @@ def test_a_cluster_without_its_scheduler_is_a_failure_of_what_is_left(folder, tm
     pytest.importorskip("distributed")
     script = tmp_path / "cluster.py"
     script.write_text(WITHOUT_SCHEDULER)
-    words = [sys.executable, str(script), str(folder), str(tmp_path / "out"), str(tmp_path / "scheduler.json")]
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    run = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=120)
-    assert run.returncode == 1, run.stderr
-    assert "Traceback" not in run.stderr
+    words = [script, folder, tmp_path / "out", tmp_path / "scheduler.json"]
+    done = run_python(*words, PYTHONPATH=str(ROOT))
+    assert done.returncode == 1, done.stderr
+    assert "Traceback" not in done.stderr
     failures = rows(tmp_path / "out", "failures")
     assert [row["mesh"] for row in failures] == ["bumpy0", "bumpy1", "bumpy2"]
-    assert {row["reason"].partition(":")[0] for row in failures} == {"The cluster was lost"}
+    assert {row["reason"].partition(":")[0] for row in failures} == {"The connection to the cluster was lost"}
     assert rows(tmp_path / "out") == []
 
 
@@ -91,12 +94,12 @@ def test_what_ends_a_command_ends_all_its_processes_in_silence(tmp_path, number,
     run = subprocess.Popen(words, cwd=ROOT, stderr=subprocess.PIPE, text=True, start_new_session=True)
     begin = time.monotonic()
     # One process has nothing to do then, the other has much.
-    while not (out / "small.eigen.json").exists() and time.monotonic() - begin < 60:
+    while not (out / "small.eigen.json").exists() and time.monotonic() - begin < PATIENCE:
         time.sleep(0.02)
     time.sleep(0.3)
     send(run.pid, number)
     # Until all that hold the other end of the pipe have ended.
-    _, said = run.communicate(timeout=60)
+    _, said = run.communicate(timeout=PATIENCE)
     assert run.returncode == status
     # No word of semaphores that somebody has left.
     lines = [line for line in said.splitlines() if not line.endswith("others under way")]
@@ -113,9 +116,9 @@ def test_processes_leave_an_interruption_to_the_one_that_began_them(folder, tmp_
             os.kill(process, signal.SIGINT)
         time.sleep(0.1)
 
-    tasks, _ = tasks_for(found_meshes([str(folder)]).paths, WorkOrder(("fields",)), str(tmp_path), "1")
+    tasks, _ = tasks_for(find_mesh_files([str(folder)]).paths, WorkOrder(("fields",)), str(tmp_path), "1")
     try:
-        outcome = drive(tasks, engine, interrupt)
+        outcome = run_tasks(tasks, engine, interrupt)
     finally:
         engine.close()
     assert len(outcome.rows) == 3
@@ -167,9 +170,9 @@ def test_an_interrupted_set_of_figures_says_which_are_missing(folder, tmp_path, 
 
 
 def test_what_has_no_room_is_said_of_its_part_alone(folder, tmp_path):
-    (task, *_), _ = tasks_for(found_meshes([str(folder)]).paths, WorkOrder(("fields", "eigen")), str(tmp_path), "1")
-    part = replace(task, part=Part("fields", "biharmonic", 0, 10, 150))
-    found = {each: refused(Report(each, needs=3 * 10**9), 10**9).failures for each in (task, part)}
+    (task, *_), _ = tasks_for(find_mesh_files([str(folder)]).paths, WorkOrder(("fields", "eigen")), str(tmp_path), "1")
+    part = replace(task, part=TaskPart("fields", "biharmonic", 0, 10, 150))
+    found = {each: refused_report(Report(each, needs=3 * 10**9), 10**9).failures for each in (task, part)}
     assert [(each.work, each.distance) for each in found[task]] == [("fields", "biharmonic"), ("eigen", "")]
     (failure,) = found[part]
     assert (failure.name, failure.work, failure.distance) == (task.name, "fields", "biharmonic")
@@ -187,3 +190,78 @@ def test_unfinished_work_of_another_command_stays_and_is_told_of(folder, tmp_pat
     begun.unlink()
     assert batch(folder, out, "--do", "eigen", "--k", "5") == 0
     assert not (out / PARTS).exists()
+
+
+# ---------------------------------------------------------------------- interrupted cluster
+INTERRUPTED = """
+import os, signal, sys
+from distributed import LocalCluster
+from app.batch.engines import Cluster
+from app.main import main
+
+def interrupted(self):
+    for report in reports(self):
+        yield report
+        os.kill(os.getpid(), signal.SIGINT)  # a terminal's Ctrl-C, while others are under way
+
+reports = Cluster.reports
+if __name__ == "__main__":
+    folder, out = sys.argv[1:]
+    one = dict(n_workers=1, threads_per_worker=1, memory_limit="4GiB", dashboard_address=None)
+    with LocalCluster(**one) as cluster:
+        words = ["batch", folder, "-o", out, "--do", "fields,eigen", "--k", "20", "--dask", cluster.scheduler_address]
+        Cluster.reports = interrupted
+        print("status", main(words), flush=True)
+        with open(f"{out}/summary.csv") as file:
+            print("lines", len(file.readlines()))
+        Cluster.reports = reports
+        print("status", main(words), flush=True)
+"""
+
+
+def test_what_is_done_on_a_cluster_is_kept_when_it_is_interrupted_and_the_next_run_goes_on(tmp_path):
+    pytest.importorskip("distributed")
+    meshes, out, script = tmp_path / "meshes", tmp_path / "out", tmp_path / "cluster.py"
+    meshes.mkdir()
+    for k in range(4):
+        write_mesh(meshes / f"bumpy{k}.off", bumpy(150 + k, k))
+    script.write_text(INTERRUPTED)
+    run = run_python(script, meshes, out, PYTHONPATH=str(ROOT))
+    assert run.returncode == 0, run.stderr
+    assert "Traceback" not in run.stderr
+    said = run.stdout.splitlines()
+    assert said[:2] == ["status 130", "lines 3"]  # the head, and both results of the first mesh
+    assert f"interrupted; 2 results in {out}. Run the same command to resume." in run.stderr
+    assert said[2].startswith(f"{out}: 8 results of 4 meshes, ")
+    assert said[2].endswith(" of them there before")
+    assert said[3] == "status 0"
+    assert len(rows(out)) == 8
+    assert not [path.name for path in out.iterdir() if path.name.startswith(".")]
+    for path in out.glob("*.npy"):
+        assert np.isfinite(np.load(path)).all()
+
+
+# ---------------------------------------------------------------------- unguarded script
+SCRIPT = """
+import sys
+from app.main import main
+
+print("begun as", __name__, flush=True)
+words = ["batch", *sys.argv[1:], "--do", "fields", "--workers", "2"]
+print("ended with", main(words), sys.modules["__main__"].__file__ == __file__, flush=True)
+"""
+
+
+def test_a_script_needs_no_guard_for_its_workers(tmp_path):
+    script, meshes, out = tmp_path / "script.py", tmp_path / "meshes", tmp_path / "out"
+    script.write_text(SCRIPT)
+    meshes.mkdir()
+    for k in range(3):
+        write_mesh(meshes / f"{k}.off", bumpy(60, k))
+    words = [sys.executable, str(script), str(meshes), "-o", str(out)]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    run = subprocess.run(words, env=environment, capture_output=True, text=True, timeout=PATIENCE, cwd=tmp_path)
+    said = [line for line in run.stdout.splitlines() if line.startswith(("begun", "ended"))]
+    assert said == ["begun as __main__", "ended with 0 True"], run.stderr
+    assert "Traceback" not in run.stderr
+    assert len(list(out.glob("*.fields.biharmonic.npy"))) == 3

@@ -13,19 +13,21 @@ import numpy as np
 import pytest
 
 from app.batch import engines, memory
-from app.batch.drive import drive, found_meshes, tasks_for
 from app.batch.engines import Processes
-from app.batch.execution import do
+from app.batch.execution import run_task
+from app.batch.mesh_files import find_mesh_files
+from app.batch.scheduler import run_tasks, tasks_for
 from app.batch.storage import Folder
-from app.batch.task import done_before
+from app.batch.task import existing_report
 from app.batch.work_order import WorkOrder
 from app.document.sources import Sources
 from app.main import main
 from bihdist_core import BiharmonicDistance, read_surface, write_mesh
-from bihdist_core.whole_file import held
+from bihdist_core.file_output import lock
+from tests.commands import refused
+from tests.programs import ROOT, run_python
 from tests.shapes import bumpy, torus
-
-ROOT = Path(__file__).parents[2]
+from tests.waiting import PATIENCE
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +48,7 @@ def files(out):
     }
 
 
-WORK = ("--do", "fields,pairs,eigen,figure", "--sources", "farthest:8", "--k", "5", "--range", "own")
+WORK = ("--do", "fields,pairs,eigen,figure", "--sources", "farthest:8", "--k", "5", "--clim", "own")
 
 
 @pytest.fixture(scope="module")
@@ -62,12 +64,9 @@ def test_a_cluster_that_loses_a_worker_makes_the_same_bytes(folder, done, tmp_pa
     # In a process of its own, as a user's cluster is: its threads and warnings are not those of the tests.
     script = tmp_path / "cluster.py"
     script.write_text(CLUSTER)
-    words = [sys.executable, str(script), str(folder), str(tmp_path / "out"), *WORK]
-    run = subprocess.run(
-        words, cwd=ROOT, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, timeout=240
-    )
-    assert run.returncode == 0, run.stderr
-    assert "killed" in run.stdout
+    done_there = run_python(script, folder, tmp_path / "out", *WORK, PYTHONPATH=str(ROOT))
+    assert done_there.returncode == 0, done_there.stderr
+    assert "killed" in done_there.stdout
     assert files(tmp_path / "out") == files(done)
     assert distributed.__version__
 
@@ -100,7 +99,7 @@ if __name__ == "__main__":
     one = dict(n_workers=1, threads_per_worker=1, dashboard_address=None)
     with LocalCluster(memory_limit="450MB", **one) as cluster:
         address = cluster.scheduler_address
-        words = [sys.executable, "-m", "app", "batch", folder, "-o", out, "--do", "figure", "--range", "own"]
+        words = [sys.executable, "-m", "app", "batch", folder, "-o", out, "--do", "figure", "--clim", "own"]
         alone = subprocess.run([*words, "--dask", address], capture_output=True, text=True)
         print(alone.returncode, alone.stderr)
         more = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--memory-limit", "4GB"]
@@ -117,12 +116,9 @@ def test_what_is_too_big_for_a_worker_goes_to_a_larger_one_or_is_refused(folder,
     pytest.importorskip("distributed")
     script = tmp_path / "cluster.py"
     script.write_text(SMALL_AND_LARGE)
-    words = [sys.executable, str(script), str(folder), str(tmp_path / "out")]
-    run = subprocess.run(
-        words, cwd=ROOT, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, timeout=240
-    )
-    assert run.returncode == 0, run.stderr
-    alone, both = run.stdout.split("\n0 ")
+    ended = run_python(script, folder, tmp_path / "out", PYTHONPATH=str(ROOT))
+    assert ended.returncode == 0, ended.stderr
+    alone, both = ended.stdout.split("\n0 ")
     assert alone.startswith("1 ")
     assert "It needs about 0.6 GB of memory, and there are 0.5 GB" in alone
     assert "5 of 5" in both
@@ -135,14 +131,14 @@ def test_a_cluster_that_has_not_this_version_is_refused(folder, tmp_path):
     script.write_text(WITHOUT_IT)
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     words = [sys.executable, "-P", str(script), str(folder), str(tmp_path / "out")]
-    run = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=120)
+    run = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=PATIENCE)
     assert run.stdout.startswith("2 ")
     assert "the same version of bihdist" in run.stdout
 
 
 def test_a_scheduler_that_never_writes_its_file_is_not_waited_for(folder, tmp_path, monkeypatch, capsys):
     pytest.importorskip("distributed")
-    monkeypatch.setattr(engines, "WAIT", 0.3)
+    monkeypatch.setattr(engines, "SCHEDULER_WAIT_S", 0.3)
     assert main(["batch", str(folder), "-o", str(tmp_path), "--do", "fields", "--dask", "none.json"]) == 2
     assert "No scheduler has written none.json" in capsys.readouterr().err
 
@@ -164,14 +160,14 @@ if __name__ == "__main__":
 
 # ---------------------------------------------------------------------- processes
 def tasks_of(folder, out, wanted):
-    tasks, failures = tasks_for(found_meshes([str(folder)]).paths, wanted, str(out), "1")
+    tasks, failures = tasks_for(find_mesh_files([str(folder)]).paths, wanted, str(out), "1")
     assert not failures
     return tasks
 
 
 def driven(tasks, engine):
     try:
-        return drive(tasks, engine, lambda *_: None)
+        return run_tasks(tasks, engine, lambda *_: None)
     finally:
         engine.close()
 
@@ -207,7 +203,7 @@ def test_a_process_that_ends_between_two_tasks_costs_nothing(folder, tmp_path, w
                 time.sleep(0.005)
 
     try:
-        outcome = drive(tasks, engine, kill)
+        outcome = run_tasks(tasks, engine, kill)
     finally:
         engine.close()
     assert not outcome.failures
@@ -215,7 +211,7 @@ def test_a_process_that_ends_between_two_tasks_costs_nothing(folder, tmp_path, w
 
 
 def test_what_ends_its_process_again_and_again_is_named(folder, tmp_path, monkeypatch):
-    monkeypatch.setattr(engines, "do", _do_or_die)
+    monkeypatch.setattr(engines, "run_task", _do_or_die)
     outcome = driven(tasks_of(folder, tmp_path, WorkOrder(("fields",))), Processes(2))
     (failure,) = outcome.failures
     assert failure.name == "bumpy3"
@@ -226,15 +222,15 @@ def test_what_ends_its_process_again_and_again_is_named(folder, tmp_path, monkey
 def _do_or_die(task):
     if task.name == "bumpy3":
         os.kill(os.getpid(), signal.SIGKILL)
-    return do(task)
+    return run_task(task)
 
 
 def test_what_needs_more_memory_than_there_is_is_refused_in_words(folder, tmp_path, monkeypatch):
     monkeypatch.setattr(memory, "available", lambda: 10**8)
     (task, *_) = tasks_of(folder, tmp_path, WorkOrder(("fields",)))
-    report = do(task)
+    report = run_task(task)
     assert report.needs > 10**8
-    (failure,) = engines.refused(report, 10**8).failures
+    (failure,) = engines.refused_report(report, 10**8).failures
     assert "It needs about 0.3 GB of memory, and there are 0.1 GB" in failure.reason
 
 
@@ -281,7 +277,7 @@ def test_more_memory_is_asked_for_than_is_used(tmp_path):
         "BiharmonicDistance(bumpy(int(sys.argv[1]))).from_sources(np.arange(100)); print(peak_memory())"
     )
     for n in (3_000, 40_000):
-        peak = int(subprocess.check_output([sys.executable, "-c", script, str(n)], cwd=ROOT))
+        peak = int(run_python("-c", script, n).stdout)
         asked = memory.needed(n, WorkOrder(("fields",), sources=Sources("farthest", count=100)))
         assert peak < asked < 4 * peak
 
@@ -305,7 +301,7 @@ def test_parts_of_a_large_mesh_are_put_together(folder, tmp_path, monkeypatch, a
         found = found if arrays == "npy" else found[first][...]
         np.testing.assert_allclose(found, rows if name == "fields" else rows.T, atol=1e-12)
     assert not list((tmp_path / ".parts").glob("*"))
-    assert done_before(task) is not None
+    assert existing_report(task) is not None
 
 
 def test_parcels_of_a_large_mesh_are_added_up(folder, tmp_path, monkeypatch):
@@ -335,7 +331,7 @@ class InTurn:
     def reports(self):
         while self.waiting:
             self.count += 1
-            yield do(self.waiting.pop(0))
+            yield run_task(self.waiting.pop(0))
 
     def close(self):
         pass
@@ -345,7 +341,7 @@ def test_what_killed_processes_left_half_written_is_swept_away(tmp_path):
     half = [".cat.half-0123abcd.npy", ".cat.half-01234567.json", ".dog.half-0123abcd.npy"]
     for name in ("cat.npy", "cat.json", *half, ".cat.npy", ".cat-0123abcd.npy"):
         (tmp_path / name).write_text("x")
-    with held(tmp_path / half[2]):  # as another run does that writes there
+    with lock(tmp_path / half[2]):  # as another run does that writes there
         Folder(str(tmp_path)).sweep()
     left = {"cat.npy", "cat.json", half[2], ".cat.npy", ".cat-0123abcd.npy"}
     assert {path.name for path in tmp_path.iterdir()} == left
@@ -367,5 +363,4 @@ def test_results_go_wherever_fsspec_reaches(folder):
 
 
 def test_an_address_that_nothing_reaches_is_said(folder, capsys):
-    assert main(["batch", str(folder), "-o", "nowhere://x", "--do", "fields"]) == 2
-    assert "nowhere://x cannot be reached" in capsys.readouterr().err
+    assert "nowhere://x cannot be reached" in refused(capsys, "batch", folder, "-o", "nowhere://x", "--do", "fields")

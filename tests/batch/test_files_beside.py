@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from app.batch.drive import found_meshes, tasks_for
-from app.batch.execution import do
-from app.batch.task import done_before
+from app.batch.execution import run_task
+from app.batch.mesh_files import find_mesh_files
+from app.batch.scheduler import tasks_for
+from app.batch.task import existing_report
 from app.batch.work_order import WorkOrder
 from app.document.sources import Sources
 from bihdist_core import BiharmonicDistance, Surface, write_mesh
@@ -24,9 +25,9 @@ def mesh(tmp_path_factory):
 
 
 def report(mesh, out, *works, **options):
-    (task,), failures = tasks_for(found_meshes([str(mesh)]).paths, WorkOrder(works, **options), str(out), "1")
+    (task,), failures = tasks_for(find_mesh_files([str(mesh)]).paths, WorkOrder(works, **options), str(out), "1")
     assert not failures
-    return do(task)
+    return run_task(task)
 
 
 def written(path, values):
@@ -48,7 +49,7 @@ def test_sources_by_a_rule_are_not_masked(mesh, tmp_path, rule, count):
     asked = Sources(rule, count=0 if rule == "all" else count)
     found = report(mesh, tmp_path, "fields", "pairs", "nearest", sources=asked, mask=mask, nearest=4)
     assert not found.failures
-    facts = {row.work: row.facts for row in found.rows}
+    facts = {row.work: row.metadata for row in found.rows}
     sources = np.array(facts["fields"]["sources"])
     assert len(set(sources.tolist())) == count
     assert MASK[sources].all()
@@ -65,8 +66,8 @@ def test_sources_by_a_rule_are_not_masked(mesh, tmp_path, rule, count):
 
 def test_all_says_which_they_are_where_some_are_left_out(mesh, tmp_path):
     (row,) = report(mesh, tmp_path, "pairs", sources=Sources("all")).rows
-    assert row.facts["shape"] == [N, N]
-    assert row.facts["sources"] == list(range(N))
+    assert row.metadata["shape"] == [N, N]
+    assert row.metadata["sources"] == list(range(N))
 
 
 FILES = {
@@ -82,8 +83,8 @@ FILES = {
         ("sources", "a.txt", [1, N + 1], f"has no vertex {N + 1}; ids run from 0 to {N}"),
         ("sources", "a.txt", [-1], "vertex ids start at 0"),
         ("sources", "a.txt", [N], f"vertex {N} "),
-        ("sources", "a.txt", ["one"], "line 1: 'one' is no source"),
-        ("sources", "a.txt", [], "There is no source in"),
+        ("sources", "a.txt", ["one"], "line 1: 'one' is not a source"),
+        ("sources", "a.txt", [], "names no source"),
         ("sources", "a.label.gii", None, "has a value for each vertex; sources are the ids of some"),
         ("sources", "a.csv", None, "cannot be read"),
         ("sources", "a.npy", None, "cannot be read: No such file"),
@@ -94,7 +95,7 @@ FILES = {
         ("labels", "a.npy", np.zeros(N, int), f"one for each of the {N + 1:,} vertices of shape.off"),
         ("labels", "a.npy", np.full(N + 1, -1), "No vertex of shape.off has a label"),
         ("labels", "a.npy", np.linspace(0, 1, N + 1), "not whole numbers"),
-        ("labels", "a.dat", None, "is no labels"),
+        ("labels", "a.dat", None, "file of the labels"),
     ],
 )
 def test_files_that_do_not_fit_are_failures_of_what_reads_them_alone(mesh, tmp_path, what, name, values, words):
@@ -111,16 +112,16 @@ def test_files_that_do_not_fit_are_failures_of_what_reads_them_alone(mesh, tmp_p
 def test_numbers_may_be_written_as_other_programs_do(mesh, tmp_path, text):
     (tmp_path / "a.txt").write_text(text)
     found = report(mesh, tmp_path, "fields", **FILES["sources"](str(tmp_path / "a.txt")))
-    assert found.rows[0].facts["sources"] == [0, 7, 12]
+    assert found.rows[0].metadata["sources"] == [0, 7, 12]
 
 
 def test_labels_without_vertices_are_no_parcels(mesh, tmp_path):
     labels = np.append(np.array([7, 2, -1])[np.arange(N) % 3], 4)
     (row,) = report(mesh, tmp_path, "pairs", labels=written(tmp_path / "labels.npy", labels)).rows
     # The vertex with label 4 belongs to no face.
-    assert row.facts["labels"] == [2, 7]
-    assert row.facts["counts"] == [30, 30]
-    assert row.facts["shape"] == [2, 2]
+    assert row.metadata["labels"] == [2, 7]
+    assert row.metadata["counts"] == [30, 30]
+    assert row.metadata["shape"] == [2, 2]
 
 
 def test_a_change_of_a_file_is_one_of_what_reads_it_alone(mesh, tmp_path):
@@ -132,6 +133,6 @@ def test_a_change_of_a_file_is_one_of_what_reads_it_alone(mesh, tmp_path):
     found = {row.work: row.is_new for row in report(mesh, tmp_path, "fields", "eigen", **options).rows}
     assert found == {"fields": True, "eigen": False}
     (task,), _ = tasks_for(
-        found_meshes([str(mesh)]).paths, WorkOrder(("fields", "eigen"), **options), str(tmp_path), "1"
+        find_mesh_files([str(mesh)]).paths, WorkOrder(("fields", "eigen"), **options), str(tmp_path), "1"
     )
-    assert done_before(task) is not None
+    assert existing_report(task) is not None

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from scipy.io import loadmat
 
-from app.batch.drive import found_meshes, tasks_for
-from app.batch.execution import do
+from app.batch.execution import run_task
+from app.batch.mesh_files import find_mesh_files
+from app.batch.scheduler import tasks_for
 from app.batch.work_order import ARRAYS, GIFTI, LAYOUTS, WorkOrder, slug
 from app.document.sources import Sources
 from bihdist_core import (
@@ -37,11 +38,11 @@ def mesh(tmp_path_factory):
 
 
 def made(mesh, out, **options):
-    (task,), failures = tasks_for(found_meshes([str(mesh.parent)]).paths, WorkOrder(**options), str(out), "1.2")
-    report = do(task)
+    (task,), failures = tasks_for(find_mesh_files([str(mesh.parent)]).paths, WorkOrder(**options), str(out), "1.2")
+    report = run_task(task)
     assert not failures
     assert not report.failures
-    return {row.work: row.facts for row in report.rows}
+    return {row.work: row.metadata for row in report.rows}
 
 
 def loaded(path):
@@ -138,7 +139,7 @@ def test_layouts_have_no_ids_and_nothing_that_benchmarks_do_not_know(mesh, tmp_p
 def test_zarr_is_read_lazily_by_dask(mesh, tmp_path, monkeypatch):
     zarr = pytest.importorskip("zarr")
     array = pytest.importorskip("dask.array")
-    monkeypatch.setattr("app.batch.results.CHUNK", 50)
+    monkeypatch.setattr("app.batch.results.ZARR_CHUNK", 50)
     said = made(mesh, tmp_path, works=("pairs",), sources=Sources("all"), arrays="zarr")["pairs"]
     lazy = array.from_zarr(str(tmp_path / said["file"]), component="dist")
     assert lazy.chunks == ((50, 50, 28), (50, 50, 28))
@@ -195,17 +196,17 @@ def test_benchmarks_read_their_layouts_as_errors_over_the_root_of_the_area(mesh,
     for layout, normalise, readers in (("geodist", "", of_geodist), ("dist", "area", (read_by_ulrssm,))):
         out = tmp_path / layout
         wanted = WorkOrder(("pairs",), **options, layout=layout, normalise=normalise)
-        tasks, _ = tasks_for(found_meshes([str(mesh.parent)]).paths, wanted, str(out), "1")
+        tasks, _ = tasks_for(find_mesh_files([str(mesh.parent)]).paths, wanted, str(out), "1")
         if in_parts:
             monkeypatch.setattr("app.batch.execution.PART_BYTES", 8 * 128 * 50)
-            parts = do(tasks[0]).more
+            parts = run_task(tasks[0]).more
             assert len(parts) == 3
             tasks = [*parts, replace(parts[0], part=replace(parts[0].part, is_whole=True))]
         for task in tasks:
-            report = do(task)
+            report = run_task(task)
             assert not report.failures
         for reader in readers:
-            distances, root = reader(loadmat(out / report.rows[0].facts["file"]))
+            distances, root = reader(loadmat(out / report.rows[0].metadata["file"]))
             errors = np.take(distances, np.ravel_multi_index((right, found), distances.shape)) / root
             np.testing.assert_allclose(np.ravel(errors), expected, rtol=1e-6)
 
@@ -217,9 +218,9 @@ def test_normalised_results_are_those_of_the_mesh_scaled_to_area_1(mesh, tmp_pat
     words = ("biharmonic", "diffusion(t=1/4)")
     options = {"distances": words, "sources": Sources("farthest", count=9), "eigenpairs": 7, "arrays": "npz"}
     (task,), _ = tasks_for(
-        found_meshes([str(mesh.parent)]).paths, WorkOrder(WORKS, **options, normalise="area"), str(tmp_path), "1"
+        find_mesh_files([str(mesh.parent)]).paths, WorkOrder(WORKS, **options, normalise="area"), str(tmp_path), "1"
     )
-    sources = np.load(tmp_path / "bumpy.fps.biharmonic.npz")["vertices"] if not do(task).failures else None
+    sources = np.load(tmp_path / "bumpy.fps.biharmonic.npz")["vertices"] if not run_task(task).failures else None
     fields = {word: np.load(tmp_path / f"bumpy.fields.{slug(word)}.npz")["fields"] for word in words}
     np.testing.assert_allclose(fields["biharmonic"], BiharmonicDistance(unit).from_sources(sources), rtol=1e-9)
     np.testing.assert_allclose(
@@ -255,17 +256,17 @@ def test_other_files_have_checksums_of_their_own(mesh, tmp_path):
 def test_neighbours_of_a_large_mesh_are_put_together(mesh, tmp_path, monkeypatch):
     monkeypatch.setattr("app.batch.execution.PART_COLUMNS", 50)
     (task,), _ = tasks_for(
-        found_meshes([str(mesh.parent)]).paths,
+        find_mesh_files([str(mesh.parent)]).paths,
         WorkOrder(("nearest",), sources=Sources("all"), nearest=5),
         str(tmp_path),
         "1",
     )
-    parts = do(task).more
+    parts = run_task(task).more
     assert [(each.part.begin, each.part.end) for each in parts] == [(0, 50), (50, 100), (100, 128)]
     for part in parts:
-        do(part)
-    (row,) = do(replace(parts[-1], part=replace(parts[-1].part, is_whole=True))).rows
-    found = loaded(tmp_path / row.facts["file"])
+        run_task(part)
+    (row,) = run_task(replace(parts[-1], part=replace(parts[-1].part, is_whole=True))).rows
+    found = loaded(tmp_path / row.metadata["file"])
     indices, values = nearest(BiharmonicDistance(read_surface(mesh)), k=5)
     np.testing.assert_array_equal(found["indices"], indices)
     np.testing.assert_allclose(found["distances"], values, rtol=1e-9)

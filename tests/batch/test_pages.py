@@ -9,22 +9,22 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.batch.drive import found_meshes, tasks_for
-from app.batch.execution import do
-from app.batch.figures import length_power, shared_ends
+from app.batch.execution import run_task
+from app.batch.figures import length_power, shared_maxima
+from app.batch.mesh_files import find_mesh_files
 from app.batch.pages import write_pages
+from app.batch.scheduler import tasks_for
 from app.batch.storage import Folder
 from app.batch.task import Failure
-from app.batch.work_kinds import MAXIMA
-from app.batch.work_order import RANGES, WorkOrder
+from app.batch.work_order import MAXIMA, RANGES, WorkOrder
 from app.document.camera import Camera
 from app.document.document import comparison
 from app.document.file import recipe_text
 from app.document.looks import Isolines
 from app.document.page import Recipe
-from app.figures.contact_sheet import LARGEST, Cell, contact_sheet
+from app.figures.contact_sheet import LARGEST, SheetEntry, contact_sheet
 from bihdist_core import Surface, write_mesh
-from bihdist_core.distances.kinds import OURS, Spec
+from bihdist_core.distances.distance_types import BUILT_IN, Spec
 from bihdist_core.laplacian import Laplacian
 from tests.shapes import bumpy
 
@@ -49,12 +49,12 @@ def drawn(meshes, out, range, document):
     wanted = WorkOrder((MAXIMA,), recipe=recipe, range=range)
 
     def rows(asked):
-        tasks, _ = tasks_for(found_meshes([str(meshes)]).paths, asked, str(out), "1")
-        reports = [do(task) for task in tasks]
+        tasks, _ = tasks_for(find_mesh_files([str(meshes)]).paths, asked, str(out), "1")
+        reports = [run_task(task) for task in tasks]
         assert not [each.failures for each in reports if each.failures]
         return sorted((row for each in reports for row in each.rows), key=lambda row: row.name)
 
-    ends = shared_ends([row.facts for row in rows(wanted)], range) if range != "own" else ()
+    ends = shared_maxima([row.metadata for row in rows(wanted)], range) if range != "own" else ()
     return rows(replace(wanted, works=("figure",), maxima=ends))
 
 
@@ -62,14 +62,15 @@ def drawn(meshes, out, range, document):
 def test_colours_end_where_the_set_says(meshes, tmp_path, range):
     small, large = drawn(meshes, tmp_path, range, comparison("mesh", SHOWS))
     for k, power in enumerate([1, 0]):
-        one, other = small.facts["panels"][k], large.facts["panels"][k]
+        one, other = small.metadata["panels"][k], large.metadata["panels"][k]
         assert other["maximum"] == pytest.approx(50**power * one["maximum"], rel=1e-6)
         ends = {"size": 50**power * one["maximum"], "shared": max(one["maximum"], other["maximum"])}
         assert other["colours_end_at"] == pytest.approx(ends.get(range, other["maximum"]), rel=1e-6)
-    assert small.facts["panels"][0]["colours_end_at"] == pytest.approx(
-        large.facts["panels"][0]["maximum"] if range == "shared" else small.facts["panels"][0]["maximum"], rel=1e-6
+    assert small.metadata["panels"][0]["colours_end_at"] == pytest.approx(
+        large.metadata["panels"][0]["maximum"] if range == "shared" else small.metadata["panels"][0]["maximum"],
+        rel=1e-6,
     )
-    one, other = (np.asarray(Image.open(tmp_path / row.facts["file"]).convert("RGB"), int) for row in (small, large))
+    one, other = (np.asarray(Image.open(tmp_path / row.metadata["file"]).convert("RGB"), int) for row in (small, large))
     # The upper half has no numbers.
     half = len(one) // 2
     is_alike = np.abs(one[:half] - other[:half]).max(axis=2).mean() < 1
@@ -80,12 +81,12 @@ def test_a_camera_looks_the_same_way_and_as_near_as_it_fits(meshes, tmp_path):
     camera = Camera((9.0, 2.0, 1.0), (0.5, 0.0, 0.0), (0.0, 0.0, 1.0), (0.3, 0.3))
     document = replace(comparison("mesh", SHOWS[:1]), camera=camera)
     small, large = drawn(meshes, tmp_path, "size", document)
-    one, other = (np.asarray(Image.open(tmp_path / row.facts["file"]).convert("L"), int) for row in (small, large))
+    one, other = (np.asarray(Image.open(tmp_path / row.metadata["file"]).convert("L"), int) for row in (small, large))
     half = len(one) // 2
     assert np.abs(one[:half] - other[:half]).mean() < 1
     assert (one[:half] < 200).mean() > 0.2
     (home, _) = drawn(meshes, tmp_path / "home", "size", comparison("mesh", SHOWS[:1]))
-    other = np.asarray(Image.open(tmp_path / "home" / home.facts["file"]).convert("L"), int)
+    other = np.asarray(Image.open(tmp_path / "home" / home.metadata["file"]).convert("L"), int)
     assert np.abs(one[:half] - other[:half]).mean() > 3
 
 
@@ -135,8 +136,8 @@ class Page(html.parser.HTMLParser):
 
 def test_a_sheet_of_hundreds_is_no_larger_than_a_screen_or_two():
     picture = Image.new("RGB", (480, 400), "#0A7358")
-    cells = [Cell(f"{'a long name ' * 5}{k}", picture) for k in range(399)] + [
-        Cell("missing", failure="It is lost. " * 9)
+    cells = [SheetEntry(f"{'a long name ' * 5}{k}", picture) for k in range(399)] + [
+        SheetEntry("missing", failure="It is lost. " * 9)
     ]
     sheet = contact_sheet(cells, ["biharmonic: colours end at 1.2 √area of each mesh"])
     assert max(sheet.size) <= LARGEST
@@ -144,7 +145,7 @@ def test_a_sheet_of_hundreds_is_no_larger_than_a_screen_or_two():
     assert (np.abs(counts - [10, 115, 88]).max(axis=1) < 3).mean() > 0.5
 
 
-@pytest.mark.parametrize("kind", OURS, ids=lambda kind: kind.word)
+@pytest.mark.parametrize("kind", BUILT_IN, ids=lambda kind: kind.word)
 def test_units_tell_how_distances_scale(kind):
     values = {"alpha": 1.2, "k": 20}
     distance = Spec.of(kind.word, **{p.name: values[p.name] for p in kind.parameters if p.name in values})

@@ -1,6 +1,8 @@
 """Large meshes in parts, tasks that are done again, and results that share a name: nothing is lost or mistaken."""
 
+import gc
 import json
+import weakref
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
@@ -8,12 +10,13 @@ import numpy as np
 import pytest
 
 from app.batch import execution
-from app.batch.drive import found_meshes, tasks_for
-from app.batch.execution import do, mesh_of
+from app.batch.execution import mesh_of, run_task
 from app.batch.maps import found_maps
 from app.batch.memory import needed
+from app.batch.mesh_files import find_mesh_files
+from app.batch.scheduler import tasks_for
 from app.batch.storage import Folder
-from app.batch.task import done_before
+from app.batch.task import existing_report
 from app.batch.work_order import WorkOrder
 from app.document.sources import Sources
 from bihdist_core import GeodesicDistance, read_surface, write_mesh
@@ -29,7 +32,7 @@ def mesh(tmp_path):
 
 
 def task_for(mesh, out, *works, **options):
-    (task,), failures = tasks_for(found_meshes([str(mesh)]).paths, WorkOrder(works, **options), str(out), "1")
+    (task,), failures = tasks_for(find_mesh_files([str(mesh)]).paths, WorkOrder(works, **options), str(out), "1")
     assert not failures
     return task
 
@@ -42,20 +45,20 @@ def finish(report):
     """Do the parts that a report leads to; the task that puts them together."""
     parts = [task for task in report.more if task.part]
     for part in parts:
-        assert not do(part).failures
+        assert not run_task(part).failures
     return replace(parts[0], part=replace(parts[0].part, is_whole=True))
 
 
 # ---------------------------------------------------------------------- parts
 @pytest.mark.parametrize("words", ["biharmonic", HEAT])
-def test_pairs_in_parts_are_those_at_once(mesh, tmp_path, monkeypatch, words):
+def test_pairs_in_parts_are_those_at_first_failures(mesh, tmp_path, monkeypatch, words):
     options = {"sources": Sources("all"), "distances": (words,)}
-    (row,) = do(task_for(mesh, tmp_path / "whole", "pairs", **options)).rows
-    whole = np.load(tmp_path / "whole" / row.facts["file"])
+    (row,) = run_task(task_for(mesh, tmp_path / "whole", "pairs", **options)).rows
+    whole = np.load(tmp_path / "whole" / row.metadata["file"])
     in_parts(monkeypatch)
-    join = finish(do(task_for(mesh, tmp_path / "out", "pairs", **options)))
-    (row,) = do(join).rows
-    found = np.load(tmp_path / "out" / row.facts["file"])
+    join = finish(run_task(task_for(mesh, tmp_path / "out", "pairs", **options)))
+    (row,) = run_task(join).rows
+    found = np.load(tmp_path / "out" / row.metadata["file"])
     assert np.abs(found - whole).max() <= 1e-12 * whole.max()
     assert (np.diag(found) == 0).all()
     if words == HEAT:
@@ -66,43 +69,43 @@ def test_pairs_in_parts_are_those_at_once(mesh, tmp_path, monkeypatch, words):
 def test_what_has_been_put_together_is_not_lost_when_it_is_asked_for_again(mesh, tmp_path, monkeypatch):
     in_parts(monkeypatch)
     task = task_for(mesh, tmp_path / "out", "fields", sources=Sources("all"))
-    first = do(task)
+    first = run_task(task)
     join = finish(first)
-    (row,) = do(join).rows
-    before = (tmp_path / "out" / row.facts["file"]).read_bytes()
-    assert row.facts["seconds"] > 0
+    (row,) = run_task(join).rows
+    before = (tmp_path / "out" / row.metadata["file"]).read_bytes()
+    assert row.metadata["seconds"] > 0
     for again in (join, first.more[0], join):
-        report = do(again)
+        report = run_task(again)
         assert not report.failures
-    assert report.rows[0].facts == row.facts
-    assert (tmp_path / "out" / row.facts["file"]).read_bytes() == before
-    assert done_before(task) is not None
+    assert report.rows[0].metadata == row.metadata
+    assert (tmp_path / "out" / row.metadata["file"]).read_bytes() == before
+    assert existing_report(task) is not None
     assert not list((tmp_path / "out").glob(".parts/*"))
 
 
 def test_what_is_put_together_has_the_seconds_of_all_its_parts(mesh, tmp_path, monkeypatch):
     in_parts(monkeypatch)
     task = task_for(mesh, tmp_path / "out", "fields", sources=Sources("all"))
-    finish(do(task))
+    finish(run_task(task))
     kept = sorted((tmp_path / "out").glob(".parts/*/*.seconds"))
     assert len(kept) == len(list((tmp_path / "out").glob(".parts/*/*.npy"))) > 3
     for path in kept:
         assert float(path.read_text()) >= 0
         path.write_text("1000.25")
     # Parts of an earlier run are not done again, and count.
-    (row,) = do(finish(do(task))).rows
-    assert row.facts["seconds"] == pytest.approx(1000.25 * len(kept), abs=60)
-    assert done_before(task).rows[0].facts == row.facts
+    (row,) = run_task(finish(run_task(task))).rows
+    assert row.metadata["seconds"] == pytest.approx(1000.25 * len(kept), abs=60)
+    assert existing_report(task).rows[0].metadata == row.metadata
 
 
 def test_meshes_of_one_content_have_parts_of_their_own(mesh, tmp_path, monkeypatch):
     in_parts(monkeypatch)
     (tmp_path / "twin.off").write_bytes(mesh.read_bytes())
     joins = [
-        finish(do(task_for(path, tmp_path / "out", "fields", sources=Sources("all"))))
+        finish(run_task(task_for(path, tmp_path / "out", "fields", sources=Sources("all"))))
         for path in (mesh, tmp_path / "twin.off")
     ]
-    assert [len(do(join).failures) for join in joins] == [0, 0]
+    assert [len(run_task(join).failures) for join in joins] == [0, 0]
 
 
 def test_threads_of_a_worker_have_each_their_own_mesh(tmp_path):
@@ -114,15 +117,30 @@ def test_threads_of_a_worker_have_each_their_own_mesh(tmp_path):
     assert names == [f"m{k % 4}" for k in range(200)]
 
 
+def test_the_memory_of_a_mesh_is_returned_before_the_next_one(mesh, tmp_path, monkeypatch):
+    write_mesh(tmp_path / "next.off", bumpy(40))
+    works = {"sources": Sources("farthest", count=4), "distances": ("biharmonic", HEAT)}
+    assert not run_task(task_for(mesh, tmp_path / "out", "fields", "pairs", "fps", **works)).failures
+    last = weakref.ref(execution._last[1].distances.laplacian)
+    are_alive = []
+    monkeypatch.setattr(execution, "release_freed", lambda: are_alive.append(last() is not None))
+    gc.disable()
+    try:
+        assert not run_task(task_for(tmp_path / "next.off", tmp_path / "out", "fields")).failures
+    finally:
+        gc.enable()
+    assert are_alive == [False]
+
+
 # ---------------------------------------------------------------------- keys and names
 def test_a_layout_has_the_distance_that_was_asked_for_last(mesh, tmp_path):
     out, options = tmp_path / "out", {"sources": Sources("all"), "layout": "dist"}
     ways = [task_for(mesh, out, "pairs", distances=(word,), **options) for word in ("geodesic", "biharmonic")]
-    do(ways[0])
-    do(ways[1])
-    assert done_before(ways[0]) is None, "its file holds the other"
-    (row,) = do(ways[0]).rows
-    assert (row.is_new, row.facts["distance"]) == (True, "geodesic(method=auto)")
+    run_task(ways[0])
+    run_task(ways[1])
+    assert existing_report(ways[0]) is None, "its file holds the other"
+    (row,) = run_task(ways[0]).rows
+    assert (row.is_new, row.metadata["distance"]) == (True, "geodesic(method=auto)")
     from scipy.io import loadmat
 
     expected = GeodesicDistance(read_surface(mesh)).pairwise(np.arange(128))
@@ -154,10 +172,10 @@ def test_another_format_takes_the_place_of_the_one_before(mesh, tmp_path, format
         pytest.importorskip("zarr")
     out = tmp_path / "out"
     for format in formats:
-        (row,) = do(task_for(mesh, out, "fields", arrays=format)).rows
+        (row,) = run_task(task_for(mesh, out, "fields", arrays=format)).rows
     (json_file,) = out.glob("*.json")
-    assert json.loads(json_file.read_text()) == row.facts
-    assert {path.name for path in out.iterdir()} == {json_file.name, row.facts["file"]}
+    assert json.loads(json_file.read_text()) == row.metadata
+    assert {path.name for path in out.iterdir()} == {json_file.name, row.metadata["file"]}
 
 
 def test_zarr_is_whole_or_absent(tmp_path):
@@ -192,5 +210,5 @@ def test_a_task_with_many_sources_in_a_file_asks_for_their_memory(mesh, tmp_path
     marks.write_text("".join(f"{k}\n" for k in range(100)))
     asked = []
     monkeypatch.setattr(execution, "needed", lambda n, wanted, from_file: asked.append((n, from_file)) or 0)
-    do(task_for(mesh, tmp_path / "out", "fields", sources=Sources("file", file=str(marks))))
+    run_task(task_for(mesh, tmp_path / "out", "fields", sources=Sources("file", file=str(marks))))
     assert asked == [(128, 100)]

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from bihdist_core.applications.weights import INVERSE_DISTANCES
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 
 from .case import main_case
 from .size import Size
@@ -37,7 +37,7 @@ def anchor_moved(size: Size) -> Iterator[Line]:
     def moved() -> np.ndarray:
         values[3] = random.random()
         anchors = tuple(zip(vertices, values.tolist(), strict=True))
-        field = loaded.answer(InterpolantQuestion(loaded.mesh, "voronoi", spec, anchors, INVERSE_DISTANCES)).field
+        field = InterpolantQuestion(loaded.mesh, "voronoi", spec, anchors, INVERSE_DISTANCES).answer(loaded).field
         assert field is not None
         return field
 

@@ -45,8 +45,7 @@ def batch(size: Size) -> Iterator[Line]:
         for name in names[:: max(1, len(names) // 20)]:
             os.link(meshes / name, few / name)
         workers = os.cpu_count() or 1
-        seconds = _batch(meshes, Path(place, "out"), size.sources, workers)
-        memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024
+        seconds, memory = in_child(_batch_alone, meshes, Path(place, "out"), size.sources, workers)
         looped = _loop(few, size.sources) / sum(f.stat().st_size for f in few.iterdir())
         peer = looped * sum(f.stat().st_size for f in meshes.iterdir())
         # By the first mesh, field by field.
@@ -176,6 +175,15 @@ def _batch(meshes: Path, out: Path, sources: int, workers: int) -> float:
     begin = time.perf_counter()
     subprocess.run(words, cwd=ROOT, check=True, capture_output=True)
     return time.perf_counter() - begin
+
+
+def _batch_alone(meshes: Path, out: Path, sources: int, workers: int) -> tuple[float, int]:
+    """Return the seconds of a batch and the bytes of its largest process, to be called in a new process.
+
+    Elsewhere the largest would be any child there has ever been, and a child's peak begins with its parent's.
+    """
+    seconds = _batch(meshes, out, sources, workers)
+    return seconds, 1024 * resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
 
 
 def _loop(meshes: Path, sources: int) -> float:

@@ -7,13 +7,14 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
 
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
+from tests.silent_view import SilentView
 
 from .child import in_window_child
 from .meshes import bumpy_sphere
 from .size import Size
 from .table import Line
-from .window_rows import COMPARED, PATIENCE, Viewless, mesh_file
+from .window_rows import COMPARED, PATIENCE, mesh_file
 
 EVERY = 0.016
 """Seconds from one move to the next, of which there are as many as in three seconds."""
@@ -46,10 +47,10 @@ def _drag(count: int, specs: tuple[Spec, ...], moves: int) -> tuple[int, int, in
     """Answers computed, shown, and shown though older than the one before; processes started."""
     from app.document.document import comparison
     from app.document.edits import move_source
-    from app.session.loaded_mesh import LoadedMesh
+    from app.session.questions import DistanceQuestion
     from app.session.session import Session
 
-    view = Viewless()
+    view = SilentView()
     session = Session(view, view.posted.put)
     computed: list[int] = []
     shown: list[tuple[int, int]] = []
@@ -58,10 +59,10 @@ def _drag(count: int, specs: tuple[Spec, ...], moves: int) -> tuple[int, int, in
         session.show(comparison(path, specs, (0,)))
         while not session.is_complete:
             view.posted.get(timeout=PATIENCE)()
-    answer, popen = LoadedMesh.answer, subprocess.Popen
+    answer, popen = DistanceQuestion.answer, subprocess.Popen
 
-    def counted(self: LoadedMesh, question: Any, *arguments: Any, **options: Any) -> Any:
-        found = answer(self, question, *arguments, **options)
+    def counted(question: DistanceQuestion, *arguments: Any, **options: Any) -> Any:
+        found = answer(question, *arguments, **options)
         computed.append(question.at)
         return found
 
@@ -69,7 +70,7 @@ def _drag(count: int, specs: tuple[Spec, ...], moves: int) -> tuple[int, int, in
         started.append(arguments)
         return popen(*arguments, **options)
 
-    LoadedMesh.answer, subprocess.Popen = counted, loaded  # type: ignore[method-assign,misc]
+    DistanceQuestion.answer, subprocess.Popen = counted, loaded  # type: ignore[method-assign,misc]
     view.answer_changed = lambda panel: shown.append((panel, session.shown[panel].serial))  # type: ignore[assignment]
     begun = time.perf_counter()
     for move in range(moves):
@@ -77,13 +78,13 @@ def _drag(count: int, specs: tuple[Spec, ...], moves: int) -> tuple[int, int, in
         _run(view, begun + (move + 1) * EVERY)
     _run(view, time.perf_counter() + 2)
     session.close()
-    LoadedMesh.answer, subprocess.Popen = answer, popen  # type: ignore[method-assign,misc]
+    DistanceQuestion.answer, subprocess.Popen = answer, popen  # type: ignore[method-assign,misc]
     serials = [[serial for panel, serial in shown if panel == id] for id in session.shown]
     older = sum(b < a for each in serials for a, b in pairwise(each))
     return len(computed), len(shown), older, len(started)
 
 
-def _run(view: Viewless, until: float) -> None:
+def _run(view: SilentView, until: float) -> None:
     """What is posted, until a time of the clock."""
     while (left := until - time.perf_counter()) > 0:
         try:

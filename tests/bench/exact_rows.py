@@ -46,7 +46,7 @@ def set_up(size: Size) -> Iterator[Line]:
         1,
         f"accuracy of the exact distance, {case.count}",
         alternate(lambda: BiharmonicDistance(laplacian).accuracy, case.set_up, size.rounds),
-        bound=0.3,
+        bound=0.25,
         note="peer: our set-up",
     )
 

@@ -8,7 +8,8 @@ import queue
 import time
 from collections.abc import Iterator
 
-from bihdist_core.distances.kinds import FRAME, Spec
+from bihdist_core.distances.distance_types import FRAME_VERTICES, Spec
+from tests.silent_view import SilentView
 
 from .child import in_window_child
 from .drag_row import EVERY
@@ -17,7 +18,7 @@ from .peers import heat_solver
 from .size import Size
 from .table import Line
 from .timing import timed
-from .window_rows import PATIENCE, Viewless, mesh_file
+from .window_rows import PATIENCE, mesh_file
 
 LIVE_BOUND = 1.5
 """A field of the three, by how much longer it may take than a heat solve of potpourri3d on its own."""
@@ -53,15 +54,15 @@ def _live(count: int, in_faces: bool, wanted: float) -> tuple[int, float, float]
     from app.session.session import Session
     from bihdist_core import SurfacePoint
 
-    view = Viewless()
+    view = SilentView()
     session = Session(view, view.posted.put)
     vertices, faces = bumpy_sphere(count)
     with mesh_file(vertices, faces) as path:
         session.show(comparison(path, LIVE, (0,)))
-        while session.surface is None or not session.shown.keys() >= {0, 2}:
+        while session.loaded() is None or not session.shown.keys() >= {0, 2}:
             view.posted.get(timeout=PATIENCE)()
     session.show(move_source(session.document, 0, 7), live=True)
-    while 1 not in session.shown or (count > FRAME and "heat" not in session.shown[1].answer.label):
+    while 1 not in session.shown or (count > FRAME_VERTICES and "heat" not in session.shown[1].answer.label):
         view.posted.get(timeout=PATIENCE)()  # the heat method is made ready
     shown: list[int] = []
     view.answer_changed = shown.append  # type: ignore[method-assign]
@@ -79,7 +80,7 @@ def _live(count: int, in_faces: bool, wanted: float) -> tuple[int, float, float]
     return len(shown), seconds, solves[2]
 
 
-def _until_followed(view: Viewless, shown: list[int], count: int) -> None:
+def _until_followed(view: SilentView, shown: list[int], count: int) -> None:
     """What is posted, until so many fields are shown or a pointer would move on."""
     end = time.perf_counter() + EVERY
     while len(shown) < count and (left := end - time.perf_counter()) > 0:

@@ -44,13 +44,13 @@ def _moving(size: Size) -> tuple[float, float, float, float, int, int]:
     from app.scene import moves
 
     with mesh_file(*bumpy_sphere(size.moving)) as path, _window(path) as (application, window):
-        _wait(application, lambda: window.session.surface is not None)
+        _wait(application, lambda: window.session.loaded() is not None)
         window.session.cancel()
         _wait_a_while(application, 0.5)
-        x = window.session.surface.vertices
+        x = window.session.mesh().surface.vertices
         panels, grid = window.grid.panels, window.grid
         for panel in panels:
-            panel.view.scene.show_field(np.linalg.norm(x - x[0], axis=1))
+            panel.view.scene.field_actor.show_field(np.linalg.norm(x - x[0], axis=1))
             panel.show_waiting(None)
             panel.view.over.say("")
         grid.redraw()
@@ -58,7 +58,7 @@ def _moving(size: Size) -> tuple[float, float, float, float, int, int]:
         view = panels[0].view
 
         def frame(fluent: float) -> None:
-            grid.moving.fluent = fluent
+            grid.motion.fluent = fluent
             moves.turn(view.camera, 3, 1, (view.width(), view.height()))
             view.moved.emit()
             for panel in panels:
@@ -69,7 +69,7 @@ def _moving(size: Size) -> tuple[float, float, float, float, int, int]:
             frame(0.0)
 
         def full() -> None:
-            grid.moving.rest()
+            grid.motion.stop()
             frame(np.inf)
 
         quick()
@@ -77,5 +77,5 @@ def _moving(size: Size) -> tuple[float, float, float, float, int, int]:
         difference = float(np.abs(standing - view.shot()).mean()) / 255
         full()
         result = alternate(quick, full, size.rounds, size.repeat)
-        stands = view.scene._field.stand_in.actor.GetMapper().GetInput().GetNumberOfPoints()
+        stands = view.scene.field_actor.stand_in.actor.GetMapper().GetInput().GetNumberOfPoints()
     return result.our_time, result.peer_time, result.ratio, difference, len(x), stands

@@ -4,13 +4,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
+from tests.silent_view import SilentView
 
 from .case import main_case
 from .size import Size
 from .table import Line, compared
 from .timing import alternate
-from .window_rows import PATIENCE, Viewless, mesh_file
+from .window_rows import PATIENCE, mesh_file
 
 PINS = 12
 MOVED_BOUND = 1.5
@@ -24,7 +25,7 @@ def regions(size: Size) -> Iterator[Line]:
     from app.session.loaded_mesh import open_mesh
     from app.tools.regions.division import Divided, Dividing, RegionsQuestion
 
-    case, view = main_case(size), Viewless()
+    case, view = main_case(size), SilentView()
     dividing = Dividing(view.posted.put, lambda panel: None)
     with mesh_file(*case.arrays) as path:
         loaded = open_mesh(MeshFile("A", path))

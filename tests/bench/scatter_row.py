@@ -38,12 +38,12 @@ def scatter(size: Size) -> Iterator[Line]:
 def _scatter(size: Size) -> tuple[float, float, float, float, int]:
     """Seconds of a picture, of the peer, their ratio; by how much a count differs at most; points."""
     qt = application()
-    from app.qt.docks.chart import Axis
+    from app.drawing.chart import Axis
     from app.tools.scatter.chart import ScatterChart
 
     vertices, faces = bumpy_sphere(size.scatter)
     fields = (np.linalg.norm(vertices - vertices[k], axis=1) for k in (0, 5))
-    found = field_scatter(Surface(vertices, faces), *fields, shares=True)
+    found = field_scatter(Surface(vertices, faces), *fields, normalised=True)
     chart = ScatterChart()
     chart.resize(*SIDES)
     chart.show()

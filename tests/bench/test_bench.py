@@ -8,9 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bihdist_core import Surface
+from bihdist_core import Surface, write_mesh
 from tests.bench import before, chart, machine
 from tests.bench.__main__ import ROWS
+from tests.bench.batch_rows import _batch_alone
+from tests.bench.child import in_child
 from tests.bench.meshes import MAKERS, along_curve, bumpy_sphere
 from tests.bench.table import BEFORE, COLUMNS, Line, render
 from tests.bench.timing import alternate
@@ -63,6 +65,14 @@ def test_a_click_draws_each_panel_once_and_pointing_draws_none(quick):
         pytest.skip("there is no display")
     assert [(line["value"], line["bound"]) for line in counts] == [(3, 3), (0, 0)]
     assert int(counts[1]["note"].split()[0]) > 10
+
+
+def test_the_memory_of_a_batch_is_that_of_its_own_processes(tmp_path):
+    assert np.ones(10**8).sum() == 10**8  # 800 MB, which this process has had before
+    (tmp_path / "meshes").mkdir()
+    write_mesh(tmp_path / "meshes" / "a.off", Surface(*bumpy_sphere(500)))
+    _, memory = in_child(_batch_alone, tmp_path / "meshes", tmp_path / "out", 4, 1)
+    assert 5e7 < memory < 5e8
 
 
 def test_what_is_fast_is_also_right(quick):

@@ -1,7 +1,6 @@
 """Rows 10 and 12 to 14: the session without a window, the start, and the real window on the display there is."""
 
 import os
-import queue
 import subprocess
 import sys
 import tempfile
@@ -14,8 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
+from tests.qt.events import ROUNDS
 from tests.qt.parts import parts
+from tests.silent_view import SilentView
 
 from .case import EXACT, main_case
 from .child import in_window_child
@@ -36,21 +37,6 @@ STILL = 0.3
 
 
 # ---------------------------------------------------------------------- the session, without drawing
-class Viewless:
-    """The side of a window that a session talks to, with nothing behind it."""
-
-    def __init__(self) -> None:
-        self.posted: queue.Queue[Callable[[], None]] = queue.Queue()
-
-    def document_changed(self, before: Any) -> None: ...
-    def answer_changed(self, panel: int) -> None: ...
-    def error_estimate_changed(self, panel: int) -> None: ...
-    def progress_changed(self) -> None: ...
-
-    def failed(self, message: str) -> None:
-        raise RuntimeError(message)
-
-
 def click(size: Size) -> Iterator[Line]:
     """Biharmonic, heat geodesic and diffusion, asked for at once as a click does."""
     from app.document.document import comparison
@@ -58,7 +44,7 @@ def click(size: Size) -> Iterator[Line]:
     from app.session.session import Session
 
     case = main_case(size)
-    view = Viewless()
+    view = SilentView()
     session = Session(view, view.posted.put)
 
     def answered() -> None:
@@ -191,7 +177,7 @@ def _drawing(size: Size) -> tuple[float, float, float, int, int, int, int]:
         for place in places:
             view.happened.emit(Click(view.pick(place)))
             _wait(application, lambda: window.session.is_complete)
-        _wait_a_while(application, STILL)
+        _wait_until_still(application, window)
         turn = iter(range(10_000))
 
         def click() -> None:
@@ -206,12 +192,12 @@ def _drawing(size: Size) -> tuple[float, float, float, int, int, int, int]:
         def pictures_of(work: Callable[[], None]) -> int:
             before = offscreen.pictures
             work()
-            _wait_a_while(application, STILL)
+            _wait_until_still(application, window)
             return offscreen.pictures - before
 
         click()
         result = alternate(click, draw, 3 * size.rounds, size.repeat)
-        _wait_a_while(application, STILL)
+        _wait_until_still(application, window)
         drawn = max(pictures_of(click) for _ in range(4))
         hit: set[int | None] = set()
         drawn_by_pointing = pictures_of(lambda: hit.update(_point(application, window, view, size.pointed)))
@@ -362,6 +348,22 @@ def _wait(application: Any, done: Callable[[], bool]) -> None:
 def _wait_a_while(application: Any, seconds: float) -> None:
     start = time.monotonic()
     _wait(application, lambda: time.monotonic() - start > seconds)
+
+
+def _wait_until_still(application: Any, window: Any) -> None:
+    """Wait until all is answered and drawn, and no picture has come for STILL and so many rounds of events."""
+    offscreen, session = window.grid.offscreen, window.session
+    drawn, rounds, since = -1, 0, 0.0
+
+    def is_still() -> bool:
+        nonlocal drawn, rounds, since
+        is_busy = session.progress or not session.is_complete or any(p.view.is_stale for p in window.grid.panels)
+        if is_busy or offscreen.pictures != drawn:
+            drawn, rounds, since = offscreen.pictures, 0, time.monotonic()
+        rounds += 1
+        return rounds > ROUNDS * STILL and time.monotonic() - since > STILL
+
+    _wait(application, is_still)
 
 
 @contextmanager

@@ -2,6 +2,8 @@
 
 import json
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -86,6 +88,21 @@ class Browser(ABC):
         again = f"new Promise(r => {{ const look = () => ({condition}) ? r() : setTimeout(look, 10); look() }})"
         self.evaluate(again, seconds)
 
+    @contextmanager
+    def inside_frame(self) -> Iterator[None]:
+        """Evaluate expressions in the first frame of the page meanwhile."""
+        self._enter_frame()
+        try:
+            yield
+        finally:
+            self._leave_frame()
+
+    @abstractmethod
+    def _enter_frame(self) -> None: ...
+
+    @abstractmethod
+    def _leave_frame(self) -> None: ...
+
     @abstractmethod
     def _evaluated(self, expression: str) -> str | None:
         """The text to which a promise resolves; None for undefined."""
@@ -129,7 +146,7 @@ class Browser(ABC):
         self.release(**how)
 
     @abstractmethod
-    def wheel(self, x: float, y: float, amount: float) -> None:
+    def wheel(self, x: float, y: float, amount: float, held: tuple[str, ...] = ()) -> None:
         """Turn the wheel over a place: downwards where amount is positive."""
 
     @abstractmethod

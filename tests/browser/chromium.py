@@ -64,8 +64,22 @@ class Chromium(Browser):
             raise BrowserError(f"{url}: {error}")
         self._evaluated("document.readyState == 'complete' || new Promise(done => addEventListener('load', done))")
 
+    _frame: int | None = None
+
+    def _enter_frame(self) -> None:
+        (frame, *_) = self._call("Page.getFrameTree")["frameTree"]["childFrames"]
+        # Contexts that exist already are told of again.
+        self._call("Runtime.disable")
+        self._call("Runtime.enable")
+        made = [e["params"]["context"] for e in self._connection.events if e["method"].endswith("ContextCreated")]
+        self._frame = next(each["id"] for each in made[::-1] if each["auxData"]["frameId"] == frame["frame"]["id"])
+
+    def _leave_frame(self) -> None:
+        self._frame = None
+
     def _evaluated(self, expression: str) -> str | None:
-        answer = self._call("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True)
+        where = {} if self._frame is None else {"contextId": self._frame}
+        answer = self._call("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True, **where)
         if "exceptionDetails" in answer:
             raise BrowserError(_words_of(answer["exceptionDetails"]))
         return answer["result"].get("value")
@@ -105,9 +119,9 @@ class Chromium(Browser):
         self._down, self._held = "", ()
         self._mouse("mouseReleased", held, button=button, clickCount=1)
 
-    def wheel(self, x: float, y: float, amount: float) -> None:
+    def wheel(self, x: float, y: float, amount: float, held: tuple[str, ...] = ()) -> None:
         self._at = (x, y)
-        self._mouse("mouseWheel", deltaX=0, deltaY=amount)
+        self._mouse("mouseWheel", held, deltaX=0, deltaY=amount)
 
     def key(self, key: str, held: tuple[str, ...] = ()) -> None:
         text = KEY_TEXTS.get(key, key if len(key) == 1 else "") if set(held) <= {"shift"} else ""

@@ -80,8 +80,17 @@ class Firefox(Browser):
     def _go(self, url: str) -> None:
         self._call("browsingContext.navigate", context=self._context, url=url, wait="complete")
 
+    _frame = ""
+
+    def _enter_frame(self) -> None:
+        tree = self._call("browsingContext.getTree", root=self._context)
+        self._frame = tree["contexts"][0]["children"][0]["context"]
+
+    def _leave_frame(self) -> None:
+        self._frame = ""
+
     def _evaluated(self, expression: str) -> str | None:
-        target = {"context": self._context}
+        target = {"context": self._frame or self._context}
         answer = self._call("script.evaluate", expression=expression, target=target, awaitPromise=True)
         if answer["type"] == "exception":
             raise BrowserError(answer["exceptionDetails"]["text"])
@@ -133,9 +142,11 @@ class Firefox(Browser):
         self._mouse({"type": "pointerUp", "button": BUTTONS[button]})
         self._with_keys(held, False)
 
-    def wheel(self, x: float, y: float, amount: float) -> None:
+    def wheel(self, x: float, y: float, amount: float, held: tuple[str, ...] = ()) -> None:
+        self._with_keys(held, True)
         turn = {"type": "scroll", "x": round(x), "y": round(y), "deltaX": 0, "deltaY": round(amount)}
         self._act({"type": "wheel", "id": "wheel", "actions": [turn]})
+        self._with_keys(held, False)
 
     def key(self, key: str, held: tuple[str, ...] = ()) -> None:
         self._with_keys(held, True)

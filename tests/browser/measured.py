@@ -14,7 +14,7 @@ from app.session.array_store import comparison_of_arrays
 from app.web.export import Page, page_of
 from bihdist_core import Laplacian, Surface
 from bihdist_core.distances.answers import Answer, Distances
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from tests.bench.timing import timed
 
 from .browser import Browser

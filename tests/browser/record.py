@@ -133,7 +133,8 @@ def _ms(seconds) -> str:
 def _growth_words(sizes: dict[str, list[int]]) -> list[str]:
     return [
         f"{name}: {sizes_of[0] / 1e6:.0f} MB after 100 clicks on one mesh, {sizes_of[-1] / 1e6:.0f} MB after "
-        f"{100 * len(sizes_of):,}; the least of the second half is {grown(sizes_of) / 1e6:+.1f} MB beside the first's."
+        f"{100 * len(sizes_of):,}; the minimum of the second half differs from the first's by "
+        f"{grown(sizes_of) / 1e6:+.1f} MB."
         for name, sizes_of in sizes.items()
     ]
 

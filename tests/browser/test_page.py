@@ -1,7 +1,10 @@
 """Pages that compute, in browsers with no network: what they show is what the library says of their mesh."""
 
+import io
+
 import numpy as np
 import pytest
+from PIL import Image
 
 import app as bihdist
 from app.document.quantities import quantity
@@ -43,6 +46,69 @@ def test_a_click_of_the_mouse_sets_the_source_and_a_drag_turns(browser, hand_or_
     assert browser.evaluate(f"JSON.stringify({VIEW}.sight.camera)") != camera
 
 
+def test_each_panel_shows_its_field_as_soon_as_it_is_there(browser, tmp_path):
+    shown = ShownPage(browser, *made("hand", ("biharmonic", "geodesic"), tmp_path))
+    # What the worker says of geodesic distance is held back.
+    browser.evaluate(f"void ({VIEW}.solver.slow.receive = (said) => (window.held = said))")
+    before = shown.shown[0]
+    browser.click(*shown.at(*shown.places(1, seed=3)[0]))
+    sources = f"{VIEW}.answers.map(({{ source }}) => {VIEW}.mesh.ids[source])"
+    browser.until(f"{sources}[0] !== {before}")
+    after = shown.shown[0]
+    assert browser.evaluate(sources) == [after, before]
+    late = "[...document.querySelectorAll('.bihdist .panel')].map((each) => each.classList.contains('computing'))"
+    browser.until(f"{late}[1]")
+    assert browser.evaluate(late) == [False, True]
+    bars = "[...document.querySelectorAll('.bihdist .scale')].map((each) => each.getAttribute('aria-label'))"
+    assert browser.evaluate(bars)[0].startswith("Colours: ")
+    assert browser.evaluate(bars)[1] == "Computing"
+    pale = np.array(Image.open(io.BytesIO(browser.screenshot())).convert("L"))
+    browser.until("window.held")
+    browser.evaluate(f"void (delete {VIEW}.solver.slow.receive, {VIEW}.solver.slow.receive(window.held))")
+    browser.until(f"!{late}[1]")
+    full = np.array(Image.open(io.BytesIO(browser.screenshot())).convert("L"))
+    assert browser.evaluate(sources) == [after, after]
+    assert max(shown.worst([quantity(each).specs[0] for each in ("biharmonic", "geodesic(method=exact)")])) < 1e-9
+    middle = full.shape[1] // 2
+    assert (full[:, middle:] < 200).sum() > 1.5 * (pale[:, middle:] < 200).sum()
+    assert browser.errors == []
+
+
+def test_readers_choose_what_a_panel_shows(browser, tmp_path):
+    page, path = made("hand", ("biharmonic", "geodesic"), tmp_path)
+    shown = ShownPage(browser, page, path)
+    heads = "[...document.querySelectorAll('.bihdist .panel select')].map((each) => each.selectedOptions[0].text)"
+    assert browser.evaluate(heads) == ["biharmonic, exact", "geodesic, exact"]
+    options = browser.evaluate("[...document.querySelector('.bihdist select').options].map((each) => each.text)")
+    assert options == ["biharmonic, exact", "geodesic, exact", "commute-time, exact", "diffusion, t = 1"]
+
+    def choose(panel, label):
+        browser.evaluate(
+            f"((head) => {{ head.selectedIndex = {options.index(label)}; head.dispatchEvent(new Event('change')) }})"
+            f"(document.querySelectorAll('.bihdist select')[{panel}])"
+        )
+        browser.until(f"{VIEW}.current.every((each) => each?.source === {VIEW}.source)")
+
+    choose(1, "diffusion, t = 1")
+    choose(0, "commute-time, exact")
+    specs = [quantity(each).specs[0] for each in ("commute-time", "diffusion")]
+    assert max(shown.worst(specs)) < 1e-4  # eigenpairs are kept in 16 bits
+    shown.click(*shown.places(1, seed=3)[0])
+    assert max(shown.worst(specs)) < 1e-4
+    columns = browser.evaluate("[...document.querySelectorAll('.bihdist .pins th')].map((each) => each.textContent)")
+    assert columns[2:4] == ["commute-time, exact", "diffusion, t = 1"]
+    # The link holds what was chosen.
+    link, source = browser.evaluate(f"{VIEW}.link.url"), shown.shown[0]
+    assert "&panels=2,3&" in link
+    browser.open("about:blank")
+    browser.open(link)
+    browser.until(f"{VIEW}?.answers.every(Boolean) && !{VIEW}.drawn", 100)
+    assert browser.evaluate(heads) == ["commute-time, exact", "diffusion, t = 1"]
+    assert shown.shown[0] == source
+    assert max(shown.worst(specs)) < 1e-4
+    assert browser.errors == []
+
+
 def test_a_field_of_ones_own_is_shown_and_stays(browser, tmp_path):
     surface = bumpy(300)
     values = np.where(np.arange(300) < 20, np.nan, surface.vertices[:, 0])
@@ -58,7 +124,7 @@ def test_a_field_of_ones_own_is_shown_and_stays(browser, tmp_path):
     maps = browser.evaluate(f"[0, 1, 2].map((k) => {VIEW}.stage.mapOf(k) === {VIEW}.stage.colours.diverging)")
     assert maps == [False, True, True]
     own = "document.querySelectorAll('.bihdist .panel')[2].querySelector"
-    assert browser.evaluate(f"{own}('h2').title") == "mine; the same from every source"
+    assert browser.evaluate(f"{own}('h2 > *').title") == "mine; the same from every source"
     assert "the same from every source" in browser.evaluate(f"{own}('.scale').getAttribute('aria-label')")
     # One that is undefined is not said to be apart from the source.
     vertex = int(np.flatnonzero(page.mesh.ids == 3)[0])

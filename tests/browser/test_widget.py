@@ -32,16 +32,40 @@ ON_SURFACE = """(() => {
 })()"""
 
 
-def test_source_and_pins_go_both_ways_between_places_and_model(browser, tmp_path):
-    made = widget(bumpy(300), ["biharmonic"], source=12)
+WHOLE = """[...document.querySelectorAll("#one .panel h2, #one .view, #one .scale, #one .stage")].every((part) => {
+  const bounds = document.querySelector("#one .stage").getBoundingClientRect(), box = part.getBoundingClientRect();
+  return box.height > 20 && box.top >= bounds.top && box.bottom <= bounds.bottom && box.right <= bounds.right;
+})"""
+
+
+def show(browser, made, folder):
+    """Open a page that shows a widget in two places."""
     contents = {name: b64encode(content).decode() for name, content in made.contents.items()}
-    traits = {"contents": contents, "scene": made.scene, "source": 12, "pins": []}
+    traits = {"contents": contents, "scene": made.scene, "source": made.source, "pins": made.pins}
     esm = made._esm.replace("export default { render };", "const widget = { render };")
-    host = tmp_path / "host.html"
+    host = folder / "host.html"
     filled = HOST.replace("STYLE", made._css).replace("ESM", esm).replace("TRAITS", json.dumps(traits))
     host.write_text(filled, encoding="utf-8")
     browser.open(host)
     browser.until("window.ends.length === 2", 100)
+
+
+def test_the_first_view_is_whole_with_pins_and_the_wheel_scrolls_the_notebook(browser, tmp_path):
+    browser.size(968, 700)
+    show(browser, widget("hand", ["biharmonic", "geodesic"], marks={"pins": [12, 90]}), tmp_path)
+    browser.until("document.querySelector('#one .bihdist').viewer.answers.every(Boolean)")
+    assert browser.evaluate(WHOLE)
+    assert browser.evaluate("document.querySelector('#one .tools').offsetHeight") < 50
+    # Where its content decides, as in a row of widgets, there is room for it, too.
+    browser.evaluate("void (document.getElementById('other').style.display = 'inline-block')")
+    assert browser.evaluate("document.querySelector('#other .bihdist').offsetWidth") >= 400
+    browser.wheel(300, 200, 100)
+    browser.until("scrollY > 0")
+    assert browser.errors == []
+
+
+def test_source_and_pins_go_both_ways_between_places_and_model(browser, tmp_path):
+    show(browser, widget(bumpy(300), ["biharmonic"], source=12), tmp_path)
     shown = "[...document.querySelectorAll('.bihdist input')].map(each => each.value)"
     browser.until(f"{shown}.filter(value => value === '12').length === 2")
     # Python's side sets the source: both places show it, and no click is told.

@@ -1,6 +1,8 @@
 """What spectral distances say of their accuracy, against dense spectra, for all pairs of vertices."""
 
+from collections.abc import Iterator
 from functools import cache, partial
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
@@ -8,18 +10,22 @@ from scipy.spatial.distance import cdist
 
 from bihdist_core import (
     BiharmonicDistance,
+    Curve,
     DiffusionDistance,
     GeodesicDistance,
     Laplacian,
     ParameterError,
     PowerDistance,
     SolverError,
+    SourceSet,
     Surface,
+    SurfacePoint,
     TruncatedBiharmonicDistance,
 )
 from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.operators import stiffness
 from bihdist_core.solver.spectrum import smallest_eigenpairs
+from bihdist_core.sources.pieces import pieces_of
 from tests.dense_reference import full_spectrum
 from tests.shapes import bumpy, grid, needles, sphere, spike, torus
 
@@ -110,11 +116,97 @@ def test_sums_are_as_accurate_as_they_say_or_refused(name):
         assert error <= distance.accuracy, (alpha, k)
         if values[k] - values[k - 1] < 1e-9 * values[k]:
             assert distance.accuracy > 1e-3
-            with pytest.raises(SolverError, match=f"it is open which eigenpairs are the first {k}"):
+            with pytest.raises(SolverError, match=f"it is not clear which eigenpairs are the first {k}"):
                 distance.error_estimate()
         else:
             assert distance.accuracy < 1e-7
         assert worst(distance, vectors * values ** (-alpha / 2)) <= 1.001 * distance.beyond(), (alpha, k)
+
+
+def sources_of(surface: Surface) -> Iterator[tuple[SurfacePoint | Curve | SourceSet, list]]:
+    """Places in faces, on edges and beside corners, a curve, and sets, with the ends of the pieces of each."""
+    random, faces, n = np.random.default_rng(1), surface.faces, len(surface.vertices)
+    for near in (0.0, 0.5, 0.999):
+        for weights in (*random.dirichlet([1, 1, 1], 4), np.array([0.5, 0.5, 0.0])):
+            place = SurfacePoint.of(int(random.integers(len(faces))), *(near * np.eye(3)[0] + (1 - near) * weights)[:2])
+            yield place, [(place, place)]
+    some = [SurfacePoint.of(int(k), *random.dirichlet([1, 1, 1])[:2]) for k in random.integers(len(faces), size=5)]
+    yield SourceSet(tuple(some)), [(place, place) for place in some]
+    some = sorted(set(random.integers(n, size=n // 2).tolist()))
+    yield SourceSet(tuple(some)), [(vertex, vertex) for vertex in some]
+    ends = SurfacePoint.of(7, 0.2, 0.3), SurfacePoint.of(7, 0.6, 0.1)
+    yield Curve(ends), [ends]
+
+
+@every_shape
+def test_it_covers_places_curves_and_sets(name):
+    laplacian, values, vectors = known(name)
+    surface = laplacian.surface
+
+    def at(x, end):
+        return x[end] if isinstance(end, int) else np.array(end.weights) @ x[surface.faces[end.face]]
+
+    def distances(x, start, stop):
+        start, way = at(x, start), at(x, stop) - at(x, start)
+        share = np.clip((x - start) @ way / max(way @ way, 1e-300), 0, 1)
+        return np.linalg.norm(x - start - share[:, None] * way, axis=1)
+
+    diffusions = [(DiffusionDistance(laplacian, t), vectors * heat(values, t)) for t in (1, 1 / 4)]
+    k = next(k for k in range(20, 60) if values[k] > 1.001 * values[k - 1])
+    for distance, x in (*diffusions, (PowerDistance(laplacian, 2, k), vectors[:, :k] / values[:k])):
+        for source, ends in sources_of(surface):
+            expected = np.min([distances(x, *each) for each in ends], axis=0)
+            off, top = np.abs(distance.from_source(source) - expected), expected.max()
+            said = distance.error_estimate(pieces=[pieces_of(source, surface)]).share
+            # The reference itself is rounded.
+            assert off.max() <= (said + 1e-12) * top
+            assert said <= distance.accuracy
+            if isinstance(distance, DiffusionDistance):
+                assert (off <= distance.bound(source) + 2e-9 * top).all()
+        places = [source for source, ends in sources_of(surface) if isinstance(source, SurfacePoint)]
+        for u, v in pairwise(places):
+            off = abs(distance.between(u, v) - np.linalg.norm(at(x, u) - at(x, v)))
+            assert off <= (distance.accuracy + 1e-12) * distances(x, u, u).max()
+
+
+def test_from_middles_of_a_cubes_edges_diffusion_is_further_off_than_from_its_vertices():
+    x, faces = [list(corner) for corner in product(range(4), repeat=3)], []
+    for axis, i, j, end in product(range(3), range(3), range(3), (0, 3)):
+        corners = [[i + a, j + b] for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        a, b, c, d = (x.index([*corner[:axis], end, *corner[axis:]]) for corner in corners)
+        faces += [[a, b, c], [a, c, d]]
+    used, faces = np.unique(faces, return_inverse=True)
+    surface = Surface(np.array(x)[used], faces.reshape(-1, 3), "cube")
+    values, vectors = full_spectrum(surface)
+    exact, distance = vectors * heat(values, 1), DiffusionDistance(surface)
+    from_vertices, off = distance.accuracy, []
+    for face, corners in enumerate(surface.faces):
+        expected = cdist(exact[corners[:2]].mean(axis=0, keepdims=True), exact)[0]
+        off.append(np.abs(distance.from_source(SurfacePoint.of(face, 0.5, 0.5)) - expected).max() / expected.max())
+        assert off[-1] <= distance.accuracy
+    assert max(off) > 1.4 * from_vertices
+    assert distance.accuracy < 3 * from_vertices
+
+
+def test_an_answer_from_a_place_does_not_wait_for_its_bound(monkeypatch):
+    surface, waited = bumpy(300), []
+    lengths = DiffusionDistance._lengths_on
+    monkeypatch.setattr(DiffusionDistance, "_lengths_on", lambda *given: (waited.append(1), lengths(*given))[1])
+    distance = DiffusionDistance(surface)
+    bounds = [distance.bound(f"f{k}:0.3,0.3") for k in range(3)]
+    waited.clear()
+    fields = [distance.from_source(f"f{k}:0.3,0.3") for k in range(3)]
+    between = distance.between("f0:0.3,0.3", "f9:0.3,0.3")
+    assert between > 0
+    assert not waited
+    assert distance.accuracy >= max(np.max(bound) / field.max() for bound, field in zip(bounds, fields, strict=True))
+    assert waited
+    # Not for ever, though: fields are kept for it meanwhile.
+    distance = DiffusionDistance(surface)
+    waited.clear()
+    for k in range(20):
+        distance.from_source(f"f{k}:0.3,0.3")
+    assert waited
 
 
 def test_words_say_what_the_accuracy_of_a_sum_is_of():
@@ -153,7 +245,7 @@ def test_what_takes_too_many_eigenpairs_is_less_accurate_before_it_is_refused(mo
     laplacian, values, vectors = known("bumpy")
     full = DiffusionDistance(laplacian, 1 / 4).pair_count(0)
     enough = DiffusionDistance(laplacian, 1 / 4, tolerance=1e-4).pair_count(0)
-    monkeypatch.setattr("bihdist_core.distances.diffusion.MOST_PAIRS", most := (full + 3 * enough) // 4)
+    monkeypatch.setattr("bihdist_core.distances.diffusion.MOST_EIGENPAIRS", most := (full + 3 * enough) // 4)
     fresh = Laplacian(laplacian.surface)
     distance = DiffusionDistance(fresh, 1 / 4)
     assert distance.pair_count(0) <= most

@@ -1,5 +1,6 @@
 """All distances in a file: the array that memory would hold, whole or to be continued."""
 
+import fcntl
 import os
 import shutil
 from collections import namedtuple
@@ -9,7 +10,7 @@ import pytest
 
 from bihdist_core import BiharmonicDistance, DiffusionDistance, GeodesicDistance, Laplacian
 from bihdist_core.analysis.all_pairs import begun, left_by_others, write_all_pairs
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.errors import Cancelled, OutputError, ParameterError
 from tests.shapes import bumpy, two_pieces
 
@@ -159,8 +160,6 @@ def test_two_runs_into_one_file_do_not_mix(tmp_path):
 @pytest.mark.skipif(os.name != "posix", reason="elsewhere files are not locked")
 def test_a_run_that_comes_as_another_ends_is_refused(tmp_path, monkeypatch):
     """It has opened what is in its place by the time that it is locked."""
-    import fcntl
-
     distance, path, there = BiharmonicDistance(bumpy(60)), tmp_path / "all.npy", fcntl.flock
 
     def ended_before(file, how):
@@ -174,8 +173,6 @@ def test_a_run_that_comes_as_another_ends_is_refused(tmp_path, monkeypatch):
 
 @pytest.mark.skipif(os.name != "posix", reason="elsewhere files are not locked")
 def test_a_file_system_without_locks_will_do(tmp_path, monkeypatch):
-    import fcntl
-
     def none(file, how):
         raise OSError(95, "Operation not supported")
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from bihdist_core import BiharmonicDistance, Cancelled, Laplacian, SolverError, VertexError
-from bihdist_core.distances import kinds
+from bihdist_core.distances import distance_types
 from bihdist_core.distances.answers import Answer, Distances, failed
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from tests.shapes import bumpy, two_pieces
 
 BIHARMONIC, EXACT = Spec.of("biharmonic"), Spec.of("geodesic", method="exact")
@@ -93,28 +93,28 @@ def test_too_poor_a_distance_is_no_answer(monkeypatch):
 
 
 def test_what_is_not_wanted_is_forgotten_but_for_the_last_of_each_word(built, monkeypatch):
-    monkeypatch.setattr(kinds, "FRAME", 0)  # as on a large mesh
+    monkeypatch.setattr(distance_types, "FRAME_VERTICES", 0)  # as on a large mesh
     distances = Distances(Laplacian(bumpy(60)))
     times = [Spec.of("diffusion", t=t) for t in (1.0, 2.0, 3.0)]
     for spec in (*times, BIHARMONIC, EXACT):
         distances.get(spec)
-    stand_in = distances.stand_in(EXACT)
-    distances.get(stand_in)
+    preview = distances.preview(EXACT)
+    distances.get(preview)
     distances.keep({EXACT, times[0]})
     built.clear()
-    for spec in (times[0], times[2], BIHARMONIC, EXACT, stand_in):
+    for spec in (times[0], times[2], BIHARMONIC, EXACT, preview):
         distances.get(spec)
     assert not built
     distances.get(times[1])
     assert built == [times[1]]
 
 
-def test_only_exact_geodesics_on_large_meshes_have_a_stand_in(monkeypatch):
+def test_only_exact_geodesics_on_large_meshes_have_a_preview(monkeypatch):
     distances = Distances(Laplacian(bumpy(60)))
-    assert distances.stand_in(EXACT) is None
-    monkeypatch.setattr(kinds, "FRAME", 59)
-    assert distances.stand_in(EXACT) == Spec.of("geodesic", method="heat")
-    assert distances.stand_in(BIHARMONIC) is None
+    assert distances.preview(EXACT) is None
+    monkeypatch.setattr(distance_types, "FRAME_VERTICES", 59)
+    assert distances.preview(EXACT) == Spec.of("geodesic", method="heat")
+    assert distances.preview(BIHARMONIC) is None
 
 
 def test_failures_in_words():

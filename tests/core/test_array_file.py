@@ -71,13 +71,11 @@ DAMAGED = {
     with_header("{'descr': '<i3', 'fortran_order': False, 'shape': (1,)}", bytes(3)): "header is damaged",
     with_header("{'descr': '<i8', 'fortran_order': False, 'shape': (1,)}", bytes(8), (9, 9)): "header is damaged",
     # With a lying header, MemoryError.
-    with_header("{'descr': '<i8', 'fortran_order': False, 'shape': (99999999999,)}"): "tells of 799,999,999,992 bytes",
-    with_header("{'descr': '<i8', 'fortran_order': False, 'shape': (2,)}", bytes(15)): "tells of 16 bytes of numbers",
-    with_header("{'descr': '<i8', 'fortran_order': False, 'shape': (2,)}", bytes(17)): "and it has 17",
-    with_header(
-        "{'descr': [('x', '<i8')], 'fortran_order': False, 'shape': (1,)}", bytes(8)
-    ): "else than plain numbers",
-    of_objects(): "else than plain numbers",
+    with_header("{'descr': '<i8', 'fortran_order': False, 'shape': (99999999999,)}"): "announces 799,999,999,992 bytes",
+    with_header("{'descr': '<i8', 'fortran_order': False, 'shape': (2,)}", bytes(15)): "announces 16 bytes of numbers",
+    with_header("{'descr': '<i8', 'fortran_order': False, 'shape': (2,)}", bytes(17)): "and 17 follow",
+    with_header("{'descr': [('x', '<i8')], 'fortran_order': False, 'shape': (1,)}", bytes(8)): "not hold plain numbers",
+    of_objects(): "not hold plain numbers",
 }
 
 

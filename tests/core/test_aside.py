@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from bihdist_core import Cancelled, Laplacian, ParameterError, SolverError, laplacian
-from bihdist_core.child_process import SERVED, ChildProcess, framed
+from bihdist_core.child_process import ChildProcess
 from bihdist_core.solver import aside as aside_module, spectrum
 from bihdist_core.solver.aside import _packed, aside
 from bihdist_core.solver.spectrum import is_long
 from bihdist_core.solver.worker_threads import without_workers
 from tests.shapes import bumpy
+from tests.waiting import PATIENCE
 
 
 # ---------------------------------------------------------------------- what is done there
@@ -98,12 +99,11 @@ def test_what_the_work_tells_is_told_here():
 
 
 def test_the_process_ends_with_its_parent():
-    message = b"".join(_packed((silent_for_ever, ())))
-    child = ChildProcess(SERVED, framed(b"bihdist_core.solver.aside") + framed(message))
-    child.ask(b"")
+    child = ChildProcess("bihdist_core.solver.aside")
+    child.ask(_packed((silent_for_ever, ())))
     child.process.stdin.close()
     try:
-        child.process.wait(60)
+        child.process.wait(PATIENCE)
     except subprocess.TimeoutExpired:
         pytest.fail("it goes on without its parent")
     finally:

@@ -1,8 +1,6 @@
 """BLAS has one thread inside our kernels, whenever its libraries are loaded."""
 
-import os
-import subprocess
-import sys
+from tests.programs import run_python
 
 LATE = """
 import numpy
@@ -78,13 +76,7 @@ assert (found[1], threads()) == ({1}, before)
 
 
 def run(program):
-    done = subprocess.run(
-        [sys.executable, "-c", program],
-        env={**os.environ, "OPENBLAS_NUM_THREADS": "3"},
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
+    done = run_python("-c", program, OPENBLAS_NUM_THREADS="3")
     assert done.returncode == 0, done.stderr
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from bihdist_core import Surface
 from bihdist_core.experiments.circles import RADII, circles
-from bihdist_core.experiments.gathered import Gathered
+from bihdist_core.experiments.result import Gathered
 from bihdist_core.experiments.verdicts import BySource
 from tests.shapes import bumpy, grid, two_pieces
 

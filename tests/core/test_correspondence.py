@@ -5,6 +5,7 @@ import tracemalloc
 import numpy as np
 import pytest
 
+import bihdist_core.applications.correspondence as correspondence
 from bihdist_core import (
     BiharmonicDistance,
     Correspondence,
@@ -96,8 +97,6 @@ def test_refused(pairs, x, weights, error, words):
 
 
 def test_the_map_is_the_least_misfit_of_each_vertex_whatever_the_block(monkeypatch):
-    import bihdist_core.applications.correspondence as correspondence
-
     m, n = BiharmonicDistance(bumpy(150)), BiharmonicDistance(bumpy(220, seed=1))
     found = Correspondence(m, n, [[3, 5], [77, 90], [140, 11], [20, 200]], [1.0, 0.25, 3.0, 1.0])
     misfit = found.misfit(np.arange(150))
@@ -137,8 +136,6 @@ def test_another_pair_costs_one_column_on_each_surface():
 
 def test_the_memory_of_a_full_map_is_that_of_the_vectors_and_a_block(monkeypatch):
     import scipy.spatial
-
-    import bihdist_core.applications.correspondence as correspondence
 
     n, k = 3000, 6
     m = BiharmonicDistance(bumpy(n))

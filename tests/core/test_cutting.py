@@ -66,7 +66,7 @@ def test_it_can_be_done_again_and_nothing_is_said_of_nothing():
         (["a"], ParameterError, "ids (k,), or booleans for all 12"),
         ([[0, 1]], ParameterError, "no int64 array of shape (1, 2)"),
         ([True, False], ParameterError, "no bool array of shape (2,)"),
-        ([[0], [1, 2]], ParameterError, "Vertices are no array"),
+        ([[0], [1, 2]], ParameterError, "Vertices are not an array"),
         (range(12), MeshError, "surface: no face is left without 12 vertices."),
     ],
 )

@@ -131,7 +131,7 @@ def test_triangle_inequality_of_metrics_holds_and_a_broken_one_is_found():
 
 
 def test_triples_are_of_three_different_points():
-    # PairwiseDistances three points with one long side, a third of the triples break the inequality, and by 3 of 5.
+    # Among three points with one long side, a third of the triples break the inequality, and by 3 of 5.
     d = np.array([[0.0, 1, 5], [1, 0, 1], [5, 1, 0]])
     sample = triangle_violations(d, 6000)
     assert sample.violations == pytest.approx(2000, rel=0.1)

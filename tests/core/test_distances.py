@@ -13,6 +13,7 @@ from bihdist_core import (
     DiffusionDistance,
     GeodesicDistance,
     Laplacian,
+    MeshError,
     ParameterError,
     PowerDistance,
     SolverError,
@@ -119,6 +120,29 @@ def test_scales_with_the_surface_as_it_says(make):
     distance, larger = make(s), make(large)
     expected = 1000**distance.length_power * distance.from_source(5)
     assert larger.from_source(5) == pytest.approx(expected, rel=1e-6, abs=1e-8 * expected.max())
+
+
+@every_distance
+@pytest.mark.parametrize("power", [-160, -60, 60, 160])
+def test_a_power_of_two_changes_no_digit(make, power):
+    s = bumpy(700)
+    distance, scaled = make(s), make(Surface(2.0**power * s.vertices, s.faces))
+    assert (scaled.from_source(5) == 2.0 ** (power * distance.length_power) * distance.from_source(5)).all()
+    if distance.accuracy is not None:
+        assert scaled.accuracy == distance.accuracy
+
+
+@pytest.mark.parametrize("size", [1e-160, 1e-100, 1e-51, 1e51, 1e100, 1e160])
+def test_a_surface_too_large_or_too_small_for_numbers_is_refused(size):
+    s = bumpy(30)
+    with pytest.raises(MeshError, match="have no numbers, so scale it"):
+        BiharmonicDistance((size * s.vertices, s.faces))
+    if 1e-150 < size < 1:  # as a component
+        both = np.concatenate([s.vertices, size * s.vertices]), np.concatenate([s.faces, s.faces + 30])
+        heat = GeodesicDistance(both, "heat")
+        assert heat.from_source(3)[:30].max() > 0.1
+        with pytest.raises(MeshError, match="have no numbers, so scale it up"):
+            heat.from_source(31)
 
 
 @every_distance
@@ -312,7 +336,7 @@ def test_a_cut_between_equal_eigenvalues_is_told_and_what_to_choose():
     """The first eigenvalues of the sphere are 2, 6 and 12, three, five and seven times; here nearly so."""
     distance = TruncatedBiharmonicDistance(torus(24, 12), k=1)
     with pytest.raises(
-        SolverError, match=r"Eigenvalues 1 and 2 differ by .* it is open which eigenpairs are the first 1"
+        SolverError, match=r"Eigenvalues 1 and 2 differ by .* it is not clear which eigenpairs are the first 1"
     ):
         distance.error_estimate()
     with pytest.raises(SolverError, match="choose another k, such as 2"):
@@ -348,7 +372,7 @@ def test_pairs_equal_the_matrix_of_all(make):
 
 
 def test_a_time_that_needs_more_eigenpairs_than_numbers_can_count_is_refused_shortly(monkeypatch):
-    monkeypatch.setattr("bihdist_core.distances.diffusion.MOST_PAIRS", 50)
+    monkeypatch.setattr("bihdist_core.distances.diffusion.MOST_EIGENPAIRS", 50)
     for t in (1e-300, 5e-324):
         with pytest.raises(ParameterError, match=r"needs about \S{1,10} eigenpairs here; at most 50 are computed"):
             DiffusionDistance(bumpy(150), t=t)

@@ -193,8 +193,8 @@ def test_the_search_for_paths_finds_what_the_kernel_does(surface):
 def test_a_path_that_is_not_as_long_as_its_distance_is_refused(monkeypatch):
     solver = ExactGeodesic(bumpy(60))
     field = solver.field(0)
-    monkeypatch.setattr(exact_geodesic, "AS_LONG", -1.0)
-    with pytest.raises(SolverError, match="The way to vertex 9 of bumpy was lost"):
+    monkeypatch.setattr(exact_geodesic, "LENGTH_TOLERANCE", -1.0)
+    with pytest.raises(SolverError, match="The path to vertex 9 of bumpy was lost"):
         field.path(9)
 
 
@@ -260,7 +260,7 @@ def test_nothing_is_left_out_on_damaged_meshes(seed, monkeypatch):
     assert set(surface.component_of_vertex[reached]) == {surface.component_of_vertex[surface.faces[face, 0]]}
     for target in rng.choice(reached, 5):
         assert length_of(surface, field.path(int(target))) == pytest.approx(d[target], abs=2e-12 * size)
-    monkeypatch.setattr(exact_geodesic, "MOST_AT_LEAST", 100_000)
+    monkeypatch.setattr(exact_geodesic, "MOST_WINDOWS_AT_LEAST", 100_000)
     everything = solver.field(source, radius=np.nanmax(d) * (1 + 1e-9), everything=True).distances
     assert np.abs(everything - d)[reached].max() < 1e-12 * size
 
@@ -340,10 +340,10 @@ def test_refusals(monkeypatch):
         solver.distances([0, 1], offsets=[1, np.inf])
     with pytest.raises(ParameterError, match="There is no place 0; 0 were asked for"):
         solver.field(0).path_to_place(0)
-    with pytest.raises(ParameterError, match="No way from the source to vertex 15"):
+    with pytest.raises(ParameterError, match="No path from the source to vertex 15"):
         solver.field(0, radius=1).path(15)
-    monkeypatch.setattr(exact_geodesic, "MOST_AT_LEAST", 0)
-    monkeypatch.setattr(exact_geodesic, "MOST_PER_VERTEX", 1)
+    monkeypatch.setattr(exact_geodesic, "MOST_WINDOWS_AT_LEAST", 0)
+    monkeypatch.setattr(exact_geodesic, "MOST_WINDOWS_PER_VERTEX", 1)
     with pytest.raises(SolverError, match="was given up after"):
         solver.distances(0)
     monkeypatch.setattr(library, "library", lambda: None)

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from bihdist_core import Cancelled, GeodesicDistance, Surface
-from bihdist_core.distances import geodesic
-from bihdist_core.distances.exact_geodesic import FEW, ExactGeodesic
-from bihdist_core.distances.exact_work import TRIED, expected_windows
+from bihdist_core.distances import geodesic_solvers
+from bihdist_core.distances.exact_geodesic import FEW_TARGETS, TRIAL_VERTICES, ExactGeodesic, expected_windows
 from bihdist_core.kernel.library import library
 from tests.shapes import sphere, two_pieces
 
@@ -15,7 +14,7 @@ pytestmark = pytest.mark.skipif(library() is None, reason="exact geodesics need 
 
 @pytest.fixture(scope="module")
 def smooth():
-    return sphere(2 * TRIED)
+    return sphere(2 * TRIAL_VERTICES)
 
 
 @pytest.fixture(scope="module")
@@ -36,12 +35,12 @@ def test_work_is_expected_from_a_part_of_the_surface(smooth, rough):
 
 def test_auto_is_exact_where_the_surface_is_rough(smooth, rough, monkeypatch):
     limit = np.sqrt(expected_windows(ExactGeodesic(smooth)) * expected_windows(ExactGeodesic(rough)))
-    monkeypatch.setattr(geodesic, "MOST_WINDOWS", limit)
+    monkeypatch.setattr(geodesic_solvers, "MOST_WINDOWS", limit)
     assert GeodesicDistance(rough).label == "geodesic, exact"
-    assert not GeodesicDistance(rough).takes_long()
+    assert not GeodesicDistance(rough).is_slow()
     heat = GeodesicDistance(smooth)
-    assert (heat.label, heat.takes_long()) == ("geodesic, heat method", False)
-    assert GeodesicDistance(smooth, "exact").takes_long()
+    assert (heat.label, heat.is_slow()) == ("geodesic, heat method", False)
+    assert GeodesicDistance(smooth, "exact").is_slow()
 
 
 def test_the_trial_can_be_cancelled(smooth):
@@ -58,7 +57,7 @@ def test_pairs_are_of_fields_whether_a_source_has_few_targets_or_many():
     used = np.flatnonzero(surface.component_of_vertex >= 0)
     pairs = np.array([(used[0], v) for v in used] + [(u, used[5]) for u in used[1:9]] + [(used[3], used[3])])
     sources, place = np.unique(pairs[:, 0], return_inverse=True)
-    assert np.bincount(place).max() > FEW >= np.bincount(place).min()
+    assert np.bincount(place).max() > FEW_TARGETS >= np.bincount(place).min()
     fields = distance.from_sources(sources)
     np.testing.assert_allclose(distance.of_pairs(pairs), fields[pairs[:, 1], place], rtol=1e-12, atol=1e-14)
 

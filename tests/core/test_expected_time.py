@@ -5,8 +5,7 @@ import time
 import pytest
 
 from bihdist_core import GeodesicDistance, expected_time
-from bihdist_core.distances.exact_geodesic import ExactGeodesic
-from bihdist_core.distances.exact_work import expected_windows
+from bihdist_core.distances.exact_geodesic import ExactGeodesic, expected_windows
 from bihdist_core.expected_time import Expected, duration_in, duration_words, expected_seconds
 from bihdist_core.progress import part, silent
 from bihdist_core.solver.factor import share_of_ordering
@@ -92,5 +91,5 @@ def test_a_geodesic_field_is_expected_to_take_what_the_last_one_took(monkeypatch
 def test_a_large_exact_geodesic_is_tried_before_its_first_field():
     surface = grid(320, 320)
     distance = GeodesicDistance(surface, "exact")
-    expected = distance._solvers[0].expected
-    assert expected == pytest.approx(distance._solvers[0].field(0).windows, rel=1)
+    expected = distance._solver._made[0].expected
+    assert expected == pytest.approx(distance._solver._made[0].field(0).windows, rel=1)

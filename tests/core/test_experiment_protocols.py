@@ -8,10 +8,10 @@ import pytest
 from bihdist_core import ParameterError, Surface
 from bihdist_core.distances.edge_geodesic import EdgeGeodesic
 from bihdist_core.experiments import EXPERIMENTS, SEEDS, Shapes, fig9, fig10, table1, table2
+from bihdist_core.experiments._claims_growth import icosphere
 from bihdist_core.experiments._claims_topology import APART, FAR_ROUND, far_pairs, nearly_touching
 from bihdist_core.experiments.result import Table
 from bihdist_core.experiments.shapes import spread_points, start_vertex, starts
-from bihdist_core.experiments.spheres import icosphere
 from tests.shapes import bumpy, grid, torus, two_pieces
 
 

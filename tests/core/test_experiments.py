@@ -9,8 +9,7 @@ import pytest
 from bihdist_core import Cancelled, OutputError, ParameterError, Surface, read_surface
 from bihdist_core.applications.resizing import simplified
 from bihdist_core.experiments import EXPERIMENTS, Shapes, _claims_growth, fig6, fig10, table1, table2
-from bihdist_core.experiments.result import MARKS
-from bihdist_core.experiments.statements import statements_of
+from bihdist_core.experiments.result import MARKS, statements_of
 from bihdist_core.experiments.verdicts import VERDICTS, ends_of, number_of
 
 ASSETS = Path(__file__).resolve().parents[2] / "assets"

@@ -1,9 +1,22 @@
-"""Extrema and their persistence, against a slow count of pieces and by laws."""
+"""Extrema of fields with their persistence, and the tips of shapes."""
 
 import numpy as np
 import pytest
 
-from bihdist_core import BiharmonicDistance, ParameterError, Surface, extrema
+from app.samples import mesh_path
+from bihdist_core import (
+    BiharmonicDistance,
+    Laplacian,
+    ParameterError,
+    ShepardInterpolant,
+    SourceSet,
+    Surface,
+    at_tips,
+    extrema,
+    other_extrema,
+    read_surface,
+    tips,
+)
 from tests.shapes import bumpy, components_apart, grid, torus, two_pieces
 
 
@@ -42,7 +55,7 @@ def test_equals_the_slow_count(surface, kind):
         "smooth": np.sin(3 * surface.vertices[:, 0]) + np.cos(2 * surface.vertices[:, 1]),
         "whole numbers": rng.integers(4, size=len(surface.vertices)).astype(float),
     }[kind]
-    found = extrema(surface, field, share=0)
+    found = extrema(surface, field, fraction=0)
     used = surface.component_of_vertex >= 0
     for ids, persistence, sign in [
         (found.minima, found.minima_persistence, 1),
@@ -59,7 +72,7 @@ def test_two_hills_and_the_saddle_between_them():
     s = grid(40, 20)
     x, y = s.vertices[:, 0], s.vertices[:, 1]
     field = 3 * np.exp(-((x - 10) ** 2 + (y - 10) ** 2) / 30) + 2 * np.exp(-((x - 30) ** 2 + (y - 10) ** 2) / 30)
-    found = extrema(s, field, share=0.01)
+    found = extrema(s, field, fraction=0.01)
     assert s.vertices[found.maxima, 0].tolist() == [10, 30]
     ridge = field[(y == 10) & (x > 10) & (x < 30)].min()
     assert found.maxima_persistence == pytest.approx([np.ptp(field), field[found.maxima[1]] - ridge])
@@ -112,15 +125,15 @@ def test_a_plateau_has_one_extremum():
 
 
 @pytest.mark.parametrize(
-    ("field", "share", "words"),
+    ("field", "fraction", "words"),
     [
         (np.zeros(3), 0.1, r"each of 9 vertices, not an array of shape \(3,\)"),
-        (np.zeros(9), 2, "share is 2"),
+        (np.zeros(9), 2, "from 0 to 1, not 2"),
     ],
 )
-def test_refused(field, share, words):
+def test_refused(field, fraction, words):
     with pytest.raises(ParameterError, match=words):
-        extrema(grid(2, 2), field, share)
+        extrema(grid(2, 2), field, fraction)
 
 
 def test_does_not_depend_on_the_numbering():
@@ -129,3 +142,48 @@ def test_does_not_depend_on_the_numbering():
     order = np.random.default_rng(1).permutation(300)
     other = Surface(s.vertices[order], np.argsort(order)[s.faces])
     assert order[extrema(other, field[order]).minima].tolist() == extrema(s, field).minima.tolist()
+
+
+# ---------------------------------------------------------------------- tips
+def test_the_eccentricity_is_the_mean_of_squared_distances():
+    laplacian = Laplacian(bumpy(150))
+    (component,) = laplacian.components
+    distances = BiharmonicDistance(laplacian).from_sources(np.arange(150))
+    mean = component.areas @ distances**2 / component.areas.sum()
+    assert component.biharmonic_eccentricity == pytest.approx(np.sqrt(mean), rel=1e-9)
+
+
+@pytest.mark.parametrize(("sample", "count"), [("hand", 6), ("figure", 5), ("octopus", 9)])
+def test_tips_are_the_ends_of_limbs(sample, count):
+    """Five fingers and the wrist; head, hands and feet; eight arms and the head."""
+    surface = read_surface(mesh_path(sample))
+    found = tips(Laplacian(surface))
+    assert len(found) == count
+    away = np.linalg.norm(surface.vertices[found][:, None] - surface.vertices[found], axis=2)
+    assert away[~np.eye(count, dtype=bool)].min() > 0.1 * np.sqrt(surface.face_areas.sum())
+
+
+def test_tips_are_found_on_each_component():
+    s = two_pieces()
+    found = tips(Laplacian(s))
+    assert all(np.isin(found, part).any() for part in components_apart(s))
+
+
+def test_extrema_at_tips_are_told_from_others():
+    """The interpolant of two anchors in the palm has one extremum at most of the fingers."""
+    surface = read_surface(mesh_path("hand"))
+    laplacian = Laplacian(surface)
+    ends = tips(laplacian)
+    middle = np.argsort(laplacian.components[0].biharmonic_eccentricity)[[0, 400]]
+    field = ShepardInterpolant(BiharmonicDistance(laplacian), middle, [0.0, 1.0]).evaluate()
+    stray = other_extrema(surface, field, SourceSet(tuple(middle))).vertices
+    assert not np.isin(stray, middle).any()
+    assert at_tips(surface, stray, ends).sum() >= 4
+    assert at_tips(surface, ends, ends).all()
+    assert not at_tips(surface, middle, ends).any()
+
+
+def test_a_single_vertex_has_no_tip():
+    s = bumpy(60)
+    lonely = Surface(np.concatenate([s.vertices, [[9.0, 9, 9]]]), s.faces)
+    assert 60 not in tips(Laplacian(lonely))

@@ -18,6 +18,7 @@ from bihdist_core.solver.elimination_tree import EliminationTree
 from bihdist_core.solver.factor import Factor
 from bihdist_core.solver.worker_threads import without_workers
 from tests.core.graphs import SHAPES, grid, laplacian, path, star
+from tests.waiting import PATIENCE
 
 # Conditions are at most about 1e4 here, and a backward stable solve loses one digit per power of ten.
 CLOSE = 1e-11
@@ -219,7 +220,7 @@ def test_several_threads_at_once():
     for thread in threads:
         thread.start()
     for thread in threads:
-        thread.join(20)
+        thread.join(PATIENCE)
     assert not wrong
 
 

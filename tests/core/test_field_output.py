@@ -4,13 +4,14 @@ import csv
 
 import numpy as np
 import pytest
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from bihdist_core.errors import OutputError, ParameterError
+from bihdist_core.file_output import check_output
 from bihdist_core.formats.field_output import ARRAY_FORMATS, FIELD_FORMATS, ply_names, write_array, write_fields
 from bihdist_core.formats.mesh_io import read_surface
 from bihdist_core.formats.vertex_values import read_vertex_values
 from bihdist_core.surface import Surface
-from bihdist_core.whole_file import check_output
 
 RNG = np.random.default_rng(3)
 SURFACE = Surface(RNG.normal(size=(6, 3)), [[0, 1, 2], [2, 1, 3], [3, 4, 0]], name="six")
@@ -45,7 +46,6 @@ def test_the_surface_reads_back_with_all_its_vertices(tmp_path, extension):
 
 def test_vtp_is_read_by_vtk(tmp_path):
     pytest.importorskip("vtkmodules", reason="VTK is not installed")
-    from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
     fields = {'<a> & "b"': FIELDS["steps"], **FIELDS}
@@ -62,7 +62,6 @@ def test_vtp_is_read_by_vtk(tmp_path):
 
 def test_ply_is_read_by_vtk_and_holds_the_fields(tmp_path):
     pytest.importorskip("vtkmodules", reason="VTK is not installed")
-    from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOPLY import vtkPLYReader
 
     write_fields(tmp_path / "a.ply", SURFACE, FIELDS)

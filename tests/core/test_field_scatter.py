@@ -30,7 +30,7 @@ def test_shares_are_of_the_largest_size_and_what_is_undefined_is_left_out(fields
     surface, a, b = fields
     a = a.copy()
     a[[4, 9]] = np.nan, np.inf
-    scatter = field_scatter(surface, a, b, shares=True)
+    scatter = field_scatter(surface, a, b, normalised=True)
     assert (scatter.ids == np.delete(np.arange(len(a)), [4, 9])).all()
     assert scatter.x.max() == np.abs(scatter.y).max() == 1
     assert np.allclose(scatter.y, b[scatter.ids] / np.abs(b[scatter.ids]).max(), rtol=1e-15)
@@ -60,10 +60,10 @@ def test_what_cannot_be_shown_is_refused(fields):
         with pytest.raises(ParameterError, match=words):
             field_scatter(surface, one, other)
     with pytest.raises(ParameterError, match="0 throughout"):
-        field_scatter(surface, a, 0 * b, shares=True)
+        field_scatter(surface, a, 0 * b, normalised=True)
     scatter = field_scatter(surface, a, b)
     for polygon in (np.zeros((2, 2)), np.zeros((4, 3)), [[0, 0], [1, 1], [np.nan, 2]]):
         with pytest.raises(ParameterError, match="three corners"):
             scatter.inside(polygon)
-    with pytest.raises(ParameterError, match="no grid"):
+    with pytest.raises(ParameterError, match="0 by 3 cells"):
         scatter.density(0, 3, (0, 1), (0, 1))

@@ -57,8 +57,8 @@ def test_quantiles_and_bins_cover_what_bands_do(rough, field):
         (rough, field.round(1), True),
     ):
         total = surface.face_areas.sum()
-        found = field_statistics(surface, values, bins=7, shares=[0, 0.25, 0.5, 0.75, 1])
-        for share, value in zip(found.shares[1:-1], found.quantiles[1:-1], strict=True):
+        found = field_statistics(surface, values, bins=7, fractions=[0, 0.25, 0.5, 0.75, 1])
+        for share, value in zip(found.fractions[1:-1], found.quantiles[1:-1], strict=True):
             # Between them where the field is the value on whole faces, both of them elsewhere.
             least, most = (band(surface, values, high=x).area / total for x in (np.nextafter(value, -np.inf), value))
             assert least - 1e-10 <= share <= most + 1e-10
@@ -81,7 +81,7 @@ def _long_faces():
 def test_where_the_field_is_level_the_quantile_is_its_value():
     plane = grid(10, 10)
     x = np.clip(plane.vertices[:, 0], 3, 6)
-    found = field_statistics(plane, x, bins=[3, 4, 6], shares=[0.1, 0.3, 0.31, 0.5, 0.59, 0.61, 0.9])
+    found = field_statistics(plane, x, bins=[3, 4, 6], fractions=[0.1, 0.3, 0.31, 0.5, 0.59, 0.61, 0.9])
     assert found.quantiles == pytest.approx([3, 3, 3.1, 5, 5.9, 6, 6], abs=1e-12)
     assert found.areas == pytest.approx([40, 60], rel=1e-12)
 
@@ -105,7 +105,7 @@ def test_vertices_without_a_value_are_left_out():
     one, other = field_statistics(both, field), field_statistics(part, field[:60])
     assert one.count == 60
     assert one.mean == pytest.approx(other.mean, rel=1e-12)
-    with pytest.raises(ParameterError, match="no finite value"):
+    with pytest.raises(ParameterError, match="not finite on any face"):
         field_statistics(both, np.full(len(both.vertices), np.nan))
 
 
@@ -140,13 +140,13 @@ def test_rank_correlation_is_scipys():
 
 def test_agreement_of_distances(rough, field):
     geodesic = GeodesicDistance(rough, "exact").from_source(7)
-    found = field_agreement(rough, field, geodesic, shares=True)
+    found = field_agreement(rough, field, geodesic, normalised=True)
     apart = np.abs(field / field.max() - geodesic / geodesic.max())
     assert found.largest == apart.max()
     assert found.largest_at == apart.argmax()
     assert found.spearman == pytest.approx(spearmanr(field, geodesic).statistic, abs=1e-12)
     assert 0.9 < found.by_area < 1
-    same = field_agreement(rough, field, 2 * field, shares=True)
+    same = field_agreement(rough, field, 2 * field, normalised=True)
     assert (same.spearman, same.mean, same.largest) == pytest.approx((1, 0, 0), abs=1e-12)
     assert field_agreement(rough, field, 2 * field).largest == field.max()
 
@@ -156,13 +156,13 @@ def test_bad_input_is_refused(rough, field):
         with pytest.raises(ParameterError, match="bins"):
             field_statistics(rough, field, bins)
     with pytest.raises(ParameterError, match="Fractions of the area"):
-        field_statistics(rough, field, shares=[1.5])
+        field_statistics(rough, field, fractions=[1.5])
     with pytest.raises(ParameterError, match="each of 300 vertices"):
         field_statistics(rough, field[:-1])
     with pytest.raises(ParameterError, match=r"each of 300 vertices, not an array of shape \(299,\)"):
         field_agreement(rough, field, field[:-1])
     with pytest.raises(ParameterError, match="0 throughout"):
-        field_agreement(rough, field, 0 * field, shares=True)
+        field_agreement(rough, field, 0 * field, normalised=True)
     with pytest.raises(ParameterError, match="common vertices"):
         field_agreement(rough, field, field * np.nan)
     with pytest.raises(ParameterError, match="cannot be correlated"):
@@ -179,7 +179,7 @@ def test_what_truncation_loses_is_that_of_the_truncated_distance(rough, field):
         apart = np.abs(TruncatedBiharmonicDistance(laplacian, k).from_source(7) - field) / field.max()
         assert loss.largest[k - 1] == pytest.approx(apart.max(), rel=1e-6)
         assert loss.at[k - 1] == apart.argmax()
-        assert loss.means[k - 1] == pytest.approx(np.average(apart, weights=laplacian.areas), rel=1e-6)
+        assert loss.means[k - 1] == pytest.approx(field_statistics(laplacian.surface, apart).mean, rel=1e-6)
     # More terms are never further from the exact sum.
     assert (np.diff(loss.largest) <= 1e-9).all()
     some = truncation_loss(laplacian, 7, counts=[5, 17])
@@ -214,7 +214,7 @@ def test_truncation_from_sources_of_other_kinds(words):
         apart = np.abs(truncated - exact) / exact.max()
         assert loss.largest[k] == pytest.approx(apart.max(), rel=1e-6)
         assert loss.at[k] == apart.argmax()
-        assert loss.means[k] == pytest.approx(np.average(apart, weights=laplacian.areas), rel=1e-6)
+        assert loss.means[k] == pytest.approx(field_statistics(laplacian.surface, apart).mean, rel=1e-6)
 
 
 def test_truncation_from_a_set_on_two_components():

@@ -100,9 +100,11 @@ def test_surfaces_that_are_refused():
 
 def test_values_that_are_refused():
     assert "is a surface, and holds no values" in refused(read_values, freesurfer())
-    assert "holds no values of FreeSurfer's: its first bytes are 000005" in refused(read_values, b"\0\0\5" + bytes(20))
+    assert "is not a FreeSurfer file of values: its first bytes are 000005" in refused(
+        read_values, b"\0\0\5" + bytes(20)
+    )
     assert "announces 5 values and holds 4" in refused(read_values, values()[:-1])
-    assert "goes on behind its last value" in refused(read_values, values() + b"1")
+    assert "continues after its last value" in refused(read_values, values() + b"1")
     assert "has 2 values at each vertex" in refused(read_values, values(each=2))
 
 
@@ -113,7 +115,7 @@ def test_annotations_that_are_refused():
     assert "cut off or damaged" in refused(read_annotation, whole[:-1])
     assert "does not label each of its 5 vertices once" in refused(read_annotation, annotation(ids=[0, 1, 2, 3, 3]))
     other = whole[:8] + struct.pack(">i", 77) + whole[12:]
-    assert "vertex 0 has the colour 77, which the table of labels has not" in refused(read_annotation, other)
+    assert "vertex 0 has the colour 77, which is not in the table of labels" in refused(read_annotation, other)
     at = whole.index(text("table")) + len(text("table")) + 4
     assert "stands at 9 of a table of 3" in refused(
         read_annotation, whole[:at] + struct.pack(">i", 9) + whole[at + 4 :]

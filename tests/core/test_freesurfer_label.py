@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bihdist_core.errors import MeshError
-from bihdist_core.formats.freesurfer_label import label_name, read_label
+from bihdist_core.formats.freesurfer import label_name, read_label
 from tests.core.damage import damaged
 from tests.core.mesh_samples import message_of
 
@@ -33,15 +33,15 @@ def test_labels_are_read_as_by_nibabel(tmp_path):
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        (b"3\n", "is no label of FreeSurfer: its first line does not begin with '#!ascii label'."),
-        (b"", "is no label of FreeSurfer"),
+        (b"3\n", "is not a FreeSurfer label: its first line"),
+        (b"", "is not a FreeSurfer label"),
         (b"#!ascii label\n", "is cut off: the number of its vertices"),
         (label([1], count="1 2"), "line 2: '1 2' is not the number of its vertices"),
         (label([1], count="1.5"), "line 2: '1.5' is not the number of its vertices"),
         (label([1], count="-1"), "line 2: '-1' is not the number"),
         (label([1], count="nan"), "line 2: 'nan' is not the number"),
         (label([1, 2], count=3), "announces 3 vertices and lists 2; it is cut off"),
-        (label([1, 2], count=1), "announces 1 vertex and lists 2; it goes on"),
+        (label([1, 2], count=1), "announces 1 vertex and lists 2; it continues"),
         (label([1, 2])[:-14] + b"\n", "line 4: '2  0.286  -1.5  2.25e1' is not a vertex, x, y, z and a value"),
         (label([1]).replace(b"\n1  ", b"\none  "), "line 3: 'one' is not a number"),
         (label([1, -1]), "line 4: vertex -1 is a place that belongs to no vertex; map the label onto the surface"),

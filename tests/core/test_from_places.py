@@ -180,7 +180,7 @@ def test_between_places(make):
     nearest = min(distance.between(12, 5), distance.between(40, 5))
     assert distance.between("12+40", 5) == pytest.approx(nearest, rel=1e-9)
     for two in [("12+40", "7+5"), (CURVE, INSIDE)]:
-        with pytest.raises(ParameterError, match=r"is not known between .* let one be a vertex"):
+        with pytest.raises(ParameterError, match=r"is not known between .* one must be a vertex"):
             distance.between(*two)
 
 

@@ -17,8 +17,8 @@ from bihdist_core import (
 )
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.distance import Distance
-from bihdist_core.distances.kinds import Spec
-from bihdist_core.distances.source_questions import SOURCES
+from bihdist_core.distances.distance_types import Spec
+from bihdist_core.distances.source_questions import SOURCES_PER_BLOCK
 from bihdist_core.sources.pieces import pieces_of
 from tests.core.every_distance import (
     BUMPY,
@@ -51,7 +51,7 @@ def test_a_set_is_the_nearest_of_its_members(make):
 
 @every_distance
 def test_a_large_set_in_blocks(make):
-    members = tuple(range(0, 3 * SOURCES, 2))
+    members = tuple(range(0, 3 * SOURCES_PER_BLOCK, 2))
     distance = make(BUMPY)
     expected = distance.from_sources(members).min(axis=1)
     assert np.abs(distance.from_source(SourceSet(members)) - expected).max() <= SMALL * expected.max()
@@ -155,7 +155,7 @@ class Straight(Distance):
     def prepare(self, component, progress=None):
         pass
 
-    def _columns(self, component, index, progress):
+    def compute_columns(self, component, index, progress):
         x = component.surface.vertices
         return np.linalg.norm(x[:, None] - x[index], axis=2)
 
@@ -165,7 +165,7 @@ def test_a_distance_that_knows_vertices_only_says_so():
     assert np.array_equal(distance.from_source("5+80"), distance.from_sources([5, 80]).min(axis=1))
     assert np.array_equal(distance.from_source(CORNER), distance.from_source(int(BUMPY.faces[17, 1])))
     for source in (INSIDE, CURVE, SourceSet((5, INSIDE))):
-        with pytest.raises(ParameterError, match="straight is known between vertices only; let it start from some"):
+        with pytest.raises(ParameterError, match="straight is known between vertices only; start from vertices"):
             distance.from_source(source)
 
 

@@ -58,7 +58,7 @@ def test_the_error_curve_is_that_of_a_slow_reference(found, lions):
     assert errors == pytest.approx(np.array(slow), abs=1e-9)
     curve = error_curve(errors)
     for threshold in (0.0, 0.02, 0.1, 0.25):
-        assert curve.shares(threshold) == sum(error <= threshold for error in slow) / len(some)
+        assert curve.fractions(threshold) == sum(error <= threshold for error in slow) / len(some)
     assert curve.mean == pytest.approx(sum(slow) / len(some))
 
 

@@ -1,12 +1,15 @@
-"""Which geodesic method is taken when, and that the heat method keeps its promise on bad triangles."""
+"""Geodesic distance: the choice among its methods, along edges, and on meshes pressed onto a line."""
 
 import threading
+from itertools import combinations, pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components, dijkstra
 
-import bihdist_core.distances.geodesic as geodesic
+import bihdist_core.distances.geodesic_solvers as geodesic_solvers
 import bihdist_core.distances.heat_geodesic as heat_geodesic
 import bihdist_core.distances.heat_times as heat_times
 from bihdist_core import (
@@ -18,8 +21,24 @@ from bihdist_core import (
     SurfacePoint,
     read_surface,
 )
+from bihdist_core.distances.edge_geodesic import EdgeGeodesic
+from bihdist_core.distances.exact_geodesic import ExactGeodesic
+from bihdist_core.errors import VertexError
 from bihdist_core.kernel import library
-from tests.shapes import bumpy, fin, needs_kernel, two_pieces
+from tests.core.nasty_meshes import nasty_mesh
+from tests.shapes import (
+    ORACLE,
+    ORACLE_NAMES,
+    bumpy,
+    fin,
+    grid,
+    needs_kernel,
+    needs_oracle,
+    oracle_surface,
+    torus,
+    two_pieces,
+)
+from tests.waiting import PATIENCE
 
 MESHES = Path(__file__).parents[2].parent / "shared" / "meshes"
 
@@ -28,7 +47,7 @@ MESHES = Path(__file__).parents[2].parent / "shared" / "meshes"
 def test_auto_is_exact_up_to_some_work_on_any_surface(monkeypatch):
     for surface in (bumpy(100), fin(), two_pieces()):
         assert GeodesicDistance(surface).label == "geodesic, exact"
-    monkeypatch.setattr(geodesic, "MOST_WINDOWS", 99**1.5)
+    monkeypatch.setattr(geodesic_solvers, "MOST_WINDOWS", 99**1.5)
     assert GeodesicDistance(bumpy(100)).label == "geodesic, heat method"
 
 
@@ -61,7 +80,7 @@ def test_a_radius_ends_what_the_exact_method_does(monkeypatch):
     assert (full[0] > 1).any()
     check(near.pairwise(places), full)
     assert np.isinf(GeodesicDistance(surface, radius=1e-3).pairwise(places[1:3])[0, 1])
-    monkeypatch.setattr(geodesic, "takes_long", lambda *_: True)
+    monkeypatch.setattr(geodesic_solvers, "is_slow", lambda *_: True)
     assert GeodesicDistance(surface).method == "heat"
     assert GeodesicDistance(surface, radius=1.0).method == "exact"
     for method in ("heat", "dijkstra"):
@@ -96,12 +115,11 @@ def test_heat_holds_on_bad_triangles(monkeypatch):
 
 
 def slivers_at_one_vertex():
-    """Needles over a tenth of the height only, where no probe happens to lie, and that vertex."""
+    """Needles at one end only, where no probe happens to lie, and the vertex there."""
     s = bumpy(3000)
-    z = s.vertices[:, 2]
-    thin = np.where(z > 0.9 * z.max(), 1, 0)
-    points = s.vertices * np.stack([np.where(thin, 0.02, 1), np.ones_like(z), np.ones_like(z)], 1)
-    return Surface(points, s.faces, "slivers"), int(z.argmax())
+    x = s.vertices[:, 0]
+    points = s.vertices * np.where(x > 0.9 * x.max(), 0.02, 1)[:, None] ** [0, 1, 0]
+    return Surface(points, s.faces, "slivers"), int(x.argmax())
 
 
 def test_each_source_has_the_time_that_serves_it():
@@ -125,7 +143,7 @@ def test_a_longer_flow_is_made_once_and_in_nobodys_way(monkeypatch):
     def waiting(times, factor, progress):
         made.append(factor)
         progress(0.25, "")
-        assert gate.wait(60)
+        assert gate.wait(PATIENCE)
         return flow(times, factor, progress)
 
     def impatient(share, text):
@@ -177,8 +195,8 @@ def test_heat_holds_on_real_slivers(mesh, sources):
 
 @needs_kernel
 def test_auto_changes_to_heat_where_the_exact_method_gives_up(monkeypatch):
-    monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_AT_LEAST", 0)
-    monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_PER_VERTEX", 0)
+    monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_WINDOWS_AT_LEAST", 0)
+    monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_WINDOWS_PER_VERTEX", 0)
     surface = bumpy(300)
     auto, heat = GeodesicDistance(surface), GeodesicDistance(surface, "heat")
     assert auto.label == "geodesic, exact"
@@ -196,10 +214,126 @@ def test_auto_asks_the_heat_method_once_where_that_fails(monkeypatch):
         asked.append(1)
         raise SolverError("the heat method fails")
 
-    monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_AT_LEAST", 0)
-    monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_PER_VERTEX", 0)
+    monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_WINDOWS_AT_LEAST", 0)
+    monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_WINDOWS_PER_VERTEX", 0)
     monkeypatch.setattr("bihdist_core.distances.heat_times.HeatTimes.distances", fails)
     for times in (1, 2):
         with pytest.raises(SolverError, match="the heat method fails"):
             auto.from_source(5)
         assert (auto.method, len(asked)) == ("heat", times)
+
+
+# ---------------------------------------------------------------------- geodesic on a line
+def reeb_distances(t, faces):
+    """(n, n) of vertices at t (n,): what a face has at one place is one point of it."""
+    levels, number, same, ways = np.unique(t).tolist(), {}, [], []
+    for face in faces.tolist():
+        parts = [(v,) for v in face] + [(min(e), max(e)) for e in combinations(face, 2)]
+
+        def at(level, part):
+            """The number of an edge's point at a level: of a vertex, or between two."""
+            name = next((v for v in part if t[v] == level), (part, level))
+            return number.setdefault(name, len(number))
+
+        within = {part: [x for x in levels if min(t[[*part]]) <= x <= max(t[[*part]])] for part in parts}
+        for level in levels:
+            same += pairwise([at(level, part) for part in parts if level in within[part]])
+        ways += [(at(x, part), at(y, part), y - x) for part in parts for x, y in pairwise(within[part])]
+    joined = sp.coo_matrix((np.ones(len(same)), np.transpose(same)), shape=(len(number),) * 2)
+    count, point = connected_components(joined, directed=False)
+    lengths = {(point[i], point[j]): length for i, j, length in ways}
+    graph = sp.csr_matrix((list(lengths.values()), np.transpose(list(lengths))), shape=(count, count))
+    points = point[[number[v] for v in range(len(t))]]
+    return dijkstra(graph, directed=False, indices=points)[:, points]
+
+
+def pressed(surface, rng, way):
+    t = surface.vertices[:, 0] if way != "anywhere" else rng.normal(size=len(surface.vertices))
+    return np.round(4 * t) if way == "whole numbers" else t
+
+
+@pytest.mark.parametrize("shape", [bumpy(30), grid(5, 4), torus(8, 5), "nasty"], ids=lambda s: getattr(s, "name", s))
+@pytest.mark.parametrize("way", ["along an axis", "anywhere", "whole numbers"])
+def test_all_on_a_line(shape, way):
+    """Many places are those of several vertices, or all but the line's own rounding apart."""
+    for seed in range(4):
+        rng = np.random.default_rng(seed)
+        surface = Surface(*nasty_mesh(seed, 40)) if shape == "nasty" else shape
+        used, faces = np.unique(surface.faces, return_inverse=True)
+        surface = Surface(surface.vertices[used], faces.reshape(-1, 3))
+        t, direction = pressed(surface, rng, way), rng.normal(size=3)
+        expected = reeb_distances(t, surface.faces) * np.linalg.norm(direction)
+        for line in (direction, np.linalg.norm(direction) * np.eye(3)[0]):
+            solver = ExactGeodesic(Surface(t[:, None] * line, surface.faces))
+            found = np.stack([solver.distances(v) for v in range(len(t))])
+            np.testing.assert_allclose(
+                np.nan_to_num(found, nan=np.inf), expected, rtol=0, atol=1e-13 * expected[np.isfinite(expected)].max()
+            )
+
+
+# ---------------------------------------------------------------------- edge geodesic
+ROUNDING = 1e-12
+"""Relative: sums of at most some hundred lengths."""
+
+
+def strip(k):
+    """Two rows of k + 1 vertices, side 1, diagonals from lower left to upper right."""
+    x = np.repeat(np.arange(k + 1.0), 2)
+    a = 2 * np.arange(k)
+    faces = np.concatenate([np.stack([a, a + 2, a + 3], 1), np.stack([a, a + 3, a + 1], 1)])
+    return Surface(np.stack([x, np.tile([0.0, 1.0], k + 1), 0 * x], 1), faces)
+
+
+def test_path_lengths_on_a_strip():
+    d = EdgeGeodesic(strip(20)).distances(0)
+    np.testing.assert_allclose(d[::2], np.arange(21), rtol=ROUNDING)
+    np.testing.assert_allclose(d[3::2], np.arange(20) + np.sqrt(2), rtol=ROUNDING)
+    assert d[1] == 1
+
+
+def test_block_equals_single_and_is_symmetric():
+    solver = EdgeGeodesic(strip(9))
+    block = solver.distances([3, 0, 11])
+    assert block.shape == (20, 3)
+    for column, source in enumerate([3, 0, 11]):
+        assert np.array_equal(block[:, column], solver.distances(source))
+    everything = solver.distances(np.arange(20))
+    np.testing.assert_allclose(everything, everything.T, rtol=ROUNDING)
+    assert not np.diag(everything).any()
+
+
+def test_scales_like_length_and_is_no_shorter_than_a_straight_line():
+    surface = strip(7)
+    d = EdgeGeodesic(surface).distances(4)
+    scaled = EdgeGeodesic(Surface(surface.vertices * 3, surface.faces)).distances(4)
+    np.testing.assert_allclose(scaled, 3 * d, rtol=ROUNDING)
+    assert (d >= np.linalg.norm(surface.vertices - surface.vertices[4], axis=1) * (1 - ROUNDING)).all()
+
+
+def test_nonmanifold_edge_and_coincident_vertices():
+    vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 1, 0]]
+    surface = Surface(vertices, [[0, 1, 2], [0, 1, 3], [0, 1, 4], [0, 2, 5]])
+    np.testing.assert_allclose(EdgeGeodesic(surface).distances(2), [1, np.sqrt(2), 0, 2, 2, 0], rtol=ROUNDING)
+
+
+def test_refuses_ids_that_do_not_exist():
+    with pytest.raises(VertexError):
+        EdgeGeodesic(strip(2)).distances(6)
+    with pytest.raises(VertexError):
+        EdgeGeodesic(strip(2)).distances([0, -1])
+
+
+@needs_oracle
+@pytest.mark.parametrize("name", ORACLE_NAMES)
+def test_reference_values(name):
+    expected = np.load(ORACLE / f"{name}_dijkstra_scipy.npy")
+    sources = np.loadtxt(ORACLE / f"{name}_sources0.txt", dtype=int)
+    got = EdgeGeodesic(oracle_surface(name)).distances(sources)
+    np.testing.assert_allclose(got, expected, rtol=0, atol=1e-12 * expected.max())
+
+
+def test_from_vertices_with_offsets():
+    edges = EdgeGeodesic(strip(20))
+    expected = np.minimum(edges.distances(3) + 1, edges.distances(30) + 2)
+    found = edges.distances_with(np.array([3, 30, 3, 30]), np.array([5.0, 2, 1, 7]))
+    np.testing.assert_allclose(found, expected, rtol=ROUNDING)

@@ -67,7 +67,7 @@ def error(found, expected):
 def test_a_metric_of_vertices_and_places(surface):
     n, places = len(surface.vertices), places_on(surface)
     some = np.arange(0, n, -(-n // 15))
-    d = fields(surface, places, [*some, *(places.some(np.array([k])) for k in range(PLACES))])
+    d = fields(surface, places, [*some, *(places.select(np.array([k])) for k in range(PLACES))])
     d = d[:, [*some, *range(n, n + PLACES)]]
     slack = ROUNDING * d.max()
     assert np.abs(d - d.T).max() < slack
@@ -88,7 +88,7 @@ def test_between_straight_lines_and_edges_and_never_steeper_than_an_edge(surface
         assert (d <= EdgeGeodesic(surface).distances(sources).min(axis=1) + slack).all()
     i, j = surface.edges.T
     lengths = np.linalg.norm(surface.vertices[i] - surface.vertices[j], axis=1)
-    for row in fields(surface, places_on(surface), [places_on(surface).some(np.array([5])), line_on(surface), ids]):
+    for row in fields(surface, places_on(surface), [places_on(surface).select(np.array([5])), line_on(surface), ids]):
         assert (np.abs(row[i] - row[j]) <= lengths + slack).all()
 
 
@@ -116,7 +116,7 @@ def test_scales_like_length_and_neither_motion_nor_numbers_change_it(surface, mo
     places = places_on(surface)
 
     def sources(places, line, order):
-        return [int(order[2]), order[[0, 5]], places.some(np.array([4])), line]
+        return [int(order[2]), order[[0, 5]], places.select(np.array([4])), line]
 
     expected = fields(surface, places, sources(places, line_on(surface), np.arange(n)))
     assert np.array_equal(

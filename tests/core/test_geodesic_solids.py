@@ -276,9 +276,9 @@ def test_distances_and_paths_are_those_of_the_plane(make):
     vertices = solid.of_vertices()
     targets = joined(vertices, places)
     line = solid.pieces(rng.integers(len(surface.faces), size=1), *rng.dirichlet([1, 1, 1], (2, 1)))
-    some = joined(places.some(np.array([7])), line, vertices.some(np.array([11])))
-    single = [vertices.some(rng.integers(len(vertices), size=1)) for _ in range(2)]
-    questions = [(sources, np.zeros(len(sources))) for sources in (*single, some.some([0]), line, some)]
+    some = joined(places.select(np.array([7])), line, vertices.select(np.array([11])))
+    single = [vertices.select(rng.integers(len(vertices), size=1)) for _ in range(2)]
+    questions = [(sources, np.zeros(len(sources))) for sources in (*single, some.select([0]), line, some)]
     size = solid.expected(some, targets, np.zeros(3)).max()
     for sources, offsets in (*questions, (some, rng.uniform(0, 0.2 * size, 3))):
         expected = solid.expected(sources, targets, offsets)
@@ -293,7 +293,7 @@ def test_distances_and_paths_are_those_of_the_plane(make):
         begun = solid.expected(sources, ends, offsets)
         assert np.abs(begun[:, None] - offsets).min(axis=1).max() < slack
         for path, k, offset in zip(paths, chosen, begun, strict=True):
-            check_path(solid, path, targets.some([k]), slack)
+            check_path(solid, path, targets.select([k]), slack)
             assert abs(length(solid.surface, path) + offset - expected[k]) < slack
 
 

@@ -68,7 +68,7 @@ REFUSED = {
     "type": (WHOLE.replace("FLOAT64", "COMPLEX64"), "array 0 is of the type 'NIFTI_TYPE_COMPLEX64'"),
     "encoding": (WHOLE.replace("GZipBase64Binary", "Base32"), "array 0 is encoded as 'Base32'"),
     "external": (WHOLE.replace("GZipBase64Binary", "ExternalFileBinary"), "keeps its numbers in another file"),
-    "endian": (WHOLE.replace("LittleEndian", "Middle"), "has the byte order 'Middle'"),
+    "endian": (WHOLE.replace("LittleEndian", "Middle"), "byte order 'Middle'"),
     "dimensions": (WHOLE.replace('Dimensionality="2"', 'Dimensionality="0"'), "has '0' dimensions"),
     "dimension": (WHOLE.replace('Dim0="5"', 'Dim0="-5"'), "Dim0 is '-5', not a count"),
     "huge": (WHOLE.replace('Dim0="5"', 'Dim0="999999999999"'), "announces 2,999,999,999,997 numbers, more than"),
@@ -76,7 +76,7 @@ REFUSED = {
     "fewer": (WHOLE.replace('Dim0="5"', 'Dim0="4"'), "holds more than the 96 bytes that it announces"),
     "half a number": (
         gifti_surface(encoding="Base64Binary").replace(b"AAAAAAAA</Data>", b"AAAAAA==</Data>"),
-        "bytes, no whole number",
+        "not a whole number",
     ),
     "damaged": (WHOLE.replace("<Data>eJ", "<Data>AA"), "array 0 is damaged"),
     "no base64": (WHOLE.replace("<Data>", "<Data>*"), "array 0 is damaged"),

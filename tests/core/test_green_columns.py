@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bihdist_core.distances import green_columns
+from bihdist_core.distances import squares
 from bihdist_core.errors import SolverError
 
 RNG = np.random.default_rng(3)
@@ -11,9 +11,9 @@ RNG = np.random.default_rng(3)
 
 def written(values, rows, diagonal, u, index, limit, is_compiled, monkeypatch):
     if not is_compiled:
-        monkeypatch.setattr(green_columns, "library", lambda: None)
+        monkeypatch.setattr(squares, "library", lambda: None)
     out = np.full((len(diagonal), 5), np.nan)
-    write = green_columns.writer_of_distances(diagonal, u, 2.0, index, limit, out)
+    write = squares.writer_of_distances(diagonal, u, 2.0, index, limit, out)
     near = write(rows, slice(1, 4), values)
     return out, near
 

@@ -4,7 +4,8 @@ import csv
 import json
 import re
 import time
-from itertools import pairwise
+from collections import defaultdict
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
@@ -82,19 +83,72 @@ def test_values_met_exactly_at_vertices():
     (line,) = isolines(s, s.vertices[:, 0], [3])
     assert line.points[:, 0].tolist() == [3] * 7
     assert sorted(line.points[:, 1].tolist()) == list(range(7))
-    # Only the top of a cone: the curve is a point and is left out.  Its foot is its boundary, below nothing.
+    # Only the top of a cone: a single point has no curve.
     cone = np.maximum(0, 2 - np.abs(s.vertices[:, :2] - 3).max(axis=1))
     assert isolines(s, cone, [2]) == []
-    assert isolines(s, cone, [0]) == []
     assert isolines(s, s.vertices[:, 0] + s.vertices[:, 1], [12]) == []  # the same in a corner of the boundary
-    # A plateau is surrounded.
-    (line,) = isolines(s, np.minimum(cone, 1), [1])
-    assert line.closed
-    assert line.length == pytest.approx(8)
-    # A saddle at a vertex: four rays meet there.  Two faces at it are 0 all over, and count as above.
+
+
+def test_along_edges_at_the_value_there_is_each_piece_once():
+    s = grid(6, 6)
+    for field in (np.abs(s.vertices[:, 0] - 3), -np.abs(s.vertices[:, 0] - 3), s.vertices[:, 0] - 3):  # valley, ridge
+        (line,) = isolines(s, field, [0])
+        assert (line.points[:, 0] == 3).all()
+        assert line.length == 6
+        on_their_edges(s, [line])
+    for level in (0, 6):  # along the boundary, from above and from below
+        (line,) = isolines(s, s.vertices[:, 0], [level])
+        assert line.length == 6
+    # Three pages of a fin meet in a valley.
+    (line,) = isolines(fin(), np.abs(fin().vertices[:, :2]).max(axis=1), [0])
+    assert line.length == 1
+
+
+def test_what_is_flat_at_the_value_has_its_outline_once():
+    s = grid(6, 6)
+    cone = np.maximum(0, 2 - np.abs(s.vertices[:, :2] - 3).max(axis=1))
+    for sign in (1, -1):  # a plateau and a hollow
+        (line,) = isolines(s, sign * np.minimum(cone, 1), [sign])
+        assert line.closed
+        assert line.length == 8
+    lines = isolines(s, cone, [0])  # its foot, a ring out to the boundary, with two corners cut off inside
+    assert all(line.closed for line in lines)
+    assert sorted(line.length for line in lines) == pytest.approx([12 + 2 * np.sqrt(2), 24])
+    assert [line.length for line in isolines(s, np.ones(49), [1])] == [24]
+    assert isolines(bumpy(100), np.ones(100), [1]) == []  # no outline
+    # A saddle at a vertex, two of whose faces are 0 all over.
     x, y = s.vertices[:, 0] - 3, s.vertices[:, 1] - 3
-    total = sum(line.length for line in isolines(s, x * y, [0]))
-    assert total == pytest.approx(8 + 2 * np.sqrt(2))
+    assert sum(line.length for line in isolines(s, x * y, [0])) == pytest.approx(12 + 2 * np.sqrt(2))
+
+
+@pytest.mark.parametrize("surface", [grid(9, 7), bumpy(300), torus(), fin()], ids=lambda s: s.name)
+@pytest.mark.parametrize("seed", range(4))
+def test_pieces_are_those_found_face_by_face(surface, seed):
+    """Of whole numbers, so that many vertices and whole faces have the value."""
+    field = np.random.default_rng(seed).integers(-1, 2, len(surface.vertices))
+    pieces, flat = {}, defaultdict(list)
+    for face in surface.faces.tolist():
+        ends = {(a,): surface.vertices[a] for a in face if field[a] == 0}
+        for a, b in combinations(sorted(face), 2):
+            if field[a] * field[b] < 0:
+                ends[a, b] = (surface.vertices[a] + surface.vertices[b]) / 2
+            if field[a] == field[b] == 0:
+                flat[a, b].append(len(ends) == 3 and not field[face].any())
+        if len(ends) == 2:
+            pieces[frozenset(ends)] = tuple(ends.values())
+    for (a, b), inside in flat.items():
+        pieces.pop(key := frozenset([(a,), (b,)]), None)
+        if len(inside) == 1 or not all(inside):
+            pieces[key] = surface.vertices[a], surface.vertices[b]
+    lines = isolines(surface, field, [0])
+    on_their_edges(surface, lines)
+    found = [
+        frozenset([tuple(p), tuple(q)])
+        for line in lines
+        for p, q in pairwise(np.concatenate([line.points, line.points[: line.closed]]).tolist())
+    ]
+    assert len(found) == len(set(found)) == len(pieces) > 1
+    assert set(found) == {frozenset([tuple(p.tolist()), tuple(q.tolist())]) for p, q in pieces.values()}
 
 
 def test_faces_without_a_value_are_left_out():

@@ -9,7 +9,7 @@ from bihdist_core.laplacian import _pinned
 from bihdist_core.solver import elimination_tree
 from bihdist_core.solver.elimination_tree import EliminationTree
 from bihdist_core.solver.factor import Factor
-from bihdist_core.surface import FLAT
+from bihdist_core.surface import FLAT_RATIO
 from tests.core.graphs import SHAPES
 from tests.shapes import bumpy, caps, folded, needles
 
@@ -61,7 +61,7 @@ def test_surfaces_with_slivers(kind, height, monkeypatch):
     surface = SLIVERS[kind](bumpy(300), height, every=4)
     component = Laplacian(surface).components[0]
     pinned = _pinned(component.stiffness, component.pin)
-    tolerance = 100 * np.finfo(float).eps / max(height, FLAT)
+    tolerance = 100 * np.finfo(float).eps / max(height, FLAT_RATIO)
     assert max(differences(monkeypatch, pinned, surface.vertices, component.areas).values()) <= CLOSE + tolerance
 
 

@@ -5,7 +5,7 @@ from contextlib import suppress
 
 import pytest
 
-from bihdist_core.formats.lz4_blocks import unpacked_block
+from bihdist_core.formats.compression import unpacked_block
 
 
 def packed(*sequences):

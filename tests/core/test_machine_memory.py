@@ -1,7 +1,10 @@
 """How much memory there is: of the machine, of control groups of both versions, of a limit."""
 
+import platform
+import resource
 import sys
 import tracemalloc
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,9 +13,9 @@ import scipy.sparse as sp
 from bihdist_core import BiharmonicDistance, Laplacian, NotEnoughMemory, TruncatedBiharmonicDistance, machine_memory
 from bihdist_core.analysis.all_pairs import check_block, write_all_pairs
 from bihdist_core.distances.answers import Distances
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.kernel.library import library
-from bihdist_core.machine_memory import available, check_memory
+from bihdist_core.machine_memory import available, check_memory, release_freed
 from bihdist_core.solver import plain
 from bihdist_core.solver.elimination_tree import canonical
 from bihdist_core.solver.plain import PlainFactor, PlainTree
@@ -74,8 +77,6 @@ def test_a_group_of_version_1(machine):
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only there limits of a process are told")
 def test_a_limit_of_the_process_bounds_it(monkeypatch, machine):
-    import resource
-
     monkeypatch.setattr(resource, "getrlimit", lambda _: (10**6 * resource.getpagesize(), 0))
     assert machine(**{"proc/self/statm": "999000 1 1\n"}) == 1000 * resource.getpagesize()
 
@@ -92,7 +93,7 @@ def test_a_factor_without_room_is_refused_before_it_is_made_and_made_once_there_
     surface, spec = bumpy(3000), Spec.of("biharmonic")
     distances = Distances(Laplacian(surface))
     with monkeypatch.context() as patch:
-        patch.setattr(machine_memory, "SMALL", 0)
+        patch.setattr(machine_memory, "SMALL_BYTES", 0)
         patch.setattr(machine_memory, "available", lambda: 1000)
         answer = distances.answer(spec, 5)
     assert answer.field is None
@@ -138,7 +139,7 @@ def test_eigenpairs_ask_for_about_what_they_take(monkeypatch):
 
 def test_what_has_no_room_for_eigenpairs_or_a_block_of_pairs_says_so(monkeypatch, tmp_path):
     distance = BiharmonicDistance(bumpy(3000))
-    monkeypatch.setattr(machine_memory, "SMALL", 0)
+    monkeypatch.setattr(machine_memory, "SMALL_BYTES", 0)
     monkeypatch.setattr(machine_memory, "available", lambda: 10**6)
     with pytest.raises(
         NotEnoughMemory, match=r"Finding 201 eigenpairs of 3,000 vertices needs about .*take fewer.*simplify.*cl"
@@ -150,3 +151,17 @@ def test_what_has_no_room_for_eigenpairs_or_a_block_of_pairs_says_so(monkeypatch
     with pytest.raises(NotEnoughMemory, match=r"A block of 10 x 100,000 distances"):
         check_block(100_000, 4e7)
     write_all_pairs(distance, tmp_path / "all.npy", memory=9e5)
+
+
+@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="only glibc keeps what is freed")
+def test_freed_memory_is_returned_to_the_system():
+    def resident():
+        return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize()
+
+    # Too small for maps of their own, and the last one keeps the heap from shrinking.
+    blocks = [bytes(10_000) for _ in range(10_000)]
+    last = blocks[-1]
+    blocks.clear()
+    before = resident()
+    release_freed()
+    assert before - resident() > 5e7, len(last)

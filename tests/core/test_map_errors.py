@@ -65,15 +65,15 @@ def test_what_was_mapped_nowhere_is_infinitely_wrong_and_what_has_no_truth_is_le
     assert np.isnan(errors[3])
     curve = error_curve(errors)
     assert len(curve.errors) == 3
-    assert curve.shares([0, 10]).tolist() == [1 / 3, 1 / 3]
+    assert curve.fractions([0, 10]).tolist() == [1 / 3, 1 / 3]
     assert curve.mean == np.inf
 
 
 def test_the_area_is_that_under_the_curve():
     curve = error_curve(np.random.default_rng(0).exponential(0.1, 500))
     at = np.linspace(0, 0.25, 200_001)
-    assert curve.area == pytest.approx(np.trapezoid(curve.shares(at), at) / 0.25, abs=1e-5)
-    assert curve.shares(curve.median) == pytest.approx(0.5, abs=0.01)
+    assert curve.area == pytest.approx(np.trapezoid(curve.fractions(at), at) / 0.25, abs=1e-5)
+    assert curve.fractions(curve.median) == pytest.approx(0.5, abs=0.01)
     assert error_curve(np.zeros(3)).area == 1
     assert error_curve([0.3, np.inf]).area == 0
 
@@ -88,7 +88,7 @@ def test_bad_maps_are_refused(surface):
         map_errors(distance, [1.5], [0])
     with pytest.raises(ParameterError, match="partners"):
         map_errors(distance, [1], [0], [3])
-    with pytest.raises(ParameterError, match="no vertex"):
+    with pytest.raises(ParameterError, match="o vertex has"):
         error_curve([np.nan])
 
 
@@ -112,7 +112,7 @@ def test_identity_is_a_map_between_meshes_of_one_size(surface):
         ("map.txt", "0\n" * 149, r"maps 149 vertices, and bumpy has 150"),
         ("map.txt", "0\n" * 149 + "150\n", r"maps vertex 149 to 150, and bumpy has vertices 0 to 149"),
         ("map.txt", "\n".join(map(str, range(1, 151))), r"ids count from 0"),
-        ("map.csv", "", "no map"),
+        ("map.csv", "", "not a map"),
         ("map.npy", "nonsense", "cannot be read"),
         ("gone.txt", None, "No such file"),
     ],
@@ -157,7 +157,7 @@ def test_maps_of_a_set_have_the_same_weight(surface):
     assert both.mean == pytest.approx((few.mean + many.mean) / 2)
     assert both.area == pytest.approx((few.area + many.area) / 2)
     thresholds = np.linspace(0, LIMIT, 77)
-    np.testing.assert_allclose(both.shares(thresholds), (few.shares(thresholds) + many.shares(thresholds)) / 2)
-    assert both.shares(both.median) >= 0.5 > both.shares(both.median - 1e-9)
+    np.testing.assert_allclose(both.fractions(thresholds), (few.fractions(thresholds) + many.fractions(thresholds)) / 2)
+    assert both.fractions(both.median) >= 0.5 > both.fractions(both.median - 1e-9)
     assert MeanCurve((few,)).median == 0
     assert MeanCurve((error_curve([0.0, np.inf, np.inf]),)).median == np.inf

@@ -7,6 +7,8 @@ import pytest
 
 from bihdist_core.formats.field_output import write_fields
 from bihdist_core.formats.mesh_io import read_surface
+from bihdist_core.formats.mesh_names import mesh_format
+from bihdist_core.formats.vertex_count import announced_vertices
 from bihdist_core.surface import Surface
 from tests.core.mesh_samples import (
     FACES,
@@ -34,6 +36,21 @@ def test_ids_coordinates_and_faces_are_the_files(put, name):
     assert_same(surface)
     assert surface.name == name
     assert surface.repairs == ()
+
+
+@pytest.mark.parametrize("name", [*SAMPLES, *SINGLE])
+def test_the_vertices_that_a_file_announces_are_found_without_reading_it(put, name):
+    path = put(name, {**SAMPLES, **SINGLE}[name])
+    form = mesh_format(path)
+    # Neither a header of triangles nor the accessors of a scene tell how many vertices there will be.
+    is_told = form not in (".stl", ".gltf", ".glb") and (form != ".obj" or path.suffix != ".gz")
+    assert announced_vertices(path) == (len(read_surface(path).vertices) if is_told else None)
+
+
+def test_of_a_file_that_cannot_be_read_no_vertices_are_announced(put, tmp_path):
+    assert announced_vertices(tmp_path / "missing.off") is None
+    assert announced_vertices(put("bad.ply.gz", b"ply")) is None
+    assert announced_vertices(put("empty.off", b"")) is None
 
 
 @pytest.mark.parametrize("name", SINGLE)
@@ -106,7 +123,7 @@ def test_text_stl_in_capitals(put):
 def test_binary_stl_with_bytes_behind_it(put):
     surface = read_surface(put("a.stl", stl_binary() + b"written by x"))
     assert_same(surface, VERTICES.astype(np.float32))
-    assert surface.facts[1:] == ("12 bytes behind the last triangle ignored",)
+    assert surface.facts[1:] == ("12 bytes after the last triangle ignored",)
 
 
 @pytest.mark.parametrize("version", [42, 51])

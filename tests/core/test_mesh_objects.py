@@ -1,5 +1,7 @@
 """Meshes of other libraries, wherever a surface is asked for."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -124,6 +126,12 @@ def test_what_does_not_fit_is_one_sentence():
         with pytest.raises(BihdistError, match=words) as caught:
             BiharmonicDistance(mesh)
         assert "\n" not in str(caught.value)
+
+
+def test_a_file_has_its_own_faces():
+    for path in ("x.ply", Path("x.ply")):
+        with pytest.raises(ParameterError, match=r"^'x.ply' names a file, .* leave out 3, or take what `read_surface`"):
+            BiharmonicDistance(path, 3)
 
 
 def test_of_several_meshes_one_has_to_be_chosen():

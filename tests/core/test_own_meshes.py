@@ -18,9 +18,7 @@ from bihdist_core.experiments import (
     _claims_metric,
     _claims_sampling,
     _claims_topology,
-    _comparison,
     circles,
-    fig1,
     fig3,
     fig6,
     shapes,
@@ -167,12 +165,12 @@ def test_joins_without_a_distance_are_judged_by_the_others(refuse):
     refuse("diffusion t = 1")
     parts = Parts()
     own = Shapes(own=bumpy(400))
-    _, panels, _, claims = _claims_topology.topology(own, "bumpy", True, parts, part(None, 0, 1))
-    handle, weld = claims
+    found = _claims_topology.topology(own, "bumpy", True, parts, part(None, 0, 1))
+    handle, weld = found.claims
     assert set(handle.numbers) == set(handle.statement.names)
     assert (handle.verdict is None, handle.failure) == (False, "")
     assert "diffusion" not in handle.note
-    assert panels
+    assert found.panels
     # On a surface without folds there is nothing to weld, which is no failure.
     assert weld.failure == "No two parts of this surface nearly touch, so none can be joined so."
     assert not any("weld" in each.part for each in parts.not_done)
@@ -182,8 +180,9 @@ def test_a_random_join_never_stands_for_the_pictured_one(monkeypatch):
     monkeypatch.setattr(_claims_topology, "tips", lambda surface: (0, 0))
     parts = Parts()
     own = Shapes(own=bumpy(400))
-    _, panels, _, (handle, _) = _claims_topology.topology(own, "bumpy", True, parts, part(None, 0, 1))
-    assert not panels
+    found = _claims_topology.topology(own, "bumpy", True, parts, part(None, 0, 1))
+    handle, _ = found.claims
+    assert not found.panels
     assert [each.part for each in parts.not_done] == ["thin handle 1"]
     for numbers in handle.numbers.values():
         assert (len(numbers.pictured), len(numbers.random)) == (0, 2)
@@ -197,7 +196,7 @@ def test_pairs_that_cannot_be_found_are_noted_and_leave_the_other_edit(monkeypat
 
     monkeypatch.setattr(_claims_topology, "nearly_touching", broken)
     parts = Parts()
-    _, _, _, (handle, weld) = _claims_topology.topology(Shapes(own=bumpy(400)), "bumpy", True, parts, part(None, 0, 1))
+    handle, weld = _claims_topology.topology(Shapes(own=bumpy(400)), "bumpy", True, parts, part(None, 0, 1)).claims
     assert handle.verdict
     assert (weld.verdict, weld.failure) == (None, REFUSED)
     assert [each.part for each in parts.not_done] == ["welds"]
@@ -233,8 +232,7 @@ def test_what_is_pictured_goes_by_the_axis_that_is_up(monkeypatch):
     def none(*_):
         raise SolverError("No circles, which take long.")
 
-    for module in (fig1, _comparison):
-        monkeypatch.setattr(module, "shared_circles", none)
+    monkeypatch.setattr(circles, "shared_circles", none)
     surface = bumpy(150)
     as_before = Shapes(own=surface)
     for up in ("-y", "x", "z"):
@@ -274,18 +272,19 @@ def test_fig3_loses_no_statement(refuse, monkeypatch):
 def test_the_axioms_of_biharmonic_distance_need_no_other_one(refuse):
     refuse("diffusion t = 1")
     parts = Parts()
-    tables, claims = _claims_metric.metric(Shapes(own=bumpy(300)), "bumpy", True, parts, part(None, 0, 1))
-    assert [claim.verdict is None for claim in claims] == [False] * 3
+    found = _claims_metric.metric(Shapes(own=bumpy(300)), "bumpy", True, parts, part(None, 0, 1))
+    assert [claim.verdict is None for claim in found.claims] == [False] * 3
     assert [each.part for each in parts.not_done] == ["metric axioms, diffusion t = 1"]
-    assert "diffusion t = 4" in tables[0].values("distance")
+    assert "diffusion t = 4" in found.tables[0].values("distance")
 
 
 def test_sub_sampling_is_judged_without_diffusion_distance(refuse):
     refuse("diffusion t = 1")
     parts = Parts()
-    tables, _, (claim,) = _claims_sampling.sampling(Shapes(own=bumpy(400)), "bumpy", True, parts, part(None, 0, 1))
+    found = _claims_sampling.sampling(Shapes(own=bumpy(400)), "bumpy", True, parts, part(None, 0, 1))
+    (claim,) = found.claims
     assert set(claim.numbers) == set(claim.statement.names)
-    assert "diffusion t = 1" not in tables[0].values("distance")
+    assert "diffusion t = 1" not in found.tables[0].values("distance")
 
 
 def test_fig3_without_its_scan_has_the_holes():

@@ -19,7 +19,7 @@ from bihdist_core import (
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
 from bihdist_core.analysis.places import Places
 from bihdist_core.analysis.plane_sections import plane_section
-from bihdist_core.analysis.profile_output import write_profile
+from bihdist_core.analysis.surface_paths import write_profile
 from bihdist_core.errors import Cancelled
 from bihdist_core.kernel import library
 from bihdist_core.sources.words import places_from
@@ -156,6 +156,10 @@ def test_profiles_are_written_and_read_back(rough, paths, tmp_path):
     reader.SetFileName(str(tmp_path / "a.vtp"))
     reader.Update()
     assert reader.GetOutput().GetCell(0).GetNumberOfPoints() == len(path.points)
+    write_profile(tmp_path / "a.obj", path, {"x of it": field})
+    *rows, group, line = (row.split() for row in (tmp_path / "a.obj").read_text().splitlines())
+    assert np.array_equal(np.array([row[1:] for row in rows], float), path.points)
+    assert (group, line) == (["g", repr(path.length)], ["l", *(str(k + 1) for k in range(len(rows)))])
     with pytest.raises(ParameterError, match="a profile needs one"):
         write_profile(tmp_path / "b.csv", path, {"all": rough.vertices})
     with pytest.raises(OutputError, match=r"\.csv, \.npy, \.vtp, \.json"):

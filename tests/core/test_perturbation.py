@@ -11,10 +11,10 @@ from bihdist_core.applications.perturbation import (
     image_of,
     perturbed,
     posed,
-    vertex_normals,
     without,
     without_faces,
 )
+from bihdist_core.surface import vertex_normals
 from tests.shapes import bumpy, sphere, two_pieces
 
 
@@ -52,7 +52,7 @@ def test_holes_are_as_wide_as_said():
     assert len(one.vertices) == len(s.vertices)
     with pytest.raises(ParameterError, match="larger radius"):
         with_holes(s, 1, 0.001)
-    with pytest.raises(ParameterError, match="Nothing of bumpy"):
+    with pytest.raises(ParameterError, match="left of bumpy"):
         without(s, np.arange(3000))
 
 
@@ -124,9 +124,9 @@ def test_faces_are_cut_out_and_everything_else_stays():
     ring = np.flatnonzero((s.faces == s.faces[0, 0]).sum(axis=1) == 0)
     isolated = without_faces(s, tuple((int(f), int(f)) for f in ring[:40]))
     assert len(isolated.faces) == len(s.faces) - 40
-    with pytest.raises(ParameterError, match=f"none is {len(s.faces)}"):
+    with pytest.raises(ParameterError, match=f"so no face {len(s.faces)}"):
         without_faces(s, ((len(s.faces), len(s.faces)),))
-    with pytest.raises(ParameterError, match="Nothing of bumpy"):
+    with pytest.raises(ParameterError, match="left of bumpy"):
         without_faces(s, ((0, len(s.faces) - 1),))
 
 
@@ -175,7 +175,7 @@ def test_words_of_poses_and_cut_faces_are_read_as_they_are_written(change):
 def test_runs_are_put_in_order():
     assert runs_from_words("40+3-5+6+10-12+11-15") == ((3, 6), (10, 15), (40, 40))
     for words in ("5-3", "-2", "x", ""):
-        with pytest.raises(ValueError, match=r"go up|invalid literal"):
+        with pytest.raises(ValueError, match=r"ascend|invalid literal"):
             runs_from_words(words)
     with pytest.raises(ParameterError, match="cut is faces such as"):
         change_from_words("cut=5-3")

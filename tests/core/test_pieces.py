@@ -4,7 +4,16 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from bihdist_core import BoundaryLoop, Curve, ParameterError, SourceSet, Surface, SurfacePoint, VertexError
+from bihdist_core import (
+    BoundaryLoop,
+    Curve,
+    ParameterError,
+    SourceSet,
+    Surface,
+    SurfacePoint,
+    VertexError,
+    read_surface,
+)
 from bihdist_core.sources.boundary import boundary_loops
 from bihdist_core.sources.pieces import pieces_of
 from bihdist_core.sources.splitting import split_at
@@ -120,8 +129,6 @@ def test_places_of_two_components_are_not_joined():
 
 @needs_meshes
 def test_ways_across_a_real_shape():
-    from bihdist_core import read_surface
-
     s = read_surface(MESHES / "hand_lowres.obj")
     rng = np.random.default_rng(1)
     for one, other in rng.integers(len(s.faces), size=(30, 2)):

@@ -91,8 +91,8 @@ def test_a_file_of_meshlab(rough, tmp_path):
         ("a.csv", "", "a.csv holds no pins"),
         ("a.csv", "vertex\n", "a.csv holds no pins"),
         ("a.csv", "id,name\n1,a\n", "line 1: pins need the column vertex, or x, y and z"),
-        ("a.csv", "vertex,colour\n1,red\n", "line 1: 'colour' is no column of pins"),
-        ("a.csv", "vertex,vertex\n1,2\n", "line 1: the column vertex is there twice"),
+        ("a.csv", "vertex,colour\n1,red\n", "line 1: 'colour' is not a column of pins"),
+        ("a.csv", "vertex,vertex\n1,2\n", "line 1: the column vertex is given twice"),
         ("a.csv", "vertex\n1\n2.5\n", "line 3: the vertex '2.5' is not a whole number"),
         ("a.csv", "vertex\n1\n\n999\n", "line 4: bumpy has no vertex 999"),
         ("a.csv", "vertex,name\n1\n", "line 2 has 1 values under 2 columns"),
@@ -104,7 +104,7 @@ def test_a_file_of_meshlab(rough, tmp_path):
         ("a.json", "[]", "holds no list of pins"),
         ("a.json", '{"pins": []}', "holds no pins"),
         ("a.json", '{"pins": [{"vertex": 1}, {"vertex": true}]}', "pin 2: the vertex True is not a whole number"),
-        ("a.json", '{"pins": [{"vertex": 1, "at": 2}]}', "pin 1: {'vertex': 1, 'at': 2} is no pin"),
+        ("a.json", '{"pins": [{"vertex": 1, "at": 2}]}', "pin 1: {'vertex': 1, 'at': 2} is not a pin"),
         ("a.json", '{"pins": [{"id": 1}]}', "pin 1 has neither a vertex nor a position"),
         ("a.json", '{"pins": [{"position": [1, 2]}]}', r"pin 1: the position \(1, 2\)"),
         ("a.json", '{"pins": [{"position": [1, 2, "3"]}]}', "pin 1: the position"),
@@ -113,7 +113,7 @@ def test_a_file_of_meshlab(rough, tmp_path):
         ("a.pp", "<other/>", "holds 'other'"),
         ("a.pp", '<PickedPoints><point x="1" y="2"/></PickedPoints>', r"point 1: the position \(1, 2, nothing\)"),
         ("a.pp", '<!DOCTYPE a [<!ENTITY b "c">]><PickedPoints/>', "defines XML entities"),
-        ("a.txt", "1", "no file of pins; these are .csv, .json, .pp"),
+        ("a.txt", "1", "not a file of pins"),
     ],
 )
 def test_what_is_wrong_is_named(rough, tmp_path, name, text, said):
@@ -171,5 +171,5 @@ def test_a_position_beyond_all_meshes_is_none(rough, tmp_path, number):
 
 def test_a_document_nested_a_thousand_deep_is_a_sentence(rough, tmp_path):
     (tmp_path / "a.json").write_text('{"pins": ' + "[" * 1000 + "]" * 1000 + "}")
-    with pytest.raises(ParameterError, match=r"a\.json: its lists and records are nested more than 64 deep"):
+    with pytest.raises(ParameterError, match=r"a\.json: its lists and objects are nested more than 64 deep"):
         read_pins(tmp_path / "a.json", rough)

@@ -13,7 +13,7 @@ from bihdist_core import (
     VertexError,
 )
 from bihdist_core.distances.distance import Distance
-from bihdist_core.sources.pieces import pieces_of
+from bihdist_core.sources.pieces import Pieces, pieces_of
 from bihdist_core.sources.splitting import split_at
 from tests.core.every_distance import BUMPY, SLACK, SMALL, every_distance, every_geodesic, every_quadratic, points
 from tests.shapes import bumpy, two_pieces
@@ -115,7 +115,7 @@ def test_what_is_no_pair_of_points_is_refused():
     distance = BiharmonicDistance(BUMPY)
     with pytest.raises(ParameterError, match="place in a face is one point; loop:0 is not"):
         distance.of_pairs([("loop:0", "f17:0.2,0.5")])
-    with pytest.raises(ParameterError, match="two each"):
+    with pytest.raises(ParameterError, match="two points"):
         distance.of_pairs([("f17:0.2,0.5", 3, 4)])
     with pytest.raises(ParameterError, match="no face 99999"):
         distance.pairwise([SurfacePoint.of(99999, 0.2, 0.5), 3])
@@ -133,8 +133,6 @@ def test_a_distance_of_vertices_only_says_so():
 
 
 def _joined(pieces):
-    from bihdist_core.sources.pieces import Pieces
-
     faces, corners, start, stop, along = (
         np.concatenate([getattr(each, name) for each in pieces])
         for name in ("faces", "corners", "start", "stop", "along")

@@ -20,8 +20,7 @@ from bihdist_core import (
     triangle_samples,
 )
 from bihdist_core.analysis.circles import geodesic_circles, small_radius
-from bihdist_core.analysis.diagnostics import triangle_violations
-from bihdist_core.analysis.kinks import inner_jumps, kinks
+from bihdist_core.analysis.diagnostics import inner_jumps, kinks, triangle_violations
 from bihdist_core.analysis.quality import field_quality
 from bihdist_core.analysis.triangle_samples import triangle_sample
 from bihdist_core.distances.difference import difference

@@ -62,7 +62,7 @@ def test_all_digits_of_near_pairs():
 
 @pytest.mark.parametrize("surface", [bumpy(300), two_pieces()], ids=["one", "two"])
 def test_fields_of_many_sources_go_where_they_are_to(surface, monkeypatch, tmp_path):
-    monkeypatch.setattr("bihdist_core.distances.source_questions.BLOCK", 1)
+    monkeypatch.setattr("bihdist_core.distances.source_questions.BLOCK_VALUES", 1)
     distance, ids = BiharmonicDistance(surface), np.flatnonzero(surface.component_of_vertex >= 0)[::2]
     expected = np.column_stack([distance.from_source(int(v)) for v in ids])
     close = 1e-6 * np.nanmax(expected)
@@ -144,7 +144,7 @@ def test_between_takes_as_many_points_on_both_sides():
         ([1, 2], [3], "not between 2 points and 1 points"),
         (1, [3], "not between 1 and 1 points"),
         ([[1, 2]], [[3, 4]], r"must have shape \(k, 2\), not \(1, 4\)"),
-        ([1, [2]], [3, 4], "Vertices are no array: their rows differ in length"),
+        ([1, [2]], [3, 4], "Vertices are not an array: their rows differ in length"),
     ):
         with pytest.raises(ParameterError, match=words):
             distance.between(u, v)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bihdist_core import BiharmonicDistance, GeodesicDistance, ParameterError, Surface, read_surface
-from bihdist_core.analysis.clipping import clipped, polygon_shares
+from bihdist_core.analysis.clipping import clipped, polygon_fractions
 from bihdist_core.analysis.region_boundaries import region_boundaries, write_boundaries
 from bihdist_core.analysis.region_mesh import region_mesh
 from bihdist_core.analysis.regions import voronoi_regions
@@ -239,7 +239,7 @@ def test_clipping_a_triangle():
     whole, sizes = np.eye(3)[None], np.array([3])
     for values, share in [([1, 1, 1], 1), ([-1, -1, 0], 0), ([1, -1, -1], 0.25), ([-1, 1, 1], 0.75), ([1, 0, -1], 0.5)]:
         polygons, counts = clipped(whole, sizes, np.array([values], float))
-        assert polygon_shares(polygons, counts)[0] == pytest.approx(share, abs=1e-15)
+        assert polygon_fractions(polygons, counts)[0] == pytest.approx(share, abs=1e-15)
 
 
 @needs_meshes

@@ -5,10 +5,10 @@ import pytest
 
 from bihdist_core import Laplacian, ParameterError
 from bihdist_core.distances.edge_geodesic import EdgeGeodesic
-from bihdist_core.experiments.double_points import double_point
+from bihdist_core.experiments._claims_growth import icosphere
+from bihdist_core.experiments._claims_metric import double_point
 from bihdist_core.experiments.sampled_fields import PiecewiseLinear, Smoothest, nearest_in_triangles
 from bihdist_core.experiments.shapes import spread_points
-from bihdist_core.experiments.spheres import icosphere
 from tests.shapes import bumpy, grid, torus, two_pieces
 
 

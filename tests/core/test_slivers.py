@@ -161,8 +161,8 @@ def test_where_no_face_is_flat_nothing_is_done():
 def test_a_certificate_knows_what_it_does_not_know(monkeypatch):
     """Where degenerate faces are left as they are the elimination loses digits, distances are wrong, and it says so."""
     surface, pairs = cases("caps", "bumpy", 1e-7)
-    for module in ("surface", "degenerate_faces", "distances.accuracy", "distances.biharmonic"):
-        monkeypatch.setattr(f"bihdist_core.{module}.FLAT", 1e-14)
+    for module in ("surface", "degenerate_faces", "distances.accuracy", "distances.biharmonic_accuracy"):
+        monkeypatch.setattr(f"bihdist_core.{module}.FLAT_RATIO", 1e-14)
     # Without the compiled kernel, whose limit is a constant.
     monkeypatch.setattr("bihdist_core.solver.elimination_tree.library", lambda: None)
     monkeypatch.setattr("bihdist_core.solver.plain.STIFF", 0.0)

@@ -49,7 +49,7 @@ def test_words_that_are_known_mean_what_they_mean():
     curve = Curve((A, B))
     words = words_of(SourceSet((12, curve)))
     assert source_from_words(words.replace("12", "13"), {words_of(curve): curve}) == SourceSet((13, curve))
-    with pytest.raises(ParameterError, match="is no source"):
+    with pytest.raises(ParameterError, match="is not a source"):
         source_from_words(words)
 
 
@@ -79,13 +79,13 @@ def test_headings_are_short():
         ("f3:1,2,3", "the weights of the face's first two corners"),
         ("f3:0.2", "two weights"),
         ("f3", "two weights"),
-        ("f3:a,0.1", "weights that are no numbers"),
-        ("f3:nan,0.1", "weights that are no numbers"),
+        ("f3:a,0.1", "weights that are not numbers"),
+        ("f3:nan,0.1", "weights that are not numbers"),
         ("f3:0.9,0.4", "0.9 and 0.4 leave -0.3"),
         ("f3:-0.1,0.4", "at least 0"),
         ("-3", "start at 0"),
-        ("", "is no source; write a vertex"),
-        ("12+x", r"'x' in '12\+x' is no source"),
+        ("", "is not a source; write a vertex"),
+        ("12+x", r"'x' in '12\+x' is not a source"),
         ("12+", "nothing beside it"),
         ("x" * 500, r"x\.\.\."),
         ("no such.json", "no such.json cannot be read"),
@@ -136,7 +136,7 @@ def test_files_that_are_no_curves_are_named_with_the_element_and_its_value(conte
         (lambda: Curve((A, 3)), "through places in faces, not through 3"),
         (lambda: SourceSet(()), "from 1 to"),
         (lambda: SourceSet((1, SourceSet((2,)))), "no sets among its members"),
-        (lambda: SourceSet((1, -2)), "start at 0; -2"),
+        (lambda: SourceSet((1, -2)), "start at 0, so -2"),
         (lambda: SourceSet((1, 2.5)), "A source is a vertex id"),
         (lambda: checked_source(None), "A source is a vertex id"),
         (lambda: checked_source(True), "A source is a vertex id"),

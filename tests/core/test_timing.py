@@ -128,7 +128,8 @@ def test_the_cost_is_counted_and_its_times_are_the_processors(clocks, monkeypatc
     monkeypatch.setattr(_claims_growth, "QUICK_SIZES", (300, 450, 600))
     shapes = Shapes({"figure": bumpy(600)})
     clocks([1.0], [40.0])
-    tables, _, claims = _claims_growth.cost(shapes, "figure", True, Parts(), lambda *_: None)
+    made = _claims_growth.cost(shapes, "figure", True, Parts(), lambda *_: None)
+    tables, claims = made.tables, made.claims
     assert tables[0].values("one column, processor seconds") == [1.0] * 3
     counts = np.array(tables[0].values("operations, factorization"), float)
     found = claims[0].numbers["exponent of N, operations of the factorization"]

@@ -106,7 +106,7 @@ def test_a_landscape_lies():
 
 def test_where_the_shape_says_nothing_files_do():
     ball = sphere(800)
-    assert [guess_up(ball, extension) for extension in (".obj", ".off", ".ply", ".STL", "")] == [
+    assert [guess_up(ball, extension) for extension in (".obj", ".off", ".ply", ".stl", "")] == [
         "y",
         "y",
         "y",

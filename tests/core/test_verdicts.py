@@ -5,7 +5,7 @@ import pytest
 
 from bihdist_core import ParameterError
 from bihdist_core.experiments import EXPERIMENTS, Claim
-from bihdist_core.experiments.statements import STATEMENTS, statements_of
+from bihdist_core.experiments.result import STATEMENTS, statements_of
 from bihdist_core.experiments.verdicts import (
     FAILS,
     HOLDS,
@@ -157,21 +157,21 @@ def test_an_unknown_part_or_statement_is_named():
 
 def test_numbers_are_said_with_their_spread():
     part = Part("change", at_most(0.05, "%"))
-    assert part.said(BySource((0.021,), (0.018, 0.03))) == "2.1 % pictured; 1.8 to 3 % from 2 random sources"
-    assert part.said(BySource((0.021, 0.05), (0.03,))) == "2.1 to 5 % pictured; 3 % from 1 random source"
-    assert part.said(BySource((np.nan,), (0.03, np.nan, np.nan))) == (
+    assert part.formatted(BySource((0.021,), (0.018, 0.03))) == "2.1 % pictured; 1.8 to 3 % from 2 random sources"
+    assert part.formatted(BySource((0.021, 0.05), (0.03,))) == "2.1 to 5 % pictured; 3 % from 1 random source"
+    assert part.formatted(BySource((np.nan,), (0.03, np.nan, np.nan))) == (
         "0/0 pictured; 3 % from 1 random source; 0/0 from 2 random sources"
     )
     exponent = Part("exponent", at_most(2), "interval")
-    assert exponent.said(Estimate(1.9, 1.7, 2.1, 4)) == "1.9 (1.7 to 2.1)"
-    assert exponent.said(Estimate(1.9, -np.inf, np.inf, 2)) == "1.9 (no interval)"
-    assert exponent.said(Estimate(0.1, -0.1, 0.3, 4)) == "0.1 (−0.1 to 0.3)"
-    assert exponent.said(Estimate(1.5, 1.4999, 1.5001, 4)) == "1.5"
-    assert Part("count", at_most(0), "once").said(Estimate(3)) == "3"
+    assert exponent.formatted(Estimate(1.9, 1.7, 2.1, 4)) == "1.9 (1.7 to 2.1)"
+    assert exponent.formatted(Estimate(1.9, -np.inf, np.inf, 2)) == "1.9 (no interval)"
+    assert exponent.formatted(Estimate(0.1, -0.1, 0.3, 4)) == "0.1 (−0.1 to 0.3)"
+    assert exponent.formatted(Estimate(1.5, 1.4999, 1.5001, 4)) == "1.5"
+    assert Part("count", at_most(0), "once").formatted(Estimate(3)) == "3"
     assert at_least(1e-6).words == "at least 10⁻⁶"
-    assert at_most(1).said(-7.7e-5) == "−7.7 × 10⁻⁵"
-    assert at_most(1).said(np.inf) == "inf"
-    assert at_most(1, "%").said(0.0) == "0 %"
+    assert at_most(1).formatted(-7.7e-5) == "−7.7 × 10⁻⁵"
+    assert at_most(1).formatted(np.inf) == "inf"
+    assert at_most(1, "%").formatted(0.0) == "0 %"
 
 
 def test_every_statement_says_whose_it_is_by_what_rule():

@@ -95,7 +95,7 @@ def test_a_label_is_a_mask_of_its_vertices(put):
     assert read_vertex_values(path, n_vertices=6).tolist() == [1, 0, 1, 0, 1, 0]
     assert read_whole_numbers(put("V1.label.gz", gzip.compress(label([1]))), "mask", 3).tolist() == [0, 1, 0]
     assert read_label_vertices(path, 6).tolist() == [4, 0, 2]
-    with pytest.raises(ParameterError, match=r"^lh.cortex.label lists the vertices of a label.*it is no map\.$"):
+    with pytest.raises(ParameterError, match=r"^lh.cortex.label lists the vertices of a label; the map needs"):
         read_whole_numbers(path, "map")
     with pytest.raises(ParameterError, match="line 3: vertex 4 is not one of the 4 of the surface"):
         read_vertex_values(path, n_vertices=4)
@@ -116,6 +116,6 @@ def test_a_file_that_cannot_be_read(tmp_path, monkeypatch):
 
 def test_other_files_are_refused_with_all_that_is_read(tmp_path):
     with pytest.raises(
-        ParameterError, match=r"is no mask; these are \.npy, \.txt, \.gii, \.annot, \.label, FreeSurfer's"
+        ParameterError, match=r"file of the mask; such files are \.npy, \.txt, \.gii, \.annot, \.label, FreeSurfer's"
     ):
         read_whole_numbers(tmp_path / "a.csv", "mask")

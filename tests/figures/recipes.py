@@ -1,19 +1,8 @@
-"""What the tests of recipes share: small figures, what a command refuses with, where anchors are."""
+"""What the tests of recipes share: small figures, and where anchors are."""
 
-from app.main import main
 from app.tools.interpolation.part import Anchors
 
 SMALL = ["--size", "300x200@96dpi"]
-
-
-def refused(capsys, *arguments):
-    """The one sentence a command refuses with."""
-    capsys.readouterr()
-    assert main([*map(str, arguments)]) == 2
-    said = capsys.readouterr().err.strip()
-    assert said.startswith("bihdist: ")
-    assert "\n" not in said
-    return said
 
 
 def anchors(document):

@@ -14,11 +14,12 @@ from app.commands.figure_options import add_figure_options, chosen_recipe
 from app.document.camera import VIEWS, Camera
 from app.document.camera_text import camera_text, read_camera
 from app.document.document import Document, comparison
-from app.document.edits import stand
 from app.document.file import read_recipe, recipe_text
 from app.document.form import written
 from app.document.looks import UPS
 from app.document.page import Recipe
+from app.document.second_mesh_edits import set_up_axis
+from app.drawing.axes import BEYOND, arms, middle
 from app.figures.draw import Figure, FigurePanel, draw_figure
 from app.figures.hidden_lines import HiddenLineRemoval
 from app.figures.raster import RenderWindow
@@ -27,7 +28,6 @@ from app.figures.worker import Worker
 from app.main import main
 from app.paper import reproduce
 from app.samples import mesh_path
-from app.scene.axes import BEYOND, arms, middle
 from app.scene.camera import Projection, directions, frame, outwards_at, standard_camera
 from app.scene.drawable import drawable
 from app.scene.style import PAPER
@@ -63,11 +63,11 @@ def test_a_flat_domain_is_looked_at_straight_whatever_is_up_in_it():
 
 def test_another_way_up_leaves_standard_views_and_ends_others():
     document = replace(comparison("hand"), up="y", camera="left")
-    assert stand(document, "z").camera == "left"
+    assert set_up_axis(document, "z").camera == "left"
     free = replace(document, camera=Camera((0.0, 0, 5), (0.0, 0, 0), (0.0, 1, 0), (0.2, 0.2)))
-    assert stand(free, "z") == replace(free, up="z", camera="auto")
-    assert stand(replace(document, camera="high-left"), "z") == replace(document, up="z", camera="auto")
-    assert stand(free, "y") is free
+    assert set_up_axis(free, "z") == replace(free, up="z", camera="auto")
+    assert set_up_axis(replace(document, camera="high-left"), "z") == replace(document, up="z", camera="auto")
+    assert set_up_axis(free, "y") is free
 
 
 def test_the_highest_vertex_is_along_what_is_up():
@@ -199,22 +199,22 @@ def test_a_camera_comes_back_from_text():
         document,
     ):
         assert read_camera(text) == CAMERA
-    assert read_camera("--view top") == "top"
+    assert read_camera("--cpos top") == "top"
     assert read_camera(json.dumps({"document": {"camera": "left"}})) == "left"
 
 
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "is no camera"),
-        ("1,2,3", "'1,2,3' is no camera"),
-        ("hello " * 50, r"\.\.\..*' is no camera"),
+        ("", "is not a camera"),
+        ("1,2,3", "'1,2,3' is not a camera"),
+        ("hello " * 50, r"\.\.\..*' is not a camera"),
         ("nan," * 10 + "1", "eleven numbers"),
-        ("{", "begins like JSON"),
+        ("{", "starts like JSON"),
         ('{"position": [1, 2]}', "extent"),
         ('{"document": {}}', "extent"),
-        (",".join("0" * 11), "focal point elsewhere"),
-        ("[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]", "is no camera"),
+        (",".join("0" * 11), "focal point away"),
+        ("[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]", "is not a camera"),
     ],
 )
 def test_other_texts_are_no_cameras(text, words):
@@ -245,11 +245,9 @@ def test_a_figure_stands_as_it_is_told_or_as_it_is_guessed(scan, tmp_path):
     few = ["--distance", "geodesic", "--method", "dijkstra", "--size", "200x200"]
     assert main(["figure", str(scan), *few, "-o", str(first)]) == 0
     assert document_of(first).up == "z"
-    assert (
-        main(["figure", str(scan), *few, "--up=-y", "--projection", "orthographic", "--axes", "-o", str(second)]) == 0
-    )
+    assert main(["figure", str(scan), *few, "--viewup=-y", "--parallel-projection", "--axes", "-o", str(second)]) == 0
     found = document_of(second)
-    assert (found.up, found.projection, found.axes) == ("-y", "orthographic", True)
+    assert (found.up, found.parallel_projection, found.axes) == ("-y", True, True)
     assert first.read_bytes() != second.read_bytes()
     # A recipe from before ways up were known was drawn with y up, and is.
     data = json.loads(first.with_suffix(".json").read_text())
@@ -270,8 +268,8 @@ def test_a_camera_of_a_recipe_is_left_for_another_way_up(scan, tmp_path):
         return chosen_recipe(parser.parse_args(["--recipe", str(recipe), "-o", "x.png", *words])).document
 
     assert chosen().camera == CAMERA
-    assert (chosen("--up", "z").camera, chosen("--up", "z").up) == ("auto", "z")
-    assert chosen("--up", "z", "--camera", camera_text(CAMERA)).camera == CAMERA
+    assert (chosen("--viewup", "z").camera, chosen("--viewup", "z").up) == ("auto", "z")
+    assert chosen("--viewup", "z", "--camera", camera_text(CAMERA)).camera == CAMERA
 
 
 def test_the_papers_pictures_of_a_mesh_of_ones_own_stand(scan, tmp_path, monkeypatch):
@@ -284,7 +282,9 @@ def test_the_papers_pictures_of_a_mesh_of_ones_own_stand(scan, tmp_path, monkeyp
 
 
 def test_python_says_what_is_up(scan):
-    picture = app.figure(scan, ["geodesic(method=dijkstra)"], up="-z", axes=True, projection="orthographic")
+    picture = app.figure(
+        scan, ["geodesic(method=dijkstra)"], view={"viewup": "-z", "axes": True, "parallel_projection": True}
+    )
     assert (picture.document.up, picture.document.axes) == ("-z", True)
     with pytest.raises(ParameterError, match="no direction 'sideways'"):
-        app.figure(scan, up="sideways")
+        app.figure(scan, view={"viewup": "sideways"})

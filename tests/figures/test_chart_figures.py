@@ -22,7 +22,7 @@ GREEN, ORANGE = "#1F7A3D", "#A84A00"
 def scatter():
     surface = bumpy(300)
     x = surface.vertices
-    return field_scatter(surface, x[:, 0] - x[:, 0].min(), np.abs(x[:, 1]), shares=True)
+    return field_scatter(surface, x[:, 0] - x[:, 0].min(), np.abs(x[:, 1]), normalised=True)
 
 
 @pytest.fixture

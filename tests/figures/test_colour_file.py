@@ -45,9 +45,9 @@ def test_rows_of_numbers_are_read(tmp_path, text, name):
         ("0 0 0\n1 1 nan", r"line 2: 'nan' is not a number"),
         ("0 0 0\n\n1 1", r"line 3: there are 2 numbers, not 3 as above"),
         ("0 0\n1 1", r"line 1: there are 2 numbers, not 3 or 4"),
-        ("0 0 0\n1 1.2 1", r"line 2: 1\.2 is no part of a colour, 0 to 1\."),
-        ("0 0 0\n255 256 1", r"line 2: 256 is no part of a colour, 0 to 255\."),
-        ("0 0 0\n1 -0.1 1", r"line 2: -0\.1 is no part"),
+        ("0 0 0\n1 1.2 1", r"line 2: 1\.2 is not a part of a colour, from 0 to 1\."),
+        ("0 0 0\n255 256 1", r"line 2: 256 is not a part of a colour, from 0 to 255\."),
+        ("0 0 0\n1 -0.1 1", r"line 2: -0\.1 is not a part"),
         ("0 0 0 0\n2 1 1 1\n1 1 1 1", r"line 3: the place 1 is not beyond 2"),
         ("1 0 0 0\n1 1 1 1", r"line 2: all places are 1\."),
     ],
@@ -108,7 +108,7 @@ def test_a_way_that_is_straight_in_another_space_is_kept(tmp_path, space):
             r"colour 2 of RGBPoints, \[1\.0, 1\.0, 1\.5\], is not from 0 to 1",
         ),
         ([{"RGBPoints": [1, 0, 0, 0, 0, 1, 1, 1]}], "do not go up"),
-        ([{"RGBPoints": [0, 0, 0, 0, 1, 1, 1, 1], "ColorSpace": "Mine"}], "ColorSpace 'Mine' is none of ParaView's"),
+        ([{"RGBPoints": [0, 0, 0, 0, 1, 1, 1, 1], "ColorSpace": "Mine"}], "ColorSpace 'Mine' is not one of ParaView's"),
     ],
 )
 def test_json_that_is_no_map_is_refused(tmp_path, data, sentence):
@@ -124,6 +124,9 @@ def test_a_name_is_a_map_or_a_file(tmp_path):
     now = Colours(reversed=True, bands=True)
     assert colours_named("safe", now) == Colours("safe", (), True, True)
     assert colours_named("", now) == now
+    assert colours_named("viridis", now) == Colours("uniform", (), True, True)
+    assert colours_named("Viridis") == colours_named("uniform")
+    assert colours_named("inferno_r") == Colours("ember", reversed=True)
     assert colours_named(str(path)) == Colours("my map", ((0.0, (0.0, 0.0, 0.0)), (1.0, (1.0, 1.0, 1.0))))
     with pytest.raises(ParameterError, match="no colour map 'jet', and no such file; choose one of paper"):
         colours_named("jet")

@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
 from app.document.looks import Colours, Isolines
-from app.scene.bands import band_edges, bar_parts, beyond
+from app.scene.bands import band_edges, bar_colours, beyond
 from app.scene.colour_maps import MAPS, backwards, colours_at, goes_both_ways, lightened
 from app.scene.drawable import drawable
 from app.scene.field_actor import FieldActor
@@ -92,7 +92,7 @@ def test_a_map_of_ones_own_that_is_lightest_in_its_middle_colours_differences_to
     assert goes_both_ways(stops)
     style = style_of("paper", Colours("mine", stops))
     assert style.colours(3, signed=True) == pytest.approx(np.array([c for _, c in stops]))
-    assert (style.line(True, 0.0), style.line(True, 0.7)) == (INK, style.isoline)
+    assert [style.isoline_ink(True, value).colour[:3] for value in (0.0, 0.7)] == [INK, style.isoline]
     assert not goes_both_ways(MAPS["ember"].stops)
     assert style_of("paper", Colours("mine", MAPS["ember"].stops)).diverging == PAPER.diverging
 
@@ -136,12 +136,11 @@ def test_each_band_has_the_colour_of_its_middle():
     style = style_of("paper", Colours("ember", bands=True))
     edges = np.array([0.2, 0.5])
     assert style.band_colours(edges) == pytest.approx(style.colours_at(np.array([0.1, 0.35, 0.75])))
-    parts = bar_parts(style, edges)
-    assert [start for start, _ in parts] == [0.0, 0.2, 0.5]
-    signed = bar_parts(style, np.array([-0.5, 0.0, 0.5]), signed=True)
-    assert [start for start, _ in signed] == [0.0, 0.25, 0.5, 0.75]
-    assert len(bar_parts(PAPER, edges)) > 100
-    assert len(bar_parts(style, np.empty(0))) > 100
+    assert bar_colours(style, edges).starts == (0.0, 0.2, 0.5)
+    assert bar_colours(style, np.array([-0.5, 0.0, 0.5]), signed=True).starts == (0.0, 0.25, 0.5, 0.75)
+    for even in (bar_colours(PAPER, edges), bar_colours(style, np.empty(0))):
+        assert not even.starts
+        assert len(even.colours) > 100
 
 
 def test_a_bar_says_whether_the_field_goes_on_beyond_it():

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from app.document.document import comparison
-from app.document.edits import stand
 from app.document.page import Recipe
+from app.document.second_mesh_edits import set_up_axis
 from app.figures.export import open_document
 from app.figures.hidden_lines import HiddenLineRemoval
 from app.figures.picture import figure
@@ -19,7 +19,7 @@ from app.session.questions import first_source
 from bihdist_core import Surface, read_surface
 from bihdist_core.analysis.first_view import first_look
 from bihdist_core.analysis.upright import axes_of, axis_of, guess_up
-from bihdist_core.analysis.view_directions import FIRST_VIEWS
+from bihdist_core.analysis.view_directions import OBLIQUE_VIEWS
 from tests.shapes import grid, sphere
 from tests.things import chair, guitar, pizza, strip, truck
 
@@ -148,7 +148,7 @@ def test_sources_of_samples_and_of_shared_meshes_are_seen(name):
 # ---------------------------------------------------------------------- in documents
 def test_figures_start_where_sessions_do(tmp_path):
     path = written(truck(), tmp_path / "truck.obj")
-    drawn = figure(path, ["geodesic"], size="80x80").document
+    drawn = figure(path, ["geodesic"], layout={"size": "80x80"}).document
     loaded, surfaces = open_document(Recipe(comparison(path)), ArrayStore())
     surface = surfaces["A"].surface
     assert (drawn.up, drawn.camera, drawn.points[0].at) == (loaded.up, loaded.camera, loaded.points[0].at)
@@ -164,12 +164,41 @@ def test_what_a_document_says_wins(tmp_path):
         said = replace(comparison(path), camera=camera, up="z")
         found = open_document(Recipe(said), ArrayStore())[0]
         assert (found.camera, found.up) == (camera, "z")
-    up = stand(open_document(Recipe(comparison(path)), ArrayStore())[0], "x")
+    up = set_up_axis(open_document(Recipe(comparison(path)), ArrayStore())[0], "x")
     assert open_document(Recipe(up), ArrayStore())[0].camera == first_look(read_surface(path), "x").view
 
 
 def test_names_turn_about_what_is_up():
-    home = np.array(FIRST_VIEWS["home"])
+    home = np.array(OBLIQUE_VIEWS["home"])
     for name, quarters in (("home-right", 1), ("home-back", 2), ("home-left", 3)):
-        assert np.allclose(FIRST_VIEWS[name], np.linalg.matrix_power(QUARTER, quarters) @ home)
-    assert FIRST_VIEWS["home-right"][0] > 0.9
+        assert np.allclose(OBLIQUE_VIEWS[name], np.linalg.matrix_power(QUARTER, quarters) @ home)
+    assert OBLIQUE_VIEWS["home-right"][0] > 0.9
+
+
+# ---------------------------------------------------------------------- from the front
+AROUND = np.diag([-1.0, 1, -1])
+"""Half a turn about what is up where that is y."""
+
+STANDING = ["figure", "human_man.obj", "armadillo_15k.obj"]
+LEFT_AT_HOME = ["hand", "part", "genus3", "animal", "elephant", "bunny_3k.obj", "spot.obj", "teapot.obj", "suzanne.obj"]
+"""Those that have no feet, or four of them, and that are seen from home whichever way they are turned."""
+
+
+def found(name):
+    path = OTHERS / name if "." in name else Path(mesh_path(name))
+    if not path.exists():
+        pytest.skip(f"{name} is not here")
+    return read_surface(str(path))
+
+
+@pytest.mark.parametrize("name", STANDING)
+def test_a_standing_figure_is_seen_from_the_front(name):
+    surface = found(name)
+    assert first_look(surface).view == "home"
+    assert first_look(turned(surface, AROUND)).view == "home-back"
+
+
+@pytest.mark.parametrize("name", LEFT_AT_HOME)
+def test_what_is_no_standing_figure_stays_as_it_is_turned(name):
+    surface = found(name)
+    assert [first_look(each).view for each in (surface, turned(surface, AROUND))] == ["home", "home"]

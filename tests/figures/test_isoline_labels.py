@@ -1,5 +1,6 @@
 """Values on isolines: on their own lines, apart from each other, in gaps."""
 
+import re
 from itertools import combinations
 
 import numpy as np
@@ -8,10 +9,11 @@ from scipy.spatial import cKDTree
 
 from app.document.looks import Isolines
 from app.figures.description import Figure, FigurePanel
-from app.figures.draw import draw_figure
+from app.figures.draw import described, draw_figure, preview, save_figure
 from app.figures.isoline_labels import labelled
 from app.figures.layout import lay_out
 from app.figures.shots import take_shots
+from app.figures.size import Size
 from app.scene.line_labels import value_text
 from bihdist_core.progress import silent
 from tests.shapes import sphere
@@ -66,6 +68,34 @@ def test_where_lines_are_close_nothing_stands():
     layout = lay_out(of)
     (shot,) = take_shots(of, layout, silent)
     assert labelled(shot, SIZE, lambda text: layout.lettering.width(text, SIZE), 10.0)[1] == []
+
+
+def narrow(count, width="85mm"):
+    """Two panels in a column of a journal, with letters of 8 points."""
+    (panel,) = figure(count=count).panels
+    return Figure((panel, panel), size=Size.parse(width), crop=True, text=8.0)
+
+
+def test_values_are_smaller_where_isolines_are_close(tmp_path):
+    path = tmp_path / "f.svg"
+    assert save_figure(narrow(44), path) == []
+    sizes = re.findall(r'id="isoline-label">\s*<text style="[^"]*font-size: ([\d.]+)px', path.read_text())
+    assert len(sizes) >= 6
+    assert all(0.75 * 0.85 * 8 - 0.01 <= float(size) < 0.85 * 8 for size in sizes)
+
+
+def test_it_is_said_where_values_have_no_room_at_all(tmp_path):
+    said = ["The isolines of panels 1 and 2 are too close for their values; choose fewer isolines or a larger size."]
+    assert save_figure(narrow(60, "30mm"), tmp_path / "f.png") == said
+    assert list(preview(narrow(60, "30mm"), (300, 300)).remarks) == said
+    assert preview(narrow(20), (300, 300)).remarks == ()
+
+
+@pytest.mark.parametrize(("file", "size"), [("f.pdf", "85.0 x "), ("f.svg", "85.0 x "), ("f.png", "1004 x ")])
+def test_the_size_of_a_page_is_in_the_unit_of_its_file(file, size):
+    text = described(narrow(8), file)
+    assert text.startswith(f"2 panels on {size}")
+    assert text.endswith("pixels" if file == "f.png" else "mm")
 
 
 def test_pictures_have_them_on_wish():

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 
 from app.document.document import Point
-from app.document.isoline_edits import pass_through
+from app.document.edits import pass_through
 from app.document.page import Recipe
+from app.drawing.glyphs import DOT
 from app.figures.export import compute, figure_of, open_document
 from app.figures.layout import lay_out
 from app.figures.shots import take_shots
-from app.marks.glyphs import DOT
 from app.session.array_store import comparison_of_arrays
 from bihdist_core import SurfacePoint
 from bihdist_core.progress import silent

@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
+from app.drawing.shapes import Box
 from app.figures.hidden_lines import Curve, HiddenLineRemoval
 from app.scene.camera import Camera, Projection
 from app.scene.line_clipping import clipped
 from bihdist_core.analysis.isoline_tracing import isolines
 from tests.shapes import sphere
 
-BOX = (0.0, 3.0, -1.0, 1.0)
+BOX = Box(0.0, -1.0, 3.0, 2.0)
 
 
 def ring(points, closed):
@@ -25,8 +26,7 @@ def length_inside(line, count=4000):
     points = ring(*line)
     a, step = points[:-1], np.diff(points, axis=0)
     at = a + ((np.arange(count) + 0.5) / count)[:, None, None] * step
-    left, right, top, bottom = BOX
-    is_inside = (at[..., 0] > left) & (at[..., 0] < right) & (at[..., 1] > top) & (at[..., 1] < bottom)
+    is_inside = ((at > (BOX.x, BOX.y)) & (at < (BOX.right, BOX.bottom))).all(axis=-1)
     return (is_inside.mean(axis=0) * np.linalg.norm(step, axis=1)).sum()
 
 

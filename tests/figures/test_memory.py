@@ -10,7 +10,7 @@ from app.figures.movie import Movie, write_movie
 from app.main import main
 from bihdist_core import NotEnoughMemory, machine_memory
 from bihdist_core.distances.answers import Distances
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from tests.shapes import bumpy
 
 HUGE = "20000x20000"
@@ -42,7 +42,7 @@ def test_a_movie_and_a_figure_from_python_say_so_at_once(mesh, tmp_path):
     with pytest.raises(NotEnoughMemory, match=r"20,000 x 20,000"):
         write_movie(Movie(recipe, frames=4), tmp_path / "a.gif")
     with pytest.raises(NotEnoughMemory, match=r"20,000 x 20,000"):
-        bihdist.figure(mesh, ["biharmonic"], source=4, size=HUGE)
+        bihdist.figure(mesh, ["biharmonic"], source=4, layout={"size": HUGE})
 
 
 def test_a_figure_of_a_set_says_so_at_once(mesh, monkeypatch):

@@ -24,7 +24,7 @@ from app.main import main
 from app.scene.camera import Projection, turned
 from app.scene.style import STYLES
 from bihdist_core import BihdistError, Cancelled, OutputError, ParameterError, Surface
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.progress import silent
 from tests.shapes import bumpy, grid, two_pieces
 
@@ -74,7 +74,7 @@ def test_the_source_wanders_along_edges(recipe, tmp_path):
     assert all((min(a, b), max(a, b)) in edges for a, b in pairwise(way.tolist()))
     length = np.linalg.norm(np.diff(flat.vertices[way], axis=0), axis=1).sum()
     assert length == pytest.approx(2 * (4 * 2**0.5 + 2))  # four diagonals and two sides, there and back
-    with pytest.raises(ParameterError, match="no way from vertex 0 to vertex 62"):
+    with pytest.raises(ParameterError, match="no path from vertex 0 to vertex 62"):
         route(two_pieces(), (0, 62))
     out = tmp_path / "path.gif"
     write_movie(Movie(recipe, turn=0, path=(4, 150), frames=3), out)
@@ -126,7 +126,7 @@ def test_movies_that_make_no_sense_are_refused(recipe, mesh_file, tmp_path, caps
     assert ".mp4, .gif" in capsys.readouterr().err
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     assert main(["movie", mesh, "-o", str(tmp_path / "m.mp4")]) == 2
-    assert "pip install imageio-ffmpeg" in capsys.readouterr().err
+    assert f"{sys.executable} -m pip install imageio-ffmpeg" in capsys.readouterr().err
 
 
 # ---------------------------------------------------------------------- several processes
@@ -157,7 +157,7 @@ def test_a_process_that_is_killed_is_said_and_the_others_end(monkeypatch):
     frames = drawn_frames(numbers(40), 40, "RGB", 2, silent)
     next(frames)
     workers[0].kill()
-    with pytest.raises(BihdistError, match="ended without a word"):
+    with pytest.raises(BihdistError, match="process ended unexpectedly"):
         list(frames)
     assert [process.poll() is not None for process in workers] == [True, True]
 
@@ -182,7 +182,7 @@ def test_what_fails_in_another_process_is_said(recipe):
         assert worker.ask(np.sum, large) == large.sum()
     finally:
         worker.close()
-    with pytest.raises(BihdistError, match="ended without a word"):
+    with pytest.raises(BihdistError, match="process ended unexpectedly"):
         worker.ask(divmod, 1, 1)
 
 
@@ -231,8 +231,8 @@ def test_a_frame_is_as_large_as_what_turns_and_no_larger():
 
 def test_words_are_drawn_once_while_the_shape_turns(monkeypatch):
     drawn = []
-    real = canvas.draw_words
-    monkeypatch.setattr(canvas, "draw_words", lambda axes, page: drawn.append(1) or real(axes, page))
+    real = canvas.caption_shapes
+    monkeypatch.setattr(canvas, "caption_shapes", lambda page: drawn.append(1) or real(page))
     surface, field = bumpy(60), np.linspace(0, 1, 60)
     figures = [
         Figure((FigurePanel(surface, field, "a", views=(view,)),), size=Size(90, 90)) for view in ("front", "left")

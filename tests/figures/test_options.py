@@ -1,11 +1,14 @@
-"""What figures can do: sizes, tiles, transparency, cropping, zooms, reliefs, views, ranges, marks."""
+"""What figures can do: sizes, tiles, transparency, cropping, insets, reliefs, views, ranges, marks."""
+
+import re
 
 import numpy as np
 import pytest
 
 from app.figures import raster
-from app.figures.draw import Figure, FigurePanel, Zoom, draw_figure, save_figure
+from app.figures.draw import Figure, FigurePanel, Inset, draw_figure, save_figure
 from app.figures.layout import lay_out
+from app.figures.picture import figure
 from app.figures.size import Size
 from app.marks.field_marks import source_lines
 from app.marks.primitives import PointMark
@@ -16,6 +19,32 @@ from bihdist_core.sources.pieces import pieces_of
 from tests.shapes import bumpy, fin, grid, slivers, tetrahedron, two_pieces
 
 SIZE = Size(400, 400, dpi=96)
+
+
+@pytest.mark.parametrize(
+    ("text", "same"),
+    [("8.5cm", "85mm"), ("3.5in", "88.9mm"), ("3.5in@600", "88.9mm@600dpi"), ("16x8cm", "160x80mm"), ("85 mm", "85mm")],
+)
+def test_sizes_in_centimetres_and_inches(text, same):
+    assert Size.parse(text) == Size.parse(same)
+
+
+def test_an_unknown_argument_of_the_function_is_answered_by_the_one_that_is_meant():
+    meant = {
+        "colors": "look={'cmap': …}",
+        "cmap": "look={'cmap': …}",
+        "dpi": "layout={'size': …}",
+        "wireframe": "look={'show_edges': …}",
+        "isolins": "isolines={'count': …}",
+        "pins": "marks={'pins': …}",
+    }
+    for name, written in meant.items():
+        with pytest.raises(TypeError, match=rf"figure\(\) got .* '{name}'; did you mean {re.escape(written)}\?$"):
+            figure(bumpy(60), **{name: 1})
+    with pytest.raises(TypeError, match=r"unknown key 'colors' in look; did you mean look=\{'cmap': …\}\?$"):
+        figure(bumpy(60), look={"colors": "ember"})
+    with pytest.raises(TypeError, match=r"argument 'frobnicate'$"):
+        figure(bumpy(60), frobnicate=1)
 
 
 def one(surface, field, size=SIZE, figure=None, **options):
@@ -96,27 +125,27 @@ def test_a_zoom_shows_its_vertex_enlarged(ball):
     field = ball.vertices[:, 1] + 2
     vertex = int(ball.vertices[:, 2].argmax())
     plain = one(ball, field, views=("front",), isolines=8)
-    zoomed = one(ball, field, views=("front",), isolines=8, zooms=(Zoom(vertex, 3, "top right"),))
+    zoomed = one(ball, field, views=("front",), isolines=8, insets=(Inset(vertex, 3, "top right"),))
     changed = (plain != zoomed).any(axis=2)
     assert changed[:200, 250:].mean() > 0.2
     inset = zoomed[10:120, 260:380].astype(float)
     assert inset.std() > 20
     away = Camera((0, 0, 5), (9, 0, 0), (0, 1, 0), (0.1, 0.1))
     with pytest.raises(ParameterError, match="outside the picture"):
-        one(ball, field, views=(away,), zooms=(Zoom(vertex),))
+        one(ball, field, views=(away,), insets=(Inset(vertex),))
     with pytest.raises(ParameterError, match="not 1"):
-        Zoom(vertex, 1)
+        Inset(vertex, 1)
     with pytest.raises(ParameterError, match="corner 'middle'"):
-        Zoom(vertex, 2, "middle")
+        Inset(vertex, 2, "middle")
 
 
 def test_insets_hide_nothing_and_stay_where_they_are_while_a_shape_turns(ball):
     vertices = [int(ball.vertices[:, k].argmax()) for k in (0, 2)]
     field = ball.vertices[:, 1] + 2
-    zooms = tuple(Zoom(vertex, 4) for vertex in vertices)
+    insets = tuple(Inset(vertex, 4) for vertex in vertices)
     places = set()
     for view in ("front", "home", "right"):
-        panel = FigurePanel(ball, field, views=(view,), zooms=zooms)
+        panel = FigurePanel(ball, field, views=(view,), insets=insets)
         for is_moving in (False, True):
             cell = lay_out(Figure((panel,), size=SIZE, is_moving=is_moving)).cells[0]
             # A ball leaves no corner free: they stand beside it.
@@ -129,10 +158,10 @@ def test_insets_hide_nothing_and_stay_where_they_are_while_a_shape_turns(ball):
 def test_a_relief_rises_where_the_field_does():
     flat = grid(20, 20)
     field = np.linalg.norm(flat.vertices[:, :2] - 10, axis=1)
-    plain, raised = (one(flat, field, height=h, views=("relief",)) for h in (0.0, 0.5))
+    plain, raised = (one(flat, field, warp_factor=h, views=("relief",)) for h in (0.0, 0.5))
     assert (plain != raised).any(axis=2).mean() > 0.1
     with pytest.raises(ParameterError, match="flat surface"):
-        FigurePanel(bumpy(100), None, height=0.3)
+        FigurePanel(bumpy(100), None, warp_factor=0.3)
 
 
 def test_two_views_show_two_sides_of_one_field(ball):
@@ -171,7 +200,7 @@ def test_a_hidden_mark_is_a_ghost_and_is_spoken_of(ball, tmp_path):
         assert bool(said) == (not seen)
         if said:
             assert said == [
-                f"Vertex {vertex} is hidden in the view back: a dashed ring; try --view source or --view front,back."
+                f"Vertex {vertex} is hidden in the view back: a dashed ring; try --cpos source or --cpos front,back."
             ]
 
 
@@ -183,7 +212,7 @@ def test_a_line_that_is_hidden_all_along_is_spoken_of(ball, tmp_path):
     for views, said in (
         (("front",), []),
         (("back", "front"), []),
-        (("back",), ["The curve of 2 points is hidden in the view back; try --view source or --view front,back."]),
+        (("back",), ["The curve of 2 points is hidden in the view back; try --cpos source or --cpos front,back."]),
     ):
         panel = FigurePanel(ball, field, views=views, lines=lines, heading="a name")
         assert save_figure(Figure((panel,), size=SIZE), tmp_path / "f.png") == said
@@ -212,7 +241,7 @@ def test_sizes_as_one_writes_them(text, pixels):
     assert Size.parse(text).pixels((1680, 640)) == pytest.approx(pixels)
 
 
-@pytest.mark.parametrize("text", ["", "wide", "0x10", "10mm@3dpi", "-5", "1e3px", "160 cm", "99999"])
+@pytest.mark.parametrize("text", ["", "wide", "0x10", "10mm@3dpi", "-5", "1e3px", "160 km", "99999"])
 def test_sizes_that_are_none(text):
     with pytest.raises(ParameterError):
         Size.parse(text).pixels((1680, 640))

@@ -21,12 +21,11 @@ SEEN = [
     "biharmonic",
     "--sources",
     "4",
-    "--view",
+    "--cpos",
     "front",
     "--isolines",
     "0",
-    "--projection",
-    "orthographic",
+    "--parallel-projection",
 ]
 
 
@@ -99,8 +98,10 @@ def test_all_formats_movies_and_python_have_it(ball, mesh_file, tmp_path):
             assert main(["figure", path, *SEEN, *words, *SMALL, "-o", str(out)]) == 0
             sizes.append(out.read_bytes())
         assert sizes[0] != sizes[1]
-    common = {"source": 4, "size": "200x200"}
-    bare, drawn = (app.figure(path, ["biharmonic"], profile=points, **common) for points in (False, ["source", b]))
+    common = {"source": 4, "layout": {"size": "200x200"}}
+    bare, drawn = (
+        app.figure(path, ["biharmonic"], marks={"profile": points}, **common) for points in (False, ["source", b])
+    )
     assert (bare.pixels != drawn.pixels).any()
     for words in ([], ["--profile", f"source,{b}"]):
         out = tmp_path / f"m{len(words)}.gif"
@@ -114,13 +115,16 @@ def test_where_there_is_none_a_sentence_says_why(mesh_file, tmp_path, capsys):
     path = mesh_file(Surface(both.vertices, both.faces))
     assert main(["figure", path, "--distance", "biharmonic", "--profile", "0,63", "-o", str(tmp_path / "f.png")]) == 0
     said = capsys.readouterr().err
-    assert "No path is drawn: From vertex 0 to vertex 63 there is no path: they are on components" in said
+    assert "There is no path from vertex 0 to vertex 63: they are on" in said
 
 
 def test_the_words_of_a_path(ball):
     assert words_in("source,pin:2 f3:0.2,0.5,40") == ["source", "pin:2", "f3:0.2,0.5", "40"]
     picture = app.figure(
-        "hand", ["biharmonic"], source=12, pins=[9, 40], profile=["pin:2", 7, SurfacePoint.of(3, 0.2, 0.5)]
+        "hand",
+        ["biharmonic"],
+        source=12,
+        marks={"pins": [9, 40], "profile": ["pin:2", 7, SurfacePoint.of(3, 0.2, 0.5)]},
     )
     document = picture._recipe.document
     assert isinstance(picture._recipe, Recipe)
@@ -136,7 +140,7 @@ def test_the_words_of_a_path(ball):
             with_profile(document, words)
     with pytest.raises(ParameterError, match="needs a direction"):
         with_profile(document, way="section")
-    with pytest.raises(ParameterError, match="goes with the way of a section"):
+    with pytest.raises(ParameterError, match="only sections have one"):
         with_profile(document, across=(0, 0, 1))
 
 

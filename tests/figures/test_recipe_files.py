@@ -12,8 +12,9 @@ from app.document.page import Recipe
 from app.main import main
 from app.session.array_store import ArrayStore
 from app.session.recipe_file import recipe_written
-from bihdist_core.distances.kinds import Spec
-from tests.figures.recipes import SMALL, refused
+from bihdist_core.distances.distance_types import Spec
+from tests.commands import refused
+from tests.figures.recipes import SMALL
 
 
 def test_a_failure_keeps_the_old_figure_and_the_old_recipe(mesh, tmp_path, capsys, monkeypatch):
@@ -34,6 +35,22 @@ def test_another_json_file_is_not_replaced(mesh, tmp_path, capsys):
     assert "another file" in refused(capsys, "figure", mesh, *SMALL, "-o", tmp_path / "f.png")
     assert (tmp_path / "f.json").read_text() == '{"mine": 1}'
     assert not (tmp_path / "f.png").exists()
+
+
+def test_a_figure_without_a_name_is_called_as_its_mesh_and_replaces_only_figures(mesh, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    words = ["figure", mesh, "--distance", "biharmonic", *SMALL]
+    assert main([*words, "--sources", "4"]) == 0
+    assert "mesh.png: 1 panel on" in capsys.readouterr().out
+    first = (tmp_path / "mesh.png").read_bytes()
+    assert main([*words, "--sources", "9"]) == 0
+    assert (tmp_path / "mesh.png").read_bytes() != first
+    (tmp_path / "mesh.json").unlink()
+    (tmp_path / "mesh.png").write_text("a photograph")
+    assert "There is a file mesh.png already, without a recipe" in refused(capsys, *words)
+    assert (tmp_path / "mesh.png").read_text() == "a photograph"
+    # Whoever names it means it.
+    assert main([*words, "-o", "mesh.png"]) == 0
 
 
 def drawn_as(tmp_path, capsys, mesh, name, *words):
@@ -59,7 +76,7 @@ def test_one_recipe_does_for_all_formats_of_a_figure(mesh, tmp_path, capsys):
 def test_another_figure_of_the_same_stem_has_a_recipe_of_its_own(mesh, tmp_path, capsys):
     drawn_as(tmp_path, capsys, mesh, "f.png")
     before = jsons(tmp_path)
-    assert "f.svg.json: f.json is that of something else" in drawn_as(
+    assert "f.svg.json, as f.json belongs to another file" in drawn_as(
         tmp_path, capsys, mesh, "f.svg", "--isolines", "5"
     )
     after = jsons(tmp_path)

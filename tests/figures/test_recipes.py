@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from app.document.camera import Camera
-from app.document.document import MeshFile, Zoom, comparison
+from app.document.document import Inset, MeshFile, comparison
 from app.document.edits import put_point
 from app.document.file import read_recipe, recipe_text
 from app.document.looks import Colours, Isolines, Shading
@@ -18,8 +18,8 @@ from app.tools.profile.part import Profile
 from app.tools.regions.part import DividedPanels
 from app.tools.scatter.part import Scatter
 from bihdist_core import SurfacePoint
-from bihdist_core.distances.kinds import Spec
-from tests.figures.recipes import refused
+from bihdist_core.distances.distance_types import Spec
+from tests.commands import refused
 
 
 def test_a_recipe_is_read_as_it_was_written(tmp_path):
@@ -40,17 +40,17 @@ def test_a_recipe_is_read_as_it_was_written(tmp_path):
             surfaces=(MeshFile("A", "mesh.off", "ab" * 32),),
             panels=tuple(replace(panel, maximum=0.1 * panel.id or None) for panel in document.panels),
             isolines=Isolines(7, values=(0.5, 0.25), bold=5, labels=True, through=("tip",)),
-            range="shares",
+            range="fraction",
             colours=Colours("mine", ((0.0, (0.0, 0.5, 1.0)), (1.0, (1.0, 1.0, 1.0))), True, True),
             shading=Shading("creased", 35.0, True),
             up="-z",
-            projection="orthographic",
+            parallel_projection=True,
             axes=True,
             extrema=True,
             docks=("profile", "pins"),
             camera=Camera((1 / 3, 2.0, 3.0), (0.0, 0.0, 0.1), (0.0, 1.0, 0.0), (0.2, 0.3)),
-            zooms=(Zoom(3, 2.5, "top left", 40),),
-            height=0.25,
+            insets=(Inset(3, 2.5, "top left", 40),),
+            warp_factor=0.25,
             next_id=99,
         )
         .with_part(Pins(pins=(Pin("tip", "the tip", 3),)))
@@ -83,7 +83,7 @@ PANEL = "document.panels[0]"
         (lambda r: r["document"].pop("points"), "document has no 'points'"),
         (lambda r: r["document"].update(surfaces=[]), "document: There is no surface 'A'"),
         (lambda r: r["document"].update(surfaces=[], points=[], panels=[]), "names no mesh"),
-        (lambda r: r["document"]["surfaces"][0].update(path=""), "is not there"),
+        (lambda r: r["document"]["surfaces"][0].update(path=""), "are missing"),
         (lambda r: r["document"]["surfaces"][0].update(sha256=5), "document.surfaces[0].sha256 must be a text"),
         (lambda r: r["document"]["points"][0].update(at=5000), "no vertex 5000"),
         (lambda r: r["document"]["points"][0].update(at={"face": 10**6, "weights": [1, 0, 0]}), "no face 1000000"),
@@ -104,14 +104,14 @@ PANEL = "document.panels[0]"
         (lambda r: r["document"]["panels"][0].update(id=7), "next_id is 1, and there is a panel 7"),
         (lambda r: r["document"].update(camera="inside"), "document: There is no view 'inside'"),
         (lambda r: r["document"].update(camera=camera_at(1e308)), "none beyond 1e+100"),
-        (lambda r: r["document"].update(camera=camera_at(0)), "a focal point elsewhere"),
-        (lambda r: r["document"].update(camera=camera_at(1e-300)), "a focal point elsewhere"),
+        (lambda r: r["document"].update(camera=camera_at(0)), "a focal point away"),
+        (lambda r: r["document"].update(camera=camera_at(1e-300)), "a focal point away"),
         (lambda r: r["document"].update(camera={**camera_at(1), "extent": [1e-300, 1]}), "extent is from"),
         (lambda r: r["document"].update(camera={**camera_at(1), "up": [0, 0, 1]}), "an up direction across"),
-        (lambda r: r["document"].update(zooms=[{"vertex": 3, "factor": 1e308}]), "at most 100 times"),
+        (lambda r: r["document"].update(insets=[{"vertex": 3, "factor": 1e308}]), "at most 100 times"),
         (lambda r: r["document"].update(areas="round"), "no areas 'round'"),
         (lambda r: r["document"].update(tool="hammer"), "no tool 'hammer'"),
-        (lambda r: r["document"].update(isolines=10**6), "0 to 1,000 steps"),
+        (lambda r: r["document"].update(isolines=10**6), "from 0 to 1,000"),
         (lambda r: r["page"].update(format="bmp"), "page: There is no format 'bmp'"),
         (lambda r: r["page"].update(columns=0), "at least one column"),
         (lambda r: r["page"].update(views=["inside"]), "no view 'inside'"),
@@ -120,9 +120,9 @@ PANEL = "document.panels[0]"
         (lambda r: r["page"].update(size="100000px"), "16 to 32000 pixels"),
         (lambda r: r["page"].update(style="pink"), "no style 'pink'"),
         (lambda r: r["page"].update(crop="yes"), "crop must be true or false"),
-        (lambda r: r["document"].update(height=0.3), "flat surface"),
+        (lambda r: r["document"].update(warp_factor=0.3), "flat surface"),
         (lambda r: r["document"]["surfaces"][0].update(path=10_000 * "m"), "is not there"),
-        (lambda r: r.update(format=1), "format 1 is not read any more; the figure has to be drawn anew"),
+        (lambda r: r.update(format=1), "format 1 is no longer supported; draw the figure again"),
     ],
 )
 def test_a_bad_recipe_gets_a_sentence(mesh, tmp_path, capsys, change, words):

@@ -7,19 +7,20 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.document.document import MeshFile, Panel, Point, Zoom, comparison
+from app.document.document import Inset, MeshFile, Panel, Point, comparison
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Recipe
 from app.document.quantities import DistanceFrom
 from app.main import main
 from app.tools.interpolation.part import Anchor, Anchors
-from bihdist_core.distances.kinds import Spec
-from tests.figures.recipes import SMALL, anchors, refused
+from bihdist_core.distances.distance_types import Spec
+from tests.commands import refused
+from tests.figures.recipes import SMALL, anchors
 from tests.shapes import bumpy
 
 
 def test_a_recipe_draws_the_same_bytes(mesh, tmp_path):
-    words = ["--distance", "biharmonic,diffusion", "--t", "0.25", "--view", "left", "--zoom", "9:4"]
+    words = ["--distance", "biharmonic,diffusion", "--t", "0.25", "--cpos", "left", "--insets", "9:4"]
     looks = ["--style", "uniform", "--crop", "--transparent", "--isolines", "12", "--anchors", "3=0.2,8", *SMALL]
     for extension in ("png", "svg"):
         first, again = tmp_path / f"first.{extension}", tmp_path / f"again.{extension}"
@@ -47,7 +48,7 @@ def test_a_recipe_and_its_mesh_may_move_together_and_meet_another_mesh(mesh, mes
     assert "no vertex 4" in said
     (moved / "mesh.off").write_text((moved / "mesh.off").read_text().replace("OFF", "OFF #", 1))
     said = refused(capsys, "figure", "--recipe", moved / "f.json", "-o", tmp_path / "i.png")
-    assert "checksum differs). Name the mesh" in said
+    assert "has changed since its checksum" in said
 
 
 def changed(tmp_path, *words):
@@ -65,11 +66,11 @@ def changed(tmp_path, *words):
         (["--t", "1/4"], lambda r: [str(p.shows.spec) for p in r.document.panels], ["biharmonic", "diffusion(t=1/4)"]),
         (["--distance", "commute-time"], lambda r: [str(p.shows.spec) for p in r.document.panels], ["commute-time"]),
         (["--areas", "barycentric"], lambda r: r.document.areas, "barycentric"),
-        (["--view", "top"], lambda r: (r.document.camera, r.page.views), ("top", ())),
-        (["--view", "front,back"], lambda r: r.page.views, ("front", "back")),
+        (["--cpos", "top"], lambda r: (r.document.camera, r.page.views), ("top", ())),
+        (["--cpos", "front,back"], lambda r: r.page.views, ("front", "back")),
         (["--camera=0,0,9,0,0,0,0,1,0,0.4,0.3"], lambda r: getattr(r.document.camera, "position", None), (0, 0, 9)),
         (["--columns", "1"], lambda r: r.page.columns, 1),
-        (["--zoom", "7:5"], lambda r: r.document.zooms, (Zoom(7, 5.0),)),
+        (["--insets", "7:5"], lambda r: r.document.insets, (Inset(7, 5.0),)),
         (
             ["--anchors", "3=0.2"],
             lambda r: anchors(r.document),
@@ -99,17 +100,17 @@ def test_sources_beside_a_recipe_make_rows_as_they_do_without(drawn):
 
 def test_options_that_cannot_apply_are_refused_by_name(drawn, mesh, capsys):
     figure = ["figure", "--recipe", drawn / "f.json", "-o", drawn / "x.png"]
-    assert "--k 5 is no parameter of biharmonic, diffusion" in refused(capsys, *figure, "--k", "5")
-    assert "cannot share a range" in refused(capsys, *figure, "--range", "shared")
+    assert "--k 5 is not a parameter of biharmonic, diffusion" in refused(capsys, *figure, "--k", "5")
+    assert "cannot share a range" in refused(capsys, *figure, "--clim", "shared")
     assert "at least one column" in refused(capsys, *figure, "--columns", "0")
     assert "another mesh is named as --mesh" in refused(capsys, *figure, mesh)
-    assert "flat surface" in refused(capsys, *figure, "--height")
+    assert "flat surface" in refused(capsys, *figure, "--warp-factor")
     field = ["field", mesh, "--sources", "3", "-o", drawn / "f.npy"]
-    assert "--t 0.5 is no parameter of biharmonic" in refused(capsys, *field, "--t", "0.5")
+    assert "--t 0.5 is not a parameter of biharmonic" in refused(capsys, *field, "--t", "0.5")
     movie = ["movie", "--recipe", drawn / "f.json", "-o", drawn / "m.gif"]
     assert "--sources beside --path" in refused(capsys, *movie, "--path", "1,5", "--sources", "3")
     assert "takes no --transparent" in refused(capsys, *movie, "--transparent")
-    assert "more than one view" in refused(capsys, *movie, "--view", "front,back")
+    assert "more than one view" in refused(capsys, *movie, "--cpos", "front,back")
 
 
 def test_anchors_and_panels_may_have_a_point_in_common(drawn):

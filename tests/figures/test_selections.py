@@ -55,7 +55,7 @@ def test_python_and_the_command_draw_the_same(mesh, tmp_path):
     assert main(["figure", mesh, *PLAIN, *words, "-o", str(tmp_path / "a.png")]) == 0
     size = SMALL[SMALL.index("--size") + 1]
     for chosen in (["3+5-90", "200-299"], [[3, *range(5, 91)], np.arange(200, 300)]):
-        drawn = figure(mesh, ["biharmonic"], source=4, isolines=0, size=size, selections=chosen)
+        drawn = figure(mesh, ["biharmonic"], source=4, isolines=0, layout={"size": size}, marks={"selections": chosen})
         assert np.array_equal(drawn.pixels, picture(tmp_path / "a.png"))
 
 

@@ -26,7 +26,11 @@ def pixels():
     """A figure from the front and from the back, so that all is seen once."""
     surface = bumpy(200)
     shown = app.figure(
-        (surface.vertices, surface.faces), ["biharmonic"], source=4, size="800x400", views=["front", "back"]
+        (surface.vertices, surface.faces),
+        ["biharmonic"],
+        source=4,
+        layout={"size": "800x400"},
+        view={"cpos": ["front", "back"]},
     )
     return shown.pixels
 

@@ -8,9 +8,9 @@ from scipy.spatial import cKDTree
 from scipy.special import eval_legendre
 
 from app.document.looks import Isolines
+from app.figures.canvas import simplified_line
 from app.figures.hidden_lines import Curve, HiddenLineRemoval
 from app.figures.outlines import outlines
-from app.figures.simplified import simplified
 from app.scene.camera import Camera, Projection, standard_camera
 from app.scene.drawable import drawable, outward_faces
 from app.scene.levels import levels
@@ -165,7 +165,7 @@ def test_outlines_of_a_ring_are_its_rim_and_its_hole():
 def test_simplified_lines_stay_within_their_tolerance():
     t = np.linspace(0, 6, 800)
     line = np.stack([20 * t, 10 * np.sin(t)], 1)
-    short = simplified(line, 0.05)
+    short = simplified_line(line, 0.05)
     assert len(short) < 80
     dense, _ = sampled([(short, False)], 0.01)
     assert cKDTree(dense).query(line)[0].max() < 0.051

@@ -10,14 +10,17 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from matplotlib.patches import Rectangle
 
-from app.document.document import Zoom
-from app.figures.bars import bar_words, ends, shared_words
-from app.figures.canvas import Composition, drawn, matplotlib_settings
+import app as bihdist
+from app.document.document import Inset
+from app.drawing.shapes import Box, Path, Text
+from app.figures.bars import bar_limits, bar_words, shared_words
+from app.figures.canvas import drawn, matplotlib_settings
 from app.figures.draw import Figure, FigurePanel, draw_figure, save_figure
 from app.figures.fonts import check_font
 from app.figures.layout import lay_out
+from app.figures.marks import frame_shapes
+from app.figures.page_layout import ComposedPage
 from app.figures.shots import Shot, take_shots
 from app.figures.size import Size
 from app.figures.tex import escaped, sources_in_words
@@ -76,7 +79,7 @@ def boxes_of(figure):
         for box in cell.views
     ]
     with matplotlib_settings(figure.font):
-        canvas = drawn(Composition(figure, layout, shots), vector=True)
+        canvas = drawn(ComposedPage(figure, layout, shots), vector=True)
         renderer = canvas.canvas.get_renderer()
         per_unit = canvas.dpi / 96
         found = [
@@ -89,10 +92,10 @@ def boxes_of(figure):
 OPTIONS = (
     {"title": "caption"},
     {"range": "shared"},
-    {"range": "shares", "title": "none"},
+    {"range": "fraction", "title": "none"},
     {"crop": True},
     {"text": 9.0},
-    {"font": "DejaVu Serif", "range": "shares", "crop": True},
+    {"font": "DejaVu Serif", "range": "fraction", "crop": True},
 )
 
 
@@ -174,7 +177,7 @@ def test_eps_has_letters_and_no_transparency(ball, tmp_path):
 
 def test_a_snippet_includes_the_figure_at_its_width_and_says_what_it_shows(mesh_file, tmp_path, capsys):
     out = tmp_path / "my_figure.pdf"
-    words = ["figure", mesh_file(bumpy(200)), "--sources", "4", "--size", "column", "--tex", "--isolines", "9"]
+    words = ["figure", mesh_file(bumpy(200)), "--sources", "4", "--size", "85mm", "--tex", "--isolines", "9"]
     words += ["--distance", "biharmonic,diffusion", "-o", str(out)]
     assert main(words) == 0
     text = (tmp_path / "my_figure.tex").read_text()
@@ -185,7 +188,7 @@ def test_a_snippet_includes_the_figure_at_its_width_and_says_what_it_shows(mesh_
     ends = [float(end) for end in re.findall(r"0 to ([0-9.]+)", caption)]
     first, second = (f"{round_step(end, 9):g}" for end in ends)
     assert f"Isolines every {first} mesh units and {second}" in caption
-    assert main([*words[:-3], "biharmonic,diffusion,biharmonic - diffusion", *words[-2:], "--range", "shares"]) == 0
+    assert main([*words[:-3], "biharmonic,diffusion,biharmonic - diffusion", *words[-2:], "--clim", "fraction"]) == 0
     assert re.search(r"Isolines every [0-9.]+ percentage points", (tmp_path / "my_figure.tex").read_text())
     assert "and at 10 equal steps." in (tmp_path / "my_figure.tex").read_text()
     assert main([*words, "--equal-isolines"]) == 0
@@ -193,7 +196,7 @@ def test_a_snippet_includes_the_figure_at_its_width_and_says_what_it_shows(mesh_
     assert escaped(r"50% of a_b & {c} \\ −1") == r"50\% of a\_b \& \{c\} \textbackslash{}\textbackslash{} $-$1"
     (tmp_path / "my_figure.tex").write_text("an article")
     assert main(words) == 2
-    assert "is another file" in capsys.readouterr().err
+    assert "my_figure.tex exists" in capsys.readouterr().err
     assert (tmp_path / "my_figure.tex").read_text() == "an article"
 
 
@@ -224,6 +227,19 @@ def test_lines_stand_on_the_bar_however_near_the_last_one_is_to_its_end(ball, to
     assert np.diff(is_line.astype(int)).clip(0).sum() == (20 if top > 0.41 else 19)
 
 
+@pytest.mark.parametrize(("width", "counts"), [(330, [20, 19, 15]), (240, [0, 0, 0])])
+def test_isolines_are_on_all_colour_bars_of_a_figure_or_on_none(ball, width, counts):
+    tops = (1.048, 1.977, 1.623)
+    panels = tuple(FigurePanel(ball, np.linspace(0, top, 100), unit="mesh units") for top in tops)
+    figure = Figure(panels, size=Size(3 * width, dpi=288), style=LINES, columns=3)
+    picture, found = draw_figure(figure), []
+    for cell in lay_out(figure).cells:
+        left, top, wide, high = (round(3 * side) for side in (cell.bar.box.x, cell.bar.box.y, cell.bar.box.width, 4))
+        is_line = (picture[top + high, left + 3 : left + wide - 3] < 240).all(axis=1)
+        found.append(np.diff(is_line.astype(int)).clip(0).sum())
+    assert found == counts
+
+
 def test_a_caption_names_no_vertex_where_a_place_is_the_source(mesh_file, tmp_path):
     out = tmp_path / "a.pdf"
     words = ["figure", mesh_file(bumpy(200)), "--sources", "f7:0.25,0.5", "--distance", "biharmonic", "--tex"]
@@ -234,54 +250,59 @@ def test_a_caption_names_no_vertex_where_a_place_is_the_source(mesh_file, tmp_pa
 def test_the_unit_stands_before_the_maximum_where_one_bar_is_in_shares(ball):
     field = np.linspace(0, 0.5078, 100)
     panels = tuple(FigurePanel(ball, field, unit=unit) for unit in ("1 / mesh units", "mesh units"))
-    of = Figure(panels, range="shares")
+    of = Figure(panels, range="fraction")
     assert [bar_words(of, k) for k in (0, 1)] == ["1 / mesh units, max\xa00.5078", "mesh units, max\xa00.5078"]
     assert shared_words(of, 0) == "% of each maximum"
 
 
-@pytest.mark.parametrize("range", ["own", "shared", "shares"])
+@pytest.mark.parametrize("range", ["own", "shared", "fraction"])
 def test_a_difference_is_in_percentage_points_in_every_range(ball, range):
-    words = "biharmonic is farther by 14.2 % of its maximum at vertex 99"
+    words = "largest +14.2 % at vertex 99: biharmonic is farther"
     distance = FigurePanel(ball, np.linspace(0, 0.5, 100), label="biharmonic", unit="mesh units")
     panels = [
         FigurePanel(ball, np.linspace(-top, top, 100), label="b", unit="percentage points", signed=True, largest=words)
         for top in (14.2, 7.1)
     ]
     of = Figure((distance, *panels), range=range)
-    assert bar_words(of, 1).replace("\xa0", " ") == f"b (percentage points, {words})"
-    assert ends(of, 1) == (-14.2, 14.2)
+    assert bar_words(of, 1).replace("\xa0", " ") == "b (percentage points, largest +14.2 % at vertex 99)"
+    assert bar_limits(of, 1) == (-14.2, 14.2)
     # Of one unit, they end together unless each has its own.
-    assert ends(of, 2)[1] == (7.1 if range == "own" else 14.2)
+    assert bar_limits(of, 2)[1] == (7.1 if range == "own" else 14.2)
     assert not of.has_one_bar
     alone = Figure(tuple(panels), range=range)
     assert alone.has_one_bar == (range != "own")
     if alone.has_one_bar:
         # The one bar says what holds for both.
         assert shared_words(alone, 0) == "percentage points"
-        assert [bar_words(alone, k).replace("\xa0", " ") for k in (0, 1)] == [f"b ({words})"] * 2
+        assert [bar_words(alone, k).replace("\xa0", " ") for k in (0, 1)] == ["b (largest +14.2 % at vertex 99)"] * 2
 
 
 def test_numbers_of_insets_stand_on_grounds_inside_the_page():
     surface = sphere(600)
     front = np.argsort(-surface.vertices[:, 2])
     right = int(np.argmax(surface.vertices[:, 0]))
-    zooms = tuple(Zoom(int(vertex), 4.0) for vertex in (front[0], front[8], right))
-    panel = FigurePanel(surface, 50 * surface.vertices[:, 1] + 50, zooms=zooms, views=("front",))
+    insets = tuple(Inset(int(vertex), 4.0) for vertex in (front[0], front[8], right))
+    panel = FigurePanel(surface, 50 * surface.vertices[:, 1] + 50, insets=insets, views=("front",))
     figure = Figure((panel,), size=Size.parse("300x300"))
     layout = lay_out(figure)
     shots = take_shots(figure, layout, silent)
-    with matplotlib_settings():
-        (axes,) = drawn(Composition(figure, layout, shots), vector=True).axes
-    numbers = [text for text in axes.texts if text.get_text() in ("1", "2", "3")]
-    assert sorted(text.get_text() for text in numbers) == ["1", "1", "2", "2", "3", "3"]
-    paper = pytest.approx(figure.style.background)
-    grounds = [box for box in axes.patches if isinstance(box, Rectangle) and box.get_facecolor()[:3] == paper]
+    page = ComposedPage(figure, layout, shots)
+    shapes = [shape for shot in shots if shot.source is not None for shape in frame_shapes(page, shot)]
+    numbers = [shape for shape in shapes if isinstance(shape, Text)]
+    assert sorted(text.text for text in numbers) == ["1", "1", "2", "2", "3", "3"]
+    grounds = []
+    for shape in shapes:
+        if isinstance(shape, Path) and shape.fill is not None:
+            assert shape.fill[:3] == figure.style.background
+            (part,) = shape.subpaths
+            (x, y), (_, (corner,), *_) = part.start, part.segments
+            grounds.append(Box(x, y, corner[0] - x, corner[1] - y))
     for text in numbers:
-        x, y = text.get_position()
+        x, y = text.x, text.y
         assert 4 < x < layout.width - 4
         assert 8 < y < layout.height
-        on = [box for box in grounds if box.get_x() < x - 3 and box.get_x() + box.get_width() > x + 3]
-        assert any(box.get_y() < y - 6 and box.get_y() + box.get_height() > y for box in on)
+        on = [box for box in grounds if box.x < x - 3 and box.right > x + 3]
+        assert any(box.y < y - 6 and box.bottom > y for box in on)
 
 
 def test_words_stay_with_shapes_on_pages_that_are_higher(ball):
@@ -302,7 +323,9 @@ def test_words_stay_with_shapes_on_pages_that_are_higher(ball):
 def test_what_an_inset_enlarges_is_inside_the_view():
     surface = sphere(600)
     low, right = int(np.argmin(surface.vertices[:, 1])), int(np.argmax(surface.vertices[:, 0]))
-    panel = FigurePanel(surface, surface.vertices[:, 1] + 1, zooms=(Zoom(low, 4.0), Zoom(right, 3.0)), views=("front",))
+    panel = FigurePanel(
+        surface, surface.vertices[:, 1] + 1, insets=(Inset(low, 4.0), Inset(right, 3.0)), views=("front",)
+    )
     figure = Figure((panel,), size=Size.parse("300px"), crop=True)
     layout = lay_out(figure)
     view = layout.cells[0].views[0]
@@ -311,6 +334,28 @@ def test_what_an_inset_enlarges_is_inside_the_view():
         assert view.holds(frame.x, frame.y, 1e-9)
         assert view.holds(frame.right, frame.bottom, 1e-9)
         assert frame.width == pytest.approx(frame.height)
+
+
+def test_a_figure_of_one_column_is_cropped_with_one_bar_and_readable(mesh_file):
+    mesh = mesh_file(bumpy(200))
+    picture = bihdist.figure(mesh, source=4, layout={"size": "column"})
+    figure, layout = picture._figure, lay_out(picture._figure)
+    assert (figure.crop, figure.range, len(layout.bars)) == (True, "fraction", 1)
+    assert layout.width * 25.4 / 96 == pytest.approx(85, abs=0.01)
+    assert layout.smallest >= 6
+    assert not any("…" in line for cell in layout.cells for words in cell.words for line in words.lines)
+    # What has no bar of fractions, or is asked for otherwise, has its own.
+    difference = bihdist.figure(mesh, ["biharmonic", "biharmonic - geodesic"], 4, layout={"size": "column"})._figure
+    assert (difference.crop, difference.range) == (True, "own")
+    asked = bihdist.figure(mesh, source=4, layout={"size": "column", "crop": False}, look={"clim": "own"})._figure
+    assert (asked.crop, asked.range, lay_out(asked).smallest >= 6) == (False, "own", True)
+    assert not bihdist.figure(mesh, source=4, layout={"size": "85mm"})._figure.crop
+
+
+@pytest.mark.parametrize("panels", [1, 4])
+def test_a_cropped_page_with_a_width_on_paper_is_as_wide(ball, panels):
+    layout = lay_out(figure_of(ball, panels, "85mm", columns=1, crop=True))
+    assert layout.page[0] == 1004
 
 
 def sizes_of(count, size):

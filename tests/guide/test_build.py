@@ -25,6 +25,17 @@ Image.new("RGB", (40, 30), "red").save("red.png")
 print("twice", 2 * 21)
 ```
 
+```{python}
+:hide-code:
+:live: pages/live.html
+:alt: A still picture
+from pathlib import Path
+
+Image.new("RGB", (40, 30), "green").save("still.png")
+Path("pages").mkdir()
+Path("pages/live.html").write_text("<p>It computes.</p>")
+```
+
 ```{file} ids.txt
 12
 ```
@@ -91,6 +102,9 @@ def test_a_small_guide(source):
     assert "info --solver" not in page
     assert 'id="bihdist.tips"' in page
     assert (guide / "_images/red.webp").is_file()
+    assert 'alt="A still picture"' in page
+    assert '<iframe src="_blocks/index/pages/live.html" title="A still picture" loading="lazy"' in page
+    assert (guide / "_blocks/index/pages/live.html").is_file()
     example = (guide / "gallery/auto/one.html").read_text(encoding="utf-8")
     assert 'download="one.py"' in example
     assert (guide / "_images/sphx_glr_one_001.webp").is_file()

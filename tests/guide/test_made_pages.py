@@ -6,10 +6,8 @@ import bihdist
 import pytest
 
 from assets.guide.building import library_pages
-from assets.guide.building.docstrings import as_rst
-from assets.guide.building.option_pages import option_pages
+from assets.guide.building.option_pages import commands, option_pages, options_of
 from assets.guide.building.record_page import record_page
-from tests.app.option_table import commands, options_of
 
 
 def test_every_public_name_has_its_page():
@@ -45,6 +43,12 @@ def test_every_option_of_every_command_is_there():
             assert re.search(rf"`{name}[ `]", section), (word, name)
         for line in section.splitlines():
             assert not line.startswith(": ") or len(line) > 6, (word, line)
+    shared = page.partition("\n## Options that several commands have\n\n")[2]
+    (_, *words), _, *rows = ([cell.strip() for cell in line.split("|")[1:-1]] for line in shared.splitlines())
+    assert len(rows) > 40
+    for name, *dots in rows:
+        having = {word for word, parser in commands().items() if name.strip("`") in options_of(parser)}
+        assert {word for word, dot in zip(words, dots, strict=True) if dot} == having
 
 
 def test_every_record_of_a_document_is_there_with_its_keys():
@@ -52,7 +56,7 @@ def test_every_record_of_a_document_is_there_with_its_keys():
     section = page.partition("\n## `points`\n")[2].partition("\n## ")[0]
     assert re.findall(r"^\| `(\w+)`", section, re.M) == ["name", "at", "surface", "image_of"]
     assert "| `at` | source | has to be there |" in section
-    assert '| `range` | text | `own` | where colour bars end, one of "own", "shared", "shares". |' in page
+    assert '| `range` | text | `own` | Where colour bars end, one of "own", "shared", "fraction". |' in page
     assert "| `up` | text | `y` |" in page  # what files mean that do not say it
     assert "| `pins` | list of record of `point`" in page
     assert "Error" not in page
@@ -68,20 +72,3 @@ def test_every_command_of_the_window_is_there():
     said = {(text, keys) for text, keys in rows if text not in ("Command", "---")}
     plain = {(act.text.replace("&", ""), ", ".join(f"{{kbd}}`{key}`" for key in act.keys if key)) for act in ALL}
     assert said == plain
-
-
-@pytest.mark.parametrize(
-    ("docstring", "wanted"),
-    [
-        ("a: what.  b, c (n,): more.  Raises MeshError for less.",
-         [":param a: what.", "``b``, ``c``", "    (n,) more.", ":Raises: MeshError for less."]),
-        ("`a` is |y|_A, x * y.\n\nCosts a `field` for each.",
-         [":py:obj:`a` is \\|y\\|_A, x \\* y.", "Costs a :py:obj:`field` for each."]),
-        ("Write it.\n\n.csv: a line\n      `a,b`.\n.obj: more.\nThen on.",
-         ["Write it.", "- .csv: a line ``a,b``.", "- .obj: more.", "Then on."]),
-        ("Does it.\n\n>>> f(2)\n3", ["Does it.", ">>> f(2)", "3"]),
-    ],
-)  # fmt: skip
-def test_docstrings_become_lists_and_paragraphs(docstring, wanted):
-    made = as_rst(docstring.split("\n"), lambda names: names == "a")
-    assert [line for line in made if line] == wanted

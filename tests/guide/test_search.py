@@ -1,22 +1,34 @@
-"""The guide's search, in Chromium, from files: questions in whole sentences, the page that answers them first."""
+"""The guide's search: pages that answer questions, ranked by Node; what it shows, in Chromium, from files."""
 
+import json
+import re
 import shutil
+import subprocess
+import tomllib
 from pathlib import Path
 
 import pytest
 
 from app.guide_pages import GUIDE
-from assets.guide.building.search_index import write_search_index
+from assets.guide.building.build import write_sources
+from assets.guide.building.search_index import synonyms, write_search_index
 from tests.browser.chromium import Chromium
 
 SEARCH = Path(__file__).parents[2] / "assets/guide/look/search.js"
+QUESTIONS = tomllib.loads(Path(__file__).with_name("questions.toml").read_text(encoding="utf-8"))["questions"]
+RANK = f"""
+const {{answers, indexed}} = require({json.dumps(str(SEARCH))});
+const {{pages, synonyms, questions}} = JSON.parse(require("fs").readFileSync(0, "utf8"));
+const index = indexed(pages, synonyms);
+console.log(JSON.stringify(questions.map((question) => answers(index, question).map((each) => each.page))));
+"""
 PAGES = {
     "how-to/regions.html": ("Divide a surface into regions", "Each vertex belongs to the nearest of several points."),
     "how-to/pick.html": ("Call a function at each click", "A callback is handed the vertex that was picked."),
     "reference/options.html": ("Options", "regions points vertex surface click function <div>x</div> movie"),
     "explanation/heat.html": ("The heat method", "Distances are measured; how far off they are is estimated."),
 }
-FIELD = '<div class="bd-search-container"><input type="search" name="q"></div>'
+FIELD = '<input type="search" name="q">'
 SHOWN = "[...document.querySelectorAll('#guide-search-results a')].map(a => a.getAttribute('href'))"
 
 
@@ -42,10 +54,43 @@ def search(tmp_path_factory):
     write_search_index(folder)
     shutil.copy(SEARCH, folder)
     (folder / "search.html").write_text(
-        f"<meta charset='utf-8'>{FIELD}<p id='guide-search-count'></p><ol id='guide-search-results'></ol>"
-        "<script src='search-index.js'></script><script src='search.js'></script>"
+        f"<meta charset='utf-8'><div class='bd-search-container'>{FIELD}</div>"
+        "<p id='guide-search-count'></p><ol id='guide-search-results'></ol>"
+        f"<dialog id='pst-search-dialog'><form>{FIELD}</form></dialog><script src='search.js'></script>"
     )
     return folder / "search.html"
+
+
+def written_page(name, text):
+    """What the index has of a page, from its Markdown, or from an example of the gallery."""
+    keywords = re.findall(r"^ *keywords: *(.*)$", text, re.MULTILINE)
+    text = re.sub(r"\A---\n.*?\n---\n", "", text, flags=re.DOTALL)
+    if name.endswith(".py"):
+        name, text = name.replace("gallery/", "gallery/auto/"), re.sub(r'\A"""\n(.*)\n=+\n', r"# \1\n", text)
+    parts = re.split(r"^#{1,3} (.*)\n", text, flags=re.MULTILINE)
+    sections = [["", heading, body] for heading, body in zip(parts[1::2], parts[2::2], strict=True)]
+    return {"page": str(Path(name).with_suffix("")), "keywords": " ".join(keywords), "sections": sections}
+
+
+@pytest.fixture(scope="module")
+def ranked(tmp_path_factory):
+    """The pages found for each question, the best first, by the text of the whole guide."""
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("there is no Node")
+    source = tmp_path_factory.mktemp("source")
+    write_sources(source)
+    paths = [*source.rglob("*.md"), *(source / "gallery").rglob("*.py")]
+    pages = [written_page(path.relative_to(source).as_posix(), path.read_text(encoding="utf-8")) for path in paths]
+    questions = [each["question"] for each in QUESTIONS]
+    data = {"pages": pages, "synonyms": synonyms(), "questions": questions}
+    done = subprocess.run([node, "-e", RANK], input=json.dumps(data), capture_output=True, text=True, check=True)
+    return dict(zip(questions, json.loads(done.stdout), strict=True))
+
+
+@pytest.mark.parametrize("asked", QUESTIONS, ids=lambda asked: asked["question"])
+def test_a_page_that_answers_is_among_the_first_three(ranked, asked):
+    assert {*asked["pages"]} & {*ranked[asked["question"]][:3]}, ranked[asked["question"]][:5]
 
 
 def found(browser, page, question):
@@ -79,12 +124,16 @@ def test_what_is_said_of_a_hit(browser, search):
     assert found(browser, search, "") == []
 
 
-def test_typing_searches_at_once(browser, search):
+@pytest.mark.parametrize(
+    ("field", "answers"), [("", "#guide-search-results"), ("dialog ", "dialog .guide-search-results")]
+)
+def test_typing_searches_at_once(browser, search, field, answers):
     found(browser, search, "")
     browser.evaluate(
-        "(field => { field.value = 'heat'; field.dispatchEvent(new Event('input')); })(document.querySelector('input'))"
+        "(field => { field.value = 'heat'; field.dispatchEvent(new Event('input')); })"
+        f"(document.querySelector('{field}input'))"
     )
-    assert browser.evaluate(SHOWN)[0] == "explanation/heat.html"
+    assert browser.evaluate(f"document.querySelector('{answers} a').getAttribute('href')") == "explanation/heat.html"
 
 
 @pytest.mark.skipif(not GUIDE.is_file(), reason="the guide has not been built")

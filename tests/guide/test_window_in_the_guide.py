@@ -9,9 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+from qtpy import QtGui
 
+from app.qt.pages.commands import GESTURES, plain
 from tests.qt.guide_pictures import FRAME_MS, MOVING, MOVING_WIDTH, PICTURES, picture_names
 from tests.qt.guide_scenes import SCENES
+from tests.waiting import PATIENCE
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "assets/guide").rglob("*.md"))]
@@ -54,8 +57,6 @@ def window():
 
 def menus_by_title(window) -> dict:
     """Menus of the menu bar, of the tool bar's buttons by their words, and of a panel (its name, and ⋯)."""
-    from app.qt.pages.commands import plain
-
     head = window.grid.panels[0].head if window.grid.panels else None
     found = {button.accessibleName(): button.menu() for button in window.tool_bar.buttons.values() if button.menu()}
     found |= {plain(action.text()): action.menu() for action in window.menuBar().actions()}
@@ -64,8 +65,6 @@ def menus_by_title(window) -> dict:
 
 def leads_somewhere(window, path: str) -> bool:
     """Whether there is an entry, by the menus it is in with `>` between; dots at the end may be left out."""
-    from app.qt.pages.commands import plain
-
     first, *others = path.split(" > ")
     menu = menus_by_title(window).get(first)
     for place, text in enumerate(others):
@@ -88,10 +87,7 @@ def name_of(text: str) -> str:
 
 def keys_of(window) -> set[str]:
     """All that is a key in the window, as Qt writes it: of commands, of gestures, and those held."""
-    from qtpy import QtGui
-
     from app.qt.acts import ALL
-    from app.qt.pages.commands import GESTURES
 
     found = {keys.toString() for action in window.actions() for keys in action.shortcuts()}
     found |= {QtGui.QKeySequence(key).toString() for act in ALL if act.of_view for key in act.keys}
@@ -108,13 +104,11 @@ def test_entries_of_menus_exist(window):
 def test_an_entry_that_is_gone_is_found(window):
     for path in ("File > Print…", "Nothing > Open…", "View > Range > Two for all panels", "File > Quit > Now"):
         assert not leads_somewhere(window, path)
-    assert leads_somewhere(window, "View > Range > Own maximum")
+    assert leads_somewhere(window, "View > Range > Own maximum of each panel")
     assert leads_somewhere(window, "View > Range")
 
 
 def test_keys_exist(window):
-    from qtpy import QtGui
-
     known, keys = keys_of(window), said("kbd")
     assert keys
     assert [each for each in keys if each[0] not in HELD and QtGui.QKeySequence(each[0]).toString() not in known] == []
@@ -159,7 +153,7 @@ def test_the_moving_picture_moves_and_is_small():
 def test_a_picture_is_made_again_and_is_of_todays_window(tmp_path):
     pytest.importorskip("qtpy")
     command = [sys.executable, "-m", "tests.qt.guide_pictures", "start-page", "--out", str(tmp_path)]
-    subprocess.run(command, cwd=ROOT, check=True, capture_output=True, timeout=120)
+    subprocess.run(command, cwd=ROOT, check=True, capture_output=True, timeout=PATIENCE)
     now, then = (Image.open(folder / "start-page.png").convert("RGB") for folder in (tmp_path, PICTURES))
     assert now.size == then.size
     # Where fonts are others, text differs; a page laid out otherwise differs by far more.

@@ -77,7 +77,7 @@ def go_over(surface: Surface, rng: np.random.Generator) -> bool:
     size = float(np.ptp(surface.vertices, axis=0).max())
     try:
         solver = ExactGeodesic(surface)
-        for sources in (int(surface.faces[face[0], 0]), surface.faces[face, 1], places.some(np.arange(3)), lines):
+        for sources in (int(surface.faces[face[0], 0]), surface.faces[face, 1], places.select(np.arange(3)), lines):
             count = len(sources) if isinstance(sources, Pieces) else np.size(sources)
             offsets = rng.uniform(0, size / 9, count) if rng.random() < 0.3 else None
             field = solver.field(sources, places, radius=rng.choice([0.3 * size, size, np.inf]), offsets=offsets)
@@ -85,7 +85,7 @@ def go_over(surface: Surface, rng: np.random.Generator) -> bool:
                 field.path(int(target))
             for target in np.flatnonzero(np.isfinite(field.at_places)):
                 field.path_to_place(int(target))
-        solver.between(places, places.some(np.arange(len(face))[::-1]))
+        solver.between(places, places.select(np.arange(len(face))[::-1]))
         solver.columns(surface.faces[face[:2], 2])
     except BihdistError:
         return False
@@ -137,9 +137,10 @@ def main(folder: str, name: str, count: str = str(MUTATED)) -> None:
     assert good == len(sound), good
     assert is_cancelled(sound[-1])
     # So little room that windows have to move several times.
-    exact_geodesic.FIRST_ROOM, exact_geodesic.MOST_PER_VERTEX, exact_geodesic.MOST_AT_LEAST = 16, 0, 40 * WINDOWS
+    exact_geodesic.FIRST_WINDOWS, exact_geodesic.MOST_WINDOWS_PER_VERTEX = 16, 0
+    exact_geodesic.MOST_WINDOWS_AT_LEAST = 40 * WINDOWS
     assert all(go_over(surface, rng) for surface in [*sound[:-1], bumpy(2_000)])
-    exact_geodesic.MOST_AT_LEAST = WINDOWS
+    exact_geodesic.MOST_WINDOWS_AT_LEAST = WINDOWS
     number = int(count)
     meshes = [mutated(sound[rng.integers(len(sound) - 1)], rng) for _ in range(number)]
     still = sum(map(measure, meshes))

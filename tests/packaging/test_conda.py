@@ -3,11 +3,11 @@
 import json
 import re
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
-from app.desktop.menu_entry import CATEGORIES, NAME, SUMMARY, WINDOW_CLASS
-from app.desktop.mime_types import MIME_TYPES
+from app.commands.desktop import menu_entry, mime_package
 from app.version import version
 from bihdist_core.formats.mesh_names import MESH_FORMATS
 
@@ -64,16 +64,20 @@ def test_the_recipe_renders(platform):
 
 
 def test_the_menu_opens_what_the_desktop_entry_opens():
+    entry = dict(line.split("=", 1) for line in menu_entry("python").splitlines()[1:])
     (item,) = json.loads((FOLDER / "menu.json").read_text(encoding="utf-8"))["menu_items"]
-    assert (item["name"], item["description"]) == (NAME, SUMMARY)
+    assert (item["name"], item["description"]) == (entry["Name"], entry["Comment"])
     linux, windows = item["platforms"]["linux"], item["platforms"]["win"]
     assert windows["file_extensions"] == list(MESH_FORMATS)
-    patterns = {each.name: each.patterns for each in MIME_TYPES if set(each.patterns) & {f"*{f}" for f in MESH_FORMATS}}
+    name = "{http://www.freedesktop.org/standards/shared-mime-info}%s"
+    types = [each for each in ElementTree.fromstring(mime_package()) if each.find(name % "glob") is not None]
+    patterns = {each.get("type"): each.find(name % "glob").get("pattern") for each in types}
+    patterns = {type: pattern for type, pattern in patterns.items() if pattern[1:] in MESH_FORMATS}
     assert linux["MimeType"] == list(patterns)
-    own = [each.name for each in MIME_TYPES if each.comment]
-    assert linux["glob_patterns"] == {name: found[0] for name, found in patterns.items() if name in own}
-    assert linux["Categories"] == list(CATEGORIES)
-    assert linux["StartupWMClass"] == WINDOW_CLASS
+    own = [each.get("type") for each in types if each.find(name % "comment") is not None]
+    assert linux["glob_patterns"] == {type: pattern for type, pattern in patterns.items() if type in own}
+    assert linux["Categories"] == entry["Categories"].strip(";").split(";")
+    assert linux["StartupWMClass"] == entry["StartupWMClass"]
 
 
 def test_the_icons_are_there():

@@ -15,7 +15,7 @@ RULES = {
     ),
     r"\bnp\.save\(|\.tofile\(": (set(), "`formats.array_file.put_array`, which notices that a disk is full"),
     r"\.read_text\(": (
-        {"bihdist_core/machine_memory.py", "app/figures/export.py"}
+        {"bihdist_core/machine_memory.py", "app/figures/export.py", "app/plain_guide.py"}
         | {f"app/qt/look/{name}.py" for name in ("icons", "marks_in_controls")},
         "`file_content.file_text`, which bounds its size and waits for no pipe",
     ),
@@ -23,10 +23,10 @@ RULES = {
 """Patterns: who may have them, and what others call instead."""
 
 WRITES = re.compile(r"\.write_(text|bytes)\(|\.open\(\"[wx]b?\"|\bopen\([^)\n]*\"[wx]b?\"")
-WHOLE = re.compile(r"\bwhole_file\b|\.writing\(")
+WHOLE = re.compile(r"\batomic_write\b|\.writing\(")
 MAY_WRITE = {
     "app/qt/look/marks_in_controls.py",  # into a folder of its own
-    "app/figures/composition.py",  # what it is given is temporary
+    "app/figures/page_output.py",  # what it is given is temporary
 }
 EXAMPLE = re.compile(r"^ *>>> .*", re.MULTILINE)
 """A line of an example in a docstring, where users read and write as they like."""

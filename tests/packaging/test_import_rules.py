@@ -89,8 +89,19 @@ def modules(*folders: str) -> list[str]:
     return [".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__") for path in found]
 
 
-WITHOUT_QT = {"profile", "curves", "figure", "figure_curves", "command", "samples_command", "evaluate_command"}
-WITHOUT_QT |= {"part", "paths", "division", "judgement", "locations", "pairwise_distances", "options", "marks"}
+WITHOUT_QT = {"profile", "curves", "figure", "command", "samples_command", "evaluate_command"}
+WITHOUT_QT |= {
+    "part",
+    "paths",
+    "division",
+    "map_errors",
+    "candidate_errors",
+    "quality_worker",
+    "locations",
+    "pairwise_distances",
+    "options",
+    "marks",
+}
 WITHOUT_QT |= {"pins", "scatter", "statistics", "quality", "regions", "interpolation", "correspondence", "robustness"}
 """Modules of tools, and tools themselves, that are no part of the window."""
 

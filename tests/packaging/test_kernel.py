@@ -119,7 +119,9 @@ def test_what_cannot_be_loaded_is_left_alone_and_the_loader_s_words_are_told(ker
 def test_a_library_of_other_sources_is_left_alone_and_what_it_lacks_is_told(kernels, compiled, monkeypatch):
     shutil.copytree(compiled, kernels, dirs_exist_ok=True)
     monkeypatch.setitem(library._SIGNATURES, "of_tomorrow", (None, ()))
-    assert "is of other sources than this program: it has no bih_of_tomorrow; install bihdist again" in warned()
+    assert (
+        "was built from other sources than this program: it has no bih_of_tomorrow; install bihdist again" in warned()
+    )
 
 
 def test_where_plain_numpy_is_asked_for_nothing_is_said(kernels, monkeypatch):

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.main import DRAWING
+from app.main import NOT_FOR_BATCHES
 from tests.batch.runs import rows
 from tests.shapes import sphere
 
 ROOT = Path(__file__).resolve().parents[2]
 
-MISSING = DRAWING | {"vtk", "PyQt5", "PyQt6", "PySide6"}
+MISSING = NOT_FOR_BATCHES | {"vtk", "PyQt5", "PyQt6", "PySide6"}
 
 BLOCK = f"""
 from importlib.machinery import PathFinder
@@ -89,10 +89,10 @@ def test_a_worker_of_dask_needs_nothing_that_draws(environment, mesh_file, tmp_p
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        ("figure hand -o a.png", "this draws, and {}"),
-        ("movie hand -o a.gif", "this draws, and {}"),
-        ("batch hand --do figure -o out", "--do figure draws, and vtkmodules"),
-        ("batch hand --do fields,evaluate --maps . --truth identity -o out", "--do evaluate draws, and matplotlib"),
+        ("figure hand -o a.png", "this needs {}, which"),
+        ("movie hand -o a.gif", "this needs {}, which"),
+        ("batch hand --do figure -o out", "--do figure needs vtkmodules, which"),
+        ("batch hand --do fields,evaluate --maps . --truth identity -o out", "--do evaluate needs matplotlib, which"),
     ],
 )
 def test_what_draws_says_what_is_missing(environment, words, sentence, tmp_path, monkeypatch):

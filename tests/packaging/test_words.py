@@ -1,4 +1,4 @@
-"""What users read has one name for one thing: words that stand for another, or are written in another way elsewhere."""
+"""What users read has one name for one thing, and the pages of the guide are in plain English and short paragraphs."""
 
 import ast
 import re
@@ -76,17 +76,46 @@ def test_counts_are_written_with_separators_and_ids_without():
     assert wrong == []
 
 
-def test_names_are_those_of_the_table():
-    """The names in the first column of the words of CONTRIBUTING.md are not those of a module, class or function."""
-    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    rows = re.findall(r"^\| (.+?) \| .+ \|$", text.partition("## Words")[2].partition("\n## ")[0], flags=re.MULTILINE)
-    gone = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
-    assert len(gone) > 15
-    named = set()
-    for folder in ("app", "bihdist_core"):
-        for path in (ROOT / folder).rglob("*.py"):
-            named.add(path.stem)
-            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-                if isinstance(node, ast.ClassDef | ast.FunctionDef):
-                    named.add(node.name)
-    assert gone & named == set()
+IN_PAGES = {
+    r"\b(is|are|was|were|be) said\b": "reported, shown",
+    r"\bbesides?\b": "next to, with, in addition to",
+    r"\bstands?\b(?![ -](alone|for|in|out)\b)": "is, appears",
+    r"\bgo(es)? on\b": "continue, resume",
+    r"\bone's own\b": "your own",
+    r"\banew\b": "again",
+    r"\bin words\b": "as text",
+    r"\bmend(s|ed|ing)?\b": "fix, correct",
+    r"\bthat of\b": "the noun again, or a possessive",
+    r"\bsome \d": "about",
+    r"\bgrown together\b": "joined, merged",
+    r"\bwhat (the user|nobody|has no)\b": "a noun: user errors, unexpected errors, buttons that do not fit",
+    r"\bin vain\b": "wasted",
+}
+"""What the pages of the guide do not say, and what they say instead."""
+
+LONGEST_PARAGRAPH = 80
+"""Words; what is longer is a list, a table or two paragraphs."""
+
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "assets/guide").rglob("*.md"))]
+
+
+@cache
+def paragraphs() -> tuple[tuple[str, str], ...]:
+    """All paragraphs, items of lists and rows of tables, each with its page, without blocks of code and formulas."""
+    found = []
+    for page in PAGES:
+        text = re.sub(r"^ *(```+|\$\$).*?\1$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+        pieces = re.split(r"\n\s*\n|\n(?=\s*(?:[-:#] |\d+\. |\||:::))", text)
+        found += [(page.relative_to(ROOT).as_posix(), " ".join(piece.split())) for piece in pieces]
+    return tuple(found)
+
+
+@pytest.mark.parametrize("wrong", IN_PAGES)
+def test_pages_are_in_plain_english(wrong):
+    assert [each for each in paragraphs() if re.search(wrong, each[1], re.IGNORECASE)] == [], IN_PAGES[wrong]
+
+
+def test_paragraphs_of_pages_are_short():
+    assert len(paragraphs()) > 1000
+    too_long = [(page, text) for page, text in paragraphs() if len(text.split()) > LONGEST_PARAGRAPH]
+    assert [(page, text) for page, text in too_long if not text.startswith("|")] == []

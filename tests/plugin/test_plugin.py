@@ -2,11 +2,12 @@
 
 import os
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+from tests.programs import run_python
 
 PLUGIN = Path(__file__).parent
 
@@ -14,9 +15,7 @@ PLUGIN = Path(__file__).parent
 def run(*arguments, folder, has_tool=True):
     """Python with these arguments, in a folder."""
     own = {"XDG_DATA_HOME": str(folder / "data"), "PYTHONPATH": str(PLUGIN) if has_tool else ""}
-    return subprocess.run(
-        [sys.executable, *map(str, arguments)], cwd=folder, env=os.environ | own, text=True, capture_output=True
-    )
+    return run_python(*arguments, cwd=folder, **own)
 
 
 def test_its_option_part_and_marks_are_in_figures(tmp_path):
@@ -29,9 +28,8 @@ def test_its_option_part_and_marks_are_in_figures(tmp_path):
     assert again.returncode == 0, again.stderr
     pictures = [(tmp_path / f"{name}.png").read_bytes() for name in ("plain", "circle", "again")]
     assert pictures[0] != pictures[1] == pictures[2]
-    by_python = (
-        "import bihdist; bihdist.figure('hand', ['geodesic'], 12, circle=2665, size='300x300').save('python.png')"
-    )
+    drawn = "bihdist.figure('hand', ['geodesic'], 12, marks={'circle': 2665}, layout={'size': '300x300'})"
+    by_python = f"import bihdist; {drawn}.save('python.png')"
     assert run("-c", by_python, folder=tmp_path).returncode == 0
     assert (tmp_path / "python.png").read_bytes() == pictures[1]
 

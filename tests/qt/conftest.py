@@ -2,13 +2,18 @@
 
 import os
 import time
+from importlib.util import find_spec
 
 import pytest
 
 from app.document.document import COMPARISON, comparison
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
+from tests.conftest import write_off
 from tests.qt.events import ROUNDS, send_mouse
 from tests.shapes import bumpy
+from tests.waiting import PATIENCE
+
+collect_ignore_glob = [] if find_spec("qtpy") else ["test_*.py"]
 
 
 @pytest.fixture(scope="session")
@@ -22,8 +27,14 @@ def application():
 
 SMALL, WHOLE = (1000, 640), (1400, 860)
 """Sizes of windows, small and as on a desktop: the processor draws each pixel, in small ones twice as fast."""
-SMALL_IN = {"anchors", "beside", "closing", "colours", "controls", "docks", "drawn_sources", "export", "sessions"}
+SMALL_IN = {"anchors", "beside", "closing", "colours", "controls", "docks", "drawn_sources", "export", "other_meshes"}
+SMALL_IN |= {"sessions"}
 """Modules of tests, without `test_`, in which small windows show all that there is to see."""
+
+BALL = bumpy(300)
+
+MOST_OPEN = 2
+"""Shared windows of a module that are open at once."""
 
 
 class Screen:
@@ -32,11 +43,12 @@ class Screen:
     def __init__(self, application, specs=COMPARISON, size=WHOLE):
         from app.qt.main_window import MainWindow
 
-        self.application = application
+        self.application, self.size = application, size
         self.window = MainWindow(comparison("", tuple(specs)))
         self.window.resize(*size)
         self.window.context.quiet, self.window.context.remembers = True, False
         self.refusals, self.completions = [], []
+        self.left = []  # docks that a reset has taken out, for which threads may still have results
         self.window.refused.connect(self.refusals.append)
         self.window.complete.connect(lambda: self.completions.append(self.source))
         self.window.show()
@@ -56,10 +68,15 @@ class Screen:
         return self.document.point("source").at
 
     @property
+    def path(self):
+        """The file of the first mesh."""
+        return self.document.surfaces[0].path
+
+    @property
     def answers(self):
         return [self.session.shown[panel.id].answer for panel in self.document.panels]
 
-    def until(self, condition, seconds=180):
+    def until(self, condition, seconds=PATIENCE):
         end = time.monotonic() + seconds
         while not condition():
             assert time.monotonic() < end, f"waited in vain; refused: {self.refusals}"
@@ -90,6 +107,82 @@ class Screen:
         # Until it is there, what was shown before is complete.
         self.until(lambda: self.session.is_complete and not self.session.is_opening)
         self.settle(0.1)
+
+    def has_meshes_of(self, document):
+        return self.window.isVisible() and not self.session._surfaces.missing(document)
+
+    def reset(self, document):
+        """Bring back what a new window shows of a document whose meshes are open."""
+        from qtpy import QtCore, QtGui, QtWidgets
+
+        from app.document.document import Document
+        from app.document.page import Page
+        from app.document.work import work_in
+        from app.qt.files.session_actions import _Origin
+        from app.qt.preferences import Preferences
+        from app.session.answering import AnswerCache
+        from app.session.surfaces import Opening
+        from tests.qt.parts import parts
+
+        window, context, its = self.window, self.window.context, parts(self.window)
+        for each in (window, context, window.status, self.session, context.grid, *context._made.values()):
+            for name in [name for name in vars(each) if callable(getattr(type(each), name, None))]:
+                delattr(each, name)  # a test has put it in the place of a method
+        for other in self.application.topLevelWidgets():
+            if other.isVisible() and not isinstance(other, QtWidgets.QMainWindow):
+                other.close()
+        its.gestures.set_live(False)
+        its.held_keys.brush_held.emit(False)
+        its.dragging.end()
+        if its.choices.is_full_screen:
+            its.choices.toggle_full_screen()
+        context.quiet, context.remembers = True, False
+        context.page = Page()
+        context.prefer(**vars(Preferences()))
+        self.panels[0].view.setFocus()
+        its.session_file._at, its.session_file._origins = 0, {0: _Origin(work_in(Document()))}
+        its.curve_files.paths.clear()
+        its.exports.chosen.clear()
+        for dock in its.docks._docks.values():
+            dock.content.end()
+            window.removeDockWidget(dock)
+            dock.setParent(None)
+            self.left.append(dock)
+        its.docks._docks.clear()
+        its.changes._loaded = ()  # so that all is shown anew
+        self.session.cancel()
+        self.session._answering.progress.clear()
+        self.session._walk, self.session._answering._kept = None, AnswerCache()
+        self.session._present(Opening((), lambda: self.session.history.__init__(document)))
+        its.views.begin()
+        its.session_file.show_title()
+        context.grid.activate(document.panels[0].id)
+        window.notice.clear()
+        window.status.say("")
+        window.raise_()
+        QtGui.QCursor.setPos(self.application.primaryScreen().geometry().bottomRight())
+        for panel in self.panels:
+            send_mouse(panel.view, QtCore.QPoint(0, 0))
+        window.setWindowState(QtCore.Qt.WindowState.WindowNoState)
+        window.resize(*self.size)
+        self.application.clipboard().clear()
+        self.application.sendPostedEvents(None, QtCore.QEvent.Type.DeferredDelete)
+        self.until(lambda: self.session.is_complete and not context.grid._once)
+        self.settle(0.1)
+        context.hit, context.hit_in = None, -1
+        self.refusals.clear()
+        self.completions.clear()
+
+    def close(self):
+        """Close the window, and delete it."""
+        from qtpy import QtCore
+
+        self.window.close()
+        self.settle(0.05)
+        # PySide keeps, until the sender is gone, whatever a lambda in a slot refers to: here, the window.
+        for each in (*self.left, self.window):
+            each.deleteLater()
+        self.application.sendPostedEvents(None, QtCore.QEvent.Type.DeferredDelete)
 
     def pictures(self):
         """Of the surfaces, (height, width, 3) each, without what lies over them."""
@@ -135,25 +228,62 @@ class Screen:
         return chosen
 
 
+def _size(request):
+    return SMALL if request.module.__name__.rpartition("test_")[2] in SMALL_IN else WHOLE
+
+
 @pytest.fixture
 def screen(application, request):
     """Makes windows."""
-    from qtpy import QtCore
-
-    size = SMALL if request.module.__name__.rpartition("test_")[2] in SMALL_IN else WHOLE
     screens = []
 
     def make(specs=COMPARISON):
-        screens.append(Screen(application, specs, size))
+        screens.append(Screen(application, specs, _size(request)))
         return screens[-1]
 
     yield make
     for each in screens:
-        each.window.close()
-        each.settle(0.05)
-        # PySide keeps, until the sender is gone, whatever a lambda in a slot refers to: here, the window.
-        each.window.deleteLater()
-    application.sendPostedEvents(None, QtCore.QEvent.Type.DeferredDelete)
+        each.close()
+
+
+@pytest.fixture(scope="module")
+def open_screens():
+    """The windows that tests of a module share, with the documents they show first, by what was asked for."""
+    screens = {}
+    yield screens
+    for screen, _ in screens.values():
+        screen.close()
+
+
+@pytest.fixture
+def shared_screen(application, request, open_screens, tmp_path_factory):
+    """Shows a mesh in a window that the tests of a module share, as a new one would.
+
+    Opening and painting takes a second of the processor, and showing again what is open a third of that.
+    """
+
+    def show(surface=BALL, specs=COMPARISON, source=5, size=None):
+        is_file = isinstance(surface, str | os.PathLike)
+        key = (surface if is_file else (surface.vertices.tobytes(), surface.faces.tobytes()), tuple(specs), source)
+        screen, document = open_screens.pop(key, (None, None))
+        if screen is not None and not screen.has_meshes_of(document):
+            screen.close()  # a test has opened others
+            screen = None
+        if screen is not None:
+            screen.reset(document)
+        else:
+            while len(open_screens) >= MOST_OPEN:
+                open_screens.pop(next(iter(open_screens)))[0].close()
+            screen = Screen(application, specs, size or _size(request))
+            path = surface if is_file else write_off(surface, tmp_path_factory.mktemp("shared") / "mesh.off")
+            screen.open(path, source)
+            screen.until(lambda: screen.session.is_complete)
+            screen.settle(0.1)
+            document = screen.document
+        open_screens[key] = screen, document  # the last one used
+        return screen
+
+    return show
 
 
 @pytest.fixture
@@ -190,9 +320,9 @@ def small(application, mesh_file):
     """A window with a mesh in it, that only exports."""
     from qtpy import QtTest, QtWidgets
 
+    from app.document.settings import Preferences
     from app.qt.context import Context
-    from app.qt.files.exports import ExportChip, Exports
-    from app.qt.preferences import Preferences
+    from app.qt.files.exports import ExportBadge, Exports
     from app.qt.status_bar import StatusBar
     from app.session.session import Session
 
@@ -200,16 +330,17 @@ def small(application, mesh_file):
         def __init__(self):
             super().__init__()
             self.context = Context(self, Preferences(), StatusBar(self))
+            self.context.remembers = False
             self.said, self.refusals = [], []
             self.failed, self.context.tell = self.refusals.append, self.said.append
             self.context.failed.connect(self.refusals.append)
             document = comparison("", (Spec.of("biharmonic"),))
             self.session = self.context.session = Session(self, self.context.post, document=document)
             self.exports = self.context[Exports]
-            self.chip = ExportChip(self.exports)
+            self.chip = ExportBadge(self.exports)
             self.statusBar().addPermanentWidget(self.chip)
 
-        def until(self, condition, seconds=180):
+        def until(self, condition, seconds=PATIENCE):
             end = time.monotonic() + seconds
             while not condition():
                 assert time.monotonic() < end, f"waited in vain; refused: {self.refusals}"
@@ -238,3 +369,9 @@ def out(tmp_path):
     folder = tmp_path / "out"
     folder.mkdir()
     return folder
+
+
+@pytest.fixture
+def own_folder(tmp_path, monkeypatch):
+    """Nothing of the user's is read or written."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))

@@ -14,6 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from app.document.settings import BANDS, BOLD_ISOLINES, FLIP_SCALARS, RANGE, SHADING
 from tests.qt.parts import parts
 
 from .driver import ROOT, Driver, Look, drive_elsewhere
@@ -141,7 +142,7 @@ def _heads(d: Driver) -> None:
 
 
 def _bars_and_menus(d: Driver) -> None:
-    for button in ("open", "isolines", "colours", "range", "views", "up", "tools"):
+    for button in ("open", "isolines", "colours", "range", "views", "tools"):
         d.with_menu(button, f"menu of {button}")
     bar = d.window.menuBar()
     for action in bar.actions():
@@ -158,16 +159,16 @@ def _looks(d: Driver) -> None:
     window, before = d.window, d.window.session.document
     choices, first = parts(window).choices, before.panels[0].id
     choices.colour_map("safe")
-    choices.band_colours(True)
+    choices.set(BANDS, True)
     d.shot("safe colours in bands")
     choices.colour_map("ember")
-    choices.reverse_colours(True)
-    choices.range("shares")
+    choices.set(FLIP_SCALARS, True)
+    choices.set(RANGE, "fraction")
     d.shot("ember reversed in shares")
     window.session.show(before)
     choices.end_at(first, 0.4 * window.session.shown[first].answer.maximum)
-    choices.isoline.bold(True)
-    choices.isoline.pass_through(first, 4000)
+    choices.set(BOLD_ISOLINES, 5)
+    parts(window).isolines.pass_through(first, 4000)
     d.complete()
     d.shot("a typed end and an isoline through a place")
     window.grid.panel(first).ask_end()
@@ -176,7 +177,7 @@ def _looks(d: Driver) -> None:
     window.session.show(before)
     for key in ("w", "x", "o"):
         d.pointer("key", key)
-    choices.shading("flat")
+    choices.set(SHADING, "flat")
     d.complete()
     d.shot("wireframe flat axes orthographic")
     for key in ("u", "7"):
@@ -202,9 +203,9 @@ def _panels(d: Driver) -> None:
     d.window.session.show(document)
     d.complete()
     d.shot("six panels")
-    parts(d.window).choices.range("shared")
+    parts(d.window).choices.set(RANGE, "shared")
     d.shot("shared range")
-    parts(d.window).choices.range("own")
+    parts(d.window).choices.set(RANGE, "own")
     while len(d.window.session.document.panels) > 3:
         d.window.session.undo()
     d.complete()
@@ -220,7 +221,7 @@ def _waiting(d: Driver) -> None:
         path = Path(folder, "a large mesh.off")
         with_fins(*bumpy_sphere(100_000), count=2500, path=path)
         d.window.context.open(str(path))
-        d.until(lambda: bool(d.window.session.progress) and d.window.session.surface is not None)
+        d.until(lambda: bool(d.window.session.progress) and d.window.session.loaded() is not None)
         d.spin(0.5)
         d.shot("waiting for a large mesh")
         d.complete()
@@ -244,7 +245,7 @@ def _dialogs(d: Driver) -> None:
     from app.qt.files.export_dialog import ExportDialog
     from app.qt.pages.messages import WhichFile, tell
 
-    parts(d.window).files.export_figure()
+    d.window.context.actions["figure"].trigger()
     (dialog,) = (each for each in d.application.topLevelWidgets() if isinstance(each, ExportDialog))
     d.until(lambda: dialog.pane.is_true)
     d.shot("export figure")
@@ -257,10 +258,10 @@ def _dialogs(d: Driver) -> None:
     dialog.choose_path()
     d.shot("a width that is none")
     d.close_dialogs()
-    parts(d.window).files.export_movie()
+    d.window.context.actions["movie"].trigger()
     d.shot("export movie")
     d.close_dialogs()
-    parts(d.window).files.export_page()
+    d.window.context.actions["page"].trigger()
     d.shot("export web page")
     d.close_dialogs()
     parts(d.window).choices.ask_preferences()
@@ -283,11 +284,6 @@ def _help(d: Driver) -> None:
     d.tool("type", "difference")
     d.shot("commands with a word")
     d.close_dialogs()
-    parts(d.window).guide.start_tour()
-    for step in range(5):
-        parts(d.window).guide.tour.go(step)
-        d.shot(f"tour {step + 1}")
-    parts(d.window).guide.tour.end()
 
 
 def _talk(d: Driver) -> None:

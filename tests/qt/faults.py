@@ -25,7 +25,6 @@ def faults(hands: Hands) -> list[str]:
         parts(hands.window).choices.toggle_full_screen()
     hands.window.actions_by_word["live"].setChecked(False)
     parts(hands.window).gestures.set_live(False)
-    parts(hands.window).guide.end_tour()
     hands.shut()
     hands.tool("mousemove", hands.screen.width() - 2, hands.screen.height() - 2)
     hands.window.session.show(hands.window.session.document)  # what was stopped is asked again
@@ -56,16 +55,16 @@ def _untrue(hands: Hands) -> list[str]:
         answer, reading = widget.answer, widget.bar._reading
         top = bar_end(document, session.shown, panel.id, session.loaded) or answer.maximum
         facts = {
-            "answer": answer is shown.answer and shown.asked == asked[panel.id] and not shown.is_preview,
+            "answer": answer is shown.answer and shown.question == asked[panel.id] and not shown.is_preview,
             "head": widget.head.shows == panel.shows
             and widget.head.name.accessibleName()
             == f"Shown here: {_plain(panel, session) or quantity_name(panel.shows)}",
             "style": widget.view.scene.style == canvas_style(window.context.page.style, LOOK.theme, document.colours),
-            "source": widget.source == _start(panel, document, session, vertex_at),
+            "source": widget.marks.source == _start(panel, document, session, vertex_at),
             "not dimmed": not widget.view._is_dimmed and widget.waiting.isHidden(),
             "maximum": answer.field is None or (reading.maximum == answer.maximum and reading.high == top),
             "unit": answer.field is None or reading.unit in (answer.unit, "misfit of the best"),
-            "isolines": answer.field is None or len(reading.lines) == len(widget.view.scene.isolines),
+            "isolines": answer.field is None or len(reading.lines) == len(widget.view.scene.field_actor.levels.values),
         }
         found += [f"panel {panel.id} {panel.shows}: {fact}" for fact, holds in facts.items() if not holds]
     starting = [name for panel in document.panels for name in panel.shows.points]
@@ -78,7 +77,9 @@ def _untrue(hands: Hands) -> list[str]:
     title = f"{Path(path).name}[*] - {names}" if path else f"{names}[*]"
     if window.windowTitle() != f"{title} - Biharmonic distance":
         found.append(f"title {window.windowTitle()}")
-    if window.status.counts.text.removeprefix("A").split()[0].replace(",", "") != str(len(session.surface.vertices)):
+    if window.status.counts.text.removeprefix("A").split()[0].replace(",", "") != str(
+        len(session.mesh().surface.vertices)
+    ):
         found.append(f"counts {window.status.counts.text}")
     if window.status.vertex.text:
         found.append(f"still pointed at {window.status.vertex.text}")
@@ -125,7 +126,7 @@ def _start(panel, document, session, vertex_at) -> int | None:
 
 def _plain(panel, session) -> str:
     """The name of its surface, where a panel is the only one of it that predicts, and there is nothing to predict."""
-    from app.tools.correspondence.prediction import predicts_in
+    from app.tools.correspondence.quantity import predicts_in
 
     answer = session.shown[panel.id].answer
     alone = [other for other in session.document.panels_of(panel.surface) if predicts_in(other)] == [panel]

@@ -69,7 +69,11 @@ class Photographer(Driver):
         self.pointer("mousemove", *(round(side * SCALE) + MARGIN // 2 for side in (LARGEST.width, LARGEST.height)))
 
     def shot(self, name: str, of: Any = None) -> None:
-        """A picture of the screen now, of a widget or a rectangle of the screen (QRect) if one is given."""
+        """A picture of the screen now, of a widget or a rectangle of the screen (QRect) if one is given.
+
+        How long the fields took is left out: it depends on what else this machine was doing.
+        """
+        self.window.status.show_time("")
         self.spin(0.3)
         in_few_colours(self.frame(of)).save(self._out / f"{name}.png", optimize=True)
         self.made.add(name)
@@ -166,7 +170,7 @@ def in_few_colours(picture: Image.Image) -> Image.Image:
     colours, which, counts = np.unique(pixels.reshape(-1, 3), axis=0, return_inverse=True, return_counts=True)
     flat = colours[np.argsort(-counts)[:FLAT]]
     # What is small counts for more than its area: marks, pins and text have colours of their own.
-    samples = np.repeat(colours, np.ceil(counts**0.4).astype(int), axis=0)
+    samples = np.repeat(colours, np.ceil(counts**0.3).astype(int), axis=0)
     others = Image.fromarray(samples[None]).quantize(256 - FLAT, Image.Quantize.MEDIANCUT, kmeans=2)
     chosen = np.concatenate([flat, np.reshape(others.getpalette() or [], (-1, 3))]).astype(np.uint8)
     _, nearest = cKDTree(chosen).query(colours)  # Pillow's own search is off by some shades

@@ -19,7 +19,6 @@ from .guide_tool_scenes import (
     statistics,
     two_meshes,
 )  # fmt: skip
-from .parts import parts
 from .pointer import (
     choose_entry,
     click_near,
@@ -99,11 +98,11 @@ def looks(d: Any) -> None:
     open_sample(d, "hand", "biharmonic|geodesic")
     buttons, menus = d.window.tool_bar.buttons, d.window.menus
     choose_entry(d, menus.isolines, buttons["isolines"], "Labels", is_chosen=True)
-    choose_entry(d, menus.isolines, buttons["isolines"], "Every fifth bolder", is_chosen=True)
+    choose_entry(d, menus.isolines, buttons["isolines"], "Bold every fifth", is_chosen=True)
     choose_entry(d, menus.isolines, buttons["isolines"], "Labels", lambda: d.shot("isolines"))
     d.window.session.undo()
     d.window.session.undo()
-    shared = "One for all panels: equal colours, equal values"
+    shared = "Shared by all panels of a unit"
     choose_entry(d, menus.range, buttons["range"], shared, is_chosen=True)
     choose_entry(d, menus.range, buttons["range"], shared, lambda: d.shot("ranges"))
     d.window.session.undo()
@@ -157,7 +156,7 @@ def cut_out(d: Any) -> None:
     from app.qt.files.mesh_repairs import MeshRepairs
 
     open_sample(d, "hand", "biharmonic|geodesic")
-    heights = d.window.session.surface.vertices[:, 1]
+    heights = d.window.session.mesh().surface.vertices[:, 1]
     with tempfile.TemporaryDirectory() as folder:
         mask = str(Path(folder, "hand-mask.npy"))
         np.save(mask, heights > np.quantile(heights, 0.12))
@@ -176,7 +175,7 @@ def export_figure(d: Any) -> None:
     open_sample(d, "beast")
     click_vertex(d, 0, SOURCE)
     d.rest()
-    parts(d.window).files.export_figure()
+    d.window.context.actions["figure"].trigger()
     (dialog,) = (each for each in d.application.topLevelWidgets() if isinstance(each, ExportDialog))
     dialog.size.rows.button(2).click()
     dialog.kinds.choose("PDF")
@@ -189,7 +188,7 @@ def export_page(d: Any) -> None:
 
     open_sample(d, "beast")
     d.rest()
-    parts(d.window).files.export_page()
+    d.window.context.actions["page"].trigger()
     (dialog,) = (each for each in d.application.topLevelWidgets() if isinstance(each, PageDialog))
     d.shot("export-page", dialog)
 
@@ -218,8 +217,8 @@ def parts_of_the_window(d: Any) -> None:
     d.badges = [
         at(window.menuBar(), 0.4, 0.5),
         at(buttons["open"], 0.5, -0.1),
-        at(buttons["dock pins"], 3.3, -0.1),
         at(window.tool_bar.source_box, 0.5, -0.15),
+        at(buttons["tools"], 0.5, -0.1),
         at(buttons["isolines"], 2.0, -0.1),
         at(buttons["add panel"], 0.5, -0.1),
         at(buttons["export"], 0.5, -0.1),

@@ -8,8 +8,8 @@ from .pointer import (
     click_near,
     dock_of,
     drag_along,
-    open_beside,
     open_sample,
+    open_second_mesh,
     place_on,
     point_near,
     press,
@@ -91,7 +91,7 @@ def regions(d: Any) -> None:
     for panel in d.window.grid.panels:
         d.pointer("mousemove", *place_on(d, dock.ticks[panel.id], 0.03, 0.5), "click", 1)
     d.complete()
-    d.until(lambda: parts(d.window).regions.is_complete)
+    d.until(lambda: parts(d.window).regions.dividing.is_complete)
     d.spin(1.0)
     d.rest()
     d.shot("regions")
@@ -132,7 +132,7 @@ def robustness(d: Any) -> None:
 
 def two_meshes(d: Any) -> None:
     open_sample(d, "beast", "biharmonic")
-    open_beside(d, "beast_pose2")
+    open_second_mesh(d, "beast_pose2")
     point_near(d, 0, 0.5, 0.5)
     d.shot("two-meshes")
 
@@ -143,11 +143,13 @@ def correspondence(d: Any) -> None:
     from .pair_scenes import far_apart
 
     open_sample(d, "beast", "biharmonic")
-    open_beside(d, "beast_pose2")
+    open_second_mesh(d, "beast_pose2")
     dock, session = dock_of(d, "pairs", "m"), d.window.session
     press(d, dock.start)
     d.complete()
-    session.show(add_pairs(session.document, [(vertex, vertex) for vertex in far_apart(session.surface.vertices)]))
+    session.show(
+        add_pairs(session.document, [(vertex, vertex) for vertex in far_apart(session.mesh().surface.vertices)])
+    )
     d.complete()
     point_near(d, 0, 0.4, 0.3)
     d.pointer("click", 1)

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from app.document.on_surface import clear_surface, hide, is_hidden, remove_items, surface_items
 from app.document.shared_parts.pins import Pins
 from app.document.tools import docked_tools
 from app.tools.correspondence.maps import Maps
@@ -156,6 +157,20 @@ class InstrumentHands(Hands):
             panel = self.panel()
             session.show(show_regions(session.document, panel, panel not in session.document[DividedPanels].regions))
 
+    def on_the_surface(self) -> None:
+        """An eye or a bin of the list; everything goes only now and then."""
+        session = self.window.session
+        document = session.document
+        items = surface_items(document)
+        if items and session.loaded() is not None:
+            item = self.chance.choice([each for group in items for each in (group, *group.members)])
+            if self.chance.random() < 0.05:
+                session.show(clear_surface(document))
+            elif item.word and self.chance.random() < 0.7:
+                session.show(hide(document, item, not is_hidden(document, item)))
+            else:
+                session.show(remove_items(document, [item]))
+
     def farthest(self) -> None:
         dock = self._dock() and parts(self.window).docks._docks.get("regions")
         if dock is not None and not dock.isHidden():
@@ -200,14 +215,14 @@ class InstrumentHands(Hands):
             self.window.grid.focus()
             self.tool("key", "Delete")
 
-    def change_mesh(self) -> None:
-        """Noise, holes, fewer vertices, a stroke that cuts, two places that are joined; or as it was."""
+    def perturb_mesh(self) -> None:
+        """Noise, holes, fewer vertices, a stroke that cuts; or as it was."""
         docks = parts(self.window).docks
         if "robustness" not in self.window.session.document.docks:
             docks.toggle("robustness")
             self.spin(0.05)
         dock = docks._docks["robustness"].content
-        way = self.chance.choice(["noise", "vertices", "holes", "radius", "seed", "cut", "weld", "handle", "remove"])
+        way = self.chance.choice(["noise", "vertices", "holes", "radius", "seed", "cut", "remove"])
         self.done[-1] += f" {way}"
         if not dock._controls.isEnabled():
             return
@@ -222,22 +237,17 @@ class InstrumentHands(Hands):
             dock.cut.button.click()
             self._drag([], [])
             self.key("Esc")
-        elif way == "remove":
-            dock.remove()
         else:
-            getattr(dock, way).button.click()
-            for _ in range(2):
-                self.tool("mousemove", *self.place(), "click", 1)
-            self.key("Esc")
+            dock.remove()
 
     def correspond(self) -> None:
         """A second mesh with the tool, or the first alone again; then clicks are points of pairs."""
         session, docks = self.window.session, parts(self.window).docks
         if len(session.document.surfaces) < 2:
-            session.open_beside(self.chance.choice(self.meshes[:2]))
+            session.open_second_mesh(self.chance.choice(self.meshes[:2]))
             self.until(lambda: not session.is_opening)
         elif self.chance.random() < 0.3:
-            session.close_beside()
+            session.close_second_mesh()
             return
         if "pairs" not in session.document.docks:
             docks.toggle("pairs")
@@ -278,8 +288,8 @@ class InstrumentHands(Hands):
         seen = view.over.points.standing("pairs")
         if not seen:
             return
-        _, tip = self.chance.choice(seen)
-        at = view.mapToGlobal(QtCore.QPoint(round(tip.x()), round(tip.y()) - 16))
+        _, (x, y) = self.chance.choice(seen)
+        at = view.mapToGlobal(QtCore.QPoint(round(x), round(y) - 16))
         if not self.is_over(view, at):
             return
         to_x, to_y = self.place(view)
@@ -319,6 +329,7 @@ class InstrumentHands(Hands):
     INSTRUMENTS = (
         (pin, 8), (add_source, 5), (brush, 4), (live, 2), (draw_source, 3), (type_source, 3), (toggle_dock, 5),
         (in_dock, 14), (dock_menu, 6), (move_dock, 4), (profile, 4), (regions, 3), (farthest, 2),
-        (interpolate, 4), (in_anchors, 5), (change_mesh, 5), (correspond, 5), (in_pairs, 8),
+        (on_the_surface, 5),
+        (interpolate, 4), (in_anchors, 5), (perturb_mesh, 5), (correspond, 5), (in_pairs, 8),
         (in_maps, 7),
     )  # fmt: skip

@@ -88,7 +88,7 @@ def _section(d: Driver) -> None:
     before = d.window.session.document
     for points in combinations([pin.point for pin in before[Pins].pins], 2):
         path = dock.path
-        d.window.session.show(before.with_part(Profile(points, "section", dock.seen())))
+        d.window.session.show(before.with_part(Profile(points, "section", dock.view_direction())))
         d.until(lambda path=path: dock.path is not path or dock.chart.sentence not in ("", FINDING))
         if dock.path is not None:
             break
@@ -149,8 +149,6 @@ def _quality(d: Driver) -> None:
     d.until(lambda: "…" not in dock.text())
     d.spin(1.0)
     d.shot("quality with extrema")
-    scroll_of(dock).verticalScrollBar().setValue(10_000)
-    d.shot("circles around the source")
 
 
 def _regions(d: Driver) -> None:
@@ -160,6 +158,11 @@ def _regions(d: Driver) -> None:
     d.complete()
     d.spin(1.0)
     d.shot("regions of the pins")
+    d.window.status.marks.click()
+    parts(d.window).docks._docks["surface"].content.rows["borders"].eye.click()
+    d.complete()
+    d.shot("list of what is on the surface")
+    d.window.session.undo()
     before = d.window.session.document
     dock.sampler.count.setValue(8)
     scroll_of(dock).ensureWidgetVisible(dock.sampler.pin)
@@ -235,14 +238,8 @@ def _robustness(d: Driver) -> None:
     drag_along(d, places, then=lambda: d.shot("faces to be cut out"))
     _wait(d, lambda: len(d.window.session.document.surfaces) == 2)
     d.pointer("key", "Escape")
-    scroll_of(dock).ensureWidgetVisible(dock.handle)
-    press(d, dock.handle.button)
-    click_near(d, 0, 0.3, 0.3)
-    d.shot("the first of two places")
-    click_near(d, 0, 0.7, 0.7)
-    _wait(d, lambda: dock.settings.handle is not None)
     rest(d)
-    d.shot("a hole and a handle")
+    d.shot("a hole")
     d.window.session.show(before)
     d.complete()
 

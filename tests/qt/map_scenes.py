@@ -2,25 +2,27 @@
 
 from .driver import Driver
 from .pair_scenes import far_apart
-from .pointer import close_docks, dock_of, open_beside, place_on
+from .pointer import close_docks, dock_of, open_second_mesh, place_on
 
 
 def full_maps(d: Driver) -> None:
     """The curves, the truth's menu, a map in colours by mouse, and meshes of which nobody knows what is right."""
-    from app.document.beside_edits import close_beside
+    from app.document.second_mesh_edits import close_second_mesh
     from app.samples import mesh_path
     from app.tools.correspondence.pairs import add_pairs
 
     d.open(mesh_path("beast"))
     session = d.window.session
-    open_beside(d, "beast_pose2")
+    open_second_mesh(d, "beast_pose2")
     dock = dock_of(d, "pairs", "m")
     d.complete()
     section = dock.errors
     d.shot("errors without pairs")
-    session.show(add_pairs(session.document, [(vertex, vertex) for vertex in far_apart(session.surface.vertices)]))
+    session.show(
+        add_pairs(session.document, [(vertex, vertex) for vertex in far_apart(session.mesh().surface.vertices)])
+    )
     d.complete()
-    d.until(lambda: section.judgement is not None)
+    d.until(lambda: section.errors is not None)
     d.shot("errors so far")
     d.until(lambda: section.is_whole)
     scroll = _scrolled(section)
@@ -38,11 +40,11 @@ def full_maps(d: Driver) -> None:
     d.shot_while(section.save.click, "menu of full maps")
     d.pointer("mousemove", *place_on(d, section.full, 0.5, 0.5), "click", 1)
     d.complete()
-    open_beside(d, "figure")
+    open_second_mesh(d, "figure")
     d.complete()
     d.shot("errors without a truth")
     close_docks(d)
-    session.show(close_beside(session.document))
+    session.show(close_second_mesh(session.document))
     d.complete()
 
 

@@ -20,14 +20,14 @@ def far_apart(places: np.ndarray) -> list[int]:
 
 def correspondence(d: Driver) -> None:
     """The tool with one mesh, then pairs on two: by hand, from the prediction, and what goes wrong."""
-    from app.document.beside_edits import close_beside
+    from app.document.second_mesh_edits import close_second_mesh
     from app.samples import mesh_path
     from app.tools.correspondence.pairs import add_pairs
 
     d.open(mesh_path("beast"))
     dock, session = dock_of(d, "pairs", "m"), d.window.session
     d.shot("correspondence with one mesh")
-    session.open_beside(mesh_path("beast_pose2"))
+    session.open_second_mesh(mesh_path("beast_pose2"))
     d.until(lambda: len(session.document.surfaces) == 2 and not session.is_opening)
     d.complete()
     d.pointer("mousemove", *place_on(d, dock.start, 0.5, 0.5), "click", 1)
@@ -40,7 +40,9 @@ def correspondence(d: Driver) -> None:
         d.shot(f"a pair at {'AB'[panel]}")
     session.undo()
     session.undo()
-    session.show(add_pairs(session.document, [(vertex, vertex) for vertex in far_apart(session.surface.vertices)]))
+    session.show(
+        add_pairs(session.document, [(vertex, vertex) for vertex in far_apart(session.mesh().surface.vertices)])
+    )
     d.complete()
     point_near(d, 0, 0.6, 0.5)
     d.pointer("click", 1)
@@ -63,5 +65,5 @@ def correspondence(d: Driver) -> None:
     d.pointer("key", "Escape")
     d.complete()
     close_docks(d)
-    session.show(close_beside(session.document))
+    session.show(close_second_mesh(session.document))
     d.complete()

@@ -110,12 +110,12 @@ def type_source(d: Driver, text: str) -> None:
     rest(d)
 
 
-def open_beside(d: Driver, name: str) -> None:
+def open_second_mesh(d: Driver, name: str) -> None:
     """Open a sample as the second mesh."""
     from app.samples import mesh_path
 
     session, path = d.window.session, mesh_path(name)
-    session.open_beside(path)
+    session.open_second_mesh(path)
     d.until(lambda: not session.is_opening and session.document.surfaces[-1].path == path)
     d.complete()
 
@@ -124,7 +124,7 @@ def open_sample(d: Driver, name: str, shows: str = "", source: int | None = None
     """Open a sample; shows: quantities, with `|` between them, in as many panels, instead of the comparison."""
     from app.document.document import comparison
     from app.samples import mesh_path
-    from bihdist_core.distances.kinds import Spec
+    from bihdist_core.distances.distance_types import Spec
 
     if shows:
         specs = tuple(Spec.parse(text) for text in shows.split("|"))

@@ -11,7 +11,13 @@ import traceback
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
+from app.document.quantities import DistanceFrom
+from app.document.settings import RANGE, SHADING, THEME
 from app.document.tools import docked_tools
+from app.qt.panels.quantity_menu import offered_kinds
+from bihdist_core.distances.distance_types import Spec
 from tests.qt.parts import parts
 
 from .faults import faults
@@ -117,7 +123,7 @@ class RandomHands(InstrumentHands):
 
     # ------------------------------------------------------------------ how it looks
     def isolines(self) -> None:
-        choices, document = parts(self.window).choices.isoline, self.window.session.document
+        choices, document = parts(self.window).isolines, self.window.session.document
         maxima = [shown.answer.maximum for shown in self.window.session.shown.values() if shown.answer.maximum]
         least, most = (min(maxima), max(maxima)) if maxima else (1.0, 1.0)
         way = self.chance.choice(["steps", "spacing", "values", "bold", "labels", "through", "none", "other"])
@@ -128,12 +134,12 @@ class RandomHands(InstrumentHands):
         elif way == "values":
             choices.values(" ".join(f"{least * self.chance.random():.6g}" for _ in range(self.chance.randint(1, 5))))
         elif way == "bold":
-            self.window.menus.isolines.bold.trigger()
+            self.window.actions_by_word["bold_isolines"].trigger()
         elif way == "labels":
-            self.window.menus.isolines.labels.trigger()
-        elif way == "through" and self.window.session.surface is not None:
+            self.window.actions_by_word["isoline_labels"].trigger()
+        elif way == "through" and self.window.session.loaded() is not None:
             panel = self.panel()
-            vertex = self.chance.choice(self.window.session.surface_in(panel).faces.ravel().tolist())
+            vertex = self.chance.choice(self.window.session.mesh(panel).surface.faces.ravel().tolist())
             choices.pass_through(panel, vertex)
         elif way == "none":
             choices.pass_through_none()
@@ -151,16 +157,16 @@ class RandomHands(InstrumentHands):
             choices.end_at(panel, self.chance.choice([None, (own or 1.0) * self.chance.uniform(0.2, 1.5)]))
         elif way == "taken":
             path = self.folder / "ends.json"
-            if not path.exists() and session.surface is not None:
+            if not path.exists() and session.loaded() is not None:
                 parts(self.window).session_file.save(str(path))
             choices.ends.take(str(path))
         else:
-            choices.range(way)
+            choices.set(RANGE, way)
 
     def colours(self) -> None:
         from app.scene.colour_maps import MAPS
 
-        choices, menu = parts(self.window).choices, self.window.menus.colours
+        choices = parts(self.window).choices
         way = self.chance.choice(["map", "map", "file", "reversed", "bands"])
         if way == "map":
             choices.colour_map(self.chance.choice(["", *MAPS]))
@@ -169,24 +175,27 @@ class RandomHands(InstrumentHands):
             path.write_text("0.1 0.1 0.4\n0.9 0.4 0.2\n1 1 0.8\n")
             choices.take_colours(str(path))
         else:
-            (menu.reversed if way == "reversed" else menu.bands).trigger()
+            self.window.actions_by_word["flip_scalars" if way == "reversed" else "bands"].trigger()
 
     def shading(self) -> None:
         from app.document.looks import NORMALS
 
         if self.chance.random() < 0.4:
-            self.window.actions_by_word["wireframe"].trigger()
+            self.window.actions_by_word["show_edges"].trigger()
         else:
-            parts(self.window).choices.shading(self.chance.choice(NORMALS))
+            parts(self.window).choices.set(SHADING, self.chance.choice(NORMALS))
 
     def camera(self) -> None:
         from bihdist_core.analysis.upright import DIRECTIONS
 
-        views, words = parts(self.window).views, ["orthographic", "axes", "turntable", "view source", "copy camera"]
+        views, words = (
+            parts(self.window).views,
+            ["parallel_projection", "axes", "turntable", "view source", "copy camera"],
+        )
         way = self.chance.choice([*words, "paste camera", "up", "up"])
         if way == "up":
-            if self.window.session.surface is not None:
-                views.stand(self.chance.choice(DIRECTIONS))
+            if self.window.session.loaded() is not None:
+                views.set_up_axis(self.chance.choice(DIRECTIONS))
         else:
             if way == "paste camera":  # of what was copied before, or no camera at all
                 self.window.actions_by_word["copy camera"].trigger()
@@ -211,12 +220,12 @@ class RandomHands(InstrumentHands):
         parts(self.window).choices.style(self.chance.choice(["paper", "uniform", "lines", "dark"]))
 
     def theme(self) -> None:
-        parts(self.window).choices.theme(self.chance.choice(["light", "dark", "desktop"]))
+        parts(self.window).choices.set(THEME, self.chance.choice(["light", "dark", "desktop"]))
 
     def edit_panels(self) -> None:
         from app.document.panel_edits import panel_edits
 
-        parts(self.window).choices.edit_panel(self.panel(), self.chance.choice([*panel_edits(), "Remove it"]))
+        parts(self.window).choices.edit_panel(self.panel(), self.chance.choice([*panel_edits(), "Remove panel"]))
 
     def undo(self) -> None:
         for _ in range(self.chance.randint(1, 4)):
@@ -241,11 +250,14 @@ class RandomHands(InstrumentHands):
         action(self)
         self.times[action.__name__] = self.times.get(action.__name__, 0) + time.monotonic() - begin
         self.spin(self.chance.choice([0, 0, 0.02, 0.1]))
+        if self.window.session.loaded() is None:  # a key has closed the mesh, and others have nothing to act on
+            self.window.session.undo()
+            self.until(lambda: self.window.session.loaded() is not None)
         self.widest = max(self.widest, self.window.width())
         self.rss.append(rss())
 
     def warm_up(self) -> None:
-        """What is made once and kept: as many panels as there can be, and the largest pictures."""
+        """What is made once and kept: as many panels as there can be, the largest pictures, and all looks."""
         from app.document.edits import MOST_ADDED
 
         session, size = self.window.session, self.window.size()
@@ -256,7 +268,7 @@ class RandomHands(InstrumentHands):
         self.until(lambda: session.is_complete)
         self.spin(0.1)
         while len(session.document.panels) > count:
-            parts(self.window).choices.edit_panel(session.document.panels[-1].id, "Remove it")
+            parts(self.window).choices.edit_panel(session.document.panels[-1].id, "Remove panel")
         for word in docked_tools():
             parts(self.window).docks.toggle(word)
             self.spin(0.2)
@@ -265,20 +277,65 @@ class RandomHands(InstrumentHands):
             parts(self.window).docks.close(word)
         self.window.resize(size)
         self.spin(0.1)
+        self.try_looks()
+
+    def try_distances(self) -> None:
+        """Each distance once, and back to the first: what is prepared for one stays with its mesh."""
+        session, choices = self.window.session, parts(self.window).choices
+        panel = session.document.panels[0]
+        for kind in offered_kinds():
+            choices.choose(panel.id, DistanceFrom(Spec.of(kind.word)))
+            self.until(lambda: session.is_complete)
+        choices.choose(panel.id, panel.shows)
+        self.until(lambda: session.is_complete)
+
+    def try_looks(self) -> None:
+        """Each look once, and back to the first: graphics drivers compile a program for each and keep it."""
+        choices, acts = parts(self.window).choices, self.window.actions_by_word
+        switches = (
+            acts["show_edges"],
+            acts["parallel_projection"],
+            acts["axes"],
+            acts["bands"],
+            acts["isoline_labels"],
+        )
+        for style in ("uniform", "lines", "dark", "paper"):
+            choices.style(style)
+            self._try_normals(switches)
+        scene, count = self.window.grid.panels[0].view.scene, len(self.window.session.mesh().surface.vertices)
+        for has_colours in (False, True):
+            if has_colours:
+                scene.field_actor.show_colours(np.full((count, 3), 0.5))
+            for selected in (np.zeros((count, 4), np.uint8), None):
+                scene.field_actor.show_selected(selected)
+                self._try_normals(switches[:1] * 2)
+        self.try_distances()  # instead of the colours
+
+    def _try_normals(self, switches: tuple) -> None:
+        """All ways to shade, with switches on and off."""
+        from app.document.looks import NORMALS
+
+        for normals in reversed(NORMALS):  # the first is how it is at the beginning
+            parts(self.window).choices.set(SHADING, normals)
+            for switch in switches:  # an even number of times in all
+                switch.trigger()
+                self.spin()
+                self.until(lambda: not any(panel.view.is_stale for panel in self.window.grid.panels))
 
 
 def main() -> None:
     seed, count, folder = int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3])
-    from app.qt.start import share_arenas
+    from app.qt.start import set_up_allocation
 
     begin = time.monotonic()
-    share_arenas()
+    set_up_allocation()
     hands = RandomHands(seed, folder)
     found_there = []
     try:
         for path in (*hands.meshes[1:], hands.meshes[0]):  # what is kept of each is there from the beginning
             hands.window.context.open(path)
             hands.until(lambda: not hands.window.session.is_opening and hands.window.session.is_complete)
+            hands.try_distances()
         hands.warm_up()
         for _ in range(count):
             hands.act()

@@ -17,7 +17,8 @@ from pathlib import Path
 import numpy as np
 
 from app.document.quantities import DistanceFrom, quantity
-from app.qt.start import share_arenas
+from app.document.settings import THEME
+from app.qt.start import set_up_allocation
 from app.session.questions import source_at, vertex_at
 from bihdist_core import Laplacian, Surface, write_mesh
 from bihdist_core.distances.answers import Distances
@@ -69,7 +70,7 @@ class MomentHands(Hands):
         self.window.context.open(self.chance.choice(self.large))
 
     def read_beside(self) -> None:
-        self.window.session.open_beside(self.chance.choice(self.large))
+        self.window.session.open_second_mesh(self.chance.choice(self.large))
 
     def repair(self) -> None:
         """A cut, and sometimes the way back of it."""
@@ -80,7 +81,7 @@ class MomentHands(Hands):
         if session.document.mesh(shown.surface).repairs.cut:
             parts(self.window).repairs.put_back()
             return
-        mask = np.ones(len(session.surface_in(shown.id).vertices), int)
+        mask = np.ones(len(session.mesh(shown.id).surface.vertices), int)
         mask[: self.chance.randrange(1, len(mask) // 3)] = 0
         path = self.folder / f"mask {self.chance.randrange(10)}.npy"
         np.save(path, mask)
@@ -99,18 +100,19 @@ class MomentHands(Hands):
         parts(self.window).choices.choose(self.panel(), quantity(self.chance.choice(LONG)))
 
     def paint(self) -> None:
-        choices, surface = parts(self.window).choices, self.window.session.first_surface
+        choices, surface = parts(self.window).choices, self.window.session.mesh().surface
         way = self.chance.choice(["style", "theme", "size", "through", "shading"])
         if way == "style":
             choices.style(self.chance.choice(["paper", "uniform", "lines", "dark"]))
         elif way == "theme":
-            choices.theme(self.chance.choice(["light", "dark"]))
+            choices.set(THEME, self.chance.choice(["light", "dark"]))
         elif way == "size":
             self.window.resize(self.chance.randint(640, 1500), self.chance.randint(480, 950))
         elif way == "through":
-            choices.isoline.pass_through(self.panel(), self.chance.choice(surface.faces.ravel().tolist()))
+            corners = surface.faces.ravel().tolist()
+            parts(self.window).isolines.pass_through(self.panel(), self.chance.choice(corners))
         else:
-            self.window.actions_by_word["wireframe"].trigger()
+            self.window.actions_by_word["show_edges"].trigger()
 
     BEGINNINGS = (read, read, read_beside, repair, set_up, solve, choose_long, choose_long, paint)
 
@@ -133,8 +135,8 @@ class MomentHands(Hands):
         QtTest.QTest.mouseClick(panel.view, QtCore.Qt.MouseButton.LeftButton, pos=at)
         document = session.document
         names = document.panel(panel.id).shows.points
-        known = vertex_at(document.point(names[0]).at, session.surface_in(panel.id)) if names else hit.vertex
-        corners = session.surface_in(panel.id).faces
+        known = vertex_at(document.point(names[0]).at, session.mesh(panel.id).surface) if names else hit.vertex
+        corners = session.mesh(panel.id).surface.faces
         if known != hit.vertex and not (np.isin(corners, [known, hit.vertex]).sum(axis=1) == 2).any():
             shown = session.document.panel(panel.id)
             self.faults.append(f"a click at vertex {hit.vertex}, {at} puts the source of {shown} at {known}: {hit}")
@@ -147,7 +149,7 @@ class MomentHands(Hands):
             self.window.actions_by_word[self.chance.choice(["undo", "undo", "redo"])].trigger()
 
     def edit_panels(self) -> None:
-        words = ["Duplicate this panel", "Remove it", "Move it on"]
+        words = ["Duplicate panel", "Remove panel", "Move panel right"]
         count = len(self.window.session.document.panels)
         parts(self.window).choices.edit_panel(self.panel(), self.chance.choice(words[count >= MOST_PANELS :]))
 
@@ -217,19 +219,19 @@ class MomentHands(Hands):
         session, choices = self.window.session, parts(self.window).choices
         self.until(lambda: not session.is_opening, PATIENCE)
         for id in [panel.id for panel in session.document.panels][MOST_PANELS:]:
-            choices.edit_panel(id, "Remove it")
+            choices.edit_panel(id, "Remove panel")
         for panel in session.document.panels:
             if str(panel.shows) not in SHORT:
                 choices.choose(panel.id, quantity(self.chance.choice(SHORT)))
         self.spin(0.02)
-        if session.surface is not None:
+        if session.loaded() is not None:
             self.click()
         if not self.until(lambda: session.is_complete and not session.progress, PATIENCE):
             self.faults.append(f"never complete: {session.progress}, {session.document.surfaces}")
             return
         document = session.document
         for panel in document.panels:
-            shown, surface = session.shown[panel.id].answer, session.surface_in(panel.id)
+            shown, surface = session.shown[panel.id].answer, session.mesh(panel.id).surface
             if not isinstance(panel.shows, DistanceFrom):
                 continue
             source = source_at(document.point(panel.shows.point).at, surface)
@@ -278,7 +280,7 @@ def _large_meshes(folder: Path, size: int) -> list[str]:
 
 def main() -> None:
     seed, count, size, folder = *map(int, sys.argv[1:4]), Path(sys.argv[4])
-    share_arenas()
+    set_up_allocation()
     hands = MomentHands(seed, folder, size)
     hands.open()
     hands.until(lambda: hands.window.session.is_complete, PATIENCE)

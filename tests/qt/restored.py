@@ -20,7 +20,7 @@ def main() -> None:
     window.resize(*wanted)
     hands.spin(0.2)
     parts(window).session_file.open(session)
-    hands.until(lambda: window.session.surface is not None and not window.session.is_opening)
+    hands.until(lambda: window.session.loaded() is not None and not window.session.is_opening)
     rested(hands)
     window.grab().save(picture)
     shown = [written(window)]

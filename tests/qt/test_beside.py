@@ -1,28 +1,28 @@
 """Two meshes in one window: panels of each, a camera for each, linked or not; closing the second again."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from qtpy import QtCore, QtTest
 
-from app.document.beside_edits import open_beside
 from app.document.document import MeshFile
-from app.document.file import read_recipe
+from app.document.file import read_recipe, recipe_text
+from app.document.second_mesh_edits import open_second_mesh
 from app.document.shared_parts.pins import Pins
 from app.document.tools import docked_tools
 from app.scene.camera import frame
 from bihdist_core import Surface
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
+from tests.conftest import write_off
 from tests.qt.parts import parts
 from tests.shapes import bumpy, grid
 
 ONE = (Spec.of("geodesic", method="dijkstra"),)
 
 
-@pytest.fixture(autouse=True)
-def own_folder(tmp_path, monkeypatch):
-    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+pytestmark = pytest.mark.usefixtures("own_folder")
 
 
 def turned_and_larger(surface):
@@ -31,22 +31,21 @@ def turned_and_larger(surface):
 
 
 @pytest.fixture
-def two(screen, mesh_file):
+def two(shared_screen):
     """A bumpy ball, and beside it the same one larger, turned and elsewhere."""
-    s, ball = screen(ONE), bumpy(300)
-    s.open(mesh_file(ball, "first.off"), 7)
-    beside(s, mesh_file(turned_and_larger(ball), "second.off"))
+    s = shared_screen(specs=ONE, source=7)
+    beside(s, write_off(turned_and_larger(bumpy(300)), Path(s.path).with_name("second.off")))
     return s
 
 
 def beside(s, path):
-    s.session.open_beside(str(path))
+    s.session.open_second_mesh(str(path))
     s.until(lambda: len(s.document.surfaces) == 2 and s.session.is_complete and not s.session.is_opening)
     s.settle(0.1)
 
 
 def seen(s):
-    return [eye.seen for eye in s.window.grid.eyes]
+    return [eye.seen for eye in s.window.grid.camera_controllers]
 
 
 def click(s, number, vertex, modifier=QtCore.Qt.KeyboardModifier.NoModifier):
@@ -68,8 +67,8 @@ def test_a_second_mesh_has_panels_a_letter_and_a_source_of_its_own(two):
     s = two
     assert [panel.surface for panel in s.document.panels] == ["A", "B"]
     assert [panel.head.letter for panel in s.panels] == ["A", "B"]
-    assert s.session.surface.name == "first.off"
-    s.until(lambda: s.window.windowTitle().startswith("first.off, second.off"))
+    assert s.session.mesh().surface.name == "mesh.off"
+    s.until(lambda: s.window.windowTitle().startswith("mesh.off, second.off"))
     assert s.window.status.counts.text == "A  300 vertices   B  300 vertices"
     # Two poses of one shape: the source is the same place of it.
     assert [s.document.point(name).at for name in ("source", "source 2")] == [7, 7]
@@ -145,13 +144,13 @@ def test_the_second_mesh_can_be_closed_undone_and_replaced(two, mesh_file):
 def test_a_session_of_two_meshes_is_opened_again_and_drawn(two, screen, tmp_path):
     from app.main import main
 
-    s, path = two, tmp_path / "s.json"
+    s, path = two, Path(two.path).with_name("s.json")
     s.window.actions_by_word["link"].trigger()
     s.panels[1].view.turn_by(1, 1)
     parts(s.window).session_file.save(str(path))
     recipe = read_recipe(str(path))
-    assert recipe.document.beside == s.document.beside
-    assert recipe.document.beside[0].camera != "home"
+    assert recipe.document.second_views == s.document.second_views
+    assert recipe.document.second_views[0].camera != "home"
     other = screen(ONE)
     parts(other.window).session_file.open(str(path))
     other.until(lambda: other.session.is_complete and len(other.document.surfaces) == 2)
@@ -162,7 +161,6 @@ def test_a_session_of_two_meshes_is_opened_again_and_drawn(two, screen, tmp_path
 
 
 def test_three_meshes_are_refused_in_a_sentence(two, tmp_path):
-    from app.document.file import recipe_text
     from app.document.page import Recipe
 
     s = two
@@ -172,10 +170,9 @@ def test_three_meshes_are_refused_in_a_sentence(two, tmp_path):
     assert "up to 2 meshes" in s.refusals[-1]
 
 
-def test_all_docks_live_with_a_second_mesh_of_another_size(screen, mesh_file):
-    s = screen(ONE)
-    s.open(mesh_file(bumpy(300), "first.off"), 7)
-    s.session.show(open_beside(s.document, MeshFile("", str(mesh_file(bumpy(500), "second.off")))))
+def test_all_docks_live_with_a_second_mesh_of_another_size(shared_screen, mesh_file):
+    s = shared_screen(specs=ONE, source=7)
+    s.session.show(open_second_mesh(s.document, MeshFile("", str(mesh_file(bumpy(500), "second.off")))))
     s.until(lambda: len(s.document.surfaces) == 2 and s.session.is_complete)
     for word in docked_tools():
         parts(s.window).docks.toggle(word)

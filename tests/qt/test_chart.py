@@ -10,7 +10,8 @@ pytest.importorskip("qtpy.QtWidgets")
 
 @pytest.fixture
 def chart(application):
-    from app.qt.docks.chart import Axis, Chart
+    from app.drawing.chart import Axis
+    from app.qt.docks.chart import Chart
 
     made = Chart("Chart of a test")
     made.resize(600, 240)

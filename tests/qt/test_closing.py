@@ -1,9 +1,11 @@
 """Closing the window: what would be lost is asked about and seen in the title; after a crash it is offered again."""
 
 import json
+import os
 import subprocess
 import sys
 from dataclasses import replace
+from datetime import datetime
 from pathlib import Path
 
 import numpy as np
@@ -15,22 +17,20 @@ from app.document.file import read_recipe, recipe_text
 from app.document.page import Recipe
 from app.document.shared_parts.pins import add_pins
 from app.document.shared_parts.selections import select
+from app.qt import remembered
+from app.qt.files.session_actions import SessionFile, offer_lost_state
 from app.tools.correspondence.pairs import place_point
 from app.tools.interpolation.part import add_anchor
-from app.tools.robustness.comparison import change_mesh
+from app.tools.robustness.perturbed_documents import perturb_mesh
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.sources.source import Curve, SurfacePoint
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
-pytest.importorskip("qtpy")
 ROOT = Path(__file__).resolve().parents[2]
 
 
-@pytest.fixture(autouse=True)
-def own_folder(tmp_path, monkeypatch):
-    """Nothing of the user's is read or written."""
-    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+pytestmark = pytest.mark.usefixtures("own_folder")
 
 
 class Asked(list):
@@ -50,8 +50,20 @@ WORK = {
     "anchors": lambda document: add_anchor(document, 7, 1.0)[0],
     "selections": lambda document: select(document, "ear", np.arange(9)),
     "drawn sources": lambda document: move_source(document, 0, curve()),
-    "changes to the mesh": lambda document: change_mesh(document, Perturbation(noise=0.1)),
+    "changes to the mesh": lambda document: perturb_mesh(document, Perturbation(noise=0.1)),
 }
+
+
+def question(window):
+    """The one that is open."""
+    from app.qt.pages.messages import Question
+
+    return next(box for box in window.findChildren(Question) if box.isVisible())
+
+
+def answer(window, words):
+    """Press a button of the question that is open, by its words."""
+    question(window).words[words].click()
 
 
 def curve():
@@ -121,7 +133,7 @@ def test_the_window_is_gone_before_its_threads_have_ended(screen, mesh_file, mon
 def test_pairs_are_asked_about(screen, mesh_file):
     s, asked = screen(), Asked()
     s.open(mesh_file(bumpy(120)), 5)
-    s.session.open_beside(mesh_file(bumpy(120), "other.off"))
+    s.session.open_second_mesh(mesh_file(bumpy(120), "other.off"))
     s.until(lambda: s.session.is_complete and len(s.document.surfaces) == 2)
     s.session.show(place_point(s.document, "A", 7))
     assert not parts(s.window).session_file.may_close(asked.answering("cancel"))
@@ -155,11 +167,6 @@ def test_closing_asks_where_a_session_has_changed_since_it_was_saved(screen, mes
 
 @pytest.mark.parametrize("was_saved", [False, True])
 def test_what_is_shown_again_after_a_crash_is_unsaved(screen, mesh_file, tmp_path, was_saved):
-    from qtpy.QtWidgets import QMessageBox
-
-    from app.qt import remembered
-    from app.qt.files.session_actions import offer_lost_state
-
     s, saved = screen(), tmp_path / "s.json"
     s.window.context.remembers = True
     s.open(mesh_file(bumpy(300)), 5)
@@ -190,8 +197,7 @@ def test_what_is_shown_again_after_a_crash_is_unsaved(screen, mesh_file, tmp_pat
     other, asked = screen(), Asked()
     other.window.context.remembers = True
     offer_lost_state(other.window.context)
-    box = other.window.findChild(QMessageBox)
-    box.button(QMessageBox.StandardButton.Yes).click()
+    answer(other.window, "Restore")
     other.until(lambda: other.session.is_complete)
     assert other.document == s.document
     # It is kept by the other window from now on.
@@ -200,7 +206,7 @@ def test_what_is_shown_again_after_a_crash_is_unsaved(screen, mesh_file, tmp_pat
     name = "s.json[*] - mesh.off" if was_saved else "mesh.off[*]"
     other.until(lambda: title(other.window) == (f"{name} - Biharmonic distance", True))
     assert not file.may_close(asked.answering("cancel"))
-    lost = "The session s.json has unsaved changes." if was_saved else "What was recovered has not been saved."
+    lost = "The session s.json has unsaved changes." if was_saved else "The recovered session is not saved."
     assert asked == [lost]
     file.save(None if was_saved else str(saved))
     assert read_recipe(saved).document.sources == (9,)
@@ -212,8 +218,6 @@ def test_what_is_shown_again_after_a_crash_is_unsaved(screen, mesh_file, tmp_pat
 
 
 def test_only_what_a_crash_would_lose_is_kept(screen, mesh_file, tmp_path):
-    from app.qt import remembered
-
     s = screen()
     s.window.context.remembers = True
     file = parts(s.window).session_file
@@ -236,14 +240,10 @@ def test_only_what_a_crash_would_lose_is_kept(screen, mesh_file, tmp_path):
     assert is_kept() == (True, True, True)
     file.open(str(tmp_path / "s.json"))
     s.until(lambda: s.document.sources == (7,))
-    assert is_kept() == (False, False, False)
+    assert is_kept() == (False, True, True)  # the change that only undo leads back to
 
 
 def test_what_is_shown_again_stays_where_it_was_kept_if_it_cannot_be_kept_anew(screen, mesh_file, monkeypatch):
-    from qtpy.QtWidgets import QMessageBox
-
-    from app.qt import remembered
-    from app.qt.files.session_actions import SessionFile, offer_lost_state
     from bihdist_core import OutputError
 
     def write(*_, **__):
@@ -256,26 +256,52 @@ def test_what_is_shown_again_stays_where_it_was_kept_if_it_cannot_be_kept_anew(s
     lost.write_text(recipe_text(Recipe(comparison(mesh_file(bumpy(60)))), "9"))
     monkeypatch.setattr(SessionFile, "_write", write)
     offer_lost_state(s.window.context)
-    s.window.findChild(QMessageBox).button(QMessageBox.StandardButton.Yes).click()
+    answer(s.window, "Restore")
     s.until(lambda: s.session.is_complete)
     assert remembered.lost_states() == [lost]
 
 
 def test_what_cannot_be_shown_again_is_offered_the_next_time(screen, mesh_file):
-    from qtpy.QtWidgets import QMessageBox
-
-    from app.qt import remembered
-    from app.qt.files.session_actions import offer_lost_state
-
     s = screen()
     remembered.folder().mkdir(parents=True)
     lost = remembered.folder() / "open-999999.json"
     lost.write_text(recipe_text(Recipe(comparison(str(lost.parent / "gone.off"))), "9"))
     offer_lost_state(s.window.context)
-    s.window.findChild(QMessageBox).button(QMessageBox.StandardButton.Yes).click()
-    assert "gone.off is not there" in s.refusals[-1]
+    answer(s.window, "Restore")
+    assert "gone.off was not found" in s.refusals[-1]
     assert remembered.lost_states() == [lost]
     s.settle(0.05)
     offer_lost_state(s.window.context)
-    s.window.findChild(QMessageBox).button(QMessageBox.StandardButton.No).click()
+    answer(s.window, "Start fresh")
     assert remembered.lost_states() == []
+
+
+def test_what_can_be_restored_is_named_and_esc_does_not_throw_it_away(screen, mesh_file, tmp_path):
+    from qtpy import QtCore, QtTest
+
+    s = screen()
+    remembered.folder().mkdir(parents=True)
+    lost = remembered.folder() / "open-999999.json"
+    lost.write_text(recipe_text(Recipe(comparison(mesh_file(bumpy(60), "cat.off"))), "9"))
+    now = datetime.now().replace(hour=14, minute=2)
+    os.utime(lost, (now.timestamp(), now.timestamp()))
+    lost.with_suffix(remembered.SESSION).write_text(str(tmp_path / "cats.json"))
+    offer_lost_state(s.window.context)
+    box = question(s.window)
+    assert box.text() == (
+        "bihdist closed unexpectedly. Restore the last session?\n\ncats.json (cat.off), today at 14:02"
+    )
+    QtTest.QTest.keyClick(box, QtCore.Qt.Key.Key_Escape)
+    s.settle(0.05)
+    assert lost.exists()
+    answer(s.window, "Start fresh")
+    assert not lost.exists()
+    s.settle(0.05)
+    old = remembered.folder() / "open-999998.json"
+    old.write_text("{}")
+    then = now.replace(year=2020, month=3, day=5)
+    os.utime(old, (then.timestamp(), then.timestamp()))
+    offer_lost_state(s.window.context)
+    box = question(s.window)
+    assert box.text().endswith("\n\n5 March 2020 at 14:02")
+    answer(s.window, "Start fresh")

@@ -5,33 +5,26 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
-pytest.importorskip("qtpy")
 from qtpy import QtCore
 
-from app.document.document import comparison
 from app.document.looks import Colours
 from app.document.page import Recipe
 from app.document.quantities import quantity
+from app.document.settings import BANDS, RANGE
 from app.scene.colour_maps import MAPS
 from app.scene.style import STYLES
 from app.session.array_store import ArrayStore
 from app.session.recipe_file import recipe_written
 from tests.qt.events import send_mouse
 from tests.qt.parts import parts
-from tests.shapes import bumpy
 
 WORDS = ("biharmonic", "geodesic")
 
 
 @pytest.fixture
-def shown(screen, mesh_file):
+def shown(shared_screen):
     """A window in which two fields of a small surface have been computed."""
-    s = screen()
-    s.window.show_document(comparison(mesh_file(bumpy(300)), tuple(quantity(word) for word in WORDS)))
-    s.until(lambda: s.session.is_complete)
-    s.settle()
-    return s
+    return shared_screen(specs=tuple(quantity(word) for word in WORDS), source=None)
 
 
 def test_nothing_is_chosen_without_a_mesh(screen, shown):
@@ -60,8 +53,8 @@ def test_a_map_is_chosen_shown_and_undone(shown):
     assert shown.panels[0].view.scene.style.stops == MAPS["ember"].stops
     assert not are_equal(before, pixels(shown))
     assert "Ember" in shown.window.tool_bar.buttons["colours"].accessibleDescription()
-    shown.window.menus.colours.bands.trigger()
-    shown.window.menus.colours.reversed.trigger()
+    shown.window.actions_by_word["bands"].trigger()
+    shown.window.actions_by_word["flip_scalars"].trigger()
     shown.settle()
     assert shown.document.colours == Colours("ember", (), True, True)
     assert shown.window.tool_bar.buttons["colours"].accessibleDescription() == "Ember, reversed, bands"
@@ -70,7 +63,7 @@ def test_a_map_is_chosen_shown_and_undone(shown):
     shown.settle()
     assert shown.document.colours == Colours()
     assert are_equal(before, pixels(shown))
-    assert not shown.window.menus.colours.bands.isChecked()
+    assert not shown.window.actions_by_word["bands"].isChecked()
 
 
 def test_the_map_of_the_style_is_reversed_and_put_back(shown):
@@ -78,10 +71,10 @@ def test_the_map_of_the_style_is_reversed_and_put_back(shown):
     menu.show_choice("paper", Colours(reversed=True))  # what is raised in a slot no test would see
     menu.show_choice("paper", Colours())
     for colours in (Colours(reversed=True), Colours()):
-        menu.reversed.trigger()
+        shown.window.actions_by_word["flip_scalars"].trigger()
         shown.settle()
         assert shown.document.colours == colours
-        assert menu.reversed.isChecked() == colours.reversed
+        assert shown.window.actions_by_word["flip_scalars"].isChecked() == colours.reversed
         assert are_equal(before, pixels(shown)) != colours.reversed
 
 
@@ -96,13 +89,13 @@ def test_styles_and_maps_have_names_of_their_own_and_lines_have_no_map(shown):
     choose(shown, ("map", "safe"))
     choose(shown, "dark")
     assert shown.document.colours == Colours("safe")
-    assert ticked(shown) == ["Dark ground", "Safe"]
+    assert ticked(shown) == ["Dark ground in figures", "Safe"]
     choose(shown, ("map", "paper"))
     assert shown.document.colours == Colours()
     choose(shown, ("map", "uniform"))
     assert shown.panels[0].view.scene.style.stops == STYLES["uniform"].stops
     choose(shown, "lines")
-    assert not any(action.isEnabled() for action in (menu.bands, menu.reversed))
+    assert not any(shown.window.actions_by_word[word].isEnabled() for word in ("bands", "flip_scalars"))
     assert menu.isEnabled()
     assert shown.window.tool_bar.buttons["colours"].accessibleDescription() == "Lines only"
     assert ticked(shown) == ["Lines only", "Uniform"]
@@ -112,27 +105,27 @@ def test_the_style_that_is_a_map_of_another_is_shown_as_that_map(shown):
     shown.window.context.page = replace(shown.window.context.page, style="uniform")
     shown.window.context.style_changed.emit()
     shown.window.context.choice_changed.emit()
-    assert ticked(shown) == ["White ground", "Uniform"]
+    assert ticked(shown) == ["White ground in figures", "Uniform"]
     assert shown.window.tool_bar.buttons["colours"].accessibleDescription() == "Uniform"
     choose(shown, "dark")
     assert (shown.window.context.page.style, shown.document.colours) == ("dark", Colours("uniform"))
-    assert ticked(shown) == ["Dark ground", "Uniform"]
+    assert ticked(shown) == ["Dark ground in figures", "Uniform"]
 
 
 def test_bands_are_on_the_bar_where_the_isolines_are(shown):
-    parts(shown.window).choices.isolines(6)
-    parts(shown.window).choices.band_colours(True)
+    parts(shown.window).isolines.steps(6)
+    parts(shown.window).choices.set(BANDS, True)
     shown.settle()
     bar = shown.panels[0].bar
     picture, box = bar.grab().toImage(), bar._layout.bar
-    y = round(box.center().y())
+    y = round(box.middle[1])
     scene = shown.panels[0].view.scene
-    edges = scene.isolines / scene.maximum
+    edges = scene.field_actor.levels.values / scene.field_actor.maximum
     assert len(edges) >= 3
     ends = [0.0, *edges, 1.0]
     for colour, start, end in zip(scene.style.band_colours(edges), ends[:-1], ends[1:], strict=True):
         for share in (0.1, 0.5, 0.9):
-            seen = picture.pixelColor(round(box.left() + (start + share * (end - start)) * box.width()), y)
+            seen = picture.pixelColor(round(box.x + (start + share * (end - start)) * box.width), y)
             assert np.abs(255 * colour - seen.getRgb()[:3]).max() <= 2
 
 
@@ -174,31 +167,31 @@ def test_an_end_is_typed_at_the_bar(shown):
     assert not box.isVisible()
     end = shown.document.panels[0].maximum
     assert end == pytest.approx(own / 2, rel=1e-5)
-    assert panel.view.scene.maximum == end
-    assert bar_of(shown)._beyond == (False, True)
+    assert panel.view.scene.field_actor.maximum == end
+    assert bar_of(shown)._colours.goes_beyond == (False, True)
     assert shown.document.panels[1].maximum is None
     assert shown.window.tool_bar.buttons["range"].accessibleDescription() == "Typed"
     assert [action.text() for action in shown.window.menus.range.actions() if action.isChecked()] == [
-        "This panel ends at…"
+        "End of this colour bar…"
     ]
     panel.ask_end()
     box.own.click()
     shown.settle()
     assert shown.document.panels[0].maximum is None
-    assert bar_of(shown)._beyond == (False, False)
+    assert bar_of(shown)._colours.goes_beyond == (False, False)
 
 
 def test_shares_are_read_on_the_bar_and_colour_as_before(shown):
-    parts(shown.window).choices.isolines(0)  # those of shares are at round percentages
+    parts(shown.window).isolines.steps(0)  # those of shares are at round percentages
     shown.settle()
     before = pixels(shown)
     parts(shown.window).choices.end_at(1, 0.2)
-    parts(shown.window).choices.range("shares")
+    parts(shown.window).choices.set(RANGE, "fraction")
     shown.settle()
     assert ticks(shown)[0] == "0 %"
     assert ticks(shown)[-1].endswith("100 %")
     assert are_equal(before, pixels(shown))
-    parts(shown.window).choices.range("own")
+    parts(shown.window).choices.set(RANGE, "own")
     shown.settle()
     assert shown.document.panels[1].maximum is None
     assert not any("%" in tick for tick in ticks(shown))
@@ -242,3 +235,38 @@ def test_ends_that_cannot_be_taken_are_refused_and_those_in_the_making_cancelled
     ends.take(str(path))
     shown.until(lambda: shown.document.panels[0].maximum is not None)
     assert len(shown.refusals) == 1
+
+
+def test_lines_only_are_light_on_dark_where_the_window_is(shown):
+    from app.qt.look.look import LOOK
+
+    before = LOOK.choice
+    try:
+        LOOK.choose("dark")
+        choose(shown, "lines")
+        shown.settle()
+        style, picture = shown.panels[0].view.scene.style, pixels(shown)
+        assert sum(style.isoline) > 2 > 0.5 > sum(style.stops[0][1])
+        # Of the surface there is no more than its lines.
+        assert np.median(picture) < 60
+        assert (np.asarray(picture) > 200).mean() < 0.2
+    finally:
+        LOOK.choose(before)
+
+
+def test_a_panel_that_waits_to_be_drawn_anew_shows_what_it_did(shown, monkeypatch):
+    view = shown.panels[1].view
+
+    def colours():
+        image = view.grab().toImage()
+        places = [(k * image.width() // 20, image.height() // 2) for k in range(20)]
+        return [image.pixelColor(*place).name() for place in places]
+
+    before = colours()
+    assert len(set(before)) > 3
+    monkeypatch.setattr(view, "_waits", lambda: True)
+    # It does not settle: this panel waits for ever.
+    next(action for action in shown.window.menus.colours.actions() if action.data() == "lines").trigger()
+    shown.until(lambda: not shown.panels[0].view.is_stale)
+    assert view.is_stale
+    assert colours() == before

@@ -10,7 +10,7 @@ from app.document.shared_parts.pins import Pins, add_pins
 from app.qt.files.mesh_repairs import MeshRepairs
 from app.qt.files.session_actions import SessionFile
 from bihdist_core import BiharmonicDistance
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.sources.source import Curve, SourceSet, SurfacePoint
 from tests.shapes import bumpy
 
@@ -20,17 +20,13 @@ KEEPS = BALL.vertices[:, 2] < 0.5
 LOW, HIGH = int(BALL.vertices[:, 2].argmin()), int(BALL.vertices[:, 2].argmax())
 
 
-@pytest.fixture(autouse=True)
-def own_folder(tmp_path, monkeypatch):
-    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+pytestmark = pytest.mark.usefixtures("own_folder")
 
 
 @pytest.fixture
-def s(screen, mesh_file, tmp_path):
-    s = screen(ONE)
-    s.open(mesh_file(BALL, "first.off"), LOW)
+def s(shared_screen, tmp_path):
     np.save(tmp_path / "mask.npy", KEEPS)
-    return s
+    return shared_screen(BALL, ONE, LOW)
 
 
 def cut(s, tmp_path, monkeypatch):
@@ -43,17 +39,17 @@ def cut(s, tmp_path, monkeypatch):
 def test_a_mask_cuts_and_what_it_cuts_comes_back(s, tmp_path, monkeypatch):
     cut(s, tmp_path, monkeypatch)
     expected = BALL.without(~KEEPS)
-    assert s.session.surface.n_faces == expected.n_faces
+    assert s.session.mesh().surface.n_faces == expected.n_faces
     np.testing.assert_allclose(s.answers[0].field, BiharmonicDistance(expected).from_source(LOW), rtol=1e-9)
     assert expected.repairs[0] in s.window.status.notes.sentences
     s.window.actions_by_word["undo"].trigger()
     s.until(lambda: not s.document.surfaces[0].repairs.cut and s.session.is_complete)
-    assert s.session.surface.n_faces == BALL.n_faces
+    assert s.session.mesh().surface.n_faces == BALL.n_faces
     s.window.actions_by_word["redo"].trigger()
     s.until(lambda: s.document.surfaces[0].repairs.cut and s.session.is_complete)
     s.window.actions_by_word["put back"].trigger()
     s.until(lambda: not s.document.surfaces[0].repairs.cut and s.session.is_complete)
-    assert s.session.surface.n_faces == BALL.n_faces
+    assert s.session.mesh().surface.n_faces == BALL.n_faces
     assert not s.window.actions_by_word["put back"].isEnabled()
 
 
@@ -72,7 +68,7 @@ def test_a_session_of_a_cut_mesh_opens_again(s, tmp_path, monkeypatch, screen):
     other = screen(ONE)
     other.window.context[SessionFile].open(path)
     other.until(lambda: other.session.is_complete and other.document.surfaces)
-    assert other.session.surface.n_faces == BALL.without(~KEEPS).n_faces
+    assert other.session.mesh().surface.n_faces == BALL.without(~KEEPS).n_faces
     np.testing.assert_array_equal(other.answers[0].field, s.answers[0].field)
 
 
@@ -82,7 +78,7 @@ def test_a_mask_that_does_not_fit_is_said(s, tmp_path, mask, said):
     s.window.context[MeshRepairs].cut(str(tmp_path / "other.npy"))
     s.until(lambda: s.refusals)
     assert said in s.refusals[-1]
-    assert s.session.surface.n_faces == BALL.n_faces
+    assert s.session.mesh().surface.n_faces == BALL.n_faces
 
 
 def test_another_mask_of_the_same_name_is_read(s, tmp_path, monkeypatch):
@@ -90,7 +86,7 @@ def test_another_mask_of_the_same_name_is_read(s, tmp_path, monkeypatch):
     np.save(tmp_path / "mask.npy", BALL.vertices[:, 2] < 0.2)
     s.window.context[MeshRepairs].cut(str(tmp_path / "mask.npy"))
     expected = BALL.without(BALL.vertices[:, 2] >= 0.2)
-    s.until(lambda: s.session.surface.n_faces == expected.n_faces and s.session.is_complete)
+    s.until(lambda: s.session.mesh().surface.n_faces == expected.n_faces and s.session.is_complete)
 
 
 def test_places_in_faces_and_pins_stay_or_go(s, tmp_path, monkeypatch):
@@ -103,14 +99,14 @@ def test_places_in_faces_and_pins_stay_or_go(s, tmp_path, monkeypatch):
     s.session.show(document)
     s.until(lambda: s.session.is_complete)
     cut(s, tmp_path, monkeypatch)
-    face = np.flatnonzero((s.session.surface.faces == BALL.faces[left]).all(axis=1))[0]
+    face = np.flatnonzero((s.session.mesh().surface.faces == BALL.faces[left]).all(axis=1))[0]
     assert [s.document.point(name).at for name in s.document[Pins].points] == [SurfacePoint(face, weights), LOW]
     low, drawn = s.source.members
     assert (low, [place.face for place in drawn.places]) == (LOW, [face, face])
 
 
 def test_of_two_meshes_the_one_is_cut_that_is_active(s, tmp_path, mesh_file):
-    s.session.open_beside(str(mesh_file(bumpy(300, seed=1), "second.off")))
+    s.session.open_second_mesh(str(mesh_file(bumpy(300, seed=1), "second.off")))
     s.until(lambda: len(s.document.surfaces) == 2 and s.session.is_complete and not s.session.is_opening)
     s.window.grid.activate(s.document.panels[1].id)
     s.window.context[MeshRepairs].cut(str(tmp_path / "mask.npy"))

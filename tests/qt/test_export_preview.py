@@ -6,24 +6,21 @@ import sys
 from dataclasses import replace
 
 import numpy as np
-import pytest
+from PIL import Image
 
-from app.document.document import Panel, Point, Zoom
+from app.document.document import Inset, Panel, Point
 from app.document.page import Page
 from app.document.quantities import DistanceFrom
+from app.qt.files.figure_actions import export_figure
 from app.tools.interpolation.part import Anchor, Anchors
 from bihdist_core import SurfacePoint
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from tests.qt.painting import pixels_of
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
-pytest.importorskip("qtpy")
-
 
 def shown_dialog(s, **page):
-    from app.qt.files.figure_actions import export_figure
-
     s.window.context.page = replace(s.window.context.page, **page)
     dialog = export_figure(s.window.context)
     s.until(lambda: dialog.pane.is_true)
@@ -40,11 +37,8 @@ def pasted():
     return QApplication.clipboard()
 
 
-def test_the_preview_is_the_figure_and_the_window_does_not_wait(screen, mesh_file, tmp_path):
-    from PIL import Image
-
-    s = screen()
-    s.open(mesh_file(bumpy(400)), 5)
+def test_the_preview_is_the_figure_and_the_window_does_not_wait(shared_screen, tmp_path):
+    s = shared_screen()
     dialog = shown_dialog(s, size="85mm")
     assert dialog.pane.caption.startswith("One column, 85 × ")
     first = colours_of(dialog.pane.image)
@@ -58,9 +52,8 @@ def test_the_preview_is_the_figure_and_the_window_does_not_wait(screen, mesh_fil
     assert np.abs(first - small).mean() < 6
 
 
-def test_each_change_is_seen_and_the_last_one_stays(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(400)), 5)
+def test_each_change_is_seen_and_the_last_one_stays(shared_screen):
+    s = shared_screen()
     dialog = shown_dialog(s)
     before = colours_of(dialog.pane.image)
     for width in range(300, 330):
@@ -68,7 +61,7 @@ def test_each_change_is_seen_and_the_last_one_stays(screen, mesh_file):
     dialog.style_box.setCurrentIndex(dialog.style_box.findData("dark"))
     assert not dialog.pane.is_true  # what is shown is dimmed until the new one is there
     s.until(lambda: dialog.pane.is_true)
-    assert dialog.pane.caption.startswith("Own size, 329 × 200 pixels")
+    assert dialog.pane.caption.startswith("Custom, 329 × 200 pixels")
     after = colours_of(dialog.pane.image)
     assert before[0, 0].tolist() == [255] * 3
     assert after[0, 0].max() < 40
@@ -85,11 +78,8 @@ def test_each_change_is_seen_and_the_last_one_stays(screen, mesh_file):
     dialog.close()
 
 
-def test_a_picture_that_comes_late_is_shown_dimmed_until_the_right_one_is_there(screen, mesh_file):
-    from app.qt.files.figure_actions import export_figure
-
-    s = screen()
-    s.open(mesh_file(bumpy(400)), 5)
+def test_a_picture_that_comes_late_is_shown_dimmed_until_the_right_one_is_there(shared_screen):
+    s = shared_screen()
     dialog = export_figure(s.window.context)
     s.until(lambda: dialog._number)
     s.until(lambda: not parts(s.window).exports.previews._asked)  # it is being drawn
@@ -98,13 +88,12 @@ def test_a_picture_that_comes_late_is_shown_dimmed_until_the_right_one_is_there(
     pane = dialog.pane
     assert (pane.is_true, pane.is_waiting, pane.caption) == (False, True, "")
     s.until(lambda: dialog.pane.is_true)
-    assert dialog.pane.caption.startswith("Own size, 500 × 300 pixels")
+    assert dialog.pane.caption.startswith("Custom, 500 × 300 pixels")
     dialog.close()
 
 
-def test_letters_too_small_to_read_are_said(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(400)), 5)
+def test_letters_too_small_to_read_are_said(shared_screen):
+    s = shared_screen()
     dialog = shown_dialog(s, size="178mm")
     assert not dialog.pane.is_warning
     dialog.size.write("200x100")
@@ -114,13 +103,30 @@ def test_letters_too_small_to_read_are_said(screen, mesh_file):
     dialog.close()
 
 
-def test_a_process_that_dies_is_said_and_the_next_change_starts_another(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(400)), 5)
+def test_one_column_is_cropped_and_has_one_bar_as_it_is_chosen(shared_screen):
+    s = shared_screen()
+    dialog = shown_dialog(s)
+    names = [dialog.size.rows.button(k).text() for k in range(5)]
+
+    def choose(name):
+        dialog.size.rows.button(names.index(name)).click()
+        recipe = dialog.chosen()
+        return recipe.page.size, recipe.page.crop, recipe.document.range
+
+    assert choose("One column") == ("column", True, "fraction")
+    s.until(lambda: "85 ×" in dialog.pane.caption)
+    assert not dialog.pane.is_warning
+    dialog.crop.click()
+    assert not dialog.chosen().page.crop
+    assert choose("Two columns") == ("double", False, "own")
+
+
+def test_a_process_that_dies_is_said_and_the_next_change_starts_another(shared_screen):
+    s = shared_screen()
     dialog = shown_dialog(s)
     parts(s.window).exports.previews._worker._child.process.kill()
     dialog.hints.click()
-    s.until(lambda: "ended without a word" in dialog.pane.caption)
+    s.until(lambda: "process ended unexpectedly" in dialog.pane.caption)
     assert not dialog.pane.is_true
     dialog.hints.click()
     s.until(lambda: dialog.pane.is_true)
@@ -141,11 +147,8 @@ def test_all_of_the_dialog_is_there_in_a_small_window(screen, mesh_file):
     dialog.close()
 
 
-def test_the_picture_on_the_clipboard_is_the_exported_one(screen, mesh_file, tmp_path):
-    from PIL import Image
-
-    s = screen()
-    s.open(mesh_file(bumpy(400)), 5)
+def test_the_picture_on_the_clipboard_is_the_exported_one(shared_screen, tmp_path):
+    s = shared_screen()
     s.window.context.page = replace(s.window.context.page, size="400x300")
     pasted().clear()
     s.window.actions_by_word["copy picture"].trigger()
@@ -159,7 +162,7 @@ def test_the_picture_on_the_clipboard_is_the_exported_one(screen, mesh_file, tmp
 
 
 def turned(s):
-    s.window.grid.eye.camera.Azimuth(40)
+    s.window.grid.camera_controller.camera.Azimuth(40)
     s.panels[0].view.moved.emit()
 
 
@@ -171,7 +174,9 @@ def other_panels(s):
 
 def marked(s):
     points = (Point("source", SurfacePoint(3, (0.2, 0.2, 0.6))), Point("a", 40))
-    document = replace(s.document, points=points, zooms=(Zoom(5, 2.5),)).with_part(Anchors(anchors=(Anchor("a", 0.1),)))
+    document = replace(s.document, points=points, insets=(Inset(5, 2.5),)).with_part(
+        Anchors(anchors=(Anchor("a", 0.1),))
+    )
     s.session.show(replace(document, panels=document.panels[:1]))
 
 
@@ -213,25 +218,24 @@ def copied(s, mesh_file, out, change, page):
     return out, command, python
 
 
-def test_what_no_line_can_say_is_kept_as_a_recipe(screen, mesh_file, tmp_path, monkeypatch):
+def test_what_no_line_can_say_is_kept_as_a_recipe(shared_screen, tmp_path, monkeypatch):
     from app.main import main
     from app.qt import remembered
 
     monkeypatch.setattr(remembered, "folder", lambda: tmp_path / "kept")
-    s = screen()
-    s.open(mesh_file(bumpy(400)), 5)
+    s = shared_screen()
     document = replace(s.document, points=(*s.document.points, Point("other", 40)))
     panels = (document.panels[0], replace(document.panels[1], shows=DistanceFrom(Spec.of("commute-time"), "other")))
     s.session.show(replace(document, panels=panels))
     s.until(lambda: s.session.is_complete)
     said = []
     s.window.context.tell = said.append
-    parts(s.window).files.copy("command")
+    s.window.context.actions["copy command"].trigger()
     words = shlex.split(pasted().text())
     assert words[:3] == ["bihdist", "figure", "--recipe"]
     assert "different points" in said[-1]
     out = tmp_path / "again.png"
     assert main([*words[1:4], "--size", "300x200", "-o", str(out)]) == 0
     assert out.exists()
-    parts(s.window).files.copy("python")
+    s.window.context.actions["copy python"].trigger()
     assert f"figure_again({words[3]!r})" in pasted().text()

@@ -13,7 +13,6 @@ from app.document.shared_parts.pins import add_pins
 from app.scene.colour_maps import MAPS
 from tests.web.test_export import scene_in
 
-pytest.importorskip("qtpy")
 pytestmark = pytest.mark.usefixtures("application")
 
 
@@ -67,7 +66,7 @@ def test_the_size_of_eigenpairs_is_said_before_a_page_is_written(small, out, pag
     _show(small, replace(document, panels=(replace(document.panels[0], shows=quantity("truncated(k=20)")),)))
     dialog = page_dialog()
     assert dialog.carried.isVisibleTo(dialog)
-    assert dialog.carried.text() == "20 eigenpairs in the file, some 10 kB"
+    assert dialog.carried.text() == "20 eigenpairs in the file, about 10 kB"
     dialog.export(str(out / "p.html"))
     small.until(lambda: small.said or small.refusals)
     assert (small.said, small.refusals) == (["Saved p.html"], [])
@@ -86,7 +85,7 @@ def test_what_a_page_cannot_show_is_said_in_its_dialog(small, out, page_dialog):
 
 
 def test_a_field_of_ones_own_goes_into_the_page(small, out, page_dialog):
-    values = small.session.surface.vertices[:, 0]
+    values = small.session.mesh().surface.vertices[:, 0]
     field = small.session.given.add_field("mine", values)
     document = small.session.document
     panels = (document.panels[0], Panel(1, quantity("biharmonic - mine", fields=["mine"])))

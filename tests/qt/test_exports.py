@@ -6,19 +6,21 @@ from functools import partial
 from itertools import pairwise
 
 import pytest
+from PIL import Image
+from qtpy import QtCore, QtTest, QtWidgets
 
 from app.document.document import comparison
 from app.document.page import Recipe
+from app.figures.movie import Movie, write_movie
+from app.qt.files.exports import ExportBadge, Exports
+from app.qt.files.figure_actions import export_figure, export_movie
 from bihdist_core import OutputError
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 
-pytest.importorskip("qtpy")
 pytestmark = pytest.mark.usefixtures("application")
 
 
 def movie_dialog(small, frames, size="300x120"):
-    from app.qt.files.figure_actions import export_movie
-
     dialog = export_movie(small.context)
     dialog.frames.setValue(frames)
     dialog.size.write(size)
@@ -26,11 +28,6 @@ def movie_dialog(small, frames, size="300x120"):
 
 
 def test_a_figure_is_drawn_while_the_window_answers(small, out):
-    from PIL import Image
-    from qtpy import QtCore
-
-    from app.qt.files.figure_actions import export_figure
-
     dialog = export_figure(small.context)
     dialog.size.write("400x300")
     beats = []
@@ -41,7 +38,7 @@ def test_a_figure_is_drawn_while_the_window_answers(small, out):
     assert not dialog.isVisible()
     assert not small.chip.isHidden()
     small.until(lambda: small.said)
-    assert small.said == ["Saved f.png"]
+    assert small.said == ["Saved f.png, and beside it its recipe f.json"]
     assert sum(bool(running) for running in beats) > 5
     assert small.chip.isHidden()
     assert sorted(os.listdir(out)) == ["f.json", "f.png"]
@@ -50,8 +47,6 @@ def test_a_figure_is_drawn_while_the_window_answers(small, out):
 
 
 def test_a_movie_says_how_far_it_is(small, out):
-    from PIL import Image
-
     told, tips = [], []
     small.exports.changed.connect(lambda: told.extend((e.fraction, e.words) for e in small.exports.running))
     small.exports.changed.connect(lambda: tips.append((small.chip.share.text(), small.chip.share.toolTip())))
@@ -66,8 +61,6 @@ def test_a_movie_says_how_far_it_is(small, out):
 
 
 def test_a_movie_s_fractions_go_evenly_with_its_frames(small, out):
-    from app.figures.movie import Movie, write_movie
-
     recipe = Recipe(small.session.document, replace(small.context.page, size="120x100"))
     told = {}
 
@@ -87,7 +80,7 @@ def test_what_is_cancelled_leaves_nothing(small, out):
     movie_dialog(small, 2000).export(str(out / "long.gif"))
     small.until(lambda: small.exports.running[0].words.startswith("frame"))
     small.chip.stop.click()
-    assert small.chip.share.text() == "Movie, stopping…"
+    assert small.chip.share.text() == "Movie, cancelling…"
     assert not small.chip.stop.isEnabled()
     small.until(lambda: not small.exports.running)
     assert os.listdir(out) == []
@@ -109,10 +102,6 @@ def test_closing_cancels_and_waits(small, out):
 
 
 def test_a_drawing_may_outlive_its_window(small, out, monkeypatch):
-    from qtpy import QtTest
-
-    from app.qt.files.exports import Exports
-
     monkeypatch.setattr("app.qt.files.exports.PATIENCE", 0.0)
     movie_dialog(small, 2000).export(str(out / "long.gif"))
     (export,) = small.exports.running
@@ -133,7 +122,7 @@ def test_one_file_is_not_drawn_twice_at_once(small, out):
     dialog = movie_dialog(small, 2)
     dialog.export(str(out / ".." / "out" / "m.gif"))
     assert dialog.isVisible()
-    assert dialog.refusal.text() == "m.gif is being drawn already; wait for it, cancel it, or choose another name."
+    assert dialog.refusal.text() == "m.gif is already being drawn; wait for it, cancel it, or choose another name."
     assert len(small.exports.running) == 1
     dialog.export(str(out / "other.gif"))
     assert not dialog.isVisible()
@@ -177,13 +166,10 @@ def test_the_chip_stays_within_a_narrow_window(small, out):
 
 
 def test_the_chip_grows_with_the_letters_and_ends_with_its_window(small, out):
-    from qtpy import QtTest
-
-    from app.qt.files.exports import ExportChip
     from app.qt.look.look import LOOK
 
     movie_dialog(small, 2000).export(str(out / "m.gif"))
-    other = ExportChip(small.exports)
+    other = ExportBadge(small.exports)
     before = other.share.sizeHint().width()
     try:
         LOOK.enlarge(1.35)
@@ -197,8 +183,6 @@ def test_the_chip_grows_with_the_letters_and_ends_with_its_window(small, out):
 
 
 def test_a_work_that_fails_says_why(small, out):
-    from app.figures.movie import Movie, write_movie
-
     failures = []
     small.exports.failed.connect(failures.append)
     recipe = Recipe(comparison(str(out / "none.off"), (Spec.of("biharmonic"),), (0,)))
@@ -222,7 +206,7 @@ def test_where_no_process_starts_it_is_said(small, out, monkeypatch):
 def test_a_wrong_box_is_marked_and_says_why_under_it(small, out):
     dialog = movie_dialog(small, 2, size="wide")
     dialog.choose_path()
-    sentence = dialog._sentences[dialog.size.width_box]
+    sentence = dialog.form.errors[dialog.size.width_box]
     assert "'wide' is not a number of pixels" in sentence.text()
     assert sentence.isVisible()
     assert dialog.size.width_box.property("wrong")
@@ -231,18 +215,18 @@ def test_a_wrong_box_is_marked_and_says_why_under_it(small, out):
     assert "16 to 32000 pixels" in sentence.text()
     dialog.size.write("")
     for wrong, words in [
-        ("5,here", "not vertex ids"),
+        ("5,here", "not a list of vertex ids"),
         ("5,200", "No vertex 200 here: 0 to 199"),
         ("5", "two vertices"),
     ]:
         dialog.path_text.setText(wrong)
         dialog.choose_path()
         assert sentence.isHidden()
-        assert words in dialog._sentences[dialog.path_text].text()
+        assert words in dialog.form.errors[dialog.path_text].text()
     dialog.path_text.setText("")
     dialog.turn.setValue(0)
     dialog.choose_path()
-    assert "Nothing would move" in dialog._sentences[dialog.turn].text()
+    assert "Nothing would move" in dialog.form.errors[dialog.turn].text()
     assert not dialog.path_text.property("wrong")
     dialog.turn.setValue(90)
     dialog.export(str(out / "no" / "m.gif"))
@@ -253,10 +237,6 @@ def test_a_wrong_box_is_marked_and_says_why_under_it(small, out):
 
 
 def test_the_path_is_asked_for_in_the_format_that_is_chosen(small, out):
-    from qtpy import QtWidgets
-
-    from app.qt.files.figure_actions import export_figure
-
     small.exports.folder = str(out)
     dialog = export_figure(small.context)
     dialog.kinds.choose("PDF")
@@ -271,38 +251,30 @@ def test_the_path_is_asked_for_in_the_format_that_is_chosen(small, out):
 
 
 def test_a_size_has_a_name_or_is_one_s_own(small):
-    from qtpy import QtTest
-
-    from app.qt.files.figure_actions import export_figure
-
     dialog = export_figure(small.context)
     size = dialog.size
-    assert size.name() == "Usual"
+    assert size.name() == "Default"
     next(row for row in size.rows.buttons() if row.text() == "Two columns").click()
     assert dialog.chosen().page.size == "double"
     assert (size.width_box.text(), size.unit.currentText()) == ("178", "mm")
     for text in ("160x80mm", "640x480px@200", "90mm@600"):
         size.write(text)
-        assert size.name() == "Own size"
+        assert size.name() == "Custom"
         assert dialog.chosen().page.size == text
-    for text, name in (("85mm", "One column"), ("1920×1080@288", "Slide"), ("", "Usual"), ("slide", "Slide")):
+    for text, name in (("85mm", "One column"), ("1920×1080@288", "Slide"), ("", "Default"), ("slide", "Slide")):
         size.write(text)
         assert size.name() == name
     size.width_box.setFocus()
     QtTest.QTest.keyClicks(size.width_box, "0")
-    assert size.name() == "Own size"
+    assert size.name() == "Custom"
     assert dialog.chosen().page.size == "19200x1080px@288"
     size.width_box.clear()
     dialog.choose_path()
-    assert "A height needs a width" in dialog._sentences[size.width_box].text()
+    assert "A height needs a width" in dialog.form.errors[size.width_box].text()
     dialog.close()
 
 
 def test_every_box_has_a_name_and_a_tip(small):
-    from qtpy import QtWidgets
-
-    from app.qt.files.figure_actions import export_figure, export_movie
-
     for dialog in (export_figure(small.context), export_movie(small.context)):
         boxes = [
             box

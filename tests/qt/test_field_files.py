@@ -2,22 +2,25 @@
 
 import csv
 import itertools
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from qtpy import QtCore, QtWidgets
 
 from app.document.edits import add_panel, move_source
+from app.document.looks import Colours
 from app.document.quantities import quantity
 from app.tools.correspondence.maps import MapColours
-from app.tools.robustness.comparison import change_mesh
+from app.tools.robustness.perturbed_documents import perturb_mesh
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.formats.field_output import FIELD_FORMATS
 from bihdist_core.sources.source import SourceSet, SurfacePoint
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
-pytest.importorskip("qtpy")
+ALL_FORMATS = (*FIELD_FORMATS, ".obj", ".glb")
 
 
 @pytest.fixture
@@ -26,7 +29,7 @@ def paths(monkeypatch, tmp_path):
     answers, asked = [], []
 
     def ask(window, title, name, formats):
-        assert formats == FIELD_FORMATS
+        assert formats in (FIELD_FORMATS, ALL_FORMATS)
         asked.append((title, name))
         return str(tmp_path / answers.pop(0))
 
@@ -62,7 +65,7 @@ def test_every_panel_saves_what_the_command_writes_in_every_format(screen, mesh_
     s.until(lambda: s.session.is_complete)
     assert len(s.panels) == 4
     # Eigenpairs of diffusion, the third, differ in their last bits with where arrays lie in memory.
-    cases = [*zip(FIELD_FORMATS, itertools.cycle((0, 1, 3))), (".npy", 2)]
+    cases = [*zip(ALL_FORMATS, itertools.cycle((0, 1, 3))), (".npy", 2)]
     for extension, panel in cases:
         answers.append(f"mine{extension}")
         entry(s.panels[panel].head.more.menu(), "Save field…")
@@ -87,13 +90,10 @@ def test_every_panel_saves_what_the_command_writes_in_every_format(screen, mesh_
     assert (tmp_path / "again.csv").read_bytes() == theirs
 
 
-def test_the_menu_at_the_pointer_offers_it_on_the_surface_and_beside_it(screen, mesh_file, tmp_path, paths):
-    from qtpy import QtCore, QtWidgets
-
+def test_the_menu_at_the_pointer_offers_it_on_the_surface_and_beside_it(shared_screen, tmp_path, paths):
     from app.qt.panels.events import MenuWanted
 
-    s = screen()
-    s.open(mesh_file(bumpy(300)), 5)
+    s = shared_screen()
     answers, _ = paths
     view = s.panels[1].view
     for hit in (view.pick(view.rect().center()), None):
@@ -107,10 +107,24 @@ def test_the_menu_at_the_pointer_offers_it_on_the_surface_and_beside_it(screen, 
         (tmp_path / "at.npy").unlink()
 
 
-def test_all_fields_are_columns_of_one_file_with_names_that_tell_them_apart(screen, mesh_file, tmp_path, paths):
+def test_vertices_have_the_colours_of_their_panel(shared_screen, tmp_path, paths):
+    pyvista = pytest.importorskip("pyvista")
+    s = shared_screen()
+    s.session.show(replace(s.document, colours=Colours("safe", (), True), range="shared"))
+    s.until(lambda: s.session.is_complete)
+    paths[0].append("a.ply")
+    entry(s.panels[0].head.more.menu(), "Save field…")
+    assert said(s)
+    scene, field = s.panels[0].view.scene, s.answers[0].field
+    assert scene.field_actor.maximum > field.max()
+    colours = scene.style.vertex_colours(field, scene.field_actor.maximum)
+    assert np.array_equal(pyvista.read(tmp_path / "a.ply").point_data["RGB"], colours)
+    assert len(np.unique(colours, axis=0)) > 20
+
+
+def test_all_fields_are_columns_of_one_file_with_names_that_tell_them_apart(shared_screen, tmp_path, paths):
     answers, asked = paths
-    s = screen()
-    s.open(mesh_file(bumpy(300)), 5)
+    s = shared_screen()
     for shows in ("diffusion(t=1/4)", "diffusion(t=1/4)"):
         s.session.show(add_panel(s.document, quantity(shows)))
     s.session.show(add_panel(s.document, MapColours()))
@@ -118,7 +132,7 @@ def test_all_fields_are_columns_of_one_file_with_names_that_tell_them_apart(scre
     answers.append("all.csv")
     file = s.window.menuBar().actions()[0].menu()
     entry(file, "Save all &fields…")
-    assert said(s) == f"Saved all.csv in {tmp_path}; Positions is shown in colours, and has no field."
+    assert said(s) == f"Saved all.csv in {tmp_path}; Positions shows colours, and has no field."
     assert asked == [("Save all fields", "mesh-fields")]
     with open(tmp_path / "all.csv", newline="") as lines:
         header, *rows = csv.reader(lines)
@@ -135,11 +149,10 @@ def test_all_fields_are_columns_of_one_file_with_names_that_tell_them_apart(scre
         assert np.array_equal(values[:, column], answer.field)
 
 
-def test_two_meshes_have_a_file_each(screen, mesh_file, tmp_path, paths):
+def test_two_meshes_have_a_file_each(shared_screen, tmp_path, paths):
     answers, asked = paths
-    s = screen()
-    s.open(mesh_file(bumpy(300)), 5)
-    s.session.show(change_mesh(s.document, Perturbation(noise=0.1)))
+    s = shared_screen()
+    s.session.show(perturb_mesh(s.document, Perturbation(noise=0.1)))
     s.until(lambda: s.session.is_complete and len(s.document.surfaces) == 2)
     answers += ["one.npy", "other.npy"]
     s.window.actions_by_word["save fields"].trigger()
@@ -150,9 +163,8 @@ def test_two_meshes_have_a_file_each(screen, mesh_file, tmp_path, paths):
         assert np.array_equal(np.load(tmp_path / f"{name}.npy"), np.column_stack(fields), equal_nan=True)
 
 
-def test_a_field_that_is_not_there_is_not_saved(screen, mesh_file, tmp_path, paths):
-    s = screen()
-    s.open(mesh_file(bumpy(300)), 5)
+def test_a_field_that_is_not_there_is_not_saved(shared_screen, tmp_path, paths):
+    s = shared_screen()
     s.session.show(move_source(s.document, 0, 9))
     assert not s.session.is_complete  # the answers are those of the source before
     parts(s.window).field_files.save(s.document.panels[0].id)
@@ -168,9 +180,8 @@ def test_a_field_that_is_not_there_is_not_saved(screen, mesh_file, tmp_path, pat
     assert "nowhere" in s.refusals[2]
 
 
-def test_files_are_written_one_after_the_other_and_none_is_left_out(screen, mesh_file, tmp_path):
-    s = screen()
-    s.open(mesh_file(bumpy(300)), 5)
+def test_files_are_written_one_after_the_other_and_none_is_left_out(shared_screen, tmp_path):
+    s = shared_screen()
     for number in range(5):
         parts(s.window).field_files.save(s.document.panels[number % 3].id, str(tmp_path / f"{number}.npy"))
     s.until(lambda: s.window.status.message.text.startswith("Saved 4.npy"))
@@ -178,9 +189,8 @@ def test_files_are_written_one_after_the_other_and_none_is_left_out(screen, mesh
         assert np.array_equal(np.load(tmp_path / f"{number}.npy"), s.answers[number % 3].field)
 
 
-def test_files_that_wait_when_the_window_closes_are_written(screen, mesh_file, tmp_path):
-    s = screen()
-    s.open(mesh_file(bumpy(300)), 5)
+def test_files_that_wait_when_the_window_closes_are_written(shared_screen, tmp_path):
+    s = shared_screen()
     for number in range(4):
         parts(s.window).field_files.save(s.document.panels[0].id, str(tmp_path / f"{number}.npy"))
     s.window.close()
@@ -188,13 +198,8 @@ def test_files_that_wait_when_the_window_closes_are_written(screen, mesh_file, t
         assert np.array_equal(np.load(tmp_path / f"{number}.npy"), s.answers[0].field)
 
 
-def test_the_dialog_writes_the_format_that_is_chosen_in_it(screen, mesh_file, tmp_path):
-    from dataclasses import replace
-
-    from qtpy import QtCore, QtWidgets
-
-    s = screen()
-    s.open(mesh_file(bumpy(300)), 5)
+def test_the_dialog_writes_the_format_that_is_chosen_in_it(shared_screen, tmp_path):
+    s = shared_screen()
     s.window.context.preferences = replace(s.window.context.preferences, last_folder=str(tmp_path))
 
     def choose():

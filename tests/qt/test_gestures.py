@@ -4,21 +4,18 @@ from functools import partial
 
 import numpy as np
 import pytest
+from qtpy import QtCore, QtTest, QtWidgets
 
-from app.tools.robustness.comparison import change_mesh
+from app.tools.robustness.perturbed_documents import perturb_mesh
 from bihdist_core.applications.changes import Perturbation
 from tests.qt.events import press
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
-pytest.importorskip("qtpy")
-
 
 @pytest.fixture
-def loaded(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(2000)), 5)
-    return s
+def loaded(shared_screen):
+    return shared_screen(bumpy(2000))
 
 
 def front(s):
@@ -40,8 +37,6 @@ def drawn(s):
 
 # ---------------------------------------------------------------------- one picture a change
 def test_a_click_draws_each_panel_once_and_pointing_draws_nothing(loaded):
-    from qtpy import QtCore, QtTest
-
     s, view = loaded, loaded.panels[1].view
     place = s.point_of(s.panels[1], front(s))
     QtTest.QTest.mouseClick(view, QtCore.Qt.MouseButton.LeftButton, pos=place)
@@ -64,8 +59,6 @@ def test_a_click_draws_each_panel_once_and_pointing_draws_nothing(loaded):
 
 def test_keys_come_before_the_pictures_of_the_other_views(loaded, monkeypatch):
     """Where drawing takes long, as by software."""
-    from qtpy import QtCore
-
     from app.qt.panels import view as view_module
 
     s, order = loaded, []
@@ -90,8 +83,6 @@ def test_nothing_is_drawn_before_there_is_a_mesh(screen):
 
 # ---------------------------------------------------------------------- the camera
 def test_the_wheel_keeps_what_is_under_the_pointer_there_and_the_value_fresh(loaded):
-    from qtpy import QtCore
-
     s, view = loaded, loaded.panels[0].view
     place = QtCore.QPoint(round(0.6 * view.width()), round(0.45 * view.height()))
     hit, distance = view.pick(place), view.camera.GetDistance()
@@ -104,8 +95,6 @@ def test_the_wheel_keeps_what_is_under_the_pointer_there_and_the_value_fresh(loa
 
 
 def test_what_is_centred_comes_into_the_middle_and_is_turned_about(loaded):
-    from qtpy import QtTest
-
     s, view = loaded, loaded.panels[0].view
     at = view.rect().center() + view.rect().center() / 8
     QtTest.QTest.mouseMove(view, at)
@@ -122,7 +111,7 @@ def test_what_is_centred_comes_into_the_middle_and_is_turned_about(loaded):
 
 def test_keys_turn_move_and_zoom_all_panels(loaded):
     s = loaded
-    camera = s.window.grid.eye.camera
+    camera = s.window.grid.camera_controller.camera
 
     def state():
         return np.array([*camera.GetPosition(), *camera.GetFocalPoint()])
@@ -165,7 +154,7 @@ def test_the_source_goes_along_edges_where_the_keys_point(loaded):
     for name, (right, up) in {"Ctrl+Left": (-1, 0), "Ctrl+Up": (0, 1), "Ctrl+Right": (1, 0)}.items():
         before = s.source
         key(s, name)
-        faces = s.session.surface.faces
+        faces = s.session.mesh().surface.faces
         assert s.source != before
         assert ((faces == before).any(axis=1) & (faces == s.source).any(axis=1)).any(), "an edge"
         way = s.point_of(s.panels[0], s.source) - s.point_of(s.panels[0], before)
@@ -193,8 +182,6 @@ def test_steps_that_follow_fast_are_a_drag_that_ends_exact(loaded):
 
 
 def test_a_held_key_lets_the_source_follow_and_a_tap_switches_that_on(loaded):
-    from qtpy import QtTest
-
     s, view, live = loaded, loaded.panels[0].view, loaded.window.actions_by_word["live"]
     s.activate()
     view.setFocus()
@@ -216,8 +203,6 @@ def test_a_held_key_lets_the_source_follow_and_a_tap_switches_that_on(loaded):
 
 
 def test_a_live_source_follows_the_pointer_until_escape(loaded):
-    from qtpy import QtTest
-
     s, view = loaded, loaded.panels[0].view
     s.window.actions_by_word["live"].trigger()
     target = front(s)
@@ -235,8 +220,6 @@ def test_a_live_source_follows_the_pointer_until_escape(loaded):
 
 # ---------------------------------------------------------------------- the menu
 def test_the_menu_of_a_place_offers_what_can_be_done_there(loaded):
-    from qtpy import QtCore, QtTest, QtWidgets
-
     s, view = loaded, loaded.panels[1].view
     target = front(s)
     QtTest.QTest.mouseClick(view, QtCore.Qt.MouseButton.RightButton, pos=s.point_of(s.panels[1], target))
@@ -250,8 +233,8 @@ def test_the_menu_of_a_place_offers_what_can_be_done_there(loaded):
         "Isoline through here",
         "Save isolines…",
         "Save field…",
-        "Centre the view here",
-        "Zoom to it",
+        "Centre view here",
+        "Zoom in here",
         f"Copy vertex id {target}",
         "Copy position",
         "Copy values",
@@ -260,7 +243,7 @@ def test_the_menu_of_a_place_offers_what_can_be_done_there(loaded):
     offered[f"Copy vertex id {target}"].trigger()
     assert copied.text() == str(target)
     offered["Copy position"].trigger()
-    assert np.allclose([float(x) for x in copied.text().split()], s.session.surface.vertices[target])
+    assert np.allclose([float(x) for x in copied.text().split()], s.session.mesh().surface.vertices[target])
     offered["Copy values"].trigger()
     lines = copied.text().splitlines()
     assert lines[0].startswith(f"vertex {target} at ")
@@ -296,8 +279,6 @@ def test_the_button_of_views_follows_the_camera(loaded):
 
 
 def test_letters_typed_into_the_source_box_are_no_shortcuts(loaded):
-    from qtpy import QtTest
-
     s = loaded
     s.activate()
     parts(s.window).typed_source.box.setFocus()
@@ -325,8 +306,6 @@ def rings(s):
 
 
 def test_the_ring_goes_with_the_pointer_also_if_it_came_by_a_menu(loaded):
-    from qtpy import QtCore, QtTest
-
     s, view = loaded, loaded.panels[0].view
     QtTest.QTest.mouseClick(view, QtCore.Qt.MouseButton.RightButton, pos=s.point_of(s.panels[0], front(s)))
     assert all(rings(s))
@@ -337,15 +316,38 @@ def test_the_ring_goes_with_the_pointer_also_if_it_came_by_a_menu(loaded):
 
 
 def test_the_ring_goes_from_all_meshes_where_one_of_them_is_made_anew(loaded):
-    from qtpy import QtCore
-
     s = loaded
-    s.session.apply(partial(change_mesh, change=Perturbation(noise=0.1)))
+    s.session.apply(partial(perturb_mesh, change=Perturbation(noise=0.1)))
     s.until(lambda: s.session.is_complete and len(s.document.surfaces) == 2)
     s.settle()
     s.hover(s.point_of(s.panels[0], s.seen(1)[0]))
     assert any(rings(s))
-    s.session.apply(partial(change_mesh, change=Perturbation(noise=0.2)))
+    s.session.apply(partial(perturb_mesh, change=Perturbation(noise=0.2)))
     s.until(lambda: s.session.is_complete and not s.session.is_opening)
     s.application.sendEvent(s.panels[0].view, QtCore.QEvent(QtCore.QEvent.Type.Leave))
     assert not any(rings(s))
+
+
+def test_a_double_click_centres_the_view_and_leaves_the_source(loaded):
+    s, view = loaded, loaded.panels[0].view
+    before, camera = s.source, s.document.camera
+    target = next(vertex for vertex in s.seen(4) if vertex != before)
+    left = QtCore.Qt.MouseButton.LeftButton
+
+    def double_click():
+        place = s.point_of(s.panels[0], target)
+        QtTest.QTest.mouseClick(view, left, pos=place)
+        QtTest.QTest.mouseDClick(view, left, pos=place)
+
+    double_click()
+    s.until(lambda: s.document.camera != camera)
+    assert s.source == before
+    assert (s.session.can_undo, s.session.can_redo) == (False, False)
+    middle = QtCore.QPointF(view.width() / 2, view.height() / 2)
+    assert (QtCore.QPointF(s.point_of(s.panels[0], target)) - middle).manhattanLength() < 12
+    # On the mark of the source there is no click to be taken back.
+    QtTest.QTest.mouseClick(view, left, pos=s.point_of(s.panels[0], target))
+    s.until(lambda: s.source == target and s.session.is_complete)
+    s.settle()
+    double_click()
+    assert s.source == target

@@ -1,20 +1,19 @@
 """The line over a panel: what is chosen there, and what it says."""
 
 import pytest
-
-pytest.importorskip("qtpy")
-
-from qtpy import QtCore, QtTest
+from qtpy import QtCore, QtTest, QtWidgets
 
 from app.document.panel_edits import panel_edits
 from app.document.quantities import DistanceFrom, OwnField, quantity
-from bihdist_core.distances.kinds import OURS, Spec, kind_of
+from app.qt.panels.number_box import STEPS, shown_value, step_of_value, value_of_step
+from bihdist_core.distances.distance_types import BUILT_IN, Spec, distance_type
+from tests.qt.events import send_mouse
 from tests.qt.heads import choose, entries, shown
 
 
 def test_every_distance_can_be_chosen_by_its_name_and_says_what_to_look_for(head):
     h = head(point="tail")
-    for kind in (*OURS[1:], OURS[0]):
+    for kind in (*BUILT_IN[1:], BUILT_IN[0]):
         name = kind.name.replace("^α", "ᵅ")
         hint = entries(h.name.menu())[name].toolTip()
         assert hint.lower() == kind.hint.lower()
@@ -22,7 +21,7 @@ def test_every_distance_can_be_chosen_by_its_name_and_says_what_to_look_for(head
         assert h.choices[-1] == h.shows == DistanceFrom(Spec.of(kind.word), "tail")
         assert [text for text, action in entries(h.name.menu()).items() if action.isChecked()] == [name]
     choose(h, "Biharmonic")
-    assert len(h.choices) == len(OURS), "what is shown already is no change"
+    assert len(h.choices) == len(BUILT_IN), "what is shown already is no change"
 
 
 def test_a_distance_chosen_again_has_its_old_parameters(head):
@@ -35,20 +34,18 @@ def test_a_distance_chosen_again_has_its_old_parameters(head):
 
 
 def test_a_slider_gives_values_in_equal_steps_of_the_logarithm_and_hits_the_marks(head):
-    from app.qt.panels.number_box import STEPS, step_of_value, value_of_step
-
     h = head("diffusion")
     (control,) = shown(h)
     assert control.slider.isVisible()
     control.slider.setValue(0)
     assert h.choices == [DistanceFrom(Spec.of("diffusion", t=1 / 15))]
     assert control.button.text() == "1/15"
-    (t,) = kind_of("diffusion").parameters
+    (t,) = distance_type("diffusion").parameters
     for mark in t.marks:
         control.slider.setValue(step_of_value(t, mark))
         assert h.shows.spec["t"] == mark
     for name in ("diffusion", "power", "truncated"):
-        for parameter in kind_of(name).parameters:
+        for parameter in distance_type(name).parameters:
             assert all(step_of_value(parameter, value_of_step(parameter, k)) == k for k in range(STEPS + 1))
     middle = value_of_step(t, STEPS // 2)
     assert middle == pytest.approx((t.shown[0] * t.shown[1]) ** 0.5, rel=0.01)  # three digits
@@ -67,18 +64,16 @@ def test_a_slider_gives_values_in_equal_steps_of_the_logarithm_and_hits_the_mark
     ],
 )
 def test_values_are_fractions_at_the_marks_and_else_have_three_or_four_digits(application, word, name, value, text):
-    from app.qt.panels.number_box import shown_value
-
-    assert shown_value(kind_of(word).parameter(name), value) == text
+    assert shown_value(distance_type(word).parameter(name), value) == text
 
 
 def test_words_are_chosen_from_the_menu_of_their_value(head):
     h = head("geodesic")
     (method,) = shown(h)
-    entries(method.menu())["dijkstra"].trigger()
+    entries(method.menu())["Dijkstra"].trigger()
     assert str(h.choices[-1]) == "geodesic(method=dijkstra)"
-    assert method.text() == "dijkstra"
-    assert [text for text, action in entries(method.menu()).items() if action.isChecked()] == ["dijkstra"]
+    assert method.text() == "Dijkstra"
+    assert [text for text, action in entries(method.menu()).items() if action.isChecked()] == ["Dijkstra"]
 
 
 def test_a_difference_is_made_changed_and_left_through_the_menu(head):
@@ -172,9 +167,9 @@ def test_the_pop_up_s_slider_counts_only_when_it_is_let_go(head):
 def test_the_panel_s_menu_asks_for_edits_that_are_possible(head):
     h, asked = head(), []
     h.asked.connect(asked.append)
-    h.allow({"Duplicate this panel", "Remove it"})
+    h.allow({"Duplicate panel", "Remove panel"}, set())
     possible = [word for word in panel_edits() if entries(h.more.menu())[word].isEnabled()]
-    assert possible == ["Duplicate this panel", "Remove it"]
+    assert possible == ["Duplicate panel", "Remove panel"]
     for word in possible:
         entries(h.more.menu())[word].trigger()
     assert asked == possible
@@ -190,6 +185,43 @@ def test_pressing_the_head_or_anything_in_it_says_so(head):
     assert len(pressed) == 3
     assert h._sheet.isVisible()
     h._sheet.close()
+
+
+@pytest.mark.parametrize(("name", "is_passed"), [("Key_F", True), ("Key_Escape", False)])
+def test_the_sheet_of_a_head_passes_keys_and_pointing_on(head, name, is_passed):
+    h = head()
+    keys, moves = [], []
+
+    class Below(QtWidgets.QWidget):
+        def keyPressEvent(self, event):
+            keys.append(event.key())
+
+        def mouseMoveEvent(self, event):
+            moves.append(event.pos())
+
+        def mousePressEvent(self, event):
+            moves.append("pressed")
+
+    below = Below(h.parentWidget())
+    below.setMouseTracking(True)
+    below.setGeometry(0, 40, 600, 60)
+    below.show()
+    QtTest.QTest.mouseClick(h.info, QtCore.Qt.MouseButton.LeftButton)
+    assert h._sheet.isVisible()
+    assert QtWidgets.QApplication.activePopupWidget() is None
+    send_mouse(below, QtCore.QPoint(20, 20))
+    assert moves
+    assert h._sheet.isVisible()
+    key = getattr(QtCore.Qt.Key, name)
+    QtTest.QTest.keyClick(below, key)
+    assert not h._sheet.isVisible()
+    assert keys == [key] * is_passed
+    # A click beside it closes it and does nothing else.
+    QtTest.QTest.mouseClick(h.info, QtCore.Qt.MouseButton.LeftButton)
+    moves.clear()
+    QtTest.QTest.mouseClick(below, QtCore.Qt.MouseButton.LeftButton, pos=QtCore.QPoint(20, 20))
+    assert not h._sheet.isVisible()
+    assert "pressed" not in moves
 
 
 def test_a_poor_answer_is_marked_and_no_longer_called_exact(head):
@@ -226,7 +258,18 @@ def test_a_stand_in_is_said_whatever_is_chosen(head):
     for word, said in (("geodesic", "auto: heat method"), ("geodesic(method=exact)", "exact, now heat method")):
         made = head(word, 600)
         (control,) = made.controls
-        made.show_method(made.shows.specs, "geodesic, heat method", is_stand_in=True)
+        made.show_method(made.shows.specs, "geodesic, heat method", is_preview=True)
         assert control.text() == said
         made.show_method(made.shows.specs, "geodesic, exact")
         assert control.text() == ("auto: exact" if word == "geodesic" else "exact")
+
+
+def test_heads_of_one_quantity_are_worded_alike_whatever_the_distance(head):
+    one, other = head("interpolant by biharmonic"), head("interpolant by geodesic")
+    seen = set()
+    for width in range(400, 100, -2):
+        for each in (one, other):
+            each.resize(width, each.height())
+        assert other.name.text() != "Interpolant" or one.name.text() == "Interpolant", width
+        seen.add(one.controls[0].text())
+    assert seen == {"by biharmonic", "by biharm."}

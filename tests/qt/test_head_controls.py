@@ -3,9 +3,6 @@
 from itertools import pairwise
 
 import pytest
-
-pytest.importorskip("qtpy")
-
 from qtpy import QtCore, QtGui, QtTest, QtWidgets
 
 from app.document.quantities import quantity
@@ -182,3 +179,19 @@ def test_lower_in_a_panel_with_little_height(head):
     assert h.height() == 32
     assert h.sizePolicy().horizontalPolicy() == QtWidgets.QSizePolicy.Policy.Ignored
     assert h.minimumSizeHint().width() <= 72
+
+
+def test_a_double_click_on_a_number_opens_its_pop_up_once(head, application):
+    h = head("diffusion", width=300)
+    (control,) = h.controls
+    QtTest.QTest.mouseClick(control.button, QtCore.Qt.MouseButton.LeftButton)
+    assert control.pop_up.isVisible()
+    above = control.pop_up.mapFromGlobal(control.button.mapToGlobal(control.button.rect().center()))
+    left, none = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.KeyboardModifier.NoModifier
+    kind = QtCore.QEvent.Type.MouseButtonDblClick
+    where = QtCore.QPointF(above)
+    event = QtGui.QMouseEvent(kind, where, where, where, left, left, none)
+    application.sendEvent(control.pop_up, event)
+    assert control.pop_up.isVisible()
+    QtTest.QTest.mouseClick(control.pop_up, left, pos=above)
+    assert not control.pop_up.isVisible()

@@ -4,25 +4,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from qtpy.QtGui import QColor
 
-from app.document.document import Point, Zoom, comparison
+from app.document.document import Inset, Point, comparison
 from app.document.edits import move_source
 from app.document.file import recipe_text
 from app.document.page import Page, Recipe
-from app.scene.style import STYLES
-from app.tools.interpolation.part import Anchor
-from bihdist_core.distances.kinds import Spec
-from tests.shapes import bumpy, grid
-
-pytest.importorskip("qtpy")
-
-from qtpy.QtGui import QColor
-
 from app.qt.look.canvas import canvas_style
 from app.qt.look.look import LOOK
-from app.tools.interpolation.part import Anchors
+from app.scene.style import STYLES
+from app.tools.interpolation.part import Anchor, Anchors
+from bihdist_core.distances.distance_types import Spec
 from tests.qt.painting import painted
 from tests.qt.parts import parts
+from tests.shapes import bumpy, grid
 
 SIZE = 2  # device pixels by which a place may be off
 USUAL = Page()
@@ -85,7 +80,7 @@ def test_an_inset_enlarges_what_the_panel_shows(shown):
     surface = bumpy(2000)
     s = shown(surface)
     vertex = facing(s)
-    s.session.show(replace(s.document, zooms=(Zoom(vertex, 4.0, "top left"),)))
+    s.session.show(replace(s.document, insets=(Inset(vertex, 4.0, "top left"),)))
     s.settle()
     panel = s.panels[0]
     (inset,) = panel.view.scene.insets.renderers
@@ -100,7 +95,7 @@ def test_an_inset_enlarges_what_the_panel_shows(shown):
     assert inset.GetSize()[0] == pytest.approx(0.4 * min(width, height), abs=2)
     assert inset.GetOrigin()[0] < 10
     assert inset.GetOrigin()[1] + inset.GetSize()[1] > height - 10
-    s.window.grid.eye.camera.Azimuth(20)
+    s.window.grid.camera_controller.camera.Azimuth(20)
     s.window.grid.redraw()
     s.settle()
     assert np.abs(seen_at(panel, vertex, inset) - centre).max() <= SIZE
@@ -112,7 +107,7 @@ def test_a_click_in_an_inset_selects_what_is_seen_there(shown):
     s = shown(bumpy(2000), source=9)
     vertex = facing(s)
     assert vertex != s.source
-    s.session.show(replace(s.document, zooms=(Zoom(vertex, 5.0, "top right"),)))
+    s.session.show(replace(s.document, insets=(Inset(vertex, 5.0, "top right"),)))
     s.settle()
     panel = s.panels[1]
     (inset,) = panel.view.scene.insets.renderers
@@ -130,16 +125,16 @@ def test_an_inset_that_may_stand_anywhere_hides_the_least(shown):
     strip = type(surface)(x, surface.faces[keep], "strip")
     used = np.unique(strip.faces)
     middle = int(used[np.abs(x[used] - x[used].mean(axis=0)).sum(axis=1).argmin()])
-    s = shown(strip, source=middle, zooms=(Zoom(middle, 6.0), Zoom(middle, 6.0)))
-    assert sorted(s.panels[0].view.scene.insets._corners) == ["bottom right", "top left"]
+    s = shown(strip, source=middle, insets=(Inset(middle, 6.0), Inset(middle, 6.0)))
+    assert sorted(s.panels[0].view.scene.insets.corners) == ["bottom right", "top left"]
 
 
 def test_insets_come_and_go_with_the_document(shown):
-    s = shown(bumpy(300), zooms=(Zoom(7), Zoom(9, corner="bottom left")))
+    s = shown(bumpy(300), insets=(Inset(7), Inset(9, corner="bottom left")))
     window = s.panels[0].view.renderer.GetRenderWindow()
     count = window.GetRenderers().GetNumberOfItems()
     before = s.pictures()
-    s.session.show(replace(s.document, zooms=()))
+    s.session.show(replace(s.document, insets=()))
     s.settle()
     assert window.GetRenderers().GetNumberOfItems() == count - 2 * len(s.panels)  # one window draws all panels
     assert all((a != b).any() for a, b in zip(before, s.pictures(), strict=True))
@@ -166,14 +161,14 @@ def test_anchors_are_light_in_their_middle_whatever_their_values(shown):
 # ---------------------------------------------------------------------- reliefs
 def test_a_flat_surface_becomes_a_relief_of_each_panels_field_and_flat_again(shown):
     surface = grid(12, 12)
-    s = shown(surface, height=0.4)
+    s = shown(surface, warp_factor=0.4)
     for panel, answer in zip(s.panels, s.answers, strict=True):
         raised = surface.vertices[:, 2] + 0.4 * np.ptp(surface.vertices, axis=0).max() * answer.field / answer.maximum
         assert np.allclose(panel.positions[:, 2], raised)
         # A click finds the vertices where they are now.
         vertex = int(np.abs(surface.vertices - surface.vertices.mean(axis=0)).sum(axis=1).argmin())
         assert panel.view.picker.pick(panel.view.renderer, *seen_at(panel, vertex)).vertex == vertex
-    s.session.show(replace(s.document, height=0.0))
+    s.session.show(replace(s.document, warp_factor=0.0))
     s.settle()
     assert all(np.array_equal(panel.positions, surface.vertices) for panel in s.panels)
     s.session.undo()
@@ -183,8 +178,8 @@ def test_a_flat_surface_becomes_a_relief_of_each_panels_field_and_flat_again(sho
 
 def test_a_surface_that_is_not_flat_stays_as_it_is(shown):
     surface = bumpy(300)
-    s = shown(surface, height=0.4)
-    assert all(np.array_equal(panel.positions, s.session.surface.vertices) for panel in s.panels)
+    s = shown(surface, warp_factor=0.4)
+    assert all(np.array_equal(panel.positions, s.session.mesh().surface.vertices) for panel in s.panels)
 
 
 # ---------------------------------------------------------------------- styles
@@ -193,11 +188,11 @@ def is_on_the_windows_ground(panel):
 
 
 def test_a_recipe_is_shown_in_its_style_on_the_windows_ground_and_the_next_in_its_own(shown, tmp_path):
-    s = shown(bumpy(300), Page(style="uniform"), zooms=(Zoom(7, corner="top right"),))
+    s = shown(bumpy(300), Page(style="uniform"), insets=(Inset(7, corner="top right"),))
 
     def styles():
         assert all(is_on_the_windows_ground(panel) for panel in s.panels)
-        assert all(panel.view.scene.maximum > 0 for panel in s.panels)
+        assert all(panel.view.scene.field_actor.maximum > 0 for panel in s.panels)
         return {panel.view.scene.style for panel in s.panels}
 
     assert styles() == {canvas_style("uniform", LOOK.theme)}
@@ -214,9 +209,9 @@ def test_a_recipe_is_shown_in_its_style_on_the_windows_ground_and_the_next_in_it
 
 def test_another_theme_has_the_twin_of_a_style_and_changes_no_page_and_nothing_of_what_is_shown(shown, theme):
     theme("dark")
-    anchor = {"parts": (Anchors((Anchor("source", 0.1),)),), "height": 0.3}
-    s = shown(grid(12, 12), Page(style="dark"), zooms=(Zoom(7, corner="top right"),), **anchor)
-    pictures, isolines = {}, [panel.view.scene.isolines for panel in s.panels]
+    anchor = {"parts": (Anchors((Anchor("source", 0.1),)),), "warp_factor": 0.3}
+    s = shown(grid(12, 12), Page(style="dark"), insets=(Inset(7, corner="top right"),), **anchor)
+    pictures, isolines = {}, [panel.view.scene.field_actor.levels.values for panel in s.panels]
     assert all(map(len, isolines))
     # The menu bar has its height from the first change of the theme on, and so have the views.
     for word, style in (("light", "paper"), ("dark", "dark"), ("light again", "paper"), ("dark again", "dark")):
@@ -228,7 +223,7 @@ def test_another_theme_has_the_twin_of_a_style_and_changes_no_page_and_nothing_o
             scene = panel.view.scene
             assert (scene.style.stops, is_on_the_windows_ground(panel)) == (STYLES[style].stops, True)
             assert len(scene.insets.renderers) == 1
-            assert np.array_equal(scene.isolines, lines)
+            assert np.array_equal(scene.field_actor.levels.values, lines)
             assert len(panel.view.over.points.positions("anchors"))
             assert np.ptp(panel.positions[:, 2]) > 0
     for word in ("light", "dark"):
@@ -238,7 +233,7 @@ def test_another_theme_has_the_twin_of_a_style_and_changes_no_page_and_nothing_o
 
 def test_a_relief_higher_than_its_colour_bar_stays_in_view(shown):
     surface = grid(12, 12)
-    s = shown(surface, height=0.4)
+    s = shown(surface, warp_factor=0.4)
     panels = tuple(replace(panel, maximum=s.answers[0].maximum / 8) for panel in s.document.panels)
     s.session.show(replace(s.document, panels=panels))
     s.settle()
@@ -253,7 +248,7 @@ def test_a_relief_higher_than_its_colour_bar_stays_in_view(shown):
 def test_an_inset_at_a_vertex_that_there_is_not_is_refused_and_nothing_changes(shown):
     s = shown(bumpy(100))
     before = s.document
-    s.session.show(replace(before, zooms=(Zoom(99_999),)))
+    s.session.show(replace(before, insets=(Inset(99_999),)))
     assert "no vertex 99999" in s.refusals.pop()
     assert s.document == before
     s.settle(0.1)
@@ -279,7 +274,7 @@ def test_a_panel_that_is_removed_keeps_nothing_of_what_it_showed(shown):
     s = shown(bumpy(300))
     shown_by = weakref.ref(s.answers[1].field)
     kept = s.panels[1]
-    parts(s.window).choices.edit_panel(s.document.panels[1].id, "Remove it")
+    parts(s.window).choices.edit_panel(s.document.panels[1].id, "Remove panel")
     s.session._answering._kept = type(s.session._answering._kept)()
     s.settle()
     gc.collect()
@@ -293,7 +288,7 @@ def test_a_panel_that_is_removed_keeps_nothing_of_what_it_showed(shown):
 
 @pytest.mark.parametrize("chosen_in", ["recipe", "menu"])
 def test_a_style_leaves_nothing_of_the_one_before(shown, chosen_in):
-    s = shown(bumpy(300), zooms=(Zoom(7),))
+    s = shown(bumpy(300), insets=(Inset(7),))
     panel = s.panels[0]
 
     def counted():

@@ -1,15 +1,11 @@
 """A session with all instruments open is the same window in another process."""
 
 import json
-import os
-import subprocess
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
-import pytest
 from PIL import Image
+from qtpy import QtCore
 
 from app.document.edits import move_source
 from app.document.form import document_data
@@ -19,23 +15,19 @@ from app.tools.pins.part import PinsListing
 from app.tools.profile.part import Profile
 from app.tools.regions.part import show_regions
 from app.tools.scatter.part import Scatter
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.sources.source import Curve, SourceSet, SurfacePoint
+from tests.programs import run_python
+from tests.qt.parts import parts
 from tests.shapes import bumpy
 
-pytest.importorskip("qtpy")
-from qtpy import QtCore
-
-from tests.qt.parts import parts
-
-ROOT = Path(__file__).resolve().parents[2]
 DOCKS = ("statistics", "pins", "quality", "regions", "scatter", "profile")
 SIZE = (1500, 950)
 
 
 def everything(s):
     """Pins, a profile, a scatter with selections, regions, extrema, a source of several parts, docks here and there."""
-    surface, document = s.session.surface, s.document
+    surface, document = s.session.mesh().surface, s.document
     along = [SurfacePoint(face, (0.2, 0.3, 0.5)) for face in (0, *_neighbours(surface.faces, 0))]
     document = move_source(document, 0, SourceSet((5, SurfacePoint(40, (0.2, 0.5, 0.3)), Curve(tuple(along)))))
     document = add_pins(document, [7, 90, 200, 300])
@@ -70,7 +62,7 @@ def _neighbours(faces, face):
 
 def rested(s):
     s.until(lambda: s.session.is_complete)
-    s.until(lambda: parts(s.window).quality.is_complete and parts(s.window).regions.is_complete)
+    s.until(lambda: parts(s.window).quality.is_complete and parts(s.window).regions.dividing.is_complete)
     s.settle(1.0)
     s.until(lambda: s.session.is_complete)
 
@@ -86,9 +78,8 @@ def test_all_instruments_open_are_the_same_in_another_process(screen, mesh_file,
     assert not parts(s.window).session_file.is_changed
     before = json.loads(json.dumps(document_data(parts(s.window).session_file.recipe().document)))
     s.window.grab().save(str(tmp_path / "one.png"))
-    env = {**os.environ, "XDG_DATA_HOME": str(tmp_path / "data"), "WINDOW_SIZE": "{}x{}".format(*SIZE)}
-    command = [sys.executable, "-m", "tests.qt.restored", str(session), str(picture)]
-    done = subprocess.run(command, cwd=ROOT, env=env, capture_output=True, text=True, timeout=120)
+    env = {"XDG_DATA_HOME": str(tmp_path / "data"), "WINDOW_SIZE": "{}x{}".format(*SIZE)}
+    done = run_python("-m", "tests.qt.restored", session, picture, **env)
     assert done.returncode == 0, done.stderr[-2000:]
     found = json.loads(done.stdout.splitlines()[-1])
     assert found["errors"] == []

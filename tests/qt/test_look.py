@@ -8,14 +8,18 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from qtpy import QtCore, QtGui, QtWidgets
+from qtpy.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QMenu, QRadioButton, QSpinBox, QWidget
 
-from app.qt.look import desktop, own_folder
+from app.drawing.numbers import number, share, tick, ticks
+from app.drawing.painters.qt import number_width, paint_number
+from app.qt.look import desktop, icons, look, own_folder
 from app.qt.look.desktop import Desktop
 from app.qt.look.icons import icon_names, pixmap, put_icon
 from app.qt.look.look import LOOK
-from app.qt.look.numbers import number, number_width, paint_number, share, tick, ticks
 from app.qt.look.style_sheet import ICONS, style_sheet
 from app.qt.look.theme import DARK, LIGHT, THEMES, contrast, lightness
+from tests.waiting import PATIENCE
 
 READABLE = 4.5
 """Of text, by WCAG 2 (AA)."""
@@ -120,9 +124,23 @@ def test_icons_are_drawn_in_the_colour_of_each_theme(application, name):
     assert pixmap(name, LIGHT.text).toImage() != pixmap(name, DARK.text).toImage()
 
 
-def test_an_icon_on_a_button_follows_the_theme_until_the_button_is_gone(application):
-    from qtpy import QtCore, QtGui, QtWidgets
+def test_an_icon_that_is_kept_is_not_the_picture_it_was_painted_on(application, monkeypatch):
+    """Such a picture keeps the buffers of its painter."""
+    painted = []
 
+    class Painter(QtGui.QPainter):
+        def end(self):
+            painted.append(self.device())
+            return super().end()
+
+    monkeypatch.setattr(icons.QtGui, "QPainter", Painter)
+    kept = icons.pixmap.__wrapped__("pin", "#123456", 2)
+    assert len(painted) == 1
+    assert painted[0].cacheKey() != kept.cacheKey()
+    assert (kept.width(), kept.devicePixelRatio()) == (40, 2)
+
+
+def test_an_icon_on_a_button_follows_the_theme_until_the_button_is_gone(application):
     button = QtWidgets.QToolButton()
     put_icon(button, "pin")
     light = button.icon().pixmap(20, 20).toImage()
@@ -142,15 +160,13 @@ def test_the_process_ends_well_with_windows_open(tmp_path):
         "window = QtWidgets.QMainWindow(); button = QtWidgets.QToolButton(window); put_icon(button, 'pin')\n"
         "LOOK.apply_theme(window); window.show(); LOOK.choose('dark'); app.processEvents(); print('done')"
     )
-    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=PATIENCE)
     assert (ended.returncode, ended.stdout) == (0, "done\n"), ended.stderr
     assert "Traceback" not in ended.stderr
 
 
 def shown(widget, theme):
     """The picture of a widget in a theme."""
-    from qtpy.QtWidgets import QHBoxLayout, QWidget
-
     LOOK.choose(theme.word)
     window = QWidget()
     QHBoxLayout(window).addWidget(widget)
@@ -163,7 +179,6 @@ def shown(widget, theme):
 @both_themes
 def test_a_ticked_box_has_a_tick(application, theme):
     from qtpy.QtCore import QRect
-    from qtpy.QtWidgets import QCheckBox, QRadioButton
 
     for kind in QCheckBox, QRadioButton:
         on, off = (shown(kind("", checked=checked), theme) for checked in (True, False))
@@ -182,8 +197,6 @@ def test_a_ticked_box_has_a_tick(application, theme):
 
 @both_themes
 def test_a_combo_box_and_a_number_box_have_arrows(application, theme):
-    from qtpy.QtWidgets import QComboBox, QSpinBox
-
     for box, width in (QComboBox(), 24), (QSpinBox(specialValueText=" "), 20):
         picture = shown(box, theme)
         ratio = round(picture.devicePixelRatio())
@@ -195,8 +208,6 @@ def test_a_combo_box_and_a_number_box_have_arrows(application, theme):
 
 
 def test_a_ticked_entry_of_a_menu_has_a_tick(application):
-    from qtpy.QtWidgets import QMenu
-
     for theme in THEMES.values():
         LOOK.choose(theme.word)
         menu = QMenu()
@@ -232,8 +243,6 @@ def test_without_a_folder_for_marks_the_sheet_is_whole(monkeypatch):
 
 
 def test_a_folder_with_odd_letters_serves(application, monkeypatch, tmp_path):
-    from qtpy.QtWidgets import QCheckBox
-
     place = tmp_path / "a b (c) 'ü'"
     place.mkdir()
     monkeypatch.setattr(own_folder, "_kept", [])
@@ -263,8 +272,6 @@ def test_the_first_source_that_knows_decides(monkeypatch, portal_says, registry_
 
 
 def fake_portal(is_dark):
-    from qtpy import QtCore
-
     class Fake(QtCore.QObject):
         changed = QtCore.Signal()
 
@@ -274,8 +281,6 @@ def fake_portal(is_dark):
 
 
 def test_the_window_follows_the_desktop_only_if_it_is_told_to(monkeypatch):
-    from app.qt.look import look
-
     fake = fake_portal(False)
     monkeypatch.setattr(desktop, "portal", lambda: fake)
     monkeypatch.setattr(look, "DESKTOP", Desktop())
@@ -291,8 +296,6 @@ def test_the_window_follows_the_desktop_only_if_it_is_told_to(monkeypatch):
 
 
 def test_an_explicit_choice_asks_no_desktop(monkeypatch):
-    from app.qt.look import look
-
     def asked():
         raise AssertionError("the desktop was asked")
 

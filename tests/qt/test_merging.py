@@ -1,12 +1,13 @@
 """Vertices of a mesh that is open merged in the window: asked, counted, undone, and their table written."""
 
+import os
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from qtpy import QtCore, QtTest
 
-from app.document.document import Zoom
+from app.document.document import Inset
 from app.document.edits import move_source
 from app.document.runs import ids_of
 from app.document.shared_parts.pins import Pins, add_pins
@@ -14,7 +15,7 @@ from app.document.shared_parts.selections import Selections, select
 from app.qt.files.merge_dialog import MergeDialog, usual_tolerance
 from app.qt.files.mesh_repairs import MeshRepairs
 from bihdist_core import BiharmonicDistance
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.sources.source import SurfacePoint
 from tests.core.test_merging import torn
 from tests.shapes import bumpy
@@ -24,16 +25,12 @@ TORN = torn(bumpy(120))
 WHOLE, IDS = TORN.merged(1e-6)
 
 
-@pytest.fixture(autouse=True)
-def own_folder(tmp_path, monkeypatch):
-    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+pytestmark = pytest.mark.usefixtures("own_folder")
 
 
 @pytest.fixture
-def s(screen, mesh_file):
-    s = screen(ONE)
-    s.open(mesh_file(TORN, "torn.off"), 5)
-    return s
+def s(shared_screen):
+    return shared_screen(TORN, ONE)
 
 
 def asked(s):
@@ -63,11 +60,11 @@ def test_a_soup_becomes_a_surface_and_a_soup_again(s, tmp_path):
     dialog = asked(s)
     assert dialog.tolerance == usual_tolerance(np.linalg.norm(np.ptp(TORN.vertices, axis=0)))
     gone = TORN.n_vertices - WHOLE.n_vertices
-    assert dialog.count.text() == f"{gone:,} of {TORN.n_vertices:,} vertices would go, and no face."
+    assert dialog.count.text() == f"{gone:,} of {TORN.n_vertices:,} vertices would be removed, and no face."
     QtTest.QTest.keyClick(dialog.box, QtCore.Qt.Key_Return)
     merged(s)
     assert s.window.status.message.text.startswith(f"{gone:,} vertices merged, {WHOLE.n_vertices} left; ")
-    assert (s.session.surface.n_vertices, s.session.surface.n_components) == (WHOLE.n_vertices, 1)
+    assert (s.session.mesh().surface.n_vertices, s.session.mesh().surface.n_components) == (WHOLE.n_vertices, 1)
     assert s.source == IDS[5]
     np.testing.assert_allclose(s.answers[0].field, BiharmonicDistance(WHOLE).from_source(IDS[5]), rtol=1e-9)
     assert WHOLE.facts[0].partition(" within")[0] in "\n".join(s.window.status.notes.sentences)
@@ -77,16 +74,16 @@ def test_a_soup_becomes_a_surface_and_a_soup_again(s, tmp_path):
     np.testing.assert_array_equal(found, np.stack([np.arange(len(IDS)), IDS], 1))
     s.window.actions_by_word["undo"].trigger()
     s.until(lambda: s.document.surfaces[0].repairs.merge is None and s.session.is_complete)
-    assert (s.session.surface.n_vertices, s.source) == (TORN.n_vertices, 5)
+    assert (s.session.mesh().surface.n_vertices, s.source) == (TORN.n_vertices, 5)
 
 
 def test_the_dialog_says_what_a_tolerance_would_do(s):
     dialog = asked(s)
-    assert "vertices would go, with " in typed(s, dialog, "0.3")
+    assert "vertices would be removed, with " in typed(s, dialog, "0.3")
     assert dialog.merge.isEnabled()
-    assert typed(s, dialog, "100") == "No face would be left within 100."
+    assert typed(s, dialog, "100") == "No face would be left with a tolerance of 100."
     assert not dialog.merge.isEnabled()
-    assert typed(s, dialog, "far") == "'far' is not a length, a number from 0."
+    assert typed(s, dialog, "far") == "'far' is not a length of 0 or more."
     assert not dialog.merge.isEnabled()
     dialog.accept()
     assert dialog.isVisible()
@@ -100,7 +97,7 @@ def test_where_nothing_is_near_the_dialog_says_how_far(s, mesh_file):
     s.open(mesh_file(bumpy(60), "whole.off"))
     dialog = asked(s)
     apart = np.linalg.norm(bumpy(60).vertices[:, None] - bumpy(60).vertices, axis=2) + 9 * np.eye(60)
-    assert dialog.count.text() == f"No two vertices are so near; the nearest are {apart.min():.4f} apart."
+    assert dialog.count.text() == f"No two vertices are that close; the closest are {apart.min():.4f} apart."
     assert not dialog.merge.isEnabled()
 
 
@@ -112,22 +109,22 @@ def test_a_second_tolerance_starts_from_the_file_and_the_first(s):
     typed(s, dialog, "1e-6")
     dialog.accept()
     s.until(lambda: s.document.surfaces[0].repairs.merge == 1e-6 and s.session.is_complete)
-    assert s.session.surface.n_vertices == WHOLE.n_vertices
+    assert s.session.mesh().surface.n_vertices == WHOLE.n_vertices
     s.window.actions_by_word["put back"].trigger()
     s.until(lambda: s.document.surfaces[0].repairs.merge is None and s.session.is_complete)
-    assert s.session.surface.n_vertices == TORN.n_vertices
+    assert s.session.mesh().surface.n_vertices == TORN.n_vertices
 
 
 def test_all_that_names_vertices_follows_and_comes_back(s):
     place = SurfacePoint(7, (0.2, 0.3, 0.5))
     document = add_pins(move_source(s.document, 0, 11), [40, place])
-    document = replace(select(document, "some", np.arange(9)), zooms=(Zoom(13),))
+    document = replace(select(document, "some", np.arange(9)), insets=(Inset(13),))
     s.session.show(document)
     s.until(lambda: s.session.is_complete)
     s.window.context[MeshRepairs].merge("A", 1e-6)
     merged(s)
     at = [s.document.point(name).at for name in s.document[Pins].points]
-    assert (s.source, at[0], s.document.zooms[0].vertex) == (IDS[11], IDS[40], IDS[13])
+    assert (s.source, at[0], s.document.insets[0].vertex) == (IDS[11], IDS[40], IDS[13])
     assert at[1].face == 7
     (some,) = s.document[Selections].selections
     assert ids_of(some.runs).tolist() == np.unique(IDS[:9]).tolist()
@@ -143,7 +140,7 @@ def test_without_a_merge_there_is_no_table(s):
     s.window.context[MeshRepairs].save_ids()
     assert s.window.status.message.text == "No vertices of this mesh have been merged."
     s.window.context[MeshRepairs].put_back()
-    assert s.window.status.message.text == "Nothing has been cut out of this mesh or merged."
+    assert s.window.status.message.text == "This mesh has not been cut or merged."
     s.window.context[MeshRepairs].merge("A", 0.0)
     merged(s)
     assert actions["save ids"].isEnabled()
@@ -151,21 +148,22 @@ def test_without_a_merge_there_is_no_table(s):
 
 
 def test_a_changed_copy_is_named_by_ids_that_a_merge_would_change(s):
-    from app.tools.robustness.comparison import change_mesh
+    from app.tools.robustness.perturbed_documents import perturb_mesh
     from bihdist_core.applications.changes import Perturbation
 
-    s.session.apply(lambda document: change_mesh(document, Perturbation(noise=0.1)))
+    s.session.apply(lambda document: perturb_mesh(document, Perturbation(noise=0.1)))
     s.until(lambda: len(s.document.surfaces) == 2 and s.session.is_complete)
     s.window.actions_by_word["merge"].trigger()
-    assert s.refusals[-1].startswith("torn.off has a changed copy")
+    assert s.refusals[-1].startswith("mesh.off has a perturbed copy")
     assert not s.window.findChildren(MergeDialog)
 
 
-def test_a_mesh_that_is_gone_is_said_in_the_dialog(s, tmp_path):
+def test_a_mesh_that_is_gone_is_said_in_the_dialog(s, mesh_file):
+    s.open(mesh_file(TORN, "torn.off"), 5)
     s.window.context[MeshRepairs].merge("A", 0.0)
     merged(s)
     path = s.document.surfaces[0].path
-    (tmp_path / "torn.off").unlink()
+    os.unlink(path)
     dialog = asked(s)
     assert dialog.count.text().startswith(f"The mesh {path} is not there.")
     assert not dialog.merge.isEnabled()

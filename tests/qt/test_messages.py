@@ -1,17 +1,16 @@
 """Messages that can be read and copied, one of several files, and the line above the panels."""
 
 import pytest
+from qtpy import QtCore, QtTest, QtWidgets
 
-pytest.importorskip("qtpy")
+from app.qt.look.look import LOOK
+from app.qt.pages.messages import Notice, WhichFile, ask_which, tell
+
 pytestmark = pytest.mark.usefixtures("application")
 
 
 @pytest.fixture
 def window(application):
-    from qtpy import QtTest, QtWidgets
-
-    from app.qt.look.look import LOOK
-
     window = QtWidgets.QMainWindow()
     LOOK.apply_theme(window)
     window.resize(640, 300)
@@ -23,10 +22,6 @@ def window(application):
 
 
 def notice_in(window):
-    from qtpy import QtWidgets
-
-    from app.qt.pages.messages import Notice
-
     middle, notice = QtWidgets.QWidget(), Notice()
     column = QtWidgets.QVBoxLayout(middle)
     column.setContentsMargins(0, 0, 0, 0)
@@ -42,10 +37,6 @@ def settle(application, times=5):
 
 
 def test_a_message_does_not_wait_and_all_of_it_is_copied(application, window):
-    from qtpy import QtTest, QtWidgets
-
-    from app.qt.pages.messages import tell
-
     message = tell(window, "It <b>failed</b>.", "line 1\nline 2")
     assert message.isVisible()
     assert message.sentence.text() == "It <b>failed</b>."
@@ -66,18 +57,12 @@ def test_a_message_does_not_wait_and_all_of_it_is_copied(application, window):
 
 
 def test_a_message_without_details_offers_none(window):
-    from app.qt.pages.messages import tell
-
     message = tell(window, "No.")
     assert message.fold.isHidden()
     message.close()
 
 
 def test_a_message_stands_above_a_dialog_that_is_open(application, window):
-    from qtpy import QtWidgets
-
-    from app.qt.pages.messages import tell
-
     dialog = QtWidgets.QDialog(window)
     dialog.open()
     settle(application)
@@ -89,17 +74,11 @@ def test_a_message_stands_above_a_dialog_that_is_open(application, window):
 
 def answered(window, paths, act):
     """What `ask_which` gives when the dialog is acted upon."""
-    from qtpy import QtCore, QtWidgets
-
-    from app.qt.pages.messages import ask_which
-
     QtCore.QTimer.singleShot(0, lambda: act(QtWidgets.QApplication.activeModalWidget()))
     return ask_which(window, paths)
 
 
 def test_one_of_several_files_is_chosen(window):
-    from qtpy import QtCore, QtTest
-
     paths = ["/far/away/a.off", "/far/away/b.off", "/near/a.off"]
     keys = QtCore.Qt.Key
 
@@ -119,8 +98,6 @@ def test_one_of_several_files_is_chosen(window):
 
 
 def test_the_list_of_files_tells_them_apart(window):
-    from app.qt.pages.messages import WhichFile
-
     dialog = WhichFile(["/far/away/a.off", "/near/a.off"], window)
     assert [dialog.list.item(k).text() for k in (0, 1)] == ["a.off", "a.off"]
     assert [dialog.list.item(k).toolTip() for k in (0, 1)] == ["/far/away/a.off", "/near/a.off"]
@@ -128,8 +105,6 @@ def test_the_list_of_files_tells_them_apart(window):
 
 
 def test_a_notice_is_hidden_until_there_is_something_to_say(application, window):
-    from qtpy import QtTest
-
     notice = notice_in(window)
     settle(application)
     assert notice.isHidden()
@@ -184,7 +159,6 @@ def test_a_long_notice_has_two_lines_and_all_of_it_in_the_tooltip(application, w
 
 
 def test_a_notice_has_the_ground_of_its_kind_in_each_theme(application, window):
-    from app.qt.look.look import LOOK
     from app.qt.look.theme import DARK, LIGHT
 
     notice, before = notice_in(window), LOOK.choice

@@ -4,20 +4,17 @@ import json
 import re
 import shutil
 import subprocess
-import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from app.document.edits import move_source
 from app.version import version
-from bihdist_core.distances import kinds
+from bihdist_core.distances import distance_types
+from tests.programs import ROOT, run_app
 from tests.qt.parts import parts
 from tests.shapes import bumpy
-
-ROOT = Path(__file__).parents[2]
 
 pytestmark = pytest.mark.skipif(shutil.which("xdotool") is None, reason="xdotool is not installed")
 
@@ -45,10 +42,9 @@ def corner(panel):
 
 
 @pytest.fixture
-def loaded(screen, mesh_file):
-    s = screen()
+def loaded(shared_screen):
+    s = shared_screen(bumpy(800))
     s.window.move(20, 40)
-    s.open(mesh_file(bumpy(800)), 5)
     s.settle(0.5)
     return s
 
@@ -56,7 +52,7 @@ def loaded(screen, mesh_file):
 def test_click_selects_and_drag_only_rotates_all_panels(loaded):
     s, panel = loaded, loaded.panels[0]
     x0, y0 = corner(panel)
-    target = int(s.session.surface.vertices[:, 2].argmax())
+    target = int(s.session.mesh().surface.vertices[:, 2].argmax())
     point = s.point_of(panel, target)
     run("mousemove", x0 + point.x(), y0 + point.y())
     run("click", 1)
@@ -75,9 +71,9 @@ def test_click_selects_and_drag_only_rotates_all_panels(loaded):
 
 
 def test_dragging_the_mark_moves_the_source_and_not_the_view(loaded, monkeypatch):
-    monkeypatch.setattr(kinds, "FRAME", 0)  # as on a large mesh
+    monkeypatch.setattr(distance_types, "FRAME_VERTICES", 0)  # as on a large mesh
     s, panel = loaded, loaded.panels[0]
-    front = int(s.session.surface.vertices[:, 2].argmax())
+    front = int(s.session.mesh().surface.vertices[:, 2].argmax())
     s.session.show(move_source(s.document, 0, front))
     s.until(lambda: s.session.is_complete)
     s.settle()
@@ -105,7 +101,7 @@ def test_dragging_the_mark_moves_the_source_and_not_the_view(loaded, monkeypatch
 
 def test_the_mark_behind_the_surface_is_not_taken_hold_of(loaded):
     s, panel = loaded, loaded.panels[0]
-    back = int(s.session.surface.vertices[:, 2].argmin())
+    back = int(s.session.mesh().surface.vertices[:, 2].argmin())
     parts(s.window).views.reset("front")
     s.session.show(move_source(s.document, 0, back))
     s.until(lambda: s.session.is_complete)
@@ -121,7 +117,7 @@ def test_the_mark_behind_the_surface_is_not_taken_hold_of(loaded):
 def test_a_hand_that_trembles_still_clicks(loaded):
     s, panel = loaded, loaded.panels[1]
     x0, y0 = corner(panel)
-    target = int(s.session.surface.vertices[:, 2].argmax())
+    target = int(s.session.mesh().surface.vertices[:, 2].argmax())
     point = s.point_of(panel, target)
     camera = panel.view.camera.GetPosition()
     run("mousemove", x0 + point.x(), y0 + point.y())
@@ -139,19 +135,9 @@ def test_the_wheel_zooms_all_panels(loaded):
     distance = camera.GetDistance()
     run("mousemove", x0 + 150, y0 + 200)
     run("click", "--repeat", 3, "--delay", 50, 4)
-    s.until(lambda: camera.GetDistance() < 0.8 * distance, seconds=10)
+    s.until(lambda: camera.GetDistance() < 0.8 * distance)
     s.settle(0.5)
     assert all((a != b).mean() > 0.01 for a, b in zip(before, s.pictures(), strict=True))
-
-
-def view(*arguments):
-    return subprocess.run(
-        [sys.executable, "-m", "app", "view", *map(str, arguments)],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
 
 
 def test_view_saves_a_picture_of_the_finished_window_and_exits(mesh_file, tmp_path):
@@ -159,7 +145,7 @@ def test_view_saves_a_picture_of_the_finished_window_and_exits(mesh_file, tmp_pa
 
     picture = tmp_path / "window.png"
     mesh = mesh_file(bumpy(800))
-    done = view(mesh, "--sources", 12, "--screenshot", picture, "--json", "--quiet")
+    done = run_app("view", mesh, "--sources", 12, "--screenshot", picture, "--json", "--quiet")
     assert done.returncode == 0, done.stderr
     said = json.loads(done.stdout)
     assert said == {
@@ -178,7 +164,7 @@ def test_view_saves_a_picture_of_the_finished_window_and_exits(mesh_file, tmp_pa
     ],
 )
 def test_view_refuses_with_a_sentence(arguments, words):
-    done = view(*arguments)
+    done = run_app("view", *arguments)
     assert done.returncode == 2
     assert re.search(words, done.stderr)
     assert "Traceback" not in done.stderr

@@ -7,11 +7,9 @@ from app.document.edits import show_dock
 from app.document.shared_parts.pins import add_pins
 from app.tools.regions.part import show_regions
 from bihdist_core import SurfacePoint, field_quality, field_statistics, read_surface
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from tests.qt.parts import parts
 from tests.shapes import MESHES, needs_meshes
-
-pytest.importorskip("qtpy")
 
 EXACT = 1e-9
 """Of the maximum; what a dock writes with four digits is compared as it is written."""
@@ -34,10 +32,9 @@ def written(tmp_path, capsys):
 
 
 @pytest.fixture
-def loaded(screen):
-    s = screen([Spec.of("biharmonic"), Spec.of("diffusion"), Spec.of("geodesic", method="dijkstra")])
-    s.open(MESHES / "suzanne.obj", SOURCE)
-    return s
+def loaded(shared_screen):
+    specs = [Spec.of("biharmonic"), Spec.of("diffusion"), Spec.of("geodesic", method="dijkstra")]
+    return shared_screen(MESHES / "suzanne.obj", specs, SOURCE)
 
 
 def dock(s, word):
@@ -53,7 +50,7 @@ def fields(written):
 @needs_meshes
 def test_pins_and_their_distances(loaded, written):
     s, pins = loaded, dock(loaded, "pins")
-    surface = s.session.surface
+    surface = s.session.mesh().surface
     other = int(np.flatnonzero(surface.component_of_vertex == 1)[0])
     face = int(np.flatnonzero((surface.faces == 400).any(axis=1))[0])
     at = [77, 300, other, SOURCE, SurfacePoint.of(face, 0.2, 0.3)]
@@ -96,18 +93,18 @@ def numbers_of(path):
 @needs_meshes
 def test_regions_and_farthest_points(loaded, written, tmp_path):
     s, regions = loaded, dock(loaded, "regions")
-    surface = s.session.surface
+    surface = s.session.mesh().surface
     other = int(np.flatnonzero(surface.component_of_vertex == 1)[0])
     at = [77, 300, 400, other]
     s.session.show(add_pins(s.document, at))
     for panel in s.document.panels:
         s.session.show(show_regions(s.document, panel.id))
-    s.until(lambda: parts(s.window).regions.is_complete)
+    s.until(lambda: parts(s.window).regions.dividing.is_complete)
     for panel, spec in zip(s.document.panels, SHOWN, strict=True):
         cut, lines = tmp_path / "cut.ply", tmp_path / "lines.csv"
         words = ("--sources", ",".join(map(str, at)), "--distance", spec, "--region-mesh", cut, "--boundaries", lines)
         labels = written("regions", *words, name=f"{panel.id}.npy")
-        found = parts(s.window).regions.divided(panel.id).regions
+        found = parts(s.window).regions.dividing.divided(panel.id).regions
         assert np.array_equal(np.where(found.labels < 0, np.nan, found.labels + 1), labels, equal_nan=True)
         mesh = read_surface(cut)
         assert found.areas.sum() == pytest.approx(mesh.face_areas.sum(), rel=EXACT)
@@ -118,8 +115,8 @@ def test_regions_and_farthest_points(loaded, written, tmp_path):
             copied = [float(line.split("\t")[1 + panel.id]) for line in regions.text().splitlines()[1:]]
             assert copied == pytest.approx(areas / whole, rel=EXACT)
         my_cut, my_lines = tmp_path / "mine.ply", tmp_path / "mine.csv"
-        assert regions.save_to(panel.id, "mesh", str(my_cut))
-        assert regions.save_to(panel.id, "boundaries", str(my_lines))
+        regions.save(panel.id, "mesh", str(my_cut))
+        regions.save(panel.id, "boundaries", str(my_lines))
         mine = read_surface(my_cut)
         assert np.array_equal(mine.faces, mesh.faces)
         assert mine.vertices == pytest.approx(mesh.vertices, abs=EXACT)
@@ -135,7 +132,7 @@ def test_regions_and_farthest_points(loaded, written, tmp_path):
 @needs_meshes
 def test_the_profile(loaded, written, tmp_path):
     s, profile = loaded, dock(loaded, "profile")
-    surface = s.session.surface
+    surface = s.session.mesh().surface
     face = int(np.flatnonzero((surface.faces == 400).any(axis=1))[0])
     s.session.show(add_pins(s.document, [77, SurfacePoint.of(face, 0.2, 0.3), 300]))
     s.until(lambda: profile.path is not None and len(profile.path.knots) == 3)
@@ -158,10 +155,10 @@ def read(text):
 def test_statistics_scatter_and_quality(loaded, written):
     from scipy.stats import spearmanr
 
-    from app.qt.look.numbers import number, share
+    from app.drawing.numbers import number, share
 
     s, (a, b, c) = loaded, fields(written)
-    surface = s.session.surface
+    surface = s.session.mesh().surface
     statistics, scatter, quality = (dock(s, word) for word in ("statistics", "scatter", "quality"))
     s.until(lambda: statistics.facts.facts and len(scatter.facts.facts) > 3 and parts(s.window).quality.is_complete)
     s.settle(0.1)

@@ -14,10 +14,10 @@ from app.document.document import COMPARISON, comparison
 from app.document.file import recipe_text
 from app.document.page import Recipe
 from tests.shapes import bumpy
+from tests.waiting import PATIENCE
 
 PROGRAMS = ("xdg-open", "gio", "update-mime-database", "update-desktop-database", "xdotool")
 MISSING = [name for name in PROGRAMS if shutil.which(name) is None]
-PATIENCE = 180.0
 
 pytestmark = [
     pytest.mark.skipif(not sys.platform.startswith("linux"), reason="desktops of this kind are Linux's"),

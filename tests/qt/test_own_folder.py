@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
+from app.qt.look.own_folder import own_folder, remove_own_folder
+from tests.programs import ROOT, run_app
 from tests.shapes import bumpy
 
-pytest.importorskip("qtpy")
 pytestmark = pytest.mark.usefixtures("application")
-ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture
@@ -37,15 +37,12 @@ def ours(folder):
 
 
 def test_a_window_that_ends_leaves_nothing(temporary, mesh_file, tmp_path):
-    command = [sys.executable, "-m", "app", mesh_file(bumpy(100)), "--screenshot", str(tmp_path / "a.png")]
-    subprocess.run(command, cwd=ROOT, check=True, timeout=120)
+    assert run_app(mesh_file(bumpy(100)), "--screenshot", tmp_path / "a.png").returncode == 0
     assert (tmp_path / "a.png").exists()
     assert ours(temporary) == []
 
 
 def test_the_next_sweeps_the_folder_of_one_that_was_killed_and_of_nobody_else(temporary):
-    from app.qt.look.own_folder import own_folder, remove_own_folder
-
     words = "from app.qt.look.own_folder import own_folder; print(own_folder(), flush=True); input()"
     processes = [
         subprocess.Popen(
@@ -70,8 +67,6 @@ def test_the_next_sweeps_the_folder_of_one_that_was_killed_and_of_nobody_else(te
 
 
 def test_a_folder_that_was_taken_away_is_made_again(temporary):
-    from app.qt.look.own_folder import own_folder
-
     own_folder().joinpath("lock").unlink(missing_ok=True)
     own_folder().rmdir()
     assert own_folder().is_dir()

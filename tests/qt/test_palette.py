@@ -1,12 +1,11 @@
 """The palette of commands: made from the menus, found by the words people know, run by the keyboard alone."""
 
 import pytest
-
-pytest.importorskip("qtpy")
 from qtpy import QtCore, QtGui, QtWidgets
 from qtpy.compat import isalive
 from qtpy.QtTest import QTest
 
+from app.qt.pages.commands import NO_MESH, Command, commands_of
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
@@ -18,8 +17,6 @@ def native(keys):
 
 
 def test_commands_are_made_from_the_menus(application):
-    from app.qt.pages.commands import NO_MESH, Command, commands_of
-
     bar = QtWidgets.QMenuBar()
     file, view = bar.addMenu("&File"), bar.addMenu("&View")
     opening = file.addAction("&Open…")
@@ -69,10 +66,8 @@ def test_what_can_be_run_and_what_has_the_words_in_its_title_stands_first():
 
 
 @pytest.fixture
-def shown(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(300)))
-    return s
+def shown(shared_screen):
+    return shared_screen()
 
 
 def palette_of(s):
@@ -96,20 +91,18 @@ def current(palette):
 
 
 def test_the_words_people_know_find_what_they_mean_and_all_synonyms_belong_to_something(shown):
-    from app.qt.acts import ALL
-    from app.qt.pages.commands import found, plain
-    from app.qt.synonyms import SYNONYMS
+    from app.qt.pages.commands import MENU_SYNONYMS, found, plain
 
     commands = parts(shown.window).guide.commands()
     for typed, meant in {
-        "rotate": "Turn to the left",
+        "rotate": "Turn left",
         "difference": "Difference with: Geodesic",
         "save": "Save session",
         "colour": "Colours: Ember",
         "color": "Colours: Ember",
         "measure": "Pins",
-        "compare": "Add a panel",
-        "zoom": "Nearer",
+        "compare": "Add panel",
+        "zoom": "Zoom in",
         "contours": "Isolines: About 20",
         "dark mode": "Theme: Dark",
     }.items():
@@ -117,21 +110,22 @@ def test_the_words_people_know_find_what_they_mean_and_all_synonyms_belong_to_so
         assert [each.title for each in rows if each.title.endswith(meant) and each.can_run], typed
         assert rows[0].can_run
     menus = shown.window.findChildren(QtWidgets.QMenu)
-    known = {act.word for act in ALL} | {plain(menu.title()) for menu in menus} | {"Show here"}
-    assert set(SYNONYMS) - known == set()
+    known = {plain(menu.title()) for menu in menus} | {"Show here"}
+    known |= {each.title.rpartition(": ")[2] for each in commands}
+    assert set(MENU_SYNONYMS) - known == set()
 
 
 def test_the_keyboard_alone_finds_and_runs_a_command_and_leaves(shown):
     palette = palette_of(shown)
-    assert "Turn all panels" in titles(palette)
+    assert "Rotate all panels" in titles(palette)
     QTest.keyClicks(palette.box, "wirefr")
-    assert current(palette) == "Shading: Wireframe"
+    assert current(palette) == "Shading: Show edges"
     QTest.keyClick(palette.box, KEYS.Key_Return)
     shown.settle()
-    assert shown.document.shading.wireframe
+    assert shown.document.shading.show_edges
     assert not isalive(palette) or not palette.isVisible()
     palette = palette_of(shown)
-    assert current(palette) == "Shading: Wireframe"  # what was run last
+    assert current(palette) == "Shading: Show edges"  # what was run last
     assert palette.rows.currentItem().data(QtCore.Qt.ItemDataRole.UserRole).is_on
     QTest.keyClick(palette.box, KEYS.Key_Down)
     QTest.keyClick(palette.box, KEYS.Key_Down)
@@ -141,7 +135,7 @@ def test_the_keyboard_alone_finds_and_runs_a_command_and_leaves(shown):
     QTest.keyClick(palette.box, KEYS.Key_Escape)
     shown.settle()
     assert not isalive(palette) or not palette.isVisible()
-    assert shown.document.shading.wireframe
+    assert shown.document.shading.show_edges
 
 
 def test_a_distance_of_the_active_panel_is_a_command(shown):
@@ -169,3 +163,64 @@ def test_what_cannot_be_run_says_why_and_stays(screen):
     assert palette.nothing.isVisible()
     QTest.keyClick(palette.box, KEYS.Key_Return)
     palette.close()
+
+
+FOUND = {
+    "viridis": "Colours: Uniform",
+    "inferno": "Colours: Ember",
+    "cividis": "Colours: Safe",
+    "coolwarm": "Colours: Paper",
+    "rainbow": "Colours: Paper",
+    "heat": "Show here: Diffusion",
+    "heat method": "Show here: Geodesic",
+    "eigenfunctions": "Show here: Biharmonic, truncated",
+    "euclid": "Show here: Geodesic",
+    "colorbar": "Range: Own maximum of each panel",
+    "legend": "Range: Own maximum of each panel",
+    "normalize": "Range: Own maximum of each panel",
+    "two sources": "Add to the source",
+    "height": "Up: ",
+    "levels": "Isolines: ",
+    "black": "Colours: Dark ground",
+    "fullscreen": "Full screen",
+    "ruler": "Pins",
+    "lasso": "Scatter",
+    "simplify": "Robustness",
+    "accuracy": "Quality",
+    "latex": "Export figure",
+    "animate": "Export movie",
+}
+"""What people type, and what they mean: the beginning of a title that is found for it."""
+
+
+def test_plain_words_find_what_they_mean(shown):
+    from app.qt.pages.commands import GESTURES, found
+
+    commands = [*parts(shown.window).guide.commands(), *GESTURES]
+    missed = {
+        words: [each.title for each in found(commands, words)][:5]
+        for words, title in FOUND.items()
+        if not any(each.title.startswith(title) for each in found(commands, words)[:5])
+    }
+    assert missed == {}
+
+
+def test_recent_files_are_found_by_their_names_after_commands(shown, mesh_file, tmp_path, monkeypatch):
+    from app.qt import remembered
+    from app.qt.pages.commands import GESTURES, found
+
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "mouse"))
+    paths = [mesh_file(bumpy(60), name) for name in ("mouse.off", "sphere.off")]
+    folder = tmp_path / "mouse"
+    folder.mkdir(exist_ok=True)
+    inside = folder / "cat.off"
+    inside.write_text("OFF")
+    for path in (*paths, str(inside)):
+        remembered.remember(path)
+    commands = [*parts(shown.window).guide.commands(), *GESTURES]
+    titles = [each.title for each in found(commands, "mouse")]
+    assert titles[-1].endswith("mouse.off")
+    assert not any(title.endswith("cat.off") for title in titles)
+    assert len(titles) > 5
+    assert [each.title.rpartition("/")[2] for each in found(commands, "sphere")] == ["sphere.off"]
+    assert len([each for each in found(commands, "recent") if each.file]) == 3

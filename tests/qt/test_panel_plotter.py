@@ -4,15 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import pyvista
 from PIL import Image
 
 import app
-from app.document.document import Zoom
+from app.document.document import Inset
 from app.document.looks import Shading
 from app.qt.look.look import LOOK
 from tests.shapes import bumpy, grid
-
-pytest.importorskip("qtpy")
 
 SURFACE = bumpy(300)
 ADDED = (255, 0, 255)
@@ -53,8 +52,6 @@ def add_points(viewer, panel=0):
 
 
 def test_fields_are_arrays_of_the_meshes_by_their_names(viewer):
-    import pyvista
-
     for panel in viewer.panels:
         assert isinstance(panel.mesh, pyvista.PolyData)
         assert np.array_equal(panel.mesh.points, SURFACE.vertices)
@@ -75,7 +72,7 @@ def test_what_is_written_into_a_mesh_changes_nothing_else(viewer):
 
 
 @pytest.mark.parametrize(
-    ("surface", "look"), [(SURFACE, {"shading": Shading("creased", 5.0)}), (grid(8, 6), {"height": 0.5})]
+    ("surface", "look"), [(SURFACE, {"shading": Shading("creased", 5.0)}), (grid(8, 6), {"warp_factor": 0.5})]
 )
 def test_at_creases_vertices_are_points_once_and_those_of_height_fields_are_raised(application, surface, look):
     viewer = app.show(surface, ["biharmonic"], block=False)
@@ -83,8 +80,8 @@ def test_at_creases_vertices_are_points_once_and_those_of_height_fields_are_rais
         viewer.document = replace(viewer.document, **look)
         mesh = viewer.panels[0].mesh
         assert (mesh.n_points, mesh.n_cells) == (len(surface.vertices), len(surface.faces))
-        assert (np.abs(mesh.points - surface.vertices).max() > 0.1) == ("height" in look)
-        assert ("shading" in look) == (views(viewer)[0].scene.mesh.GetNumberOfPoints() > mesh.n_points)
+        assert (np.abs(mesh.points - surface.vertices).max() > 0.1) == ("warp_factor" in look)
+        assert ("shading" in look) == (views(viewer)[0].scene.field_actor.mesh.GetNumberOfPoints() > mesh.n_points)
     finally:
         viewer.close()
 
@@ -117,8 +114,6 @@ def test_points_are_seen_in_one_panel_alone_until_they_are_removed(viewer):
 
 
 def test_meshes_arrows_and_lines_stand_there_too(viewer):
-    import pyvista
-
     plotter, seen = viewer.panels[1].plotter, [shots(viewer)[1]]
     at = outside(viewer)
     for add in (
@@ -154,7 +149,7 @@ def test_it_is_in_pictures_of_the_window(viewer, tmp_path):
 
 def test_it_is_in_insets(viewer):
     highest = int(SURFACE.vertices[:, 1].argmax())
-    viewer.document = replace(viewer.document, zooms=(Zoom(highest, 2.0),))
+    viewer.document = replace(viewer.document, insets=(Inset(highest, 2.0),))
     add_points(viewer)
     shot = shots(viewer)[0]
     ((left, bottom, width, height),) = views(viewer)[0].scene.insets.placed.values()
@@ -177,8 +172,6 @@ def test_it_outlasts_another_look_but_not_the_surface(viewer):
 
 
 def test_clicks_go_through_it(viewer):
-    import pyvista
-
     view = views(viewer)[0]
     middle = view.rect().center()
     before = view.pick(middle)
@@ -189,8 +182,6 @@ def test_clicks_go_through_it(viewer):
 
 
 def test_other_plotters_may_all_be_closed(viewer):
-    import pyvista
-
     before = shots(viewer)
     pyvista.close_all()
     views(viewer)[0].redraw()
@@ -206,7 +197,7 @@ def test_the_window_opens_before_pyvista_is_imported(application):
         "import os, sys\n"
         "from app.qt.application import application\n"
         "from app.qt.main_window import MainWindow\n"
-        "from app.qt.preferences import Preferences\n"
+        "from app.document.settings import Preferences\n"
         "app = application()\n"
         "window = MainWindow(None, Preferences())\n"
         "window.remembers, window.context.quiet = False, True\n"

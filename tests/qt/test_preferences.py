@@ -5,12 +5,17 @@ from dataclasses import replace
 
 import pytest
 from qtpy.QtCore import QRect, QSettings, QSize
+from qtpy.QtWidgets import QAbstractButton, QWidget
 
+from app.document.settings import THEME, Preferences
 from app.qt import preferences, remembered
-from app.qt.preferences import Preferences, brought_back, first_place, load, save
+from app.qt.look.look import LOOK
+from app.qt.pages.preferences_dialog import PreferencesDialog
+from app.qt.preferences import brought_back, first_place, load, save
 from tests.qt.parts import parts
+from tests.shapes import bumpy
 
-MINE = Preferences("dark", 0, True, bytes(range(256)), "/tmp/Größe, 50% @x; [a]=b #c\\d")
+MINE = Preferences("dark", 0, True, geometry=bytes(range(256)), last_folder="/tmp/Größe, 50% @x; [a]=b #c\\d")
 
 
 @pytest.fixture(autouse=True)
@@ -95,7 +100,7 @@ def test_random_bytes_never_stop_the_start():
             whole[chance.randrange(len(whole))] = chance.randrange(256)
         written(bytes(whole))
         found = load()
-        assert found.theme in preferences.CHOICES
+        assert found.theme in THEME.choices
         assert 0 <= found.isolines <= 1000
 
 
@@ -164,8 +169,6 @@ def test_a_window_larger_than_its_screen_is_made_smaller():
 
 
 def test_a_window_comes_back_where_it_was(application):
-    from qtpy.QtWidgets import QWidget
-
     one, other, away = QWidget(), QWidget(), QWidget()
     available = one.screen().availableGeometry()
     one.setGeometry(available.x() + 30, available.y() + 40, available.width() // 2, available.height() // 2)
@@ -182,11 +185,8 @@ def test_a_window_comes_back_where_it_was(application):
 # ---------------------------------------------------------------------- the dialog
 @pytest.fixture
 def dialog(application):
-    from app.qt.look.look import LOOK
-    from app.qt.pages.preferences_dialog import PreferencesDialog
-
     LOOK.choose("light")
-    made = PreferencesDialog(Preferences("light", 12, True, b"\1", "/tmp"))
+    made = PreferencesDialog(Preferences("light", 12, True, geometry=b"\1", last_folder="/tmp"))
     made.show()
     yield made
     made.close()
@@ -195,18 +195,16 @@ def dialog(application):
 
 
 def test_the_dialog_shows_and_gives_what_it_is_told(dialog):
-    assert dialog.chosen() == Preferences("light", 12, True, b"\1", "/tmp")
-    dialog.isolines.setValue(30)
-    dialog.wheel.buttons[""].click()
-    dialog.turning.buttons["turntable"].click()
-    assert dialog.chosen() == Preferences("light", 30, False, b"\1", "/tmp", turntable=True)
+    assert dialog.chosen() == Preferences("light", 12, True, geometry=b"\1", last_folder="/tmp")
+    dialog.controls["isolines"].setValue(30)
+    dialog.controls["wheel_reversed"].buttons[False].click()
+    dialog.controls["turntable"].buttons[True].click()
+    assert dialog.chosen() == Preferences("light", 30, False, True, geometry=b"\1", last_folder="/tmp")
 
 
 def test_a_theme_is_seen_at_once_and_cancel_undoes_it(dialog):
-    from app.qt.look.look import LOOK
-
     light = dialog.grab().toImage().pixelColor(3, 3)
-    dialog.theme.buttons["dark"].click()
+    dialog.controls["theme"].buttons["dark"].click()
     assert LOOK.theme.word == "dark"
     assert dialog.grab().toImage().pixelColor(3, 3).lightness() < 64 < light.lightness()
     dialog.reject()
@@ -214,8 +212,6 @@ def test_a_theme_is_seen_at_once_and_cancel_undoes_it(dialog):
 
 
 def test_reset_is_of_everything_and_cancel_undoes_it(dialog):
-    from app.qt.look.look import LOOK
-
     dialog.again.click()
     assert dialog.chosen() == Preferences()
     assert LOOK.choice == "desktop"
@@ -226,20 +222,16 @@ def test_reset_is_of_everything_and_cancel_undoes_it(dialog):
 def test_the_chosen_word_has_room_and_does_not_move_the_others(dialog):
     from qtpy.QtGui import QFontMetrics
 
-    from app.qt.look.look import LOOK
-
     metrics = QFontMetrics(LOOK.font(bold=True))
-    for button in dialog.wheel.buttons.values():
+    for button in dialog.controls["wheel_reversed"].buttons.values():
         assert button.width() >= metrics.horizontalAdvance(button.text()) + 24  # what the style sheet puts beside it
-    before = [button.geometry() for button in dialog.theme.buttons.values()]
-    dialog.theme.buttons["dark"].click()
-    assert [button.geometry() for button in dialog.theme.buttons.values()] == before
+    before = [button.geometry() for button in dialog.controls["theme"].buttons.values()]
+    dialog.controls["theme"].buttons["dark"].click()
+    assert [button.geometry() for button in dialog.controls["theme"].buttons.values()] == before
 
 
 def test_controls_have_names_and_tips(dialog):
-    from qtpy.QtWidgets import QAbstractButton
-
-    for control in dialog.theme, dialog.wheel, dialog.isolines:
+    for control in dialog.controls["theme"], dialog.controls["wheel_reversed"], dialog.controls["isolines"]:
         assert control.accessibleName()
         assert control.toolTip()
     for button in dialog.findChildren(QAbstractButton):
@@ -249,15 +241,36 @@ def test_controls_have_names_and_tips(dialog):
 @pytest.mark.parametrize("is_accepted", [True, False])
 def test_asking_saves_unless_cancelled(application, is_accepted):
     from app.qt.main_window import MainWindow
-    from app.qt.pages.preferences_dialog import PreferencesDialog
 
     kept = Preferences(theme="light", geometry=b"\1\2")
     save(kept)
     window = MainWindow(preferences=kept)
     parts(window).choices.ask_preferences()
     dialog = window.findChild(PreferencesDialog)
-    dialog.isolines.setValue(3)
+    dialog.controls["isolines"].setValue(3)
     (dialog.accept if is_accepted else dialog.reject)()
     assert load() == window.context.preferences == replace(kept, isolines=3 if is_accepted else 20)
     window.context.remembers, window.context.quiet = False, True
     window.close()
+
+
+def test_docks_that_were_open_and_the_size_come_back(screen, mesh_file):
+    from app.document.document import Document
+    from app.qt.start import as_preferred
+
+    s = screen()
+    s.window.context.remembers = True
+    s.open(mesh_file(bumpy(60)), 5)
+    parts(s.window).docks.toggle("statistics")
+    parts(s.window).docks.toggle("pins")
+    s.window.resize(1111, 707)
+    # Without the end of the window: it may come by a crash.
+    s.until(lambda: load().geometry)
+    other = screen()
+    preferences.restore_geometry(other.window, load())
+    assert (other.window.width(), other.window.height()) == (1111, 707)
+    assert as_preferred(Document(), load()).docks == ("statistics", "pins")
+    assert as_preferred(Document(docks=("profile", "pins")), load()).docks == ("profile", "pins", "statistics")
+    s.window.close()
+    written("[General]\nversion=1\ndocks=pins, hammer\n")
+    assert load().docks == "pins"

@@ -1,20 +1,17 @@
 """In small views lines and marks are smaller, so that the shape is seen; anchors are rings on every colour."""
 
-import numpy as np
-import pytest
-
-pytest.importorskip("qtpy")
-
 from dataclasses import replace
 
+import numpy as np
+import pytest
 from qtpy import QtCore
 
 from app.document.document import Point
 from app.document.looks import Isolines
 from app.document.shared_parts.pins import add_pins
-from app.qt.panels import glyph_painting
+from app.qt.panels import mark_shapes
 from app.scene.levels import BOLD, ZERO, width_of
-from app.scene.proportion import LEAST, USUAL, proportion
+from app.scene.panel_scene import LEAST, USUAL, proportion
 from app.scene.style import PAPER
 from app.tools.interpolation.part import Anchor, Anchors
 from tests.qt.painting import painted
@@ -33,11 +30,8 @@ def test_a_line_at_0_is_hardly_wider_than_others_unless_bold_ones_are_wanted():
 
 
 @pytest.fixture
-def loaded(screen, mesh_file):
-    s = screen()
-    s.window.resize(1500, 1000)
-    s.open(mesh_file(bumpy(1500)), 5)
-    return s
+def loaded(shared_screen):
+    return shared_screen(bumpy(1500), size=(1500, 1000))
 
 
 def white(picture):
@@ -81,7 +75,7 @@ def test_drops_are_smaller_in_small_views_where_they_are_clicked_too(loaded):
     s.window.resize(700, 560)
     s.until(lambda: view.proportion < 0.9)
     s.settle(0.1)
-    share = max(view.proportion, glyph_painting.LEAST)
+    share = max(view.proportion, mark_shapes.LEAST_SCALE)
     tip = view.place_of(view.over.points.positions("pins")[0])
     if tip.y() > 40:  # upright, as before
         assert reach(tip) == pytest.approx(share * usual, abs=1.5)

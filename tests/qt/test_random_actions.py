@@ -6,16 +6,16 @@ BIHDIST_ACTIONS: how many actions there are; BIHDIST_SEED: which.
 import json
 import os
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from qtpy import QtCore, QtWidgets
 
+from tests.programs import run_python
 from tests.qt.parts import parts
+from tests.waiting import PATIENCE
 
-ROOT = Path(__file__).parents[2]
 ACTIONS, SEED = int(os.environ.get("BIHDIST_ACTIONS", 300)), int(os.environ.get("BIHDIST_SEED", 1))
 FIRST = 50
 """Actions after which all that is made once and kept (menus, dialogs' modules, answers) is mostly there."""
@@ -27,14 +27,8 @@ pytestmark = [
 
 
 def test_random_actions_leave_true_panels_and_no_exception(application, tmp_path):
-    done = subprocess.run(
-        [sys.executable, "-m", "tests.qt.random_actions", str(SEED), str(ACTIONS), str(tmp_path)],
-        cwd=ROOT,
-        env={**os.environ, "XDG_DATA_HOME": str(tmp_path)},
-        capture_output=True,
-        text=True,
-        timeout=60 + ACTIONS,
-    )
+    words = ["-m", "tests.qt.random_actions", SEED, ACTIONS, tmp_path]
+    done = run_python(*words, timeout=PATIENCE + 10 * ACTIONS, XDG_DATA_HOME=str(tmp_path))
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout.splitlines()[-1])
     assert found["errors"] == []
@@ -48,8 +42,6 @@ def test_random_actions_leave_true_panels_and_no_exception(application, tmp_path
 
 
 def test_dialogs_that_are_closed_are_gone(screen):
-    from qtpy import QtCore, QtWidgets
-
     from app.qt.pages.palette import Palette
 
     s = screen()
@@ -63,3 +55,14 @@ def test_dialogs_that_are_closed_are_gone(screen):
         dialog.close()
         s.application.sendPostedEvents(None, QtCore.QEvent.Type.DeferredDelete)
         assert s.window.findChildren(kind) == []
+
+
+def test_a_dialog_that_asks_for_a_path_is_gone_once_it_is_answered(screen, monkeypatch):
+    from app.qt.files.saving import ask_path
+
+    s = screen()
+    for answer in (0, 1):
+        monkeypatch.setattr(QtWidgets.QFileDialog, "exec", lambda dialog, answer=answer: answer)
+        assert bool(ask_path(s.window.context, "Save", "name", [".csv"])) == bool(answer)
+        s.application.sendPostedEvents(None, QtCore.QEvent.Type.DeferredDelete)
+        assert s.window.findChildren(QtWidgets.QFileDialog) == []

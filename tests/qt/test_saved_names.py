@@ -1,8 +1,6 @@
 """What the window calls files when it asks where to save them."""
 
 import pytest
-
-pytest.importorskip("qtpy")
 from qtpy import QtWidgets
 
 from tests.qt.parts import parts
@@ -39,8 +37,8 @@ def test_every_dialog_suggests_the_mesh_what_is_saved_and_of_which_distance(scre
     save_isolines(window.context, panel)
     content("statistics").save_numbers()
     content("scatter").save_figure()
-    content("pins").files.choose_and_save()
-    content("profile").files.choose_numbers()
+    content("pins").files.save()
+    content("profile").files.save_numbers()
     content("anchors").choose_and_save()
     assert suggested == [
         "mesh-session.json",

@@ -6,15 +6,16 @@ import shutil
 import socket
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
 from app.qt import screen
 from bihdist_core import BihdistError
+from tests import programs
+from tests.programs import ROOT
 from tests.shapes import bumpy
+from tests.waiting import PATIENCE, without_progress
 
-ROOT = Path(__file__).parents[2]
 SET_UP = ROOT / ".ci" / "set-up"
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="of Linux")
@@ -150,7 +151,7 @@ def test_a_screen_that_is_there_will_do(plain):
 @pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="xvfb-run is not installed")
 def test_asking_a_display_does_not_close_it_to_who_comes_next():
     asked = "from app.qt.screen import check_display\nfor _ in range(200): check_display()"
-    done = subprocess.run(["xvfb-run", "-a", sys.executable, "-c", asked], cwd=ROOT, capture_output=True, timeout=60)
+    done = programs.run("xvfb-run", "-a", sys.executable, "-c", asked)
     assert done.returncode == 0, done.stderr
 
 
@@ -159,7 +160,7 @@ def run(code, **changes):
     environment = {k: v for k, v in os.environ.items() if k not in ("WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
     environment.update(changes)
     return subprocess.run(
-        [sys.executable, "-c", code], cwd=ROOT, env=environment, capture_output=True, text=True, timeout=120
+        [sys.executable, "-c", code], cwd=ROOT, env=environment, capture_output=True, text=True, timeout=PATIENCE
     )
 
 
@@ -195,14 +196,13 @@ def test_view_and_show_end_with_a_sentence_where_libraries_are_missing():
 def view_of(mesh, out, **environment):
     """The window is started with other settings."""
     command = [sys.executable, "-m", "app", mesh, "--screenshot", str(out)]
-    settings = {**os.environ, "XDG_DATA_HOME": str(out.parent / "data"), **environment}
-    return subprocess.run(command, cwd=ROOT, env=settings, capture_output=True, text=True, timeout=120, check=False)
+    return programs.run(*command, **{"XDG_DATA_HOME": str(out.parent / "data"), **environment})
 
 
 def ours(done):
     """What we say, among what drivers and Qt say."""
     assert "Traceback" not in done.stderr
-    return [line for line in done.stderr.splitlines() if line.startswith("bihdist: ")]
+    return [line for line in without_progress(done.stderr).splitlines() if line.startswith("bihdist: ")]
 
 
 NO_DRIVER = {"LIBGL_DRIVERS_PATH": "/nonexistent", "__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent"}
@@ -248,9 +248,9 @@ def test_a_figure_without_a_driver_is_a_sentence_and_a_dead_display_costs_none(s
     words = ["figure", mesh_file(bumpy(100)), "--size", "200x200", "-o", str(tmp_path / "a.png")]
     command = [sys.executable, "-m", "app", *words]
     own = {name: value for name, value in os.environ.items() if name != "DISPLAY"} | settings
-    done = subprocess.run(command, cwd=ROOT, env=own, capture_output=True, text=True, timeout=120, check=False)
+    done = subprocess.run(command, cwd=ROOT, env=own, capture_output=True, text=True, timeout=PATIENCE, check=False)
     if settings is NO_DRIVER:
         assert done.returncode == 2
         assert "Drawing needs OpenGL" in ours(done)[0]
     else:
-        assert (done.returncode, done.stderr) == (0, "")
+        assert (done.returncode, without_progress(done.stderr)) == (0, "")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from qtpy import QtCore, QtTest
 
 import app
 from app.document.document import Document
@@ -25,22 +26,16 @@ from bihdist_core import (
     VertexError,
 )
 from tests.core.test_merging import torn
-from tests.shapes import bumpy, grid, torus, two_pieces
-
-pytest.importorskip("qtpy")
-
 from tests.qt.parts import parts
 from tests.qt.test_head import choose
+from tests.shapes import bumpy, grid, torus, two_pieces
 
 ROOT = Path(__file__).resolve().parents[2]
 SURFACE = bumpy(300)
 HEIGHT = SURFACE.vertices[:, 1]
 
 
-@pytest.fixture(autouse=True)
-def own_folder(tmp_path, monkeypatch):
-    """Nothing of the user's is read or written."""
-    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+pytestmark = pytest.mark.usefixtures("own_folder")
 
 
 @pytest.fixture
@@ -84,7 +79,7 @@ def test_vertices_and_faces_or_a_file_are_the_same_mesh(shown, mesh_file):
 
 def test_a_second_mesh_stands_beside_the_first(shown, mesh_file):
     surface = torus(16, 8)
-    viewer = shown(mesh_file(SURFACE), ["biharmonic"], source=3, beside=(surface.vertices, surface.faces))
+    viewer = shown(mesh_file(SURFACE), ["biharmonic"], source=3, second_mesh=(surface.vertices, surface.faces))
     first, second = viewer.document.panels
     assert [panel.surface for panel in (first, second)] == ["A", "B"]
     there = BiharmonicDistance(surface)
@@ -125,7 +120,7 @@ def test_the_source_is_of_any_kind_in_objects_and_in_words(shown):
     for wrong, said in [
         ("loop:3", "its only one is loop:0"),
         ("f900:0.2,0.2", "no face 900"),
-        ("banana", "is no source"),
+        ("banana", "is not a source"),
         (None, "A source is a vertex id"),
         (-1, "start at 0"),
     ]:
@@ -150,13 +145,11 @@ def test_a_document_is_shown_and_can_be_undone(shown):
 
 @pytest.mark.parametrize("end", ["cancel", "close"])
 def test_waiting_ends_where_the_user_stops_it(shown, mesh_file, end):
-    from qtpy import QtCore
-
     viewer = shown(SURFACE, ["biharmonic"])
     window = viewer._window
     QtCore.QTimer.singleShot(0, window.context.actions["stop"].trigger if end == "cancel" else window.close)
     other = replace(viewer.document.surfaces[0], path=mesh_file(bumpy(20_000)), sha256="")
-    with pytest.raises(BihdistError, match="stopped" if end == "cancel" else "closed"):
+    with pytest.raises(BihdistError, match="cancelled" if end == "cancel" else "closed"):
         viewer.document = replace(viewer.document, surfaces=(other,))
 
 
@@ -165,7 +158,11 @@ def test_numbers_of_numpy_are_numbers(shown, tmp_path):
     parts(viewer._window).session_file.save(str(tmp_path / "s.json"))
     assert read_recipe(tmp_path / "s.json").document.sources == (int(HEIGHT.argmax()),)
     drawn = app.figure(
-        SURFACE, ["biharmonic"], np.int64(5), anchors={np.int64(7): np.float32(0.1)}, zooms=[np.int32(3)]
+        SURFACE,
+        ["biharmonic"],
+        np.int64(5),
+        marks={"anchors": {np.int64(7): np.float32(0.1)}},
+        view={"insets": [np.int32(3)]},
     )
     assert drawn.save(tmp_path / "f.png").exists()
 
@@ -179,7 +176,7 @@ def test_what_is_no_document_with_a_mesh_is_refused(shown, document):
 
 
 def test_on_pick_is_a_function(application):
-    with pytest.raises(ParameterError, match="on_pick is a function, not 3"):
+    with pytest.raises(ParameterError, match="on_pick must be a function, not 3"):
         app.show(SURFACE, on_pick=3)
 
 
@@ -193,7 +190,7 @@ def test_where_a_difference_is_nothing_no_line_is_drawn(shown):
     viewer.panels  # noqa: B018
     window, views = viewer._window, {}
     for count in (0, 2):  # of so few only that at 0 is there
-        parts(window).choices.isolines(count)
+        parts(window).isolines.steps(count)
         viewer.panels  # noqa: B018
         views[count] = [panel.view.shot() for panel in window.grid.panels]
     lines = [(some != others).any(axis=2).mean() for some, others in zip(*views.values(), strict=True)]
@@ -222,7 +219,7 @@ def test_fields_of_one_surface_alone(shown):
     viewer = shown(SURFACE, [], {"height": HEIGHT})
     assert viewer.source is None
     assert [panel.quantity for panel in viewer.panels] == ["height"]
-    with pytest.raises(BihdistError, match="starts anywhere"):
+    with pytest.raises(BihdistError, match="with a source"):
         viewer.source = 3
 
 
@@ -249,8 +246,6 @@ def test_a_window_that_was_closed_leaves_nothing_in_memory(shown):
 
 # ---------------------------------------------------------------------- picking
 def click(viewer, share=(0.5, 0.5)):
-    from qtpy import QtCore, QtTest
-
     view = viewer._window.grid.panels[0].view
     place = QtCore.QPoint(int(share[0] * view.width()), int(share[1] * view.height()))
     QtTest.QTest.mouseClick(view, QtCore.Qt.MouseButton.LeftButton, pos=place)
@@ -343,9 +338,9 @@ def test_an_error_in_a_callback_is_told_and_the_window_lives_on(shown, capsys):
         ((SURFACE, ["biharmonic"], {"mine": [1.0]}), BihdistError, "has 1 values"),
         (((SURFACE.vertices, [[0, 1, 99_999]]),), MeshError, "99999"),
         ((SURFACE, "biharmonic"), ParameterError, "not a text"),
-        ((SURFACE, [7]), ParameterError, "7 is no distance"),
+        ((SURFACE, [7]), ParameterError, "7 is not a distance"),
         ((SURFACE, ["biharmonic"], HEIGHT), ParameterError, "by name"),
-        ((SURFACE, ["biharmonic"], {1: HEIGHT}), ParameterError, "a text for a name"),
+        ((SURFACE, ["biharmonic"], {1: HEIGHT}), ParameterError, "The name of a field is a string"),
         ((SURFACE, ["biharmonic"], None, 2.5), ParameterError, "a vertex id, .* not 2.5"),
         ((SURFACE, ["biharmonic - mie"], {"mine": HEIGHT}), ParameterError, "The fields are mine"),
         (("README.md",), BihdistError, "README.md"),

@@ -6,27 +6,22 @@ import importlib.util
 import json
 import locale
 import os
-import subprocess
 import sys
 import textwrap
-from pathlib import Path
 
 import pytest
 
 import app
+from tests.programs import ROOT, run_python
 from tests.shapes import bumpy
-
-pytest.importorskip("qtpy")
-ROOT = Path(__file__).resolve().parents[2]
+from tests.waiting import PATIENCE
 
 
 def script(tmp_path, text):
     """Run a program of its own, with the package under its name."""
     path = tmp_path / "script.py"
     path.write_text(f"import app as bihdist\n{textwrap.dedent(text)}")
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    command = [sys.executable, str(path)]
-    return subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120)
+    return run_python(path, cwd=tmp_path, PYTHONPATH=str(ROOT))
 
 
 # ---------------------------------------------------------------------- scripts
@@ -117,7 +112,9 @@ def test_ipython_gets_its_prompt_back_while_the_window_lives(application, tmp_pa
     pytest.importorskip("IPython")
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "IPYTHONDIR": str(tmp_path), "TERM": "xterm"}
     options = ["-m", "IPython", "--no-banner", "--colors=NoColor", "--no-confirm-exit"]
-    shell = pexpect.spawn(sys.executable, options, cwd=str(tmp_path), env=environment, timeout=60, encoding="utf-8")
+    shell = pexpect.spawn(
+        sys.executable, options, cwd=str(tmp_path), env=environment, timeout=PATIENCE, encoding="utf-8"
+    )
     try:
         for line in (
             "import app as bihdist, pathlib; from qtpy.QtCore import QTimer",
@@ -147,7 +144,7 @@ def test_a_notebook_shows_windows_and_draws_figures(application, tmp_path):
         "import app as bihdist, numpy as np",
         "viewer = bihdist.show('hand', ['biharmonic', 'geodesic'], source=12)\nviewer",
         "viewer.source = 900\nassert viewer.panels[0].field[900] == 0\nviewer.screenshot('w.png').name",
-        "bihdist.figure('hand', ['biharmonic'], source=12, size='300x200')",
+        "bihdist.figure('hand', ['biharmonic'], source=12, layout={'size': '300x200'})",
         "viewer.close()\nviewer.is_open",
         # The kernel goes on listening, also while nothing of ours is open.
         *["import asyncio\nawait asyncio.sleep(0.3)", "1 + 1"] * 3,
@@ -162,14 +159,9 @@ def test_a_notebook_shows_windows_and_draws_figures(application, tmp_path):
         "nbformat_minor": 5,
     }
     (tmp_path / "n.ipynb").write_text(json.dumps(notebook))
-    environment = {
-        **os.environ,
-        "PYTHONPATH": str(ROOT),
-        "IPYTHONDIR": str(tmp_path),
-        "JUPYTER_DATA_DIR": str(tmp_path),
-    }
-    command = [sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--inplace", "n.ipynb"]
-    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=240)
+    settings = {"PYTHONPATH": str(ROOT), "IPYTHONDIR": str(tmp_path), "JUPYTER_DATA_DIR": str(tmp_path)}
+    words = ["-m", "nbconvert", "--to", "notebook", "--execute", "--inplace", "n.ipynb"]
+    done = run_python(*words, cwd=tmp_path, **settings)
     assert done.returncode == 0, done.stderr
     outputs = [cell["outputs"] for cell in json.loads((tmp_path / "n.ipynb").read_text())["cells"]]
     said = [[output["data"] for output in each if "data" in output] for each in outputs]

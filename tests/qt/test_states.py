@@ -1,9 +1,6 @@
 """Controls show where the pointer and the keys are, and what is drawn by hand follows the theme and the letters."""
 
 import pytest
-
-pytest.importorskip("qtpy")
-
 from qtpy import QtCore, QtGui, QtWidgets
 
 from app.qt.look.look import LOOK
@@ -13,9 +10,8 @@ from tests.shapes import bumpy
 
 
 @pytest.fixture
-def window(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(300)))
+def window(shared_screen):
+    s = shared_screen(bumpy(300), source=None)
     s.activate()
     return s
 
@@ -98,7 +94,7 @@ def test_on_the_full_screen_of_a_talk_all_words_of_a_head_are_larger(window):
 
 def test_letters_keep_their_size_in_every_theme_and_all_grow_on_the_full_screen_of_a_talk(window):
     bar, box = window.window.menuBar(), parts(window.window).typed_source.box
-    word = next(label for label in window.window.tool_bar.findChildren(QtWidgets.QLabel) if label.text() == "Source")
+    word = window.window.status.marks
     wide = box.width()
 
     def sizes():

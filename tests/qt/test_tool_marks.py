@@ -3,16 +3,13 @@
 from types import SimpleNamespace
 
 import numpy as np
-import pytest
 
 from app.document import tools
 from app.document.edits import move_source
+from app.drawing.line_looks import SOURCE
+from app.qt.panels import line_marks
 from tests.figures.marked_tool import FLAG, TOOL
 from tests.shapes import bumpy
-
-pytest.importorskip("qtpy")
-from app.marks.line_looks import SOURCE
-from app.qt.panels import line_marks
 
 
 def test_points_lines_and_areas_of_a_tool_are_painted_and_follow_the_answers(screen, mesh_file, monkeypatch):
@@ -34,18 +31,17 @@ def test_points_lines_and_areas_of_a_tool_are_painted_and_follow_the_answers(scr
                 assert np.array_equal(placed.position, panel.positions[farthest])
                 assert [text for text, _, _ in panel.view.over.points.texts()] == ["farthest"] * placed.is_seen
                 # Lines lie over the surface, as closed as they are said to be.
-                faces = s.session.surface.faces
+                faces = s.session.mesh().surface.faces
                 near = faces[(faces == farthest).any(axis=1)]
                 assert len(panel.view.over.lines.points) == 4 * len(near)
-                tint = panel.view.scene._field._tints["selected"]
+                tint = panel.view.scene.field_actor._tints["selected"]
                 assert np.flatnonzero(tint.any(axis=1)).tolist() == np.unique(near).tolist()
     finally:
         tools.tools.cache_clear()
 
 
-def test_lines_that_pass_beside_the_eye_are_painted_about_the_view_only(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(300)), 5)
+def test_lines_that_pass_beside_the_eye_are_painted_about_the_view_only(shared_screen):
+    s = shared_screen()
     view = s.panels[0].view
     eye = np.array(view.camera.GetPosition())
     ahead = np.array(view.camera.GetDirectionOfProjection())

@@ -6,18 +6,15 @@ import threading
 import pytest
 
 from app.document.edits import move_source
+from app.qt.unexpected_errors import UnexpectedErrors, take_all_exceptions
+from bihdist_core.unexpected import note_unexpected
 from tests.qt.parts import parts
 from tests.shapes import bumpy
 
-pytest.importorskip("qtpy")
-
-SAID = "Something went wrong that should not have: ZeroDivisionError: once"
+SAID = "Unexpected error: ZeroDivisionError: once"
 
 
-@pytest.fixture(autouse=True)
-def own_folder(tmp_path, monkeypatch):
-    """Nothing of the user's is read or written."""
-    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+pytestmark = pytest.mark.usefixtures("own_folder")
 
 
 @pytest.fixture
@@ -33,8 +30,6 @@ def told(screen, mesh_file):
 
 
 def errors_of(s):
-    from app.qt.unexpected_errors import UnexpectedErrors
-
     return s.window.context[UnexpectedErrors]
 
 
@@ -46,7 +41,7 @@ def check_told(s):
     """A dialog with the sentence, the details folded away, all of it to copy; then the next click is answered."""
     from qtpy import QtWidgets
 
-    s.until(lambda: message(s) is not None, 30)
+    s.until(lambda: message(s) is not None)
     shown = message(s)
     assert shown.sentence.text() == SAID
     assert "Traceback" in shown.details.toPlainText()
@@ -75,10 +70,10 @@ class Once:
 
 
 def test_an_answer_that_fails(told, monkeypatch):
-    from app.session.loaded_mesh import LoadedMesh
+    from app.session.questions import DistanceQuestion
 
-    fails = Once(LoadedMesh.answer)
-    monkeypatch.setattr(LoadedMesh, "answer", lambda self, *rest, **options: fails(self, *rest, **options))
+    fails = Once(DistanceQuestion.answer)
+    monkeypatch.setattr(DistanceQuestion, "answer", lambda self, *rest, **options: fails(self, *rest, **options))
     told.session.show(move_source(told.document, 0, 40))
     check_told(told)
 
@@ -116,46 +111,46 @@ def test_work_of_an_instrument_that_fails(told):
 
 
 def test_maps_that_cannot_be_judged_say_why_and_stay_so(told, mesh_file, monkeypatch):
-    from app.tools.correspondence.judgement import Judging
+    from app.tools.correspondence.map_errors import MapErrorWorker
     from app.tools.correspondence.pairs import add_pairs
-    from app.tools.correspondence.prediction import predict
+    from app.tools.correspondence.quantity import predict
 
-    told.session.open_beside(mesh_file(bumpy(300), "b.off"))
+    told.session.open_second_mesh(mesh_file(bumpy(300), "b.off"))
     told.until(lambda: len(told.document.surfaces) == 2 and told.session.is_complete)
-    judge, fails = Judging.judge, [True]
+    judge, fails = MapErrorWorker.errors, [True]
 
     def judged(self, *rest):
         if fails:
             raise ZeroDivisionError("once")
         yield from judge(self, *rest)
 
-    monkeypatch.setattr(Judging, "judge", judged)
+    monkeypatch.setattr(MapErrorWorker, "errors", judged)
     parts(told.window).docks.toggle("pairs")
     errors = None
 
     def found():
         nonlocal errors
-        from app.tools.correspondence.map_errors import MapErrors
+        from app.tools.correspondence.error_section import ErrorSection
 
-        errors = next(iter(told.window.findChildren(MapErrors)), None)
+        errors = next(iter(told.window.findChildren(ErrorSection)), None)
         return errors is not None
 
     told.until(found)
     told.session.show(predict(add_pairs(told.document, [(3, 3), (150, 150), (250, 250)])))
-    told.until(lambda: message(told) is not None and errors.note.text() == SAID, 60)
+    told.until(lambda: message(told) is not None and errors.note.text() == SAID)
     errors._show()
     assert errors.note.text() == SAID  # not that it goes on
     message(told).close()
     fails.clear()
     told.session.show(predict(add_pairs(told.document, [(90, 90)])))
-    told.until(lambda: errors.is_whole, 60)
+    told.until(lambda: errors.is_whole)
 
 
 def test_a_shading_that_fails(told, monkeypatch):
-    from app.qt.panels import shades
+    from app.qt.panels import shading_cache
     from app.scene.prepared import Meshes
 
-    monkeypatch.setattr(shades, "LARGE", 0)
+    monkeypatch.setattr(shading_cache, "LARGE", 0)
     fails = Once(Meshes.made)
     monkeypatch.setattr(Meshes, "made", lambda self, *rest: fails(self, *rest))
     from dataclasses import replace
@@ -174,7 +169,7 @@ def test_a_preview_that_fails(told):
     check_told(told)
     assert refused == [SAID]
     exports.previews.ask("a", abs, -7)
-    told.until(lambda: answered == [7], 60)
+    told.until(lambda: answered == [7])
 
 
 def test_a_file_that_cannot_be_drawn(told, monkeypatch, tmp_path):
@@ -192,8 +187,6 @@ def test_a_file_that_cannot_be_drawn(told, monkeypatch, tmp_path):
 
 
 def test_an_exception_of_a_slot_and_of_a_thread(told, monkeypatch):
-    from app.qt.unexpected_errors import take_all_exceptions
-
     printed = []
     monkeypatch.setattr(sys, "excepthook", lambda kind, error, trace: printed.append(str(error)))
     monkeypatch.setattr(threading, "excepthook", threading.excepthook)
@@ -207,8 +200,6 @@ def test_an_exception_of_a_slot_and_of_a_thread(told, monkeypatch):
 
 
 def test_what_fails_again_and_again_is_told_once_at_a_time(told):
-    from bihdist_core.unexpected import note_unexpected
-
     for _ in range(50):
         note_unexpected(ZeroDivisionError("once"))
     told.settle()
@@ -222,9 +213,7 @@ def test_what_fails_again_and_again_is_told_once_at_a_time(told):
 
 
 def test_a_window_that_says_nothing_only_refuses(told):
-    from bihdist_core.unexpected import note_unexpected
-
     told.window.context.quiet = True
     note_unexpected(ZeroDivisionError("once"))
-    told.until(lambda: SAID in told.refusals, 30)
+    told.until(lambda: SAID in told.refusals)
     assert message(told) is None

@@ -1,5 +1,6 @@
 """What the window says while something is computed, and that it can be stopped."""
 
+import re
 import threading
 import time
 from dataclasses import replace
@@ -7,21 +8,18 @@ from math import nan
 from random import Random
 
 import pytest
+from qtpy import QtCore, QtWidgets
+from qtpy.QtTest import QTest
 
 from app.document.edits import move_source
 from app.document.quantities import DistanceFrom
 from app.session.latest_request_worker import LatestRequestWorker
-from app.session.loaded_mesh import LoadedMesh, open_mesh
-from bihdist_core.distances import geodesic, kinds
-from bihdist_core.distances.kinds import Spec
-from tests.shapes import bumpy
-
-pytest.importorskip("qtpy")
-
-from qtpy import QtCore, QtWidgets
-from qtpy.QtTest import QTest
-
+from app.session.loaded_mesh import open_mesh
+from app.session.questions import DistanceQuestion
+from bihdist_core.distances import distance_types, geodesic_solvers
+from bihdist_core.distances.distance_types import Spec
 from tests.qt.parts import parts
+from tests.shapes import bumpy
 
 LEFT = QtCore.Qt.MouseButton.LeftButton
 ONE = (Spec.of("biharmonic"),)
@@ -30,15 +28,15 @@ ONE = (Spec.of("biharmonic"),)
 @pytest.fixture
 def gate(monkeypatch):
     """Answers wait until it is set, whatever the machine's speed, and can be stopped meanwhile."""
-    gate, answer = threading.Event(), LoadedMesh.answer
+    gate, answer = threading.Event(), DistanceQuestion.answer
 
-    def held(loaded, question, progress=None, at_once=None):
+    def held(question, loaded, progress=None, at_once=None):
         while not gate.wait(0.01):
             if progress is not None:
                 progress(0.5, "columns: solving")
-        return answer(loaded, question, progress, at_once)
+        return answer(question, loaded, progress, at_once)
 
-    monkeypatch.setattr(LoadedMesh, "answer", held)
+    monkeypatch.setattr(DistanceQuestion, "answer", held)
     yield gate
     gate.set()
 
@@ -53,6 +51,36 @@ def pretend(screen, *progress):
     """Let the panels be at work, each at a share of something."""
     screen.session._answering.progress.update(enumerate(progress))
     screen.window.progress_changed()
+
+
+def test_the_status_bar_says_how_long_fields_took(shared_screen):
+    s = shared_screen()
+    status = s.window.status
+    assert re.fullmatch(r"3 fields in (\d+ ms|[\d.]+ s)", status.time.text)
+    s.session.show(move_source(s.document, 0, 9))
+    assert status.time.text == ""
+    s.until(lambda: status.time.text)
+    assert status.time.text.startswith("3 fields in ")
+    # Other isolines ask for no field.
+    s.until(lambda: s.session.is_complete)
+    took = status.time.text
+    s.session.show(replace(s.document, isolines=12))
+    assert status.time.text == took
+
+
+def test_the_time_of_fields_counts_from_when_they_were_asked_for(screen, mesh_file, gate, monkeypatch):
+    gate.set()
+    s, now = screen(ONE), [100.0]
+    s.open(mesh_file(bumpy(200)), 5)
+    gate.clear()
+    monkeypatch.setattr("app.qt.progress_display.monotonic", lambda: now[0])
+    s.session.show(move_source(s.document, 0, 9))
+    now[0] = 109.0
+    s.session.show(replace(s.document, isolines=12))
+    now[0] = 110.0
+    gate.set()
+    s.until(lambda: s.window.status.time.text)
+    assert s.window.status.time.text == "1 field in 10 s"
 
 
 def test_a_mesh_being_read_is_told_in_the_status_bar(screen):
@@ -94,7 +122,7 @@ def test_while_a_file_is_read_the_old_surface_stays_dimmed_and_the_title_changes
     reading.clear()
     s.window.context.open(mesh_file(bumpy(200), "other.off"))
     s.until(lambda: all(panel.waiting.isVisible() for panel in s.panels))
-    assert [panel.waiting.text for panel in s.panels] == ["Reading other.off, 0 %"] * 2
+    assert [panel.waiting.text for panel in s.panels] == ["Reading other.off…"] * 2
     assert all(panel.view._is_dimmed for panel in s.panels)
     assert all((a == b).all() for a, b in zip(before, s.pictures(), strict=True))
     assert s.window.windowTitle().startswith("mesh.off")
@@ -121,8 +149,8 @@ def test_a_mesh_that_comes_beside_dims_nothing(screen, mesh_file, reading):
     reading.set()
     s.open(mesh_file(bumpy(300)), 5)
     reading.clear()
-    s.session.open_beside(mesh_file(bumpy(200), "other.off"))
-    s.until(lambda: s.window.status.progress.text == "Reading other.off, 0 %")
+    s.session.open_second_mesh(mesh_file(bumpy(200), "other.off"))
+    s.until(lambda: s.window.status.progress.text == "Reading other.off…")
     assert not s.panels[0].view._is_dimmed
     reading.set()
     s.until(lambda: len(s.document.surfaces) == 2)
@@ -134,7 +162,7 @@ def test_the_first_mesh_is_told_in_the_middle_until_it_is_there(screen, mesh_fil
     start = pages.currentWidget()
     s.window.context.open(mesh_file(bumpy(300)))
     s.until(lambda: isinstance(pages.currentWidget(), QtWidgets.QLabel))
-    s.until(lambda: pages.currentWidget().text() == "Reading mesh.off, 0 %")
+    s.until(lambda: pages.currentWidget().text() == "Reading mesh.off…")
     assert s.window.windowTitle() == "Biharmonic distance[*]"
     s.window.context.actions["stop"].trigger()
     reading.set()
@@ -197,6 +225,24 @@ def test_what_was_stopped_is_asked_again_by_its_button_in_that_panel_alone(scree
     assert not s.session.is_stopped
 
 
+def test_the_time_of_a_field_that_is_asked_again_counts_from_then(screen, mesh_file, gate, monkeypatch):
+    s, now = screen(ONE), [100.0]
+    monkeypatch.setattr("app.qt.progress_display.monotonic", lambda: now[0])
+    s.window.context.open(mesh_file(bumpy(300)), 0)
+    (panel,) = s.panels
+    s.until(lambda: panel.waiting.isVisible())
+    s.activate()
+    s.settle()
+    QTest.keyClick(panel.view, QtCore.Qt.Key.Key_Escape)
+    s.until(lambda: panel.stopped.isVisible())
+    now[0] = 150.0
+    QTest.mouseClick(panel.stopped.button, LEFT)
+    now[0] = 152.0
+    gate.set()
+    s.until(lambda: s.window.status.time.text)
+    assert s.window.status.time.text == "1 field in 2 s"
+
+
 def test_what_was_stopped_says_what_is_shown(screen, mesh_file, gate):
     gate.set()
     s = screen((Spec.of("truncated", k=20),))
@@ -215,21 +261,21 @@ def test_what_was_stopped_says_what_is_shown(screen, mesh_file, gate):
 
 
 def test_a_quick_look_stays_when_the_exact_answer_is_stopped(screen, mesh_file, monkeypatch):
-    monkeypatch.setattr(kinds, "FRAME", 0)  # as on a large mesh
-    monkeypatch.setattr(geodesic, "MOST_WINDOWS", 0)
-    gate, answer = threading.Event(), LoadedMesh.answer
+    monkeypatch.setattr(distance_types, "FRAME_VERTICES", 0)  # as on a large mesh
+    monkeypatch.setattr(geodesic_solvers, "MOST_WINDOWS", 0)
+    gate, answer = threading.Event(), DistanceQuestion.answer
 
-    def held(loaded, question, progress=None, at_once=None):
+    def held(question, loaded, progress=None, at_once=None):
         while question.spec["method"] == "exact" and question.at == 9 and not gate.wait(0.01):
             progress(0.5, "exact geodesic")
-        return answer(loaded, question, progress, at_once)
+        return answer(question, loaded, progress, at_once)
 
-    monkeypatch.setattr(LoadedMesh, "answer", held)
+    monkeypatch.setattr(DistanceQuestion, "answer", held)
     s = screen((Spec.of("geodesic", method="exact"),))
     s.open(mesh_file(bumpy(300)), 5)
     (panel,) = s.panels
     s.session.show(move_source(s.document, 0, 9))
-    s.until(lambda: s.session.is_quick_look(0) and panel.waiting.isVisible())
+    s.until(lambda: s.session.is_preview(0) and panel.waiting.isVisible())
     (method,) = panel.head.controls
     assert method.text() == "exact, now heat method"
     panel.waiting.stop.click()
@@ -306,20 +352,45 @@ def test_what_failed_and_is_computed_in_another_way_says_nothing_of_the_failure(
     assert "no room for windows" in panel.view.over.sentence
 
 
-def test_many_reports_of_progress_are_one_change_of_the_window_and_the_end_shows_at_once(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(300)))
+def test_many_reports_of_progress_are_one_change_of_the_window_and_the_end_shows_at_once(shared_screen, monkeypatch):
+    s = shared_screen()
+    del s.session.shown[0]
     waiting, told = s.panels[0].waiting, []
-    waiting.show_progress = lambda *progress: told.append(progress) or type(waiting).show_progress(waiting, *progress)
+
+    def show_progress(*progress):
+        told.append(progress)
+        type(waiting).show_progress(waiting, *progress)
+
+    monkeypatch.setattr(waiting, "show_progress", show_progress)
     for percent in range(50):
         pretend(s, (percent / 100, "solving"))
     assert told == []
     s.until(lambda: told)
-    assert told == [(0.49, "Checking the accuracy")]
-    assert waiting.text == "Checking the accuracy, 49 %"
-    s.session._answering.progress.clear()
-    s.window.progress_changed()
-    assert not waiting.isVisible()
+    assert told == [(0.49, "Solving")]
+    assert waiting.text == "Solving, 49 %"
+
+
+@pytest.mark.parametrize(
+    ("fraction", "said"), [(0.0, "Checking the accuracy…"), (0.496, "Checking the accuracy, 49 %")]
+)
+def test_what_is_found_out_of_a_field_that_is_there_is_said_beside_it(shared_screen, fraction, said):
+    s = shared_screen()
+    bar = s.window.status.progress
+    pretend(s, (fraction, "solving"), (1.0, "solving"))
+    s.until(lambda: bar.text == said)
+    assert not any(panel.waiting.isVisible() for panel in s.panels)
+    pretend(s, (1.0, "solving"), (1.0, "solving"))
+    s.until(lambda: not bar.text)
+
+
+@pytest.mark.parametrize(
+    ("fraction", "said"),
+    [(0.0, "Starting a process…"), (0.004, "Starting a process…"), (0.996, "Starting a process, 99 %")],
+)
+def test_nothing_is_0_or_100_percent_done_while_it_is_waited_for(shared_screen, fraction, said):
+    s = shared_screen()
+    s.panels[0].show_waiting((fraction, "Starting a process"))
+    assert s.panels[0].waiting.text == said
 
 
 def test_quick_answers_change_no_panel_s_words(screen, mesh_file, monkeypatch):
@@ -337,22 +408,20 @@ def test_quick_answers_change_no_panel_s_words(screen, mesh_file, monkeypatch):
     assert told == []
 
 
-def test_each_panel_tells_what_it_waits_for_and_how_far_that_is(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(800)))
+def test_each_panel_tells_what_it_waits_for_and_how_far_that_is(shared_screen):
+    s = shared_screen()
     s.settle()
     del s.session.shown[1], s.session.shown[2]
     pretend(s, (0.2, "biharmonic"), (nan, "eigenpairs: solving"))
-    s.until(s.panels[0].waiting.isVisible)
+    s.until(lambda: s.panels[1].waiting.text == "Eigenpairs…")
     # The first has its answer, and only finds out how accurate that is.
-    said = ["Checking the accuracy, 20 %", "Eigenpairs…", "Waiting…"]
-    assert [panel.waiting.text for panel in s.panels] == said
+    assert [panel.waiting.isVisible() for panel in s.panels] == [False, True, True]
+    assert [panel.waiting.text for panel in s.panels[1:]] == ["Eigenpairs…", "Waiting…"]
     assert ["no values" in panel.bar.accessibleDescription() for panel in s.panels] == [False, True, True]
 
 
-def test_a_panel_s_words_do_not_change_the_size_of_its_picture(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(800)))
+def test_a_panel_s_words_do_not_change_the_size_of_its_picture(shared_screen):
+    s = shared_screen()
     before = [panel.view.size() for panel in s.panels]
     s.window.grid.pointing.show(0, 5)
     s.panels[1].show_waiting((0.3, "Factoring " * 30))
@@ -362,13 +431,11 @@ def test_a_panel_s_words_do_not_change_the_size_of_its_picture(screen, mesh_file
 
 
 def test_closing_while_computing_ends_the_threads(screen, mesh_file):
-    import threading
-
-    s = screen()
+    before, s = {*threading.enumerate()}, screen()
     s.window.context.open(mesh_file(bumpy(12000)))
     s.until(lambda: s.session.progress)
     s.window.close()
-    assert not [t for t in threading.enumerate() if t.name.startswith(("panel", "load")) and t.is_alive()]
+    assert not [t for t in {*threading.enumerate()} - before if t.name.startswith(("panel", "load")) and t.is_alive()]
 
 
 def test_after_esc_the_window_is_free_whenever_that_was(screen, mesh_file):
@@ -388,7 +455,7 @@ def test_after_esc_the_window_is_free_whenever_that_was(screen, mesh_file):
         s.application.processEvents()
         took.append(time.monotonic() - begun)
         assert not s.session.is_opening
-        s.until(lambda: not s.session.progress, 30)
+        s.until(lambda: not s.session.progress)
     # Once, another program may have had the processor.
     assert sorted(took)[-2] < 0.5
     s.session.show(move_source(s.document, 0, 9))

@@ -1,35 +1,36 @@
 """The window's behaviour with Qt's own events; `test_mouse` repeats the most important with a real pointer."""
 
+import ctypes
+import os
 import subprocess
 import sys
-from pathlib import Path
+from collections import deque
 from string import ascii_lowercase
 
 import numpy as np
 import pytest
-
-from app.document.quantities import DistanceFrom
-from bihdist_core.distances.kinds import Spec
-from tests.shapes import bumpy, grid, two_pieces
-
-pytest.importorskip("qtpy")
-
 from qtpy import QtCore, QtGui
 from qtpy.QtTest import QTest
 
+from app.document.edits import move_source
+from app.document.quantities import DistanceFrom
+from app.drawing.numbers import number, share
+from app.drawing.painters.qt import number_width
 from app.qt.acts import ALL
 from app.qt.look.look import LOOK
-from app.qt.look.numbers import number, number_width, share
+from app.qt.main_window import DISCARDED
+from bihdist_core.distances.distance_types import Spec
+from tests.programs import ROOT, run_python
 from tests.qt.painting import pixels_of
 from tests.qt.parts import parts
+from tests.shapes import bumpy, grid, two_pieces
 
-ROOT = Path(__file__).parents[2]
 LEFT = QtCore.Qt.MouseButton.LeftButton
 
 
 def highest(screen):
     """The vertex nearest to the eye."""
-    return int(screen.session.surface.vertices[:, 2].argmax())
+    return int(screen.session.mesh().surface.vertices[:, 2].argmax())
 
 
 def seen(screen):
@@ -53,9 +54,8 @@ def entry(menu, word):
 
 
 # ---------------------------------------------------------------------- what is shown
-def test_shows_the_same_source_in_three_different_panels(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(800)), 5)
+def test_shows_the_same_source_in_three_different_panels(shared_screen):
+    s = shared_screen(bumpy(800))
     labels = [panel.answer.label for panel in s.panels]
     assert labels == ["biharmonic, exact", "geodesic, exact", "diffusion, t = 1"]
     assert [panel.head.name.text() for panel in s.panels] == ["Biharmonic", "Geodesic", "Diffusion"]
@@ -81,14 +81,13 @@ def test_what_is_not_connected_is_grey_and_said_to_be(screen, mesh_file):
         assert np.ptp(patch, axis=1).min() <= 8
     chip = s.window.status.notes
     assert chip.isVisible()
-    assert chip.words == "1 warning, 1 fact"
+    assert chip.words == "2 notes"
     assert any("2 components" in sentence for sentence in chip.sentences)
     assert "1 vertex without a face" in chip.sentences
 
 
-def test_isolines_can_be_changed_and_left_out(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(800)))
+def test_isolines_can_be_changed_and_left_out(shared_screen):
+    s = shared_screen(bumpy(800), source=None)
 
     def white():
         return sum((picture > 250).all(axis=2).sum() for picture in s.pictures())
@@ -97,7 +96,7 @@ def test_isolines_can_be_changed_and_left_out(screen, mesh_file):
     for word in ("None", "About 20"):
         entry(s.window.menus.isolines, word).trigger()
         counts.append(white())
-    parts(s.window).choices.isolines(60)
+    parts(s.window).isolines.steps(60)
     assert counts[0] < counts[1] < white()
     assert s.window.tool_bar.buttons["isolines"].accessibleDescription() == "60"
 
@@ -133,9 +132,8 @@ def test_a_panel_that_fails_says_so_in_its_own_place(screen, mesh_file, no_exact
 
 
 # ---------------------------------------------------------------------- the source and the pointer
-def test_a_click_selects_the_vertex_under_the_pointer(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(800)))
+def test_a_click_selects_the_vertex_under_the_pointer(shared_screen):
+    s = shared_screen(bumpy(800), source=None)
     target, before = highest(s), s.pictures()
     QTest.mouseClick(s.panels[1].view, LEFT, pos=s.point_of(s.panels[1], target))
     s.until(lambda: s.session.is_complete and s.source == target)
@@ -144,23 +142,21 @@ def test_a_click_selects_the_vertex_under_the_pointer(screen, mesh_file):
     assert differ(before, s.pictures(), 0.01)
 
 
-def test_a_click_beside_the_surface_does_nothing(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(800)), 5)
+def test_a_click_beside_the_surface_does_nothing(shared_screen):
+    s = shared_screen(bumpy(800))
     QTest.mouseClick(s.panels[0].view, LEFT, pos=QtCore.QPoint(3, 3))
     s.settle()
     assert s.source == 5
 
 
-def test_pointing_shows_the_values_of_the_same_vertex_everywhere_and_draws_no_surface_again(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(800)), 5)
+def test_pointing_shows_the_values_of_the_same_vertex_everywhere_and_draws_no_surface_again(shared_screen):
+    s = shared_screen(bumpy(800))
     target, before, drawn = highest(s), seen(s), s.window.grid.offscreen.pictures
     QTest.mouseMove(s.panels[2].view, s.point_of(s.panels[2], target))
     s.until(lambda: parts(s.window).gestures.hovered == target)
     s.settle()
     assert s.window.status.vertex.text == f"vertex {target}"
-    assert s.window.status.place.text == "  ".join(number(x) for x in s.session.surface.vertices[target])
+    assert s.window.status.place.text == "  ".join(number(x) for x in s.session.mesh().surface.vertices[target])
     for panel, answer in zip(s.panels, s.answers, strict=True):
         value = answer.field[target]
         assert f": {number(value)} " in panel.bar.accessibleDescription()
@@ -186,9 +182,8 @@ def test_a_typed_vertex_that_cannot_be_a_source_is_refused(screen, mesh_file):
     assert (s.source, box.value()) == (3, 3)
 
 
-def test_a_typed_vertex_id_is_taken_as_it_was_typed_and_the_keys_go_back_to_the_panels(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(800)), 3)
+def test_a_typed_vertex_id_is_taken_as_it_was_typed_and_the_keys_go_back_to_the_panels(shared_screen):
+    s = shared_screen(bumpy(800), source=3)
     box, view = parts(s.window).typed_source.box, s.panels[0].view
     s.until(lambda: s.window.focusWidget() is view)
     box.setFocus()
@@ -205,11 +200,10 @@ def test_a_typed_vertex_id_is_taken_as_it_was_typed_and_the_keys_go_back_to_the_
 
 
 # ---------------------------------------------------------------------- what is chosen in a head
-def test_the_slider_changes_the_diffusion_time(screen, mesh_file):
+def test_the_slider_changes_the_diffusion_time(shared_screen):
     from app.qt.panels.number_box import step_of_value
 
-    s = screen()
-    s.open(mesh_file(bumpy(800)))
+    s = shared_screen(bumpy(800), source=None)
     panel = s.panels[2]
     (time,) = panel.head.controls
     assert time.slider.isVisible()
@@ -220,11 +214,10 @@ def test_the_slider_changes_the_diffusion_time(screen, mesh_file):
     assert panel.answer.label == "diffusion, t = 0.25"
 
 
-def test_the_menu_changes_the_geodesic_method_and_any_panel_its_distance(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(800)))
+def test_the_menu_changes_the_geodesic_method_and_any_panel_its_distance(shared_screen):
+    s = shared_screen(bumpy(800), source=None)
     (method,) = s.panels[1].head.controls
-    entry(method.menu(), "dijkstra").trigger()
+    entry(method.menu(), "Dijkstra").trigger()
     head = s.panels[0].head
     entry(head.name.menu(), "Biharmonic, truncated").trigger()
     (k,) = head.controls
@@ -238,9 +231,8 @@ def test_the_menu_changes_the_geodesic_method_and_any_panel_its_distance(screen,
 
 
 # ---------------------------------------------------------------------- files
-def test_a_bad_file_is_refused_and_nothing_changes(screen, mesh_file, tmp_path):
-    s = screen()
-    s.open(mesh_file(bumpy(800)), 5)
+def test_a_bad_file_is_refused_and_nothing_changes(shared_screen, tmp_path):
+    s = shared_screen(bumpy(800))
     before = s.pictures()
     bad = tmp_path / "bad.off"
     bad.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
@@ -282,11 +274,10 @@ def test_samples_are_listed_with_their_pictures_and_open(screen):
     s.until(lambda: s.window.windowTitle().startswith("genus3.ply"))
 
 
-def test_the_screenshot_holds_the_panels(screen, mesh_file, tmp_path):
+def test_the_screenshot_holds_the_panels(shared_screen, tmp_path):
     from PIL import Image
 
-    s = screen()
-    s.open(mesh_file(bumpy(800)))
+    s = shared_screen(bumpy(800), source=None)
     path = tmp_path / "window.png"
     parts(s.window).files.save_screenshot(str(path))
     picture = np.asarray(Image.open(path).convert("RGB"))
@@ -296,11 +287,10 @@ def test_the_screenshot_holds_the_panels(screen, mesh_file, tmp_path):
     assert all(np.ptp(picture[:, k * third : (k + 1) * third], axis=2).max() > 100 for k in range(3))
 
 
-def test_a_failed_screenshot_leaves_the_old_file(screen, mesh_file, tmp_path):
+def test_a_failed_screenshot_leaves_the_old_file(shared_screen, tmp_path):
     from bihdist_core import OutputError
 
-    s = screen()
-    s.open(mesh_file(bumpy(800)))
+    s = shared_screen(bumpy(800), source=None)
     with pytest.raises(OutputError, match="no folder"):
         parts(s.window).files.save_screenshot(str(tmp_path / "missing" / "x.png"))
     with pytest.raises(OutputError, match=r"\.jpg"):
@@ -308,9 +298,8 @@ def test_a_failed_screenshot_leaves_the_old_file(screen, mesh_file, tmp_path):
 
 
 # ---------------------------------------------------------------------- the camera and the window's shape
-def test_views_turn_all_panels_together(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(800)))
+def test_views_turn_all_panels_together(shared_screen):
+    s = shared_screen(bumpy(800), source=None)
     assert len({id(panel.view.camera) for panel in s.panels}) == 1
     before = s.pictures()
     parts(s.window).views.reset("back")
@@ -318,10 +307,9 @@ def test_views_turn_all_panels_together(screen, mesh_file):
 
 
 @pytest.mark.parametrize("size", [(1200, 960), (1100, 380)])
-def test_what_was_seen_stays_in_view_when_the_window_changes_its_shape(screen, mesh_file, size):
-    s = screen()
-    s.open(mesh_file(bumpy(800)))
-    camera = s.window.grid.eye.camera
+def test_what_was_seen_stays_in_view_when_the_window_changes_its_shape(shared_screen, size):
+    s = shared_screen(bumpy(800), source=None)
+    camera = s.window.grid.camera_controller.camera
     before = s.window.size(), camera.GetViewAngle(), camera.GetPosition()
     s.window.resize(*size)
     s.settle()
@@ -334,9 +322,8 @@ def test_what_was_seen_stays_in_view_when_the_window_changes_its_shape(screen, m
     assert camera.GetViewAngle() == pytest.approx(before[1], rel=1e-9)
 
 
-def test_letters_without_a_meaning_do_nothing(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(800)))
+def test_letters_without_a_meaning_do_nothing(shared_screen):
+    s = shared_screen(bumpy(800), source=None)
     s.activate()
     s.settle()
     before, done = seen(s), []
@@ -354,14 +341,23 @@ def test_letters_without_a_meaning_do_nothing(screen, mesh_file):
     assert done == ["Hom&e"]
 
 
-def test_long_words_do_not_make_the_window_wider(screen, mesh_file):
-    s = screen()
-    s.open(mesh_file(bumpy(200)))
+def test_long_words_do_not_make_the_window_wider(shared_screen):
+    s = shared_screen(bumpy(200), source=None)
     width = s.window.width()
     s.window.context.tell("repaired " * 200)
     s.settle()
     assert s.window.width() == width
     assert s.window.status.message.toolTip() == s.window.status.message.text
+
+
+def test_a_single_one_of_something_is_not_many(screen, tmp_path):
+    (tmp_path / "one.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    s = screen()
+    s.open(str(tmp_path / "one.off"))
+    assert (s.window.status._vertices, s.window.status._faces) == ("3 vertices", "1 face")
+    rate = parts(s.window).dragging.rate
+    rate._begun, rate._shown = 0.0, deque([10.0])
+    assert rate._words(10.0) == "Live: 1 field a second"
 
 
 def test_what_is_said_of_a_drag_fits_a_small_window_and_what_does_not_ends_in_dots(screen, mesh_file):
@@ -381,8 +377,6 @@ def test_what_is_said_of_a_drag_fits_a_small_window_and_what_does_not_ends_in_do
 
 
 def test_a_window_that_is_closed_takes_no_other_colours(screen, mesh_file, monkeypatch):
-    from app.qt.look.look import LOOK
-
     s = screen()
     s.open(mesh_file(bumpy(200)))
     s.window.close()
@@ -411,5 +405,50 @@ for _ in range(2):
 
 
 def test_a_window_that_is_closed_and_forgotten_does_not_end_the_process(application):
-    done = subprocess.run([sys.executable, "-c", CLOSED_AND_FORGOTTEN], cwd=ROOT, capture_output=True, timeout=60)
+    done = run_python("-c", CLOSED_AND_FORGOTTEN)
     assert done.returncode == 0, done.stderr
+
+
+def test_the_user_is_told_once_when_the_oldest_steps_go(screen, mesh_file, monkeypatch):
+    monkeypatch.setattr("app.document.history.LONGEST", 2)
+    s, told = screen([Spec.of("biharmonic")]), []
+    s.open(mesh_file(bumpy(60)))
+    monkeypatch.setattr(s.window.context, "tell", lambda text, holds=None: told.append(text))
+    for vertex in range(10, 12):
+        s.session.show(move_source(s.document, 0, vertex))
+    assert told == []
+    for vertex in range(12, 15):
+        s.session.show(move_source(s.document, 0, vertex))
+    assert told == [DISCARDED]
+
+
+MAPPED = """
+import ctypes
+
+from app.qt.start import set_up_allocation
+
+
+class Info(ctypes.Structure):
+    _fields_ = [(f"number_{k}", ctypes.c_size_t) for k in range(10)]
+
+
+library = ctypes.CDLL(None)
+library.mallinfo2.restype = Info
+library.malloc.restype = ctypes.c_void_p
+library.malloc.argtypes = (ctypes.c_size_t,)
+library.free.argtypes = (ctypes.c_void_p,)
+set_up_allocation()
+library.free(library.malloc(16 << 20))
+before = library.mallinfo2().number_3
+library.malloc(2 << 20)
+print(library.mallinfo2().number_3 - before)
+"""
+
+
+@pytest.mark.skipif(
+    sys.platform != "linux" or not hasattr(ctypes.CDLL(None), "mallinfo2"), reason="the C library is another"
+)
+def test_large_blocks_are_mapped_by_themselves_however_large_those_before_were():
+    own = {key: value for key, value in os.environ.items() if not key.startswith("MALLOC_")}
+    done = subprocess.run([sys.executable, "-c", MAPPED], env=own, cwd=ROOT, capture_output=True, text=True)
+    assert done.stdout == "1\n", done.stderr

@@ -48,7 +48,7 @@ def session(seed: int, folder: Path, clicks: int, opens: int) -> Outcome:
             if k % every == 0:
                 desk.show(paths[k // every % len(paths)])
             else:
-                document, count = desk.session.document, len(desk.session.surface.vertices)
+                document, count = desk.session.document, len(desk.session.mesh().surface.vertices)
                 desk.click(rng.randrange(count), rng.choice(document.panels).id)
             desk.until(lambda: desk.session.is_complete and not desk.session.is_opening, PATIENCE)
             desk.drain()

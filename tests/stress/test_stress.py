@@ -9,8 +9,9 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from bihdist_core import BiharmonicDistance, SolverError
+from bihdist_core import BiharmonicDistance, CommuteTimeDistance, SolverError
 from bihdist_core.distances.exact_geodesic import ExactGeodesic
+from tests.extended_reference import needs_digits
 from tests.shapes import bumpy, two_pieces
 from tests.stress import (
     __main__ as program,
@@ -21,6 +22,7 @@ from tests.stress import (
     cancellations,
     documents,
     faulty,
+    fields,
     hands,
     interruptions,
     laws,
@@ -212,6 +214,22 @@ def test_each_law_that_is_broken_is_found(monkeypatch, kind, name, spoil, law):
     assert law in outcome.text
 
 
+@needs_digits
+@pytest.mark.parametrize(
+    ("kind", "name", "words"),
+    [
+        (BiharmonicDistance, "from_sources", "biharmonic, exact: fields from vertices: by"),
+        (CommuteTimeDistance, "from_sources", "commute-time, exact: fields from vertices: by"),
+        (BiharmonicDistance, "from_source", "biharmonic, exact: a place: by"),
+    ],
+)
+def test_a_field_that_is_off_by_more_than_is_said_is_found(monkeypatch, tmp_path, kind, name, words):
+    spoilt(monkeypatch, kind, name, lambda f: f * (1 + 1e-4))
+    outcome = fields.case(SEED, 0, tmp_path)
+    assert outcome.kind == WRONG
+    assert words in outcome.text
+
+
 def test_a_number_outside_of_a_component_is_found(monkeypatch):
     spoilt(monkeypatch, BiharmonicDistance, "from_sources", np.nan_to_num)
     assert "a number outside of the component" in laws.checked(two_pieces(), np.random.default_rng(0)).text
@@ -235,6 +253,7 @@ SMALL = {
     documents: 200,
     broken_meshes: len(broken_kinds.KINDS),
     accuracy: 25,
+    fields: 10,
     interruptions: 12,
     cancellations: 4,
 }

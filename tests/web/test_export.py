@@ -18,9 +18,11 @@ from app.document.page import Recipe
 from app.document.quantities import quantity
 from app.main import main
 from app.web import export, page as of_page
-from bihdist_core import BiharmonicDistance, OutputError, ParameterError, Surface
+from app.web.stored_mesh import StoredMesh
+from bihdist_core import BiharmonicDistance, CommuteTimeDistance, OutputError, ParameterError, Surface
+from tests.commands import ran, refused
 
-from ..shapes import bumpy, slivers, two_pieces
+from ..shapes import bumpy, needles, slivers, two_pieces
 
 
 def scene_in(path):
@@ -38,8 +40,8 @@ def in_folder(tmp_path, monkeypatch):
 # ---------------------------------------------------------------------- the command
 def test_the_command_writes_a_page_and_says_what_it_holds(mesh_file, in_folder, capsys):
     mesh = mesh_file(bumpy(400))
-    options = ["--sources", "7", "--pins", "3,9", "--distance", "biharmonic,biharmonic - commute-time", "--up", "z"]
-    assert main(["page", mesh, "-o", "out.html", *options, "--colours", "ember", "--isolines", "8"]) == 0
+    options = ["--sources", "7", "--pins", "3,9", "--distance", "biharmonic,biharmonic - commute-time", "--viewup", "z"]
+    assert main(["page", mesh, "-o", "out.html", *options, "--cmap", "ember", "--isolines", "8"]) == 0
     size = (in_folder / "out.html").stat().st_size
     said = capsys.readouterr().out
     assert said.startswith(f"out.html: {size / 1e3:.0f} kB, opened by any browser, without a network\n")
@@ -53,14 +55,25 @@ def test_the_command_writes_a_page_and_says_what_it_holds(mesh_file, in_folder, 
     assert scene["camera"]["up"] == pytest.approx([0, 0, 1], abs=0.9)
 
 
+def test_the_page_says_who_made_it_and_the_command_how_to_embed_it(mesh_file, in_folder, capsys):
+    mesh = mesh_file(bumpy(300), "a <b>.off")
+    assert main(["page", mesh, "-o", "a b&c.html", "--credit", "Scan: A. Author\n"]) == 0
+    code = re.search("to embed it: (.*)", capsys.readouterr().out)[1]
+    assert code.startswith('<iframe src="a%20b%26c.html" title="Distances on a &lt;b&gt;.off" loading="lazy" ')
+    assert scene_in("a b&c.html")["credit"] == "Scan: A. Author�"
+    assert scene_in("a b&c.html")["embed"] == code.replace("a%20b%26c.html", "PAGE")
+    assert f'<meta name="generator" content="bihdist {bihdist.__version__}">' in Path("a b&c.html").read_text("utf-8")
+    bihdist.page(bumpy(300), "p.html", ["biharmonic"], credit="B. Author")
+    assert scene_in("p.html")["credit"] == "B. Author"
+
+
 def test_without_words_it_is_named_after_the_mesh_and_needs_no_eigenpairs(mesh_file, in_folder, capsys):
     assert main(["page", mesh_file(bumpy(300), "a shape.off"), "--quiet"]) == 0
     assert [panel["distance"] for panel in scene_in("a shape.html")["panels"]] == ["biharmonic", "geodesic"]
 
 
 def test_its_json_has_the_differences(mesh_file, in_folder, capsys):
-    assert main(["page", mesh_file(bumpy(300)), "-o", "p.html", "--bits", "float32", "--json"]) == 0
-    facts = json.loads(capsys.readouterr().out)
+    facts = json.loads(ran(capsys, "page", mesh_file(bumpy(300)), "-o", "p.html", "--bits", "float32", "--json").out)
     assert facts["outputs"] == ["p.html"]
     assert (facts["precision"], facts["n_vertices"]) == ("float32", 300)
     assert facts["bytes"] == Path("p.html").stat().st_size
@@ -69,22 +82,48 @@ def test_its_json_has_the_differences(mesh_file, in_folder, capsys):
     assert scene_in("p.html")["mesh"]["bits"] == "float32"
 
 
-def test_eigenpairs_are_allowed_in_number_and_their_size_is_said_before(mesh_file, in_folder, capsys):
+def test_eigenpairs_are_allowed_in_size_or_in_number(mesh_file, in_folder, capsys, monkeypatch):
     mesh = mesh_file(bumpy(300))
-    assert main(["page", mesh, "-o", "p.html", "--distance", "truncated(k=30)"]) == 2
-    said = capsys.readouterr().err
-    assert "truncated(k=30) needs 30 eigenpairs in the page, some 23 kB; allow them with --eigenpairs 30" in said
-    assert not Path("p.html").exists()
-    assert main(["page", mesh, "-o", "p.html", "--distance", "truncated(k=30)", "--eigenpairs", "30"]) == 0
-    text = Path("p.html").read_text()
-    assert 'id="points-truncated"' in text
-    assert scene_in("p.html")["panels"][0]["parameters"] == {"k": 30}
+    asked = ["page", mesh, "-o", "p.html", "--distance", "truncated(k=30)"]
+    for size, more in ((20_000, []), (10**6, ["--eigenpairs", "29"]), (10**6, ["--eigenpairs", "0"])):
+        monkeypatch.setattr(export, "EIGENPAIR_BYTES", size)
+        said = refused(capsys, *asked, *more)
+        assert "truncated(k=30) needs 30 eigenpairs in the page, some 23 kB; allow them with --eigenpairs 30" in said
+        assert not Path("p.html").exists()
+    for more in ([], ["--eigenpairs", "30"]):
+        assert main([*asked, *more]) == 0
+        assert 'id="points-truncated"' in Path("p.html").read_text()
+        assert scene_in("p.html")["panels"][0]["parameters"] == {"k": 30}
+
+
+def offered_in(path):
+    return {each["label"]: each["distance"] for each in scene_in(path)["offered"]}
+
+
+def test_readers_are_offered_what_the_page_can_compute(tmp_path, monkeypatch):
+    path = tmp_path / "p.html"
+    exact = {"commute-time, exact": "commute_time", "geodesic, exact": "geodesic"}
+    bihdist.page(bumpy(300), path, ["biharmonic", "diffusion(t=1/4)"])
+    # Of two diffusion distances the second is the one that nobody asked for.
+    spectral = {"diffusion, t = 1": "diffusion_2", "biharmonic, 200 eigenpairs": "truncated"}
+    assert offered_in(path) == {**exact, **spectral}
+    assert all(f'id="points-{name}"' in path.read_text() for name in ("diffusion", *spectral.values()))
+    bihdist.page(bumpy(300), path, ["biharmonic"], eigenpairs=0)
+    assert offered_in(path) == exact
+    assert 'id="points-' not in path.read_text()
+    monkeypatch.setattr(export, "EIGENPAIR_BYTES", 10_000)
+    bihdist.page(bumpy(300), path, ["biharmonic"])
+    assert offered_in(path) == exact
+    # Faces without height have no exact geodesic distance here.
+    bihdist.page(slivers(), path, ["commute-time"])
+    assert "biharmonic, exact" in offered_in(path)
+    assert "geodesic, exact" not in offered_in(path)
 
 
 def test_a_recipe_is_taken_and_changed(mesh_file, in_folder, capsys):
     mesh = mesh_file(bumpy(300))
     document = comparison(mesh, tuple(map(quantity, ("commute-time", "biharmonic"))), (4,))
-    Path("r.json").write_text(recipe_text(Recipe(replace(document, range="shares")), "0"))
+    Path("r.json").write_text(recipe_text(Recipe(replace(document, range="fraction")), "0"))
     assert main(["page", "--recipe", "r.json", "-o", "p.html", "--sources", "9"]) == 0
     scene = scene_in("p.html")
     assert scene["source"] == 9
@@ -105,20 +144,18 @@ def test_vertices_that_are_cut_out_are_not_on_the_page(mesh_file, in_folder):
         (["--distance", "power"], "cannot be on a page that computes"),
         (["--sources", "1,2"], "start from 2 sources"),
         (["--sources", "1+2"], "start from 1+2"),
-        (["--distance", "biharmonic", "--method", "heat"], "--method heat is no parameter"),
+        (["--distance", "biharmonic", "--method", "heat"], "--method heat is not a parameter"),
         (["--distance", "geodesic", "--method", "heat"], "is not exact"),
     ],
 )
 def test_what_it_cannot_do_is_a_sentence(mesh_file, in_folder, capsys, options, sentence):
-    assert main(["page", mesh_file(bumpy(200)), "-o", "p.html", *options]) == 2
-    assert sentence in capsys.readouterr().err
+    assert sentence in refused(capsys, "page", mesh_file(bumpy(200)), "-o", "p.html", *options)
     assert list(Path().glob("*.html")) == []
 
 
 @pytest.mark.parametrize(("path", "words"), [("p.png", "extension '.png'"), ("nowhere/p.html", "nowhere")])
 def test_a_path_that_cannot_be_is_refused_before_the_work(in_folder, capsys, path, words):
-    assert main(["page", "hand", "-o", path]) == 2
-    assert words in capsys.readouterr().err
+    assert words in refused(capsys, "page", "hand", "-o", path)
 
 
 def test_options_of_figures_that_mean_nothing_here_are_refused(mesh_file, in_folder, capsys):
@@ -130,12 +167,23 @@ def test_options_of_figures_that_mean_nothing_here_are_refused(mesh_file, in_fol
 def test_a_large_mesh_is_refused_with_what_makes_it_smaller(monkeypatch, mesh_file, in_folder, capsys):
     monkeypatch.setattr(export, "MOST_VERTICES", 100)
     mesh = mesh_file(bumpy(200))
-    assert main(["page", mesh, "-o", "p.html"]) == 2
-    said = capsys.readouterr().err
+    said = refused(capsys, "page", mesh, "-o", "p.html")
     assert "has 200 vertices, and a page has up to 100; make it smaller with: " in said
     words = said.split("smaller with: bihdist ")[1].replace("100000", "90").split()
     assert main(words) == 0
     assert main(["page", "smaller.ply", "-o", "p.html"]) == 0
+
+
+def test_a_file_that_announces_too_many_vertices_is_not_read(monkeypatch, mesh_file, in_folder, capsys):
+    monkeypatch.setattr(export, "MOST_VERTICES", 100)
+    mesh = mesh_file(bumpy(200))
+    content = Path(mesh).read_text().splitlines()
+    Path(mesh).write_text("\n".join(content[:20]))  # cut off, which reading it would say
+    assert main(["page", mesh, "-o", "p.html"]) == 2
+    assert "mesh.off has 200 vertices, and a page has up to 100; make it smaller" in capsys.readouterr().err
+    # One that is cut on reading may be small enough.
+    np.savetxt("mask.txt", np.arange(200) < 90, fmt="%d")
+    assert "cut off" in refused(capsys, "page", mesh, "--cut", "mask.txt", "-o", "p.html")
 
 
 def test_a_page_that_fails_leaves_what_was_there(mesh_file, in_folder, monkeypatch):
@@ -159,7 +207,9 @@ def test_the_example_in_the_docstring_runs(monkeypatch):
 
 def test_the_function_takes_arrays_and_says_what_the_page_holds(tmp_path):
     s = bumpy(300)
-    page = bihdist.page((s.vertices, s.faces), tmp_path / "p.html", ["commute-time"], 5, pins=[2], isolines=0)
+    page = bihdist.page(
+        (s.vertices, s.faces), tmp_path / "p.html", ["commute-time"], 5, marks={"pins": [2]}, isolines=0
+    )
     assert page.labels == ("commute-time, exact",)
     scene = scene_in(tmp_path / "p.html")
     assert scene["source"] == 5
@@ -170,12 +220,14 @@ def test_the_function_takes_arrays_and_says_what_the_page_holds(tmp_path):
 
 
 def test_the_function_refuses_as_the_command_does(tmp_path):
-    with pytest.raises(TypeError, match=r"page\(\) got an unexpected keyword argument 'size'"):
-        bihdist.page("hand", tmp_path / "p.html", size="85mm")
+    with pytest.raises(TypeError, match=r"page\(\) got an unknown key 'size' in layout"):
+        bihdist.page("hand", tmp_path / "p.html", layout={"size": "85mm"})
+    with pytest.raises(TypeError, match=r"page\(\) got .* 'cmap'; did you mean look=\{'cmap': …\}\?"):
+        bihdist.page("hand", tmp_path / "p.html", cmap="safe")
     with pytest.raises(ParameterError, match="one of 24, float32, not '8'"):
         bihdist.page(bumpy(200), tmp_path / "p.html", ["biharmonic"], precision="8")
     with pytest.raises(ParameterError, match="eigenpairs in the page"):
-        bihdist.page(bumpy(200), tmp_path / "p.html", ["diffusion"])
+        bihdist.page(bumpy(200), tmp_path / "p.html", ["diffusion"], eigenpairs=0)
 
 
 def test_differences_are_those_of_the_rounded_mesh(tmp_path):
@@ -189,6 +241,23 @@ def test_differences_are_those_of_the_rounded_mesh(tmp_path):
     rounded = Surface(low + step * np.rint((s.vertices - low) / step), s.faces)
     a, b = (BiharmonicDistance(each).from_source(0) for each in (s, rounded))
     assert 0 < np.abs(a - b).max() / a.max() <= page.differs["biharmonic"] * (1 + 1e-6)
+
+
+def test_differences_are_about_the_largest_from_any_source_and_say_from_how_many(mesh_file, tmp_path, capsys):
+    """On needles, from whose tips they are many times as large as from most vertices."""
+    s = needles(bumpy(200), 1e-5, every=9)
+    page = bihdist.page(s, tmp_path / "p.html", ["biharmonic", "commute-time"], 0)
+    kept = StoredMesh.of(s)
+    for name, make in (("biharmonic", BiharmonicDistance), ("commute-time", CommuteTimeDistance)):
+        a = make(s).from_sources(kept.ids)[kept.ids]
+        off = np.abs(a - make(kept.surface).from_sources(range(len(kept.ids)))).max(axis=0) / a.max(axis=0)
+        assert off.max() / 1.6 < page.differs[name] <= off.max() * (1 + 1e-6)
+        assert np.median(off) < page.differs[name]
+    assert scene_in(tmp_path / "p.html")["mesh"]["sources"] == 8
+    assert main(["page", mesh_file(s), "-o", str(tmp_path / "q.html")]) == 0
+    assert "from 8 sources distances equal those on the original mesh within" in capsys.readouterr().out
+    assert main(["page", mesh_file(s), "-o", str(tmp_path / "q.html"), "--json"]) == 0
+    assert {each["difference_sources"] for each in json.loads(capsys.readouterr().out)["distances"]} == {8}
 
 
 def test_several_components_and_all_sorts_of_distances(tmp_path):

@@ -34,7 +34,7 @@ def test_what_is_imported_comes_first_and_once(tmp_path):
         ({"main": 'import { a } from "./a.js";\n', "a": "const a = 1;\n"}, "main.js imports a of a.js"),
         (
             {"main": 'import { a } from "./a.js";\nconst b = 1;\n', "a": "export const a = 1;\nlet b = 2;\n"},
-            "both have b",
+            "both define b",
         ),
         ({"main": "export default 1;\n"}, "'export default 1;' is neither"),
         ({"main": 'import a from "./a.js";\n'}, "is neither"),

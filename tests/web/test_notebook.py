@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.waiting import PATIENCE
+
 pytest.importorskip("anywidget", reason="anywidget is not installed: pip install 'bihdist[widget]'")
 pytest.importorskip("ipykernel")
 nbclient = pytest.importorskip("nbclient")
@@ -26,7 +28,7 @@ def test_a_click_in_one_cells_widget_changes_what_another_prints(tmp_path, monke
     for name, value in {"PYTHONPATH": ROOT, "IPYTHONDIR": tmp_path, "JUPYTER_DATA_DIR": tmp_path}.items():
         monkeypatch.setenv(name, os.fspath(value))
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(text) for text in CELLS])
-    nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3", resources={}).execute(cwd=str(tmp_path))
+    nbclient.NotebookClient(notebook, timeout=PATIENCE, kernel_name="python3", resources={}).execute(cwd=str(tmp_path))
     outputs = [cell["outputs"] for cell in notebook.cells]
     views = [outputs[k][0]["data"]["application/vnd.jupyter.widget-view+json"]["model_id"] for k in (1, 2)]
     assert outputs[4][0]["text"] == "90 [90] [{'id': 7, 'name': 'tip'}]\n"
@@ -36,4 +38,4 @@ def test_a_click_in_one_cells_widget_changes_what_another_prints(tmp_path, monke
     assert one["source"] == other["source"] == 90
     assert one["scene"]["given"] == ["field mine"]
     paths = {tuple(buffer["path"]) for buffer in states[views[0]]["buffers"]}
-    assert paths == {("contents", "kernel"), ("contents", "mesh"), ("contents", "given")}
+    assert paths == {("contents", each) for each in ("kernel", "mesh", "given", "points-diffusion", "points-truncated")}

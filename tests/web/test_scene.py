@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 import app as bihdist
-from app.document.beside_edits import open_beside
 from app.document.camera import Camera
-from app.document.document import MeshFile, Zoom, comparison
+from app.document.document import Inset, MeshFile, comparison
 from app.document.looks import Colours, Isolines, Shading
+from app.document.on_surface import Hidden
 from app.document.page import Page, Recipe
 from app.document.quantities import quantity
+from app.document.second_mesh_edits import open_second_mesh
 from app.document.shared_parts.pins import Pins, add_pins, change_pin
 from app.figures.export import compute, figure_of, open_document
-from app.main import main
 from app.scene.camera import standard_camera
 from app.scene.levels import levels
 from app.scene.style import DARK, PAPER, style_of
@@ -25,8 +25,9 @@ from app.session.questions import first_source
 from app.web.contents import Contents
 from app.web.scene import _check_numbers, scene_of
 from bihdist_core import ParameterError, Surface
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.sources.source import SourceSet, SurfacePoint
+from tests.commands import ran
 
 from ..shapes import bumpy, two_pieces
 
@@ -80,7 +81,7 @@ def test_several_sources_and_sets_are_refused():
 
 def test_two_meshes_and_no_panels_are_refused():
     with pytest.raises(ParameterError, match="one mesh, and here are 2; make a page of each"):
-        Contents.of(open_beside(comparison("hand"), MeshFile("", "hare")))
+        Contents.of(open_second_mesh(comparison("hand"), MeshFile("", "hare")))
     with pytest.raises(ParameterError, match="nothing to show"):
         Contents.of(replace(comparison("hand"), panels=()))
 
@@ -141,16 +142,16 @@ def test_an_end_that_was_typed_is_that_of_the_bar(scene):
 
 def test_shared_ranges_end_alike_and_say_so(scene):
     made = scene(("biharmonic", "geodesic"), lambda document: replace(document, range="shared"))
-    (one, two), tops = (panel["range"] for panel in made["panels"]), scene.figure.tops()
+    (one, two), tops = (panel["range"] for panel in made["panels"]), scene.figure.upper_limits()
     assert one == two == [0.0, pytest.approx(tops[0])]
-    assert "end where the largest does from vertex 5" in made["notes"][0]
+    assert "from vertex 5" in made["notes"][0]
     alone = scene(("biharmonic",), lambda document: replace(document, range="shared"))
     assert alone["panels"][0]["range"] is None
     assert alone["notes"] == []
 
 
 def test_in_shares_each_bar_ends_at_its_own_maximum_from_any_source(scene):
-    made = scene(edit=lambda document: replace(document, range="shares"))
+    made = scene(edit=lambda document: replace(document, range="fraction"))
     assert [panel["shares"] for panel in made["panels"]] == [True, True, False]
     assert [panel["range"] for panel in made["panels"]] == [None] * 3
 
@@ -176,10 +177,10 @@ def test_a_spacing_is_listed_as_far_as_it_may_be_needed(scene):
     made = scene(edit=lambda document: replace(document, isolines=Isolines(spacing=0.05)))
     biharmonic, _, difference = scene.figure.panels
     for listed, panel in ((made["isolines"], biharmonic), (made["panels"][2]["isolines"], difference)):
-        inside = [v for v in listed["values"] if (-panel.own_top if panel.signed else 0) < v < panel.own_top]
-        shown = levels(panel.isolines, panel.top, panel.own_top, panel.signed).values
+        inside = [v for v in listed["values"] if (-panel.own_maximum if panel.signed else 0) < v < panel.own_maximum]
+        shown = levels(panel.isolines, panel.upper_limit, panel.own_maximum, panel.signed).values
         np.testing.assert_allclose(inside, shown, rtol=1e-12)
-        assert max(listed["values"]) > 3 * panel.own_top
+        assert max(listed["values"]) > 3 * panel.own_maximum
 
 
 def test_a_spacing_that_makes_too_many_lines_is_cut_short(scene):
@@ -201,6 +202,19 @@ def test_pins_have_ids_of_the_file_and_names_as_they_are(scene):
     assert made["notes"] == [f"Pin 2 is in a face; on this page it is at the nearest corner, vertex {corner}."]
 
 
+def test_hidden_pins_are_on_no_page(scene):
+    def hidden(document):
+        document = add_pins(document, [7, 9, 11])
+        return document.with_part(Hidden(("source", "pins:pin 2")))
+
+    made = scene(edit=hidden)
+    assert [pin["id"] for pin in made["pins"]] == [7, 11]
+    assert made["notes"] == [
+        "The page leaves out that the source is hidden.",
+        "Pins after those that are hidden have lower numbers on this page.",
+    ]
+
+
 def test_a_standard_view_is_that_of_the_shape(scene):
     made = scene(edit=lambda document: replace(document, camera="left", up="z"))["camera"]
     camera = standard_camera(scene.surface.vertices, 1.0, "left", up="z")
@@ -212,7 +226,7 @@ def test_a_standard_view_is_that_of_the_shape(scene):
 
 def test_a_camera_of_the_window_is_that_of_the_page(scene):
     camera = Camera((0.0, 0, 10), (0, 0, 1), (0, 1, 0), (0.4, 0.2))
-    made = scene(edit=lambda document: replace(document, camera=camera, projection="orthographic"))["camera"]
+    made = scene(edit=lambda document: replace(document, camera=camera, parallel_projection=True))["camera"]
     assert made["position"] == [0, 0, 10]
     assert made["up"] == [0, 1, 0]
     assert made["parallel"] == pytest.approx(0.2 * 9)
@@ -253,9 +267,9 @@ def test_what_the_page_leaves_out_is_said(scene):
         return replace(
             document,
             isolines=Isolines(bold=5, labels=True, through=("source",)),
-            zooms=(Zoom(3),),
+            insets=(Inset(3),),
             colours=Colours(bands=True),
-            shading=Shading("flat", wireframe=True),
+            shading=Shading("flat", show_edges=True),
             extrema=True,
             axes=True,
         )
@@ -291,7 +305,9 @@ def test_fields_of_ones_own_are_as_figures_show_them_and_said_to_stay(tmp_path):
     values = np.linspace(-1, 3, 300)
     values[3] = np.nan
     fields = {"mine": values, "<b>": values**2}
-    made = bihdist.page(s, tmp_path / "p.html", ["biharmonic", "raw biharmonic - mine"], 5, fields=fields, range="own")
+    made = bihdist.page(
+        s, tmp_path / "p.html", ["biharmonic", "raw biharmonic - mine"], 5, fields=fields, look={"clim": "own"}
+    )
     shown = bihdist.figure(s, ["biharmonic", "raw biharmonic - mine"], 5, fields=fields)._figure
     panels = made.scene["panels"]
     assert [panel["distance"] for panel in panels] == ["biharmonic", "difference", "field <b>"]
@@ -302,8 +318,8 @@ def test_fields_of_ones_own_are_as_figures_show_them_and_said_to_stay(tmp_path):
         "", "mine is the same from every source", "the same from every source",
     ]  # fmt: skip
     assert made.scene["notes"] == [
-        "mine was given as it is: it stays the same from every source.",
-        "<b> was given as it is: it stays the same from every source.",
+        "mine is a field of the user's own, the same from every source.",
+        "<b> is a field of the user's own, the same from every source.",
     ]
     assert {*made.differs} == {"biharmonic", "field mine", "field <b>"}
     assert 0 < made.differs["field mine"] <= 2**-24
@@ -314,7 +330,9 @@ def test_fields_of_ones_own_are_as_figures_show_them_and_said_to_stay(tmp_path):
 
 def test_a_field_of_ones_own_alone_has_its_sign_and_the_highest_vertex(tmp_path):
     s = bumpy(200)
-    made = bihdist.page(s, tmp_path / "p.html", [], fields={"mine": s.vertices[:, 2]}, up="z", range=2.0)
+    made = bihdist.page(
+        s, tmp_path / "p.html", [], fields={"mine": s.vertices[:, 2]}, view={"viewup": "z"}, look={"clim": 2.0}
+    )
     (panel,) = made.scene["panels"]
     assert (panel["signed"], panel["range"], panel["note"]) == (True, [-2.0, 2.0], "the same from every source")
     assert made.scene["source"] == first_source(s, "z")
@@ -329,14 +347,16 @@ def test_a_field_of_another_length_is_refused(tmp_path):
 def test_a_recipe_with_fields_of_ones_own_becomes_a_page(mesh_file, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     s = bumpy(200)
-    bihdist.figure(s, ["biharmonic - mine"], 5, fields={"mine": s.vertices[:, 0]}, size="200x100").save("f.png")
-    assert main(["page", "--recipe", "f.json", "-o", "p.html", "--json"]) == 0
-    said = capsys.readouterr()
+    bihdist.figure(s, ["biharmonic - mine"], 5, fields={"mine": s.vertices[:, 0]}, layout={"size": "200x100"}).save(
+        "f.png"
+    )
+    said = ran(capsys, "page", "--recipe", "f.json", "-o", "p.html", "--json")
     facts = json.loads(said.out)
     assert [panel["label"] for panel in facts["panels"]] == ["biharmonic, exact − mine"]
     assert facts["distances"][-1] == {
         "distance": "field mine",
         "difference": pytest.approx(3e-8, abs=3e-8),
+        "difference_sources": None,
         "n_eigenpairs": 0,
     }
-    assert "mine was given as it is" in said.err
+    assert "mine is a field of the user's own" in said.err

@@ -10,14 +10,14 @@ import pytest
 
 from app.web.html_file import packed_contents, whole_scene
 from app.web.modules import VIEWER
-from app.web.points import StoredPoints
-from app.web.stored_field import StoredField
 from app.web.stored_mesh import StoredMesh, varints
+from app.web.stored_values import StoredField, StoredPoints
 from bihdist_core import BiharmonicDistance, CommuteTimeDistance, DiffusionDistance, ParameterError, Surface
 from bihdist_core.distances.exact_geodesic import ExactGeodesic
 from bihdist_core.distances.spectral import TruncatedBiharmonicDistance
 from bihdist_core.laplacian import Laplacian
 from tests.shapes import bumpy, fin, grid, slivers, sphere, tetrahedron, torus, two_pieces
+from tests.waiting import PATIENCE
 
 
 def scaled(surface: Surface, by: float) -> Surface:
@@ -57,7 +57,7 @@ def said(mesh: StoredMesh, sources, names, points=None, areas="voronoi", given=N
     }  # fmt: skip
     script = VIEWER.parents[2] / "tests/web/solver.mjs"
     run = subprocess.run(
-        ["node", script, VIEWER], input=json.dumps(question), capture_output=True, text=True, timeout=300
+        ["node", script, VIEWER], input=json.dumps(question), capture_output=True, text=True, timeout=PATIENCE
     )
     assert run.returncode == 0, run.stderr
     return json.loads(run.stdout)

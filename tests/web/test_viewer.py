@@ -103,6 +103,33 @@ def test_a_panels_range_is_its_own_maximum_or_what_it_is_given():
     assert (said["low"], said["high"], said["own"]) == (0.5, 5, 2)
 
 
+# ---------------------------------------------------------------------- questions to the solver
+def test_no_distance_waits_for_exact_geodesic_distance():
+    answer = ask("lanes", questions=[{"vertex": 4, "isFinal": True}], answered=[])
+    assert answer["told"] == [[4, "biharmonic"]]
+    answer = ask("lanes", questions=[{"vertex": 4, "isFinal": True}], answered=[1])
+    assert answer["told"] == [[4, "biharmonic"], [4, "geodesic"]]
+    assert answer["resolved"] == [["biharmonic", "geodesic"]]
+
+
+def test_a_click_gives_up_the_geodesic_distance_of_the_click_before():
+    clicks = [{"vertex": vertex, "isFinal": True} for vertex in (4, 7, 9)]
+    answer = ask("lanes", questions=clicks, answered=[1, 3])  # what is given up says nothing any more
+    assert answer["told"] == [[4, "biharmonic"], [7, "biharmonic"], [9, "biharmonic"], [9, "geodesic"]]
+    assert answer["resolved"] == [None, None, ["biharmonic", "geodesic"]]
+
+
+def test_a_drag_finishes_one_geodesic_distance_and_skips_to_the_latest():
+    passing = [{"vertex": vertex, "isFinal": False} for vertex in (4, 7, 9)]
+    answer = ask("lanes", questions=passing, answered=[1, 1])
+    assert answer["told"][3:] == [[4, "geodesic"], [9, "geodesic"]]
+    # Where the drag ends, what is computed already is waited for.
+    answer = ask("lanes", questions=[passing[0], {"vertex": 4, "isFinal": True}], answered=[1])
+    assert answer["workers"] == 2
+    assert answer["told"][2:] == [[4, "geodesic"]]
+    assert answer["resolved"] == [None, ["biharmonic", "geodesic"]]
+
+
 # ---------------------------------------------------------------------- camera and picking
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("aspect", [0.5, 1.0, 2.5])
@@ -249,13 +276,14 @@ def test_each_face_of_a_flat_surface_has_corners_of_its_own_and_of_a_smooth_one_
 
 
 # ---------------------------------------------------------------------- links and colours
-def test_a_link_holds_source_pins_and_camera():
+def test_a_link_holds_source_pins_camera_and_panels():
     state = {
         "source": 7,
         "pins": [{"id": 3, "name": "a, b:&=#<é"}, {"id": 9, "name": ""}],
         "camera": [[1, 2, 3.25], [0, 0, -1e-7], [0, 1, 0]],
+        "panels": [2, 0],
     }
-    said = ask("address", hash=ask("written_address", state=state), ids=[3, 7, 9])
+    said = ask("address", hash=ask("written_address", state=state), ids=[3, 7, 9], choices=3)
     assert said == {**state, "ignored": []}
 
 
@@ -268,11 +296,12 @@ def test_a_link_holds_source_pins_and_camera():
         ("#camera=1,1,1,1,1,1,0,0,1", "camera"), ("#camera=0,0,1,0,0,0,0,0,1", "camera"),
         ("#camera=NaN,0,1,0,0,0,0,1,0", "camera"), ("#camera=0x1,0,1,0,0,0,0,1,0", "camera"),
         ("#camera=1e999,0,1,0,0,0,0,1,0", "camera"),
+        ("#panels=0,3", "panels"), ("#panels=", "panels"), ("#panels=0x1", "panels"), ("#panels=-1", "panels"),
         ("#__proto__=1", "an unknown part"), ("#toString=1", "an unknown part"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_in_a_link_is_named_and_left_out(hash, ignored):
-    said = ask("address", hash=f"{hash}&source=7" if ignored != "source" else hash, ids=[3, 7, 9])
+    said = ask("address", hash=f"{hash}&source=7" if ignored != "source" else hash, ids=[3, 7, 9], choices=3)
     assert said.pop("ignored") == [ignored]
     assert said == ({} if ignored == "source" else {"source": 7})
 
@@ -291,6 +320,25 @@ def test_maps_are_stretched_and_follow_the_theme():
     assert (light["back"], dark["back"]) == ([4, 4, 4], [5, 5, 5])
     scene["colours"]["background"] = [9, 9, 9]
     assert ask("colours", scene=scene, isDark=False)["background"] == [9, 9, 9]
+
+
+# ---------------------------------------------------------------------- layout
+@pytest.mark.parametrize(
+    ("count", "width", "height", "columns"),
+    [
+        (2, 1280, 650, 2),
+        (6, 1280, 650, 3),
+        (2, 600, 310, 2),
+        (2, 400, 230, 2),
+        (2, 390, 430, 2),
+        (2, 390, 770, 1),
+        (3, 390, 770, 2),
+        (2, 300, 230, 1),
+        (1, 300, 100, 1),
+    ],
+)
+def test_there_are_as_many_columns_as_make_the_views_largest(count, width, height, columns):
+    assert ask("columns", count=count, width=width, height=height) == columns
 
 
 # ---------------------------------------------------------------------- words

@@ -37,9 +37,9 @@ const answers = {
     const { values, ...rest } = panelAnswer(panel, Object.fromEntries(arrays));
     return { ...rest, values: Array.from(values, (x) => (Number.isNaN(x) ? null : x)) };
   },
-  async address({ hash, ids }) {
+  async address({ hash, ids, choices = 0 }) {
     const { readAddress } = await use("address.js");
-    return readAddress(hash, (id) => ids.includes(id));
+    return readAddress(hash, (id) => ids.includes(id), (panels) => panels.every((each) => each < choices));
   },
   async written_address({ state }) {
     const { addressOf } = await use("address.js");
@@ -71,6 +71,34 @@ const answers = {
   async outside({ mesh }) {
     const { outside } = await use("shape.js");
     return outside(await shapeOf(mesh));
+  },
+  // What becomes of questions whose geodesic distance the test answers itself, and the others are answered at once.
+  async lanes({ questions, answered }) {
+    const workers = [], told = [];
+    globalThis.Worker = class {
+      constructor() {
+        workers.push(this);
+      }
+      postMessage({ number, names }) {
+        this.asked = number;
+        for (const name of names ?? []) if (name !== "geodesic") this.onmessage({ data: { number, name, took: 1 } });
+      }
+      terminate() {
+        this.isGone = true;
+      }
+    };
+    const { Solver } = await use("solver.js"), solver = new Solver({ scene: {} });
+    const tell = ({ source, fields }) => told.push([source, ...Object.keys(fields)]);
+    const outcomes = questions.map(({ vertex, isFinal }) =>
+      solver.field(vertex, ["geodesic", "biharmonic"], tell, isFinal),
+    );
+    for (const k of answered) workers[k].onmessage({ data: { number: workers[k].asked, name: "geodesic", took: 2 } });
+    solver.close();
+    const resolved = await Promise.all(outcomes);
+    return { told, workers: workers.length, resolved: resolved.map((answer) => answer && Object.keys(answer.fields)) };
+  },
+  async columns({ count, width, height }) {
+    return (await use("stage.js")).columnsFor(count, width, height);
   },
   async help() {
     return (await use("keys.js")).HELP;

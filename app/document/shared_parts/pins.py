@@ -7,7 +7,7 @@ from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source, SurfacePoint
 from bihdist_core.sources.words import short_words_of
 
-from ..document import Document, Point, free_names, unlike
+from ..document import Document, Point, check_unique, free_names
 from ..labels import check_colour, check_name, next_colour
 from ..part import Part
 from ..removal import without_orphans
@@ -18,10 +18,8 @@ MOST_PINS = 200
 
 @dataclass(frozen=True)
 class Pin:
-    """A pinned point.
-
-    point: its name among the document's points.  name: for the user, its number if empty.  colour: one of MARK_COLOURS.
-    """
+    """A pinned point, by its name among the document's points, with a name for the user and a colour of
+    MARK_COLOURS."""
 
     point: str
     name: str = ""
@@ -34,7 +32,13 @@ class Pin:
 
 @dataclass(frozen=True)
 class Pins(Part):
-    """The pins in their order."""
+    """The pins of a document.
+
+    Attributes
+    ----------
+    pins
+        The pins, in their order.
+    """
 
     pins: tuple[Pin, ...] = ()
 
@@ -42,8 +46,12 @@ class Pins(Part):
     def points(self) -> tuple[str, ...]:
         return tuple(pin.point for pin in self.pins)
 
+    def number(self, point: str) -> int:
+        """Return the number of the pin at a point, from 1; 0 for none."""
+        return self.points.index(point) + 1 if point in self.points else 0
+
     def check(self, document: Document) -> None:
-        unlike(self.points, "pin at")
+        check_unique(self.points, "pin at")
 
     def without_points(self, points: Set[str]) -> "Pins":
         return replace(self, pins=tuple(pin for pin in self.pins if pin.point not in points))
@@ -53,14 +61,14 @@ class Pins(Part):
 
 
 def with_pins(document: Document, pins: Iterable[Pin]) -> Document:
-    """With these pins and no others; their points are there."""
-    return document.with_part(replace(document[Pins], pins=tuple(pins)))
+    """Return the document with these pins and no others; their points are there."""
+    return document.with_changed(Pins, pins=tuple(pins))
 
 
 def add_pins(document: Document, places: Iterable[Source], surface: str = "A") -> Document:
-    """A pin at each vertex or place in a face that has none, each in the colour that fewest have.
+    """Return the document with a pin at each vertex or point in a face that has none, in the least used colours.
 
-    ParameterError for other sources, and beyond MOST_PINS.
+    Raises ParameterError for other sources, and beyond MOST_PINS.
     """
     places = list(places)
     for at in places:
@@ -79,24 +87,24 @@ def add_pins(document: Document, places: Iterable[Source], surface: str = "A") -
 
 
 def remove_pins(document: Document, points: Iterable[str]) -> Document:
-    """Without the pins at these points."""
+    """Return the document without the pins at these points."""
     return without_orphans(document, document.with_part(document[Pins].without_points(set(points))))
 
 
 def pinned_at(document: Document, place: Source, surface: str = "A") -> tuple[Document, str]:
-    """With a pin at a place, and the name of its point."""
+    """Return the document with a pin at a place, and the name of its point."""
     document = add_pins(document, [place], surface)
     points = [document.point(name) for name in document[Pins].points]
     return document, next(point.name for point in points if (point.at, point.surface) == (place, surface))
 
 
 def pin_instead(document: Document, places: Iterable[Source], surface: str = "A") -> Document:
-    """Pins at these places, and no others."""
+    """Replace all pins by pins at these places."""
     return add_pins(remove_pins(document, document[Pins].points), places, surface)
 
 
 def change_pin(document: Document, pin: Pin) -> Document:
-    """Another name or colour of the pin at a point."""
+    """Change the name or colour of the pin at a point."""
     return with_pins(document, (pin if old.point == pin.point else old for old in document[Pins].pins))
 
 

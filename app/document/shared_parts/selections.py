@@ -7,7 +7,7 @@ from bihdist_core.applications.changes import Runs
 from bihdist_core.arrays import IntArray
 from bihdist_core.errors import ParameterError
 
-from ..document import Document, free_names, unlike
+from ..document import Document, check_unique, free_names
 from ..labels import MARK_COLOURS, check_colour, check_name, next_colour
 from ..part import Part
 from ..runs import ids_of, runs_of
@@ -28,12 +28,18 @@ class Selection:
         ends = [end for run in self.runs for end in run]
         apart = all(a[1] + 1 < b[0] for a, b in zip(self.runs[:-1], self.runs[1:], strict=True))
         if ends != sorted(ends) or (ends and ends[0] < 0) or not apart:
-            raise ParameterError("A selection is runs of vertex ids that go up and do not touch.")
+            raise ParameterError("A selection is a list of increasing, separate ranges of vertex ids.")
 
 
 @dataclass(frozen=True)
 class Selections(Part):
-    """The selections, in their order."""
+    """The selections of a document.
+
+    Attributes
+    ----------
+    selections
+        The selections, in their order.
+    """
 
     selections: tuple[Selection, ...] = ()
 
@@ -42,7 +48,7 @@ class Selections(Part):
         return tuple(each.surface for each in self.selections)
 
     def check(self, document: Document) -> None:
-        unlike([each.name for each in self.selections], "selection")
+        check_unique([each.name for each in self.selections], "selection")
 
     def without_surfaces(self, document: Document, surfaces: Set[str]) -> Document:
         return document.with_part(Selections(tuple(each for each in self.selections if each.surface not in surfaces)))
@@ -59,10 +65,10 @@ class Selections(Part):
 
 
 def select(document: Document, name: str, vertices: IntArray, surface: str = "A") -> Document:
-    """Vertices (k,) as the selection of a name, instead of the old one of that name; none at all remove it."""
+    """Return the document with vertices (k,) as the selection of a name, which none at all remove."""
     before = document[Selections].selections
     if not len(vertices):
-        return document.with_part(Selections(tuple(each for each in before if each.name != name)))
+        return without_selection(document, name)
     old = next((each for each in before if each.name == name), None)
     if old is None:
         new = Selection(name, runs_of(vertices), next_colour(before), surface)
@@ -71,8 +77,14 @@ def select(document: Document, name: str, vertices: IntArray, surface: str = "A"
     return document.with_part(Selections(tuple(new if each is old else each for each in before)))
 
 
+def without_selection(document: Document, name: str) -> Document:
+    """Remove the selection of a name."""
+    others = (each for each in document[Selections].selections if each.name != name)
+    return document.with_part(Selections(tuple(others)))
+
+
 def change_selection(document: Document, name: str, new_name: str | None = None, colour: int | None = None) -> Document:
-    """Another name or colour for a selection; ParameterError for a name that is empty or that another has."""
+    """Change the name or colour of a selection; ParameterError for an empty name and for that of another."""
     if name not in [each.name for each in document[Selections].selections]:
         raise ParameterError(f"There is no selection {name!r}.")
     wanted = name if new_name is None else new_name.strip()
@@ -86,7 +98,7 @@ def change_selection(document: Document, name: str, new_name: str | None = None,
 
 
 def select_instead(document: Document, chosen: Iterable[Runs], surface: str = "A") -> Document:
-    """Each of these as a selection, and no others."""
+    """Replace all selections by these."""
     found = list(chosen)
     names = free_names("selection", len(found), [])
     selections = [

@@ -1,16 +1,15 @@
 """The menu of colours: styles, which are all of the look, and maps, each with a strip of its colours."""
 
-from collections.abc import Callable
-
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.looks import Colours, Stops
+from ...document.settings import switches_in
 from ...scene.colour_maps import MAPS, backwards, colours_at
 from ...scene.style import map_of, style_of
 from ..choices import Choices
 from ..context import Context
-from ..look.canvas import map_word, offered_styles, style_name
+from ..look.canvas import map_word, offered_styles, style_entry, style_name
 from ..look.look import LOOK
 
 WIDTH, HEIGHT, MARGIN = 64, 12, 12
@@ -35,7 +34,9 @@ class ColourMenu(QtWidgets.QMenu):
         self._head("Style")
         self._styles = QtWidgets.QActionGroup(self)
         for word in offered_styles(""):
-            action = self._entry(self._styles, style_name(word), word)
+            action = self._entry(self._styles, style_entry(word), word)
+            if word != "lines":
+                action.setToolTip("Background of figures and movies; that of the window is its theme's (Preferences)")
             action.triggered.connect(lambda *_, word=word: context[Choices].style(word))
         self.addSeparator()
         self._head("Colour map")
@@ -45,15 +46,14 @@ class ColourMenu(QtWidgets.QMenu):
             action.setToolTip(each.hint)
             action.triggered.connect(lambda *_, word=word: context[Choices].colour_map(word))
         self._own = self._entry(self._maps, "", ("map", None))
-        self._file = self.addAction("From a file…", context[Choices].ask_colours)
+        self._file = self.addAction("From file…", context[Choices].ask_colours)
         self._file.setToolTip("Rows of red, green and blue, or ParaView's .json")
         self.addSeparator()
-        self.reversed = self._tick("Reversed", "From the other end", context[Choices].reverse_colours)
-        self.bands = self._tick("Bands", "One colour from each isoline to the next", context[Choices].band_colours)
+        self.addActions([context.actions[word] for word in switches_in("colours")])
 
     def show_choice(self, style: str, colours: Colours) -> None:
         """Tick what is chosen, in its colours."""
-        chosen = (style_name(style), ("map", map_word(style, colours)))
+        chosen = (style_entry(style), ("map", map_word(style, colours)))
         for action in self._styles.actions():
             action.setChecked(action.text() == chosen[0])
         for action in self._maps.actions():
@@ -69,10 +69,8 @@ class ColourMenu(QtWidgets.QMenu):
             of = action.data()[1]
             stops = map_of(colours) if of is None else style_of(ground, Colours(of)).stops
             self._strips[action] = backwards(stops) if colours.reversed and stops else stops
-        for action in (*self._maps.actions(), self._file, self.reversed, self.bands):
+        for action in (*self._maps.actions(), self._file):
             action.setEnabled(has_colours)
-        self.reversed.setChecked(colours.reversed)
-        self.bands.setChecked(colours.bands)
 
     def _head(self, text: str) -> None:
         head = self.addAction(text)
@@ -84,13 +82,6 @@ class ColourMenu(QtWidgets.QMenu):
         action.setData(data)
         action.setCheckable(True)
         group.addAction(action)
-        return action
-
-    def _tick(self, text: str, tip: str, choose: Callable[[bool], None]) -> QtWidgets.QAction:
-        action = self.addAction(text)
-        action.setCheckable(True)
-        action.setToolTip(tip)
-        action.triggered.connect(lambda is_on: choose(is_on))
         return action
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:

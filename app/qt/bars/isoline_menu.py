@@ -3,9 +3,10 @@
 from qtpy import QtWidgets
 
 from ...document.looks import Isolines
+from ...document.settings import switches_in
+from ...drawing.numbers import tick
 from ..context import Context
 from ..isoline_choices import IsolineChoices
-from ..look.numbers import tick
 
 ISOLINES = (0, 10, 20, 30, 50)
 
@@ -25,26 +26,16 @@ class IsolineMenu(QtWidgets.QMenu):
         self._other = self._entry("Another number…", "other")
         self._other.triggered.connect(choices.ask_steps)
         self._spacing = self._entry("Spacing…", "spacing")
-        self._spacing.setToolTip("At multiples of a number, the same in all panels of a unit")
+        self._spacing.setToolTip("Put isolines at multiples of a number, in all panels of a unit")
         self._spacing.triggered.connect(choices.ask_spacing)
         self._values = self._entry("Values…", "values")
-        self._values.setToolTip("At the values that are typed")
+        self._values.setToolTip("Put isolines at given values")
         self._values.triggered.connect(choices.ask_values)
         self.addSeparator()
-        self.equal = self.addAction("Equal steps")
-        self.equal.setCheckable(True)
-        self.equal.setToolTip("As many steps from 0 to each panel's maximum, instead of round values")
-        self.equal.triggered.connect(choices.equal)
-        self.bold = self.addAction("Every fifth bolder")
-        self.bold.setCheckable(True)
-        self.bold.triggered.connect(choices.bold)
-        self.labels = self.addAction("Labels")
-        self.labels.setCheckable(True)
-        self.labels.setToolTip("The lines' values stand on them")
-        self.labels.triggered.connect(choices.labels)
+        self.addActions([context.actions[word] for word in switches_in("isolines")])
         self.addSeparator()
         self.through = self.addAction("Remove isolines through points", choices.pass_through_none)
-        self.through.setToolTip("One passes through a point by the menu of the surface (right button)")
+        self.through.setToolTip("Add one through a point by a right click on the surface")
 
     def show_choice(self, isolines: Isolines) -> None:
         """Tick what is chosen."""
@@ -60,10 +51,6 @@ class IsolineMenu(QtWidgets.QMenu):
         self._other.setText(f"Another number ({isolines.count})…" if word == "other" else "Another number…")
         self._spacing.setText(f"Spacing ({tick(isolines.spacing)})…" if isolines.spacing is not None else "Spacing…")
         self._values.setText(f"Values ({len(isolines.values)})…" if word == "values" else "Values…")
-        self.equal.setChecked(not isolines.round)
-        self.equal.setEnabled(isolines.spacing is None and not isolines.values)
-        self.bold.setChecked(bool(isolines.bold))
-        self.labels.setChecked(isolines.labels)
         self.through.setEnabled(bool(isolines.through))
 
     def _entry(self, text: str, word: str) -> QtWidgets.QAction:

@@ -1,6 +1,7 @@
 """The window's menus, made of its actions."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from typing import Any
 
 from qtpy import QtGui, QtWidgets
@@ -8,14 +9,15 @@ from qtpy import QtGui, QtWidgets
 from bihdist_core.analysis.upright import DIRECTIONS
 
 from ...document.panel_edits import ADD, panel_edits
+from ...document.settings import RANGE, SHADING, THEME, Setting, switches_in
 from ...document.tools import docked_tools
+from ...drawing.numbers import MINUS
 from ...samples import mesh_path, sample_names, sample_title, thumbnail
 from .. import remembered
-from ..actions import acts_of_tools
+from ..actions import actions_of_tools
 from ..choices import Choices
 from ..context import Context
 from ..files.files import Files
-from ..look.numbers import MINUS
 from ..views import Views
 from .colour_menu import ColourMenu
 from .isoline_menu import IsolineMenu
@@ -48,8 +50,13 @@ class NoUnderlines(QtWidgets.QProxyStyle):
         return int(super().styleHint(hint, option, widget, returned))
 
 
+def docks(menu: str) -> list[str]:
+    """The words of the actions that open the docks which a menu lists."""
+    return [f"dock {tool.word}" for tool in docked_tools().values() if tool.menu == menu]
+
+
 class Menus:
-    """Those that the tool bar shows, too, by name: open, isolines, colours, range, views, up, tools."""
+    """The menus of a window; some have names, as the toolbar shows them, too."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
@@ -64,76 +71,64 @@ class Menus:
         self.recent.aboutToShow.connect(self._fill_recent)
         self.isolines = IsolineMenu(context)
         self.colours = ColourMenu(context)
-        self.range = self._choices(
-            "Ran&ge",
-            context[Choices].range,
-            [
-                ("own", "Own maximum: each panel ends at its own"),
-                ("shared", "One for all panels: equal colours, equal values"),
-                ("shares", "Fraction of the maximum: each from 0 to 100 %"),
-            ],
-        )
+        self.range = self._choices_of(RANGE)
         self.range.addSeparator()
-        typed = self.range.addAction("This panel ends at…")
+        typed = self.range.addAction("End of this colour bar…")
         typed.setData("typed")
         typed.setCheckable(True)  # while one does
         typed.triggered.connect(context[Choices].ask_end)
-        self.range.addAction("As in a session or recipe…", context[Choices].ask_ends)
-        self.shading = self._choices(
-            "S&hading",
-            context[Choices].shading,
-            [
-                ("auto", "Automatic: creased where there are sharp edges"),
-                ("smooth", "Smooth"),
-                ("creased", "Creased"),
-                ("flat", "Flat: a shade for each face"),
-            ],
-        )
-        self._fill(self.shading, [None, "crease", None, "wireframe"])
-        self.theme = self._choices(
-            "&Theme", context[Choices].theme, [("desktop", "As the desktop"), ("light", "Light"), ("dark", "Dark")]
-        )
-        self.views, self.tools = QtWidgets.QMenu("&Views", context.widget), QtWidgets.QMenu("&Tools", context.widget)
-        keys, standard = (
-            QtWidgets.QMenu(title, context.widget) for title in ("Turn and move by &keys", "&Standard views")
+        self.range.addAction("From a session or recipe…", context[Choices].ask_ends)
+        self.shading = self._choices_of(SHADING)
+        self._fill(self.shading, [None, "feature angle", None, *switches_in("shading")])
+        self.theme = self._choices_of(THEME)
+        titles = ("&Views", "&Source", "&Tools", "Turn and move by &keys", "&Standard views")
+        self.views, self.source, self.tools, keys, standard = (
+            QtWidgets.QMenu(title, context.widget) for title in titles
         )
         named, at_pointer = [f"view {name}" for name in VIEWS], ["centre", "zoom to"]
-        cameras, walked = ["orthographic", "axes", "turntable", "link"], ["view before", "view after"]
+        cameras, walked = [*switches_in("camera"), "link"], ["view before", "view after"]
         self._fill(keys, TURNS)
-        self._fill(standard, named)
+        self._fill(standard, [*named, None, *walked])
         self._fill(self.open, ["open", "open beside", None, self.recent, self.samples])
-        self._fill(self.views, ["reset", *named, None, *cameras, None, *at_pointer, None, *walked])
         self.up = self._choices(
-            "&Up", lambda word: context[Views].stand(word), [(up, up.replace("-", MINUS)) for up in DIRECTIONS]
+            "&Up", lambda word: context[Views].set_up_axis(word), [(up, up.replace("-", MINUS)) for up in DIRECTIONS]
         )
         self._fill(self.up, [None, "next up", "other end up"])
-        self._fill(self.tools, ["source id", "save curve", "snap", "live", None, "source before", "source after", None])
-        self._fill(self.tools, [*(act.word for act in acts_of_tools()), None, "stop"])
+        self._fill(self.views, ["reset", *named, None, self.up, *cameras, None, *at_pointer, None, *walked])
+        self._fill(self.source, ["source id", "save curve", "snap", "live", None, "source before", "source after"])
+        self._fill(self.source, [None, *(act.word for act in actions_of_tools())])
+        self._fill(self.tools, docks("Tools"))
+        self.tools.setToolTipsVisible(True)
         file, edit, view, panels, tools, about = (
             bar.addMenu(name) for name in ("&File", "&Edit", "&View", "&Panels", "&Tools", "&Help")
         )
-        self._fill(file, ["open", self.recent, self.samples, None, "open beside", "close beside", None])
+        self._of_meshes = (panels, tools)
+        self._fill(file, ["open", self.recent, self.samples, "close mesh", None, "open beside", "close beside", None])
         self._fill(file, ["cut", "merge", "save ids", "put back", None])
         self._fill(file, ["save", "save as", None])
         self._fill(file, ["save fields", "figure", "movie", "page", "screenshot", None, "quit"])
         self._fill(edit, ["undo", "redo", None, "copy picture", "copy command", "copy python", None])
-        self._fill(edit, ["copy camera", "paste camera", None, "preferences"])
+        self._fill(edit, ["copy camera", "paste camera", None, "clear by-products", "clear surface", None])
+        self._fill(edit, ["preferences"])
         # What the tool bar's menu shows one below the other has submenus here, so that all is seen on small screens.
-        self._fill(view, ["reset", standard, self.up, keys, None, *cameras, None, *at_pointer, *walked, None])
+        self._fill(view, ["reset", standard, self.up, keys, None, *cameras, None, *at_pointer, None])
+        self._fill(view, [*docks("View"), None])
         self._fill(view, [self.isolines, self.colours, self.range, self.shading, None, self.theme, "full screen"])
         edits = (f"panel {word}" for word in panel_edits() if word != ADD)
         self._fill(panels, ["add panel", None, *edits, None, "save field", None])
         self._fill(panels, ["next panel", "previous panel", "panels and bars"])
-        self._fill(tools, [*(f"dock {word}" for word in docked_tools()), None, *self.tools.actions()])
-        self._fill(about, ["keys", "guide", "tour", None, "about"])
+        self._fill(tools, [*docks("Tools"), None, *self.source.actions(), None, "stop"])
+        self._fill(about, ["keys", "guide", None, "about"])
 
     def allow(self, has_mesh: bool) -> None:
-        """How fields are shown can be chosen while there are some."""
+        """How fields are shown can be chosen while there are some; menus without any use are not there before."""
+        for menu in self._of_meshes:
+            menu.menuAction().setVisible(has_mesh)
         for menu in (self.isolines, self.colours, self.range, self.shading, self.up):
             menu.menuAction().setEnabled(has_mesh)
 
     def _fill(self, menu: QtWidgets.QMenu, entries: Sequence[object]) -> None:
-        """By words of actions, with None for a line; menus and actions as they are."""
+        """Fill a menu: with actions by their words, None for a line, and menus and actions as they are."""
         for entry in entries:
             if entry is None:
                 menu.addSeparator()
@@ -147,8 +142,11 @@ class Menus:
         for action in menu.actions():
             action.setChecked(action.data() == word)
 
+    def _choices_of(self, setting: Setting) -> QtWidgets.QMenu:
+        return self._choices(setting.label, partial(self._context[Choices].set, setting), setting.choices.items())
+
     def _choices(
-        self, title: str, choose: Callable[[str], object], words: Sequence[tuple[str, str]]
+        self, title: str, choose: Callable[[str], object], words: Iterable[tuple[str, str]]
     ) -> QtWidgets.QMenu:
         menu = QtWidgets.QMenu(title, self._context.widget)
         group = QtWidgets.QActionGroup(menu)
@@ -175,6 +173,7 @@ class Menus:
         for path in remembered.recent():
             action = self.recent.addAction(_shortened(path))
             action.setToolTip(path)
+            action.setProperty("path", path)
             action.triggered.connect(lambda *_, path=path: self._context[Files].open(path))
         if self.recent.isEmpty():
             self.recent.addAction("Nothing yet").setEnabled(False)

@@ -14,7 +14,17 @@ FULL, VALUES, ICONS = 2, 1, 0
 
 
 class ToolButton(BareButton):
-    """icon: of `assets/icons`; words: what it is about; is_meant: the one button that is filled."""
+    """A button of the toolbar, which shows less as room gets scarce.
+
+    Parameters
+    ----------
+    icon
+        A name of `assets/icons`.
+    words
+        The button's name.
+    is_meant
+        Whether it is the one button that is filled.
+    """
 
     def __init__(self, icon: str, words: str = "", is_meant: bool = False) -> None:
         super().__init__()
@@ -30,6 +40,11 @@ class ToolButton(BareButton):
             self._value = value
             self.setAccessibleDescription(value)
             self._refit()
+
+    def show_icon(self, icon: str) -> None:
+        """Show another icon."""
+        self._icon = icon
+        self.update()
 
     def show_detail(self, detail: int) -> None:
         """FULL, VALUES or ICONS."""
@@ -55,7 +70,7 @@ class ToolButton(BareButton):
         return LOOK.font(13, bold=self._is_meant)
 
     def _texts(self, detail: int) -> list[tuple[str, bool]]:
-        """What is written, and whether it is quiet."""
+        """Return the texts that are written, and whether each is quiet."""
         words, value = (self._words, bool(self._value)), (self._value, False)
         shown = {FULL: [words, value], VALUES: [value], ICONS: []}[detail]
         return [(text, quiet) for text, quiet in shown if text]

@@ -17,6 +17,7 @@ from ...document.shared_parts.selections import Selections, select
 from ...scene.style import PINS
 from ..context import Context
 from ..held_keys import HeldKeys
+from ..look.form import describe
 from ..panels.events import BrushLift, BrushTouch
 
 if TYPE_CHECKING:
@@ -24,22 +25,27 @@ if TYPE_CHECKING:
     from ..panels.panel import DistancePanel
 
 RADII = (4, 28)
-"""Of the brush, in logical pixels: a cursor can be no larger."""
+"""Limits of the radius in logical pixels; a cursor can be no larger."""
 
 RADIUS = 12
 
 ERASED = "#FFFFFF"
-"""Of what is taken away, while the brush is down."""
+"""Colour of what is removed, while the brush is down."""
 
 
 class Brushing(QtCore.QObject):
-    """See the module.
+    """The brush of the window, and the selection that it changes.
 
-    current: the selection that is added to, "" for a new one.  is_on: whether drags paint, switched on by a button;
-    they do as well while the key is held.  `stroked` is emitted with the vertices (k,) of a stroke that goes on, which
-    become a step of the history when the button is let go.
-
-    cuts: whether strokes are not selected, but told as faces (k,) that are to go, or with Ctrl to come back.
+    Attributes
+    ----------
+    current
+        Name of the selection that strokes are added to, "" for a new one.
+    is_on
+        Whether drags paint, switched on by a button; they do as well while the key is held.
+    cuts
+        Whether strokes cut: `cut` is emitted with faces (k,), and with Ctrl whether they come back.
+    stroked
+        Emitted with the vertices (k,) of a stroke that goes on; they become a step of the history at its end.
     """
 
     stroked = QtCore.Signal(object)
@@ -60,15 +66,14 @@ class Brushing(QtCore.QObject):
         self._stroke: AnyArray | None = None  # (n,) bool
         self._is_erasing = False
         self._faces: set[int] = set()  # that the pointer itself has been in
-        self._making = context.background("brush", _made)
-        self._making.answered.connect(self._ready)
+        self._making = context.background("brush", _prepare_brush, self._ready)
         self._grid.events.on(BrushTouch, lambda panel, touch: self._touch(touch.hit, touch.pixel))
         self._grid.events.on(BrushLift, lambda *_: self._lift())
         context[HeldKeys].brush_held.connect(self._hold)
 
     @property
     def colour(self) -> int:
-        """The number of the colour that the brush paints in."""
+        """The number of the brush's colour."""
         document = self._context.document
         for each in document[Selections].selections:
             if each.name == self.current:
@@ -77,11 +82,11 @@ class Brushing(QtCore.QObject):
 
     # ------------------------------------------------------------------ what is chosen
     def choose(self, name: str) -> None:
-        """The selection that the brush adds to; "" for a new one."""
+        """Choose the selection that the brush adds to, "" for a new one."""
         self.current = name
 
     def select(self, vertices: IntArray, way: str = "new") -> None:
-        """A new selection of vertices (k,), or these "added" to or "removed" from the current one."""
+        """Select vertices (k,) as a "new" selection, or let them be "added" to or "removed" from the current one."""
         session = self._context.session
         document = session.document
         known = {each.name: each for each in document[Selections].selections}
@@ -100,16 +105,24 @@ class Brushing(QtCore.QObject):
 
     @property
     def _panels(self) -> "list[DistancePanel]":
-        """Those of the first surface, which alone is painted on."""
-        return [panel for panel in self._grid.panels if panel.surface == self._grid.eye.surface]
+        """The panels of the first surface, on which alone the brush paints."""
+        return [panel for panel in self._grid.panels if panel.surface == self._grid.camera_controller.surface]
 
     # ------------------------------------------------------------------ the brush
     def switch(self, is_on: bool, cuts: bool = False) -> None:
-        """By the button for selecting, or by that for cutting."""
+        """Switch the brush on or off, for selecting or for cutting."""
         self.is_on, self.cuts = is_on, is_on and cuts
         self._take()
         self.switched.emit(is_on and not cuts)
         self.cut_switched.emit(self.cuts)
+
+    def size_slider(self) -> QtWidgets.QSlider:
+        """Return a slider for the radius of the brush."""
+        slider = QtWidgets.QSlider(QtCore.Qt.Orientation.Horizontal, minimum=RADII[0], maximum=RADII[1])
+        slider.setValue(self.radius)
+        describe(slider, "Size of the brush", "Size of the brush")
+        slider.valueChanged.connect(self.enlarge)
+        return slider
 
     def enlarge(self, radius: int) -> None:
         """Set the radius of the brush in pixels, kept within its limits."""
@@ -122,13 +135,18 @@ class Brushing(QtCore.QObject):
             self._take()
 
     def _take(self) -> None:
-        """Take the brush into the hand, or lay it down."""
+        """Show the cursor of the brush while it is wanted, and prepare the surface."""
         is_wanted = self.is_on or self._is_held
-        surface = self._context.session.surface
+        surface = self._shown
         self._grid.marks.set_brush(_cursor(self.radius, self._grid.devicePixelRatioF()) if is_wanted else None)
         if is_wanted and surface is not None and surface is not self._surface:
             self._surface, self._brush = surface, None
             self._making.ask((surface,))
+
+    @property
+    def _shown(self) -> Surface | None:
+        loaded = self._context.session.loaded()
+        return None if loaded is None else loaded.surface
 
     def _ready(self, request: tuple[Surface], brush: Brush) -> None:
         self._brush = brush
@@ -139,11 +157,11 @@ class Brushing(QtCore.QObject):
             self._lift()
 
     def _touch(self, hit: "Hit", pixel: float) -> None:
-        surface = self._context.session.surface
+        surface = self._shown
         if surface is None:
             return
         self._is_lifted = False
-        self._grid.moving.go_on()
+        self._grid.motion.postpone()
         if surface is not self._surface:
             self._take()
         if self._brush is None:
@@ -168,7 +186,7 @@ class Brushing(QtCore.QObject):
 
     @property
     def _paint(self) -> str:
-        """The colour of what the brush touches; faces that are cut out look as what is taken away."""
+        """The colour of a stroke; faces that are cut look as if removed."""
         return ERASED if self._is_erasing != self.cuts else PINS[self.colour]
 
     def _lift(self) -> None:
@@ -179,7 +197,7 @@ class Brushing(QtCore.QObject):
         touched, self._faces = self._faces, set()
         for panel in self._grid.panels:
             panel.marks.show_dabs(None)
-        surface = self._context.session.surface
+        surface = self._shown
         if self.cuts and stroke is not None and surface is not None and surface is self._surface:
             within = np.flatnonzero(stroke[surface.faces].all(axis=1))
             self.cut.emit(np.union1d(within, np.array(sorted(touched), np.int64)), self._is_erasing)
@@ -188,7 +206,7 @@ class Brushing(QtCore.QObject):
         self.stroked.emit(np.empty(0, np.int64))
 
 
-def _made(request: tuple[Surface], progress: Progress) -> Iterator[Brush]:
+def _prepare_brush(request: tuple[Surface], progress: Progress) -> Iterator[Brush]:
     brush = Brush(request[0])
     brush.near(0, request[0].vertices[request[0].faces[0, 0]], 1e-300)  # its edges, too
     yield brush

@@ -1,4 +1,4 @@
-"""What every chart in a dock has: axes with round ticks, the pointer, and a card that says what is under it.
+"""A chart in a dock: axes with round ticks, the pointer, and a card that says what is under it.
 
 Painted with QPainter in the window's own fonts, digits and colours.  What takes long is painted once into a picture and
 kept, so that the pointer costs next to nothing.
@@ -12,40 +12,17 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core.arrays import AnyArray
 
+from ...drawing.chart import LEAST_APART, Axis, Ink, Plot, tick_shapes
+from ...drawing.painters.qt import box_of, paint, rgba_of, text_width
+from ...drawing.shapes import Box, Path, Pen, Shape, Text, disc, rounded
 from ..look.look import LOOK
-from ..look.numbers import number_width, paint_number, tick, ticks
+from ..look.painting import smooth_painter
+from ..panels.flat_button import paint_ring
 
-LEAST_APART = (72.0, 22.0)
-"""Logical pixels between two ticks, across and up."""
+FONT, GAP = 12.0, 8 / 12
+"""Logical pixels of the font at axes, and from these to the words, in font sizes."""
 
 CARD_PAD, CARD_LINE, CARD_DOT, CARD_GAP = 9.0, 18.0, 8.0, 16.0
-
-
-@dataclass(frozen=True)
-class Axis:
-    """From low to high; unit: written at its end; in_percent: the values are shares of 1."""
-
-    low: float = 0.0
-    high: float = 1.0
-    unit: str = ""
-    in_percent: bool = False
-
-    @property
-    def span(self) -> float:
-        """The length of the axis in its own unit, 1 for an empty one."""
-        return (self.high - self.low) or 1.0
-
-    def ticks(self, room: float, apart: float) -> list[float]:
-        """Round values that have so many pixels between them, in as many pixels."""
-        scale = 100 if self.in_percent else 1
-        most = max(int(room / (apart * LOOK.scale)), 2)
-        return [value / scale for value in ticks(self.low * scale, self.high * scale, most)]
-
-    def words(self, value: float, is_end: bool = False) -> str:
-        """Of a tick; the sign for percent stands at the last one only."""
-        if not self.in_percent:
-            return tick(value)
-        return f"{tick(100 * value)} %" if is_end else tick(100 * value)
 
 
 @dataclass(frozen=True)
@@ -58,7 +35,7 @@ class CardLine:
 
 
 class Chart(QtWidgets.QWidget):
-    """See the module.  A subclass paints what is in it (`paint_content`, kept) and over it (`paint_over`, each time).
+    """A chart whose subclasses paint its content (`paint_content`, kept) and what moves over it (`paint_over`).
 
     `pointed` is emitted with (x, y) in the units of the axes, or with None when the pointer leaves.
     """
@@ -69,6 +46,7 @@ class Chart(QtWidgets.QWidget):
     """Logical pixels about the plot, before the letters are enlarged."""
 
     APART = LEAST_APART
+    """Least logical pixels between two ticks, across and up."""
 
     def __init__(self, name: str, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
@@ -83,37 +61,26 @@ class Chart(QtWidgets.QWidget):
 
     # ------------------------------------------------------------------ for subclasses
     def paint_content(self, painter: QtGui.QPainter, plot: QtCore.QRectF) -> None:
-        """What is plotted, over the grid; kept until `redraw`."""
+        """Paint what is plotted, over the grid; kept until `redraw`."""
 
     def paint_over(self, painter: QtGui.QPainter, plot: QtCore.QRectF) -> None:
-        """What moves with the pointer."""
+        """Paint what moves with the pointer."""
 
     def paint_ticks(self, painter: QtGui.QPainter, plot: QtCore.QRectF) -> None:
-        """Grid lines and the words at both axes."""
-        theme = LOOK.theme
-        painter.setFont(LOOK.font(12))
-        metrics = QtGui.QFontMetricsF(painter.font())
-        rise = (metrics.ascent() - metrics.descent()) / 2
-        rows = self.up.ticks(plot.height(), self.APART[1])
-        for value in rows:
-            y = round(float(self.pixels(self.across.low, value)[1]))
-            painter.fillRect(QtCore.QRectF(plot.left(), y, plot.width(), 1), QtGui.QColor(theme.border))
-            words = self.up.words(value, value == rows[-1])
-            painter.setPen(QtGui.QColor(theme.quiet))
-            paint_number(painter, plot.left() - 8 - number_width(painter.font(), words), round(y + rise), words)
-        for value in self.across.ticks(plot.width(), self.APART[0]):
-            x = float(self.pixels(value, self.up.low)[0])
-            self.paint_tick(painter, plot, value, x)
+        """Paint grid lines and the words at both axes."""
+        theme, scale = LOOK.theme, LOOK.scale
+        ink = Ink(rgba_of(theme.text), rgba_of(theme.quiet), Pen(rgba_of(theme.border)), FONT * scale)
+        apart = self.APART[0] * scale, self.APART[1] * scale
+        paint(painter, tick_shapes(self.shown, ink, apart, is_free=self.is_free, gap=GAP / scale))
+        painter.setFont(LOOK.font(FONT))
 
-    def paint_tick(self, painter: QtGui.QPainter, plot: QtCore.QRectF, value: float, x: float) -> None:
-        """A value under the axis across, at a pixel."""
-        metrics, words = QtGui.QFontMetricsF(painter.font()), self.across.words(value)
-        painter.setPen(QtGui.QColor(LOOK.theme.quiet))
-        paint_number(painter, x - number_width(painter.font(), words) / 2, self.baseline(plot, metrics), words)
+    def is_free(self, x: float, words: str) -> bool:
+        """Return whether a tick has room at a pixel of the axis across."""
+        return True
 
     @staticmethod
     def baseline(plot: QtCore.QRectF, metrics: QtGui.QFontMetricsF) -> float:
-        """Of the words under the axis across."""
+        """Return the baseline of the words under the axis across."""
         return float(round(plot.bottom() + 6 + metrics.ascent()))
 
     # ------------------------------------------------------------------ where
@@ -125,15 +92,17 @@ class Chart(QtWidgets.QWidget):
         right, bottom = round(self.RIGHT * scale), round(self.BOTTOM * scale)
         return QtCore.QRectF(left, top, max(self.width() - left - right, 1), max(self.height() - top - bottom, 1))
 
+    @property
+    def shown(self) -> Plot:
+        """The plot in the widget's pixels, for shapes."""
+        return Plot(box_of(self.plot), self.across, self.up)
+
     def pixels(self, x: float | AnyArray, y: float | AnyArray) -> tuple[AnyArray, AnyArray]:
-        """Where values are, in the widget's pixels."""
-        plot = self.plot
-        right = plot.left() + (np.asarray(x, float) - self.across.low) / self.across.span * plot.width()
-        down = plot.bottom() - (np.asarray(y, float) - self.up.low) / self.up.span * plot.height()
-        return right, down
+        """Return the pixels of the widget at which values are drawn."""
+        return self.shown.x(x), self.shown.y(y)
 
     def values(self, at: QtCore.QPointF) -> tuple[float, float]:
-        """What is at a pixel of the widget."""
+        """Return the values at a pixel of the widget."""
         plot = self.plot
         x = self.across.low + (at.x() - plot.left()) / plot.width() * self.across.span
         return x, self.up.low + (plot.bottom() - at.y()) / plot.height() * self.up.span
@@ -145,13 +114,13 @@ class Chart(QtWidgets.QWidget):
         self.redraw()
 
     def say(self, sentence: str) -> None:
-        """Why there is nothing to see; "" for nothing."""
+        """Show a sentence in place of the chart, "" for none."""
         if sentence != self.sentence:
             self.sentence = sentence
             self.redraw()
 
     def redraw(self) -> None:
-        """What is plotted has changed."""
+        """Plot anew, as something has changed."""
         self._kept = None
         self.update()
 
@@ -168,12 +137,11 @@ class Chart(QtWidgets.QWidget):
         self.pointed.emit(None)
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        painter = QtGui.QPainter(self)
+        painter = smooth_painter(self)
         if self._kept is None or self._kept.devicePixelRatioF() != self.devicePixelRatioF():
             self._kept = self._painted()
         painter.drawPixmap(0, 0, self._kept)
         if not self.sentence:
-            painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
             self.paint_over(painter, self.plot)
 
     def _painted(self) -> QtGui.QPixmap:
@@ -195,62 +163,115 @@ class Chart(QtWidgets.QWidget):
         return picture
 
 
-def paint_dot(painter: QtGui.QPainter, at: QtCore.QPointF, colour: str, radius: float = 4.0) -> None:
-    """A point of a curve, with a rim that parts it from others."""
-    painter.setPen(QtGui.QPen(QtGui.QColor(LOOK.theme.window), 2))
-    painter.setBrush(QtGui.QColor(colour))
-    painter.drawEllipse(at, radius, radius)
+class CurveChart(Chart):
+    """A chart of curves, with a line across them that follows the pointer and the arrow keys: `at` says where.
 
-
-def paint_card(
-    painter: QtGui.QPainter,
-    at: QtCore.QPointF,
-    room: QtCore.QRectF,
-    head: tuple[str, str],
-    lines: Sequence[CardLine],
-    is_low: bool = False,
-) -> None:
-    """What is under the pointer, to the left of a place or, where there is no room, to its right.
-
-    is_low: at the lower end of the room rather than at the upper.
+    Both are told by `pointed`.
     """
-    theme, font, scale = LOOK.theme, LOOK.font(12), LOOK.scale
+
+    KEY_STEP = 0.01
+    """The fraction of the axis that an arrow key moves the line by, with Shift ten times as much."""
+
+    def __init__(self, name: str, parent: QtWidgets.QWidget | None = None) -> None:
+        super().__init__(name, parent)
+        self.at: float | None = None
+        self.setFocusPolicy(QtCore.Qt.FocusPolicy.TabFocus)
+
+    def event(self, event: QtCore.QEvent) -> bool:
+        is_override = event.type() == QtCore.QEvent.Type.ShortcutOverride
+        if is_override and event.key() == QtCore.Qt.Key.Key_Escape and self.at is not None:
+            event.accept()  # it stops nothing else meanwhile
+            return True
+        return bool(super().event(event))
+
+    def keyPressEvent(self, event: QtGui.QKeyEvent) -> None:
+        keys, step = QtCore.Qt.Key, {QtCore.Qt.Key.Key_Left: -1, QtCore.Qt.Key.Key_Right: 1}.get(event.key(), 0)
+        if event.key() == keys.Key_Escape and self.at is not None:
+            self.pointed.emit(None)
+        elif step and not self.sentence:
+            large = bool(event.modifiers() & QtCore.Qt.KeyboardModifier.ShiftModifier)
+            high = self.across.high
+            at = 0.0 if self.at is None else self.at + step * self.KEY_STEP * (10 if large else 1) * high
+            self.pointed.emit((min(max(at, 0.0), high), 0.0))
+        else:
+            super().keyPressEvent(event)
+
+    def focusInEvent(self, event: QtGui.QFocusEvent) -> None:
+        super().focusInEvent(event)
+        self.update()
+
+    def focusOutEvent(self, event: QtGui.QFocusEvent) -> None:
+        super().focusOutEvent(event)
+        self.pointed.emit(None)
+        self.update()
+
+    def paint_line(
+        self,
+        painter: QtGui.QPainter,
+        plot: QtCore.QRectF,
+        heights: Sequence[tuple[float, str]],
+        head: tuple[str, str],
+        lines: Sequence[CardLine],
+    ) -> None:
+        """Paint the line, dots where curves with these values and colours meet it, and a card."""
+        if self.hasFocus():
+            paint_ring(painter, QtCore.QRectF(self.rect()))
+        if self.at is None or not lines:
+            return
+        x = float(self.pixels(self.at, 0)[0])
+        painter.fillRect(QtCore.QRectF(round(x), plot.top(), 1, plot.height()), QtGui.QColor(LOOK.theme.text))
+        places = [(float(self.pixels(0, height)[1]), colour) for height, colour in heights if np.isfinite(height)]
+        for y, colour in places:
+            paint_dot(painter, QtCore.QPointF(round(x) + 0.5, y), colour)
+        is_low = bool(places) and float(np.mean([y for y, _ in places])) < plot.center().y()
+        paint(painter, card_shapes(x, box_of(plot), self.width(), head, lines, is_low))
+
+
+def paint_dot(painter: QtGui.QPainter, at: QtCore.QPointF, colour: str, radius: float = 4.0) -> None:
+    """Paint a point of a curve, with a rim that parts it from others."""
+    paint(painter, [disc((at.x(), at.y()), radius, rgba_of(colour), Pen(rgba_of(LOOK.theme.window), 2))])
+
+
+def card_shapes(
+    at: float, room: Box, width: float, head: tuple[str, str], lines: Sequence[CardLine], is_low: bool = False
+) -> list[Shape]:
+    """Return a card on what is under the pointer, left of a place or, where there is no room, right of it.
+
+    Parameters
+    ----------
+    at
+        The x of the place.
+    room, width
+        The plot, and the width of the chart, where the card stays.
+    is_low
+        Whether it stands at the lower end of the room rather than at the upper.
+    """
+    theme, size, step = LOOK.theme, FONT * LOOK.scale, CARD_LINE * LOOK.scale
     indent = CARD_DOT + 6 if any(line.colour for line in lines) else 0.0
     columns = [
-        max((number_width(font, line.numbers[k]) for line in lines if len(line.numbers) > k), default=0.0)
+        max((text_width(line.numbers[k], size) for line in lines if len(line.numbers) > k), default=0.0)
         for k in range(max((len(line.numbers) for line in lines), default=0))
     ]
-    words = max((indent + number_width(font, line.words) for line in lines), default=0.0)
-    width = max(words + sum(column + CARD_GAP for column in columns), sum(number_width(font, t) for t in head) + 24)
-    step = CARD_LINE * scale
-    box = QtCore.QRectF(0, 0, width + 2 * CARD_PAD, (len(lines) + 1) * step + 2 * CARD_PAD - 4)
-    box.moveTopRight(QtCore.QPointF(at.x() - 16, room.top()))
-    if is_low:
-        box.moveBottom(room.bottom())
-    if box.left() < room.left() - 40:
-        box.moveLeft(at.x() + 16)
+    words = max((indent + text_width(line.words, size) for line in lines), default=0.0)
+    inside = max(words + sum(column + CARD_GAP for column in columns), sum(text_width(t, size) for t in head) + 24)
+    wide, high = inside + 2 * CARD_PAD, (len(lines) + 1) * step + 2 * CARD_PAD - 4
+    left = at - 16 - wide if at - 16 - wide >= room.x - 40 else at + 16
     # Where neither side has room, it stays in the chart.
-    box.moveLeft(max(min(box.left(), painter.device().width() - box.width() - 4), 4))
-    painter.setPen(QtGui.QPen(QtGui.QColor(theme.border), 1))
-    painter.setBrush(QtGui.QColor(theme.raised))
-    painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 5, 5)
-    painter.setFont(font)
-    metrics = QtGui.QFontMetricsF(font)
-    left, right = box.left() + CARD_PAD, box.right() - CARD_PAD
-    baseline = box.top() + CARD_PAD - 2 + (step + metrics.ascent() - metrics.descent()) / 2
-    painter.setPen(QtGui.QColor(theme.quiet))
-    paint_number(painter, left, baseline, head[0])
-    paint_number(painter, right - number_width(font, head[1]), baseline, head[1])
+    box = Box(max(min(left, width - wide - 4), 4), room.bottom - high if is_low else room.y, wide, high)
+    x, right, y = box.x + CARD_PAD, box.right - CARD_PAD, box.y + CARD_PAD - 2 + step / 2
+
+    def text(words: str, x: float, y: float, colour: str, align: str = "left") -> Text:
+        return Text(words, x, y, size, rgba_of(colour), align=align, level="line", are_digits_even=True)
+
+    shapes: list[Shape] = [Path(rounded(box.grown(-0.5), 5), rgba_of(theme.raised), Pen(rgba_of(theme.border)))]
+    shapes += [text(head[0], x, y, theme.quiet), text(head[1], right, y, theme.quiet, "right")]
     for line in lines:
-        baseline += step
+        y += step
         if line.colour:
-            painter.setPen(QtCore.Qt.PenStyle.NoPen)
-            painter.setBrush(QtGui.QColor(line.colour))
-            middle = baseline - (metrics.ascent() - metrics.descent()) / 2
-            painter.drawEllipse(QtCore.QPointF(left + CARD_DOT / 2, middle), CARD_DOT / 2, CARD_DOT / 2)
-        painter.setPen(QtGui.QColor(theme.text))
-        paint_number(painter, left + indent, baseline, line.words)
+            shapes.append(disc((x + CARD_DOT / 2, y), CARD_DOT / 2, rgba_of(line.colour)))
+        shapes.append(text(line.words, x + indent, y, theme.text))
         edge = right
-        for text, column in reversed(list(zip(line.numbers, columns[: len(line.numbers)], strict=True))):
-            paint_number(painter, edge - number_width(font, text), baseline, text)
+        for number, column in reversed(list(zip(line.numbers, columns[: len(line.numbers)], strict=True))):
+            shapes.append(text(number, edge, y, theme.text, "right"))
             edge -= column + CARD_GAP
+    return shapes

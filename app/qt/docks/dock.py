@@ -2,63 +2,41 @@
 
 from qtpy import QtCore, QtGui, QtWidgets
 
+from ..look.layouts import heading, in_row
 from ..look.look import LOOK
-from ..panels.flat_button import FlatButton
+from ..look.text_lines import ElidedLabel
+from ..panels.flat_button import icon_button
 
 HEAD = 36
 """Height of the head, in logical pixels."""
 
 PAD = 12
 
-LEAST_LETTERS = 5
-"""Of a note that is cut short."""
-
-
-class _Note(QtWidgets.QLabel):
-    """Cut short with dots where there is no room, and gone where there is none for a word."""
-
-    def minimumSizeHint(self) -> QtCore.QSize:
-        return QtCore.QSize(1, super().minimumSizeHint().height())
-
-    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        painter = QtGui.QPainter(self)
-        painter.setPen(self.palette().color(self.foregroundRole()))
-        shown = self.fontMetrics().elidedText(self.text(), QtCore.Qt.TextElideMode.ElideRight, self.width())
-        if len(shown) > LEAST_LETTERS or shown == self.text():
-            flags = QtCore.Qt.AlignmentFlag.AlignVCenter | QtCore.Qt.AlignmentFlag.AlignLeft
-            painter.drawText(self.rect(), int(flags), shown)
+LEAST_NOTE = 5
+"""Characters of a note that is cut short; it is hidden where fewer would be left."""
 
 
 class DockHead(QtWidgets.QWidget):
-    """title: what it is; note: quiet, beside it; `add` puts buttons at its right, before the cross."""
+    """The head of a dock: its title, a quiet note beside it, buttons, and a cross that closes it."""
 
     closed = QtCore.Signal()
 
     def __init__(self, title: str, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
-        self._title, self._note = QtWidgets.QLabel(title), _Note()
-        self._title.setProperty("heading", True)
+        self._note = ElidedLabel(QtCore.Qt.TextElideMode.ElideRight, LEAST_NOTE)
         self._note.setProperty("quiet", True)
-        self.close_button = FlatButton(self, "close")
-        self.close_button.setToolTip(f"Close {title.lower()}")
-        self.close_button.setAccessibleName(f"Close {title.lower()}")
-        self.close_button.activated.connect(self.closed)
-        self._row = QtWidgets.QHBoxLayout(self)
-        self._row.setContentsMargins(PAD, 0, 4, 0)
-        self._row.setSpacing(8)
-        self._row.addWidget(self._title)
-        self._row.addWidget(self._note)
-        self._row.addStretch(1)
-        self._row.addWidget(self.close_button)
+        self.close_button = icon_button(self, "close", f"Close {title.lower()}", self.closed.emit)
+        parts = heading(title), self._note, None, self.close_button
+        self._row = in_row(*parts, of=self, spacing=8, margins=(PAD, 0, 4, 0))
         self.setFixedHeight(HEAD)
         LOOK.follow(self, self.update)
 
     def sizeHint(self) -> QtCore.QSize:
-        """A dock gives its head the height of this, and no other."""
+        """Return the height that a dock gives its head."""
         return QtCore.QSize(super().sizeHint().width(), HEAD)
 
     def add(self, widget: QtWidgets.QWidget, after_title: bool = False) -> None:
-        """A button or a choice."""
+        """Add a widget before the cross, or beside the title."""
         place = 2 if after_title else self._row.count() - 1
         self._row.insertWidget(place, widget)
 
@@ -73,7 +51,7 @@ class DockHead(QtWidgets.QWidget):
 
 
 class Dock(QtWidgets.QDockWidget):
-    """An instrument's place in the window.  word: one of `DOCKS`.  What is in it is `content`."""
+    """A dock of the window with an instrument, its `content`; `word` is that of the instrument's tool."""
 
     wants_closed = QtCore.Signal(str)
 
@@ -92,6 +70,6 @@ class Dock(QtWidgets.QDockWidget):
         self.wants_closed.emit(self.word)
 
     def closeEvent(self, event: QtGui.QCloseEvent) -> None:
-        """By the desktop's own cross, where it floats."""
+        """Leave it to the document to close a floating dock by the desktop's own cross."""
         event.ignore()
         self._close()

@@ -2,8 +2,7 @@
 
 from qtpy import QtCore, QtWidgets
 
-from ...document.docks import DockPlaces
-from ...document.document import Document
+from ...document.document import DockPlaces, Document
 from ...document.tools import docked_tools
 from ..context import Context
 from ..files.session_actions import SessionFile
@@ -12,23 +11,23 @@ from .dock import Dock
 from .instrument import Instrument
 
 NARROW = 1_100
-"""Logical pixels of the window's width under which the docks at the right are tabs of one."""
+"""Width of the window, in logical pixels, below which the docks at the right are tabs."""
 
 AREAS = {
     "right": QtCore.Qt.DockWidgetArea.RightDockWidgetArea,
     "below": QtCore.Qt.DockWidgetArea.BottomDockWidgetArea,
 }
-WIDTH, WIDER, HEIGHT = 320, 390, 220
-"""Of docks at the right, where there is room for panels and where there is much of it, and below, at first."""
+WIDTH, WIDER, HEIGHT = 340, 390, 220
+"""Initial width of docks at the right, in a wide window, and initial height of docks below, in logical pixels."""
 
 LEAST_SHARE = 0.4
-"""Of the height of two docks above each other, at first."""
+"""Initial fraction of the height that each of two docks above each other has at least."""
 
 WIDE = 1_500
-"""Of the window, from which on there is much room."""
+"""Width of the window from which on docks are wider."""
 
 STACKED = 2
-"""So many docks stand on one another at the right; more are tabs of the lowest."""
+"""Number of docks above each other at the right; more are tabs of the lowest."""
 
 
 class Docks:
@@ -66,33 +65,33 @@ class Docks:
                 self._instrument(word).on_opened()
 
     def close(self, word: str) -> None:
-        """By the user, to whom what it is about is no longer of interest."""
+        """Close a dock as the user does, which also ends its tool."""
         was_open = word in self._context.document.docks
         self._keep(tuple(each for each in self._context.document.docks if each != word))
         if was_open and word in self._docks:
             self._instrument(word).leave()
 
     def show_stopped(self) -> None:
-        """The user has stopped what went on."""
+        """Tell open docks that the user has cancelled a computation."""
         for instrument in self._open():
             instrument.show_stopped()
 
     def close_all(self) -> None:
-        """The window closes."""
+        """End all instruments, as the window closes."""
         for dock in self._docks.values():
             dock.content.end()
             dock.hide()
 
     def _keep(self, docks: tuple[str, ...]) -> None:
         before = self._context.document
-        self._context.session.keep_open(docks)
+        self._context.session.set_fields(docks=docks)
         self._context.document_changed.emit(before)
 
     # ------------------------------------------------------------------ what is told
     def document_changed(self, _: object = None) -> None:
-        """Show what the document says, in the docks that it says."""
+        """Open the docks that the document lists, and show it in them."""
         document, known = self._context.document, docked_tools()
-        wanted = [word for word in document.docks if word in known and self._context.session.surface is not None]
+        wanted = [word for word in document.docks if word in known and self._context.session.loaded() is not None]
         for word in wanted:
             dock = self._docks.get(word) or self._new(word)
             was_open = not dock.isHidden()
@@ -108,17 +107,17 @@ class Docks:
             self._context.actions[f"dock {word}"].setChecked(word in wanted)
 
     def answer_changed(self, panel: int) -> None:
-        """Let all open docks show another answer of a panel."""
+        """Show another answer of a panel in all open docks."""
         for instrument in self._open():
             instrument.show_answer(panel)
 
     def show_again(self) -> None:
-        """The panels have forgotten what was drawn on them."""
+        """Draw again from open docks what the panels have lost."""
         for instrument in self._open():
             instrument.show_again()
 
     def pointed(self, vertex: int | None, surface: str) -> None:
-        """The pointer is at a vertex of a surface; of others instruments are told that it has left."""
+        """Tell open docks the vertex under the pointer; those of other surfaces that there is none."""
         for instrument in self._open():
             instrument.show_pointed(vertex if surface == instrument.pointed_surface else None)
 
@@ -131,14 +130,14 @@ class Docks:
 
     # ------------------------------------------------------------------ where they are
     def places(self) -> DockPlaces | None:
-        """Of those that are open; None if none are."""
+        """Return the places of open docks; None if none are open."""
         main = self._main
         if not self._open():
             return None
         return DockPlaces(main.width(), main.height(), bytes(main.saveState().toBase64()).decode())
 
     def restore(self, places: DockPlaces | None) -> None:
-        """Put those that are open where they were, unless they were tabs of one and now need not be, or the reverse."""
+        """Restore the places of open docks, unless the width of the window calls for tabs or for none."""
         main = self._main
         if places is None or (places.width < NARROW) != (main.width() < NARROW):
             return
@@ -150,9 +149,9 @@ class Docks:
         tool = docked_tools()[word]
         instrument = tool.load(tool.dock)(self._context)
         dock = Dock(word, tool.title, instrument, self._main)
-        for widget in reversed(instrument.title_widgets()):
+        for widget in reversed(instrument.beside_title):
             dock.head.add(widget, after_title=True)
-        for widget in instrument.head_widgets():
+        for widget in instrument.head:
             dock.head.add(widget)
         instrument.note_changed.connect(dock.head.say)
         for button in dock.findChildren(QtWidgets.QAbstractButton):
@@ -165,18 +164,19 @@ class Docks:
         return dock
 
     def _place(self, dock: Dock) -> None:
-        """Where it was, or at first at the end of its area; a tab where there are enough beside each other."""
+        """Place a dock where it was, at first at the end of its area, or as a tab where there is no room."""
         main, area = self._main, AREAS[dock.content.area]
         above: Dock | None = None
         is_new = main.dockWidgetArea(dock) == QtCore.Qt.DockWidgetArea.NoDockWidgetArea
         if is_new:
             main.addDockWidget(area, dock)
-        others = [
+        placed = [
             other
             for other in self._docks.values()
-            if other is not dock and not (other.isHidden() or other.isFloating())
+            if other is not dock and not other.isFloating()
             if main.dockWidgetArea(other) == main.dockWidgetArea(dock)
         ]
+        others = [other for other in placed if not other.isHidden()]
         is_right = main.dockWidgetArea(dock) != AREAS["below"]
         most = STACKED if is_right and main.width() >= NARROW else 1
         if not dock.isFloating() and self._apart(others) >= most and not self._is_tab(dock, others):
@@ -185,7 +185,10 @@ class Docks:
             above = others[-1]
         if is_new:
             way = QtCore.Qt.Orientation.Horizontal if is_right else QtCore.Qt.Orientation.Vertical
-            main.resizeDocks([dock], [(WIDER if main.width() >= WIDE else WIDTH) if is_right else HEIGHT], way)
+            usual = (WIDER if main.width() >= WIDE else WIDTH) if is_right else HEIGHT
+            # As the user has made those that are there, or have been.
+            known = [other.width() if is_right else other.height() for other in others or placed]
+            main.resizeDocks([dock], [known[-1] if known else usual], way)
         room = 0 if above is None else above.height()
         dock.show()
         dock.raise_()
@@ -195,11 +198,11 @@ class Docks:
             main.resizeDocks([above, dock], [room - wanted, wanted], QtCore.Qt.Orientation.Vertical)
 
     def _apart(self, docks: list[Dock]) -> int:
-        """How many places they take: tabs of each other take one."""
+        """Return the number of places that docks take; tabs take one together."""
         firsts = [dock for k, dock in enumerate(docks) if not self._is_tab(dock, docks[:k])]
         return len(firsts)
 
     def _is_tab(self, dock: Dock, others: list[Dock]) -> bool:
-        """Whether it shares its place with one of the others."""
+        """Return whether a dock is a tab beside one of the others."""
         beside = self._main.tabifiedDockWidgets(dock)
         return any(other in beside for other in others)

@@ -1,24 +1,31 @@
-"""Facts, one below the other: what, in quiet words, and how much, at the right."""
+"""Tables of facts: a label at the left, numbers in columns at the right."""
 
 from collections.abc import Mapping, Sequence
+from typing import ClassVar
 
 from qtpy import QtCore, QtGui, QtWidgets
 
+from ...drawing.painters.qt import number_width, paint_number
 from ..look.look import LOOK
-from ..look.numbers import number_width, paint_number
+from ..look.painting import baseline, paint_elided, smooth_painter
 from .chart import paint_dot
 
-LINE = 22.0
-"""Height of a line, in logical pixels."""
-
-GAP = 14.0
-
 DOTTED = 14.0
-"""Logical pixels from a dot to the words after it."""
+"""Logical pixels from a dot to the label after it."""
 
 
 class FactTable(QtWidgets.QWidget):
-    """Where there is no room for the words only the first numbers are left; then words are cut."""
+    """A table of facts, with labels that are cut short where there is no room for them.
+
+    Columns may have heads, and short ones where it is narrow.  Without heads labels are quiet, and only the first
+    numbers are left where it is narrow.
+    """
+
+    HEADS: ClassVar[tuple[str, ...]] = ()
+    SHORT_HEADS: ClassVar[tuple[str, ...]] = ()
+
+    LINE, HEAD, GAP = 22.0, 0.0, 14.0
+    """Heights of a line and of the heads, and the space before a column, in logical pixels."""
 
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
@@ -28,13 +35,16 @@ class FactTable(QtWidgets.QWidget):
         LOOK.follow(self, self._fit)
 
     def show_facts(self, facts: Sequence[tuple[str, ...]], dots: Mapping[int, str] | None = None) -> None:
-        """Each a word with a number, or more numbers that stand in columns.
+        """Show facts, each a label and one number or more.
 
-        dots: by the place of a fact, the field of `Theme` with the colour of its curve beside the table.
+        Parameters
+        ----------
+        dots
+            By the place of a fact, the colour of its curve, or the field of `Theme` that has it.
         """
-        self._dots = dots or {}
-        if list(facts) != list(self.facts):
-            self.facts = facts
+        dots = dots or {}
+        if (list(facts), dots) != (list(self.facts), self._dots):
+            self.facts, self._dots = facts, dots
             self.setAccessibleDescription("; ".join(" ".join(fact) for fact in facts))
             self._fit()
 
@@ -43,40 +53,63 @@ class FactTable(QtWidgets.QWidget):
         self.update()
 
     def sizeHint(self) -> QtCore.QSize:
-        return QtCore.QSize(160, round(len(self.facts) * LINE * LOOK.scale))
+        height = self.HEAD + len(self.facts) * self.LINE if self.facts else 0.0
+        return QtCore.QSize(160, round(height * LOOK.scale))
 
     def minimumSizeHint(self) -> QtCore.QSize:
         return self.sizeHint()
 
+    # ------------------------------------------------------------------ painting
+    def _columns(self, font: QtGui.QFont, small: QtGui.QFont, left: float) -> tuple[Sequence[str], list[float]]:
+        """Return the heads of the columns for which there is room, and how wide these are."""
+        labels = max((number_width(font, fact[0]) for fact in self.facts), default=0.0)
+
+        def is_too_wide(widths: list[float]) -> bool:
+            return bool(left + labels + sum(width + self.GAP for width in widths) > self.width())
+
+        for heads in (self.HEADS, self.SHORT_HEADS):
+            widths = [number_width(small, head) for head in heads]
+            for _, *numbers in self.facts:
+                widths += [0.0] * (len(numbers) - len(widths))
+                for k, text in enumerate(numbers):
+                    widths[k] = max(widths[k], number_width(font, text))
+            if not is_too_wide(widths):
+                break
+        while len(widths) > 1 and not self.HEADS and is_too_wide(widths):
+            widths.pop()
+        return heads, widths
+
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        theme, painter = LOOK.theme, QtGui.QPainter(self)
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        painter.setFont(LOOK.font(13))
-        metrics = QtGui.QFontMetricsF(painter.font())
-        count = max((len(fact) - 1 for fact in self.facts), default=0)
-        widths = [
-            max((number_width(painter.font(), fact[1 + k]) for fact in self.facts if len(fact) > 1 + k), default=0.0)
-            for k in range(count)
-        ]
-        longest = max((number_width(painter.font(), fact[0]) for fact in self.facts), default=0.0)
-        longest += DOTTED if self._dots else 0.0
-        while len(widths) > 1 and longest + sum(width + GAP for width in widths) > self.width():
-            widths.pop()  # words before second numbers
-        step = LINE * LOOK.scale
-        for line, (words, *numbers) in enumerate(self.facts):
-            baseline = line * step + (step + metrics.ascent() - metrics.descent()) / 2
-            right = float(self.width())
-            painter.setPen(QtGui.QColor(theme.text))
-            shown = numbers[: len(widths)]
-            for text, width in reversed(list(zip(shown, widths[len(widths) - len(shown) :], strict=True))):
-                paint_number(painter, right - number_width(painter.font(), text), baseline, text)
-                right -= width + GAP
-            left = 0.0
-            if line in self._dots:
-                left = DOTTED
-                middle = QtCore.QPointF(4, baseline - metrics.xHeight() / 2)
-                paint_dot(painter, middle, getattr(theme, self._dots[line]))
+        if not self.facts:
+            return
+        theme, painter = LOOK.theme, smooth_painter(self)
+        font, small, left = LOOK.font(13), LOOK.font(12), DOTTED if self._dots else 0.0
+        heads, widths = self._columns(font, small, left)
+        rights = [self.width() - sum(width + self.GAP for width in widths[k + 1 :]) for k in range(len(widths))]
+        if heads:
+            painter.setFont(small)
             painter.setPen(QtGui.QColor(theme.quiet))
-            room = max(right - left, 0)
-            cut = metrics.elidedText(words, QtCore.Qt.TextElideMode.ElideRight, room)
-            paint_number(painter, left, baseline, words if number_width(painter.font(), words) <= room else cut)
+            self.paint_heads(painter, heads, widths, rights)
+        painter.setFont(font)
+        metrics, step = QtGui.QFontMetricsF(font), self.LINE * LOOK.scale
+        for line, (label, *numbers) in enumerate(self.facts):
+            y = baseline(painter, self.HEAD * LOOK.scale + (line + 0.5) * step)
+            painter.setPen(QtGui.QColor(theme.text))
+            shown = numbers[: len(rights)]
+            first = len(rights) - len(shown)
+            for text, right in zip(shown, rights[first:], strict=True):
+                paint_number(painter, right - number_width(font, text), y, text)
+            if line in self._dots:
+                colour = self._dots[line]
+                paint_dot(painter, QtCore.QPointF(4, y - metrics.xHeight() / 2), getattr(theme, colour, colour), 5.0)
+            painter.setPen(QtGui.QColor(theme.text if heads else theme.quiet))
+            end = rights[first] - widths[first] - self.GAP if shown else float(self.width())
+            paint_elided(painter, left, y, label, end - left)
+
+    def paint_heads(
+        self, painter: QtGui.QPainter, heads: Sequence[str], widths: Sequence[float], rights: Sequence[float]
+    ) -> None:
+        """Paint the heads over the right ends of the columns."""
+        for head, right in zip(heads, rights, strict=True):
+            y = baseline(painter, self.HEAD * LOOK.scale / 2)
+            paint_number(painter, right - number_width(painter.font(), head), y, head)

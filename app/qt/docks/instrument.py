@@ -1,4 +1,4 @@
-"""What every instrument is: a widget that shows a part of the session's document, and of its answers.
+"""Instruments: widgets in docks that show a part of the session's document, and of its answers.
 
 An instrument decides nothing: what is done in it becomes an edit of the document, which comes back by `show_document`.
 """
@@ -9,19 +9,20 @@ from qtpy import QtCore, QtWidgets
 
 from ...document.document import Document
 from ..context import Context
+from ..panels.flat_button import Do, FlatButton, icon_button
 
-NO_FIELD = "The panel shows no field now."
-"""Of one that shows colours, or a surface as it is."""
+NO_FIELD = "The panel shows no field."
+"""Shown for a panel with colours, or with a surface as it is."""
 
 
 class Instrument(QtWidgets.QWidget):
-    """word: the tool's; title: for the user; area: "right" or "below".
+    """The content of a tool's dock, at first in an `area` of the window, "right" or "below".
 
-    Only instruments in open docks are told anything; one that is opened gets `show_document` first.
+    `head` and `beside_title` are the buttons and choices in the dock's head, from left to right.  Only instruments in
+    open docks are told anything; one that is opened gets `show_document` first.
     """
 
     word: ClassVar[str]
-    title: ClassVar[str]
     area: ClassVar[str] = "right"
 
     note_changed = QtCore.Signal(str)  # a note beside the title
@@ -29,44 +30,49 @@ class Instrument(QtWidgets.QWidget):
     def __init__(self, context: Context) -> None:
         super().__init__()
         self.context = context
+        self.head: list[QtWidgets.QWidget] = []
+        self.beside_title: list[QtWidgets.QWidget] = []
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_StyledBackground)
 
-    def head_widgets(self) -> list[QtWidgets.QWidget]:
-        """Buttons and choices for the dock's head, from left to right."""
-        return []
+    @property
+    def document(self) -> Document:
+        """The document as it is now; docks are not told when the camera moves."""
+        return self.context.document
 
-    def title_widgets(self) -> list[QtWidgets.QWidget]:
-        """Buttons and choices beside the title, from left to right."""
-        return []
+    def add_head_button(self, icon: str, tip: str, do: Do, name: str = "") -> FlatButton:
+        """Add a button to the dock's head that calls a function or opens a menu."""
+        button = icon_button(self, icon, tip, do, name)
+        self.head.append(button)
+        return button
 
     def on_opened(self) -> None:
-        """The user has opened the dock."""
+        """Take note that the user has opened the dock."""
 
     def show_document(self, document: Document, before: Document | None) -> None:
-        """Another document is there; before: the one that was shown, None if none was."""
+        """Show a document in place of the one before, which is None at first."""
 
     def show_answer(self, panel: int) -> None:
-        """Another field is there, or what is known of it has changed."""
+        """Show a panel's new answer, or what more is known of it."""
 
     def show_again(self) -> None:
-        """The panels have forgotten what was drawn on them."""
+        """Draw again what the panels have lost."""
 
     def end(self) -> None:
-        """The window closes: stop what is being computed."""
+        """Stop what is being computed, as the window closes."""
 
     def show_closed(self) -> None:
-        """The dock has been closed: take away what it has put elsewhere."""
+        """Remove what it shows elsewhere, as the dock has been closed."""
 
     def show_stopped(self) -> None:
-        """The user has stopped what was being computed, or opened."""
+        """Show that the user has cancelled what was being computed or opened."""
 
     def leave(self) -> None:
-        """The user has closed the dock: end what makes no sense without it."""
+        """End what makes no sense without the dock, as the user has closed it."""
 
     @property
     def pointed_surface(self) -> str:
-        """The name of the surface that it is about."""
+        """The name of the surface whose vertices `show_pointed` gets."""
         return self.context.document.surfaces[0].name
 
     def show_pointed(self, vertex: int | None) -> None:
-        """The pointer is at a vertex of that surface in some panel, or at none."""
+        """Show where the pointer is on that surface, in whichever panel."""

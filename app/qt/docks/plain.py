@@ -1,6 +1,15 @@
-"""Tables and scrolled contents that lie on a dock's own ground."""
+"""Tables and scrolled contents with the background of a dock."""
+
+from collections.abc import Sequence
 
 from qtpy import QtCore, QtWidgets
+
+from ...document.quantities import Quantity, column_names, quantity_name
+from ..look.layouts import in_column
+from ..look.look import LOOK
+
+CELL_PADS = 14
+"""Padding at both sides of a column together, in pixels."""
 
 SHEET = """
 QTableWidget { background: transparent; border: none; }
@@ -10,26 +19,82 @@ QHeaderView::section:vertical { padding: 4px 4px 4px 12px; border: none; }
 """
 
 
-def lie_on_dock(table: QtWidgets.QTableWidget) -> None:
-    """Nothing to type in, no lines, no ground of its own."""
-    table.setEditTriggers(QtWidgets.QAbstractItemView.EditTrigger.NoEditTriggers)
-    table.setShowGrid(False)
-    table.setFrameShape(QtWidgets.QFrame.Shape.NoFrame)
-    table.setTabKeyNavigation(False)
-    table.setStyleSheet(SHEET)
-    for header in (table.horizontalHeader(), table.verticalHeader()):
-        header.setHighlightSections(False)
-        header.setTextElideMode(QtCore.Qt.TextElideMode.ElideRight)
+ROW_HEIGHT, HEAD_HEIGHT = 30, 32
+
+
+class PanelTable(QtWidgets.QTableWidget):
+    """A table with a column of numbers for each of some panels: read-only, as high as its rows, without lines and
+    without a background of its own."""
+
+    def __init__(self, name: str, least_width: int) -> None:
+        super().__init__()
+        self._least_width = least_width
+        self.setAccessibleName(name)
+        self.setEditTriggers(QtWidgets.QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.setShowGrid(False)
+        self.setFrameShape(QtWidgets.QFrame.Shape.NoFrame)
+        self.setTabKeyNavigation(False)
+        self.setVerticalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setStyleSheet(SHEET)
+        for header in (self.horizontalHeader(), self.verticalHeader()):
+            header.setHighlightSections(False)
+            header.setTextElideMode(QtCore.Qt.TextElideMode.ElideRight)
+        self.horizontalHeader().setSectionResizeMode(QtWidgets.QHeaderView.ResizeMode.Fixed)
+        self.horizontalHeader().setMinimumSectionSize(1)
+
+    def make_cells(self, rows: int, columns: int) -> None:
+        """Make empty cells, so many across and down."""
+        self.setRowCount(rows)
+        self.setColumnCount(columns)
+        for row in range(rows):
+            for column in range(columns):
+                cell = QtWidgets.QTableWidgetItem()
+                cell.setTextAlignment(QtCore.Qt.AlignmentFlag.AlignRight | QtCore.Qt.AlignmentFlag.AlignVCenter)
+                self.setItem(row, column, cell)
+
+    def fit(self, shown: Sequence[Quantity]) -> None:
+        """Name the columns by the quantities of their panels, and give all rows and columns the room that they need."""
+        scale = LOOK.scale
+        for row in range(self.rowCount()):
+            self.setRowHeight(row, round(ROW_HEIGHT * scale))
+        height = round(HEAD_HEIGHT * scale) + self.rowCount() * round(ROW_HEIGHT * scale) + 2
+        if self._show_columns(shown):
+            height += self.horizontalScrollBar().sizeHint().height()
+        self.setFixedHeight(height)
+
+    def _show_columns(self, shown: Sequence[Quantity]) -> bool:
+        """Let each column be as wide as what is in it; return whether the table has to be scrolled.
+
+        Names are short where the whole ones have no room; what is left over is spread over all columns.
+        """
+        cells = [[self.item(row, k) for row in range(self.rowCount())] for k in range(len(shown))]
+        in_cell, in_head = (each.fontMetrics().horizontalAdvance for each in (self, self.horizontalHeader()))
+        wide = [max([in_cell(cell.text()) for cell in column if cell], default=0) for column in cells]
+        room = self.width() - self.verticalHeader().width()
+        for are_short in (False, True):
+            names = column_names(shown, are_short)
+            widths = [
+                max(self._least_width, text + CELL_PADS, in_head(name) + CELL_PADS)
+                for text, name in zip(wide, names, strict=True)
+            ]
+            if sum(widths) <= room:
+                break
+        spare = max(room - sum(widths), 0)
+        for k, (name, width) in enumerate(zip(names, widths, strict=True)):
+            item = QtWidgets.QTableWidgetItem(name)
+            item.setTextAlignment(QtCore.Qt.AlignmentFlag.AlignRight | QtCore.Qt.AlignmentFlag.AlignVCenter)
+            item.setToolTip(quantity_name(shown[k]))
+            self.setHorizontalHeaderItem(k, item)
+            self.setColumnWidth(k, width + spare * (k + 1) // len(shown) - spare * k // len(shown))
+        return bool(sum(widths) > room)
 
 
 def fill(dock: QtWidgets.QWidget, inside: QtWidgets.QWidget) -> None:
-    """Let a widget fill a dock, scrolled where there is no room."""
+    """Fill a dock with a widget, which is scrolled where there is not enough room."""
     scrolled = QtWidgets.QScrollArea()
     scrolled.setWidgetResizable(True)
     scrolled.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
     scrolled.setWidget(inside)
     for widget in (inside, scrolled.viewport()):
         widget.setAutoFillBackground(False)
-    whole = QtWidgets.QVBoxLayout(dock)
-    whole.setContentsMargins(0, 0, 0, 0)
-    whole.addWidget(scrolled)
+    in_column(scrolled, of=dock, spacing=0)

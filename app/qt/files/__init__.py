@@ -1,1 +1,1 @@
-"""What the window opens and writes: meshes, sessions, pictures, figures and movies."""
+"""Files that the window opens and writes: meshes, sessions, pictures, figures and movies."""

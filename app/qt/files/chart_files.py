@@ -1,10 +1,9 @@
-"""Charts saved as figures, in the background as all figures."""
+"""Saving charts as figures, in the background."""
 
 from collections.abc import Callable
 from functools import partial
 
-from bihdist_core.errors import BihdistError
-from bihdist_core.whole_file import check_output
+from bihdist_core.file_output import check_output
 
 from ...scene.style import style_of
 from ..context import Context
@@ -16,7 +15,7 @@ FORMATS = (".pdf", ".png", ".svg", ".eps")
 
 
 def paper_theme(context: Context) -> Theme:
-    """The theme whose colours go with the ground of figures."""
+    """Return the theme that suits the background of a figure style."""
     style = style_of(context.page.style, context.document.colours)
     ground = "#" + "".join(f"{round(255 * x):02X}" for x in style.background)
     return LIGHT if lightness(ground) > 0.5 else DARK
@@ -25,12 +24,12 @@ def paper_theme(context: Context) -> Theme:
 def save_figure(
     context: Context, title: str, name: str, save: Callable[..., None], figure: Callable[[], object], path: str = ""
 ) -> None:
-    """`save(figure, path, progress)` for what `figure()` says; asks for a path if there is none."""
-    try:
+    """Save the chart of `figure()` in the background; asks for a path if none is given."""
+    from ...figures.chart_page import draw_chart
+
+    with context.errors_shown():
         shown = figure()
         path = path or ask_path(context, title, name, FORMATS)
         if path:
             check_output(path, FORMATS)
-            context[Exports].start(partial(save, shown, path), path, "Figure")
-    except BihdistError as error:
-        context.fail(error)
+            context[Exports].start(partial(draw_chart, save, shown, path), path, "Figure")

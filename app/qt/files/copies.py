@@ -1,4 +1,4 @@
-"""Copies of what the window shows: as a picture, and as a line that makes it."""
+"""Copies of what the window shows: a picture, and a line of code that draws it."""
 
 import hashlib
 from dataclasses import replace
@@ -16,8 +16,8 @@ from ...document.file_names import file_name
 from ...document.page import Recipe
 from ...document.starts import curves_in
 from ...figures import one_line
+from ...figures.draw import whole_picture
 from ...figures.export import Surfaces, figure_of
-from ...figures.preview import whole_picture
 from ...session.questions import vertex_at
 from ...session.recipe_file import recipe_written
 from ...version import version
@@ -28,16 +28,16 @@ from .exports import Exports
 from .preview import image_of
 
 MOST = 8000
-"""Pixels along a side of a picture on the clipboard."""
+"""The longest side of a picture on the clipboard, in pixels."""
 
 SHOWN = 70
-"""Letters of a line that is copied, in the message that says so."""
+"""Characters of a copied line in the message about it."""
 
 INCH = 0.0254
 
 
 def copy_line(context: Context, recipe: Recipe, surfaces: Surfaces, is_python: bool) -> str:
-    """Put the line that makes a figure on the clipboard, and say so; the line."""
+    """Put the line that draws a figure on the clipboard, tell the user, and return the line."""
     recipe = _at_vertices(recipe, surfaces)
     output = f"{_file_name(recipe)}.{recipe.page.format or 'png'}"
     reason = one_line.why_not(recipe)
@@ -48,26 +48,26 @@ def copy_line(context: Context, recipe: Recipe, surfaces: Surfaces, is_python: b
         path = str(_kept(recipe, context.session.given))
         line = (one_line.recipe_python_line if is_python else one_line.recipe_command_line)(path, output)
     QtWidgets.QApplication.clipboard().setText(line)
-    context.tell(f"{reason} The copied line names a recipe of it." if reason else f"Copied: {_short(line)}")
+    context.tell(f"{reason} The copied line uses a saved recipe." if reason else f"Copied: {_short(line)}")
     return line
 
 
 def copy_picture(context: Context, recipe: Recipe, surfaces: Surfaces, answers: list[Answer]) -> None:
-    """Put the figure itself on the clipboard once it is drawn, which the window does not wait for."""
-    draughtsman, figure = context[Exports].previews, figure_of(recipe, surfaces, answers)
-    _Waiting(draughtsman, context).number = draughtsman.ask("copy", whole_picture, figure, MOST)
+    """Draw the figure in the background, then put it on the clipboard."""
+    renderer, figure = context[Exports].previews, figure_of(recipe, surfaces, answers)
+    _Waiting(renderer, context).number = renderer.ask("copy", whole_picture, figure, MOST)
     context.tell("Drawing the picture…")
 
 
 class _Waiting(QtCore.QObject):
-    """For one picture."""
+    """Waits for one picture."""
 
-    def __init__(self, draughtsman: QtCore.QObject, context: Context) -> None:
-        super().__init__(draughtsman)
+    def __init__(self, renderer: QtCore.QObject, context: Context) -> None:
+        super().__init__(renderer)
         self._context, self.number = context, 0
-        draughtsman.answered.connect(self._take)
-        draughtsman.refused.connect(self._refuse)
-        draughtsman.dropped.connect(self._ends)
+        renderer.answered.connect(self._take)
+        renderer.refused.connect(self._refuse)
+        renderer.dropped.connect(self._ends)
 
     def _ends(self, number: int) -> bool:
         is_own = number == self.number
@@ -90,7 +90,7 @@ class _Waiting(QtCore.QObject):
 
 
 def _at_vertices(recipe: Recipe, surfaces: Surfaces) -> Recipe:
-    """The same with each mark in a face, unless something starts there, at the vertex where it is drawn."""
+    """Return the recipe with marks in faces at the vertices where they are drawn, but for sources."""
     document = recipe.document
     shown = {name for panel in document.panels for name in panel.shows.points} | set(document.isolines.through)
     points = tuple(
@@ -107,12 +107,12 @@ def _file_name(recipe: Recipe) -> str:
 
 
 def _kept(recipe: Recipe, given: Any) -> Path:
-    """A file with a recipe that no line can say, among the program's data."""
+    """Save a recipe that no line can express among the program's data, and return its path."""
     folder = remembered.folder() / "recipes"
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise BihdistError(f"The recipe cannot be kept in {folder}: {error.strerror or error}.") from error
+        raise BihdistError(f"The recipe cannot be saved in {folder}: {error.strerror or error}.") from error
     text = recipe_text(recipe, version())
     name = f"{_file_name(recipe)}-{hashlib.sha256(text.encode()).hexdigest()[:8]}.json"
     with recipe_written(recipe, given, folder / name, version(), format=recipe.page.format):

@@ -1,4 +1,4 @@
-"""Curves that fields start from, and the files they are saved in."""
+"""Source curves, and the files they are saved in."""
 
 import hashlib
 import os
@@ -9,8 +9,8 @@ from qtpy import QtCore
 
 from bihdist_core import BihdistError, Curve, OutputError, ParameterError
 from bihdist_core.file_content import file_json
+from bihdist_core.file_output import atomic_write
 from bihdist_core.sources.words import curve_text, read_curve
-from bihdist_core.whole_file import whole_file
 
 from ...document.file_names import file_name
 from ...document.source_edits import members_of
@@ -20,9 +20,9 @@ from .saving import ask_path
 
 
 class CurveFiles(QtCore.QObject):
-    """Curves that are read, and saved.
+    """Reads and saves curves.
 
-    paths: where they were read from, or saved by the user; a file may have changed since.
+    `paths` holds the files that curves were read from or saved to; a file may have changed since.
     """
 
     taken = QtCore.Signal(object, object)  # a curve for distances to start from, and its path by the curve
@@ -34,33 +34,33 @@ class CurveFiles(QtCore.QObject):
         self.paths: dict[Curve, str] = {}
 
     def take(self, path: str) -> None:
-        """Let distances start from the curve in a file, or say why they cannot."""
+        """Make the curve in a file the source, or tell why that is not possible."""
         context = self._context
         try:
             curve = read_curve(path)
         except ParameterError as error:
             context.fail(error)
             return
-        if context.session.surface is None:
-            context.fail(f"{os.path.basename(path)} is a curve for distances to start from; open its mesh first.")
+        if context.session.loaded() is None:
+            context.fail(f"{os.path.basename(path)} is a source curve; open its mesh first.")
         else:
             self.taken.emit(curve, {curve: os.path.abspath(path)})
 
     def save_source(self, panel: int) -> bool:
-        """Ask where to save the curve that a panel's field starts from; whether it was saved."""
+        """Ask where to save the source curve of a panel, and return whether it was saved."""
         document = self._context.document
         points = [document.point(name) for each in document.panels if each.id == panel for name in each.shows.points]
         curves = [each for point in points for each in members_of(point.at) if isinstance(each, Curve)]
         if len(curves) == 1:
             return self.choose_and_save(curves[0])
-        where = "right click the one that is to be saved" if curves else "draw one on the surface (D)"
+        where = "right click the one to save" if curves else "draw one on the surface (D)"
         self._context.tell(f"The source has {len(curves) or 'no'} curve{'s' * bool(curves)}; {where}")
         return False
 
     def choose_and_save(self, curve: Curve) -> bool:
-        """Ask for a file; whether the curve was saved."""
-        surface = self._context.session.surface
-        name = file_name([] if surface is None else [surface.name], "curve")
+        """Ask for a file, and return whether the curve was saved."""
+        loaded = self._context.session.loaded()
+        name = file_name([] if loaded is None else [loaded.surface.name], "curve")
         path = ask_path(self._context, "Save the curve", name, (".json",))
         if not path:
             return False
@@ -72,15 +72,15 @@ class CurveFiles(QtCore.QObject):
         return True
 
     def save(self, curve: Curve, path: str) -> None:
-        """Into a file, `curve.json` as a source in words; OutputError if it cannot be written."""
-        with whole_file(path) as temporary:
+        """Write a curve to a file; OutputError if it cannot be written."""
+        with atomic_write(path) as temporary:
             Path(temporary).write_text(curve_text(curve), encoding="utf-8")
         self.paths[curve] = os.path.abspath(path)
         self.saved.emit()
         self._context.tell(f"Saved {os.path.basename(path)}")
 
     def path_of(self, curve: Curve) -> str:
-        """A file that holds a curve: the user's, or one among the program's data; OutputError if there can be none."""
+        """Return a file with the curve, the user's or one of the program's; OutputError if none can be written."""
         path = self.paths.get(curve, "")
         with suppress(ParameterError):
             if path and read_curve(path) == curve:
@@ -89,15 +89,15 @@ class CurveFiles(QtCore.QObject):
         kept = remembered.folder() / "curves" / f"curve-{hashlib.sha256(text.encode()).hexdigest()[:8]}.json"
         try:
             kept.parent.mkdir(parents=True, exist_ok=True)
-            with whole_file(kept) as temporary:
+            with atomic_write(kept) as temporary:
                 temporary.write_text(text, encoding="utf-8")
         except OSError as error:
-            raise OutputError(f"The curve cannot be kept in {kept.parent}: {error.strerror or error}.") from error
+            raise OutputError(f"The curve cannot be saved in {kept.parent}: {error.strerror or error}.") from error
         return str(kept)
 
 
 def is_curve(path: str) -> bool:
-    """Whether a file looks like a curve, which is no session or recipe."""
+    """Return whether a file looks like a curve rather than a session or recipe."""
     try:
         data = file_json(path, "curve", "a curve")
     except ParameterError:

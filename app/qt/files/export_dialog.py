@@ -1,4 +1,4 @@
-"""The dialog of File > Export figure: the figure itself, beside what can be chosen of it."""
+"""The dialog of File > Export figure, with a preview."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -11,14 +11,16 @@ from bihdist_core.distances.answers import Answer
 
 from ...document.page import FORMATS, Recipe
 from ...figures.description import Figure
-from ...figures.draw import FIGURE_FORMATS
+from ...figures.draw import FIGURE_FORMATS, Preview, preview
 from ...figures.export import Surfaces, check_export, figure_of, write_figure
-from ...figures.preview import Preview, preview
-from ...figures.size import NAMED
-from ...session.array_store import ArrayStore
+from ...figures.look_options import suits_one_bar
+from ...figures.size import NAMED, is_column
+from ...version import version
+from ..context import Context
+from ..look.form import Choice
 from ..look.icons import put_icon
-from .exports import Exports
-from .job_dialog import Choice, FileKind
+from ..look.layouts import quiet_label
+from .job_dialog import FileKind
 from .looks_dialog import LooksDialog
 from .preview import PreviewPane
 from .size_boxes import SizeNames, in_words
@@ -32,22 +34,22 @@ KINDS = (
 FIGURE_KINDS = tuple(kind for kind in KINDS if kind.extension in FIGURE_FORMATS)
 SIZE_NAMES = {"column": "One column", "double": "Two columns", "slide": "Slide", "A0": "Poster A0"}
 FIGURE_SIZES: SizeNames = (
-    ("Usual", "", "follows the panels"),
+    ("Default", "", "follows the panels"),
     *((SIZE_NAMES.get(word, word), word, in_words(word)) for word in NAMED),
 )
-NAMES = {"heading": "Over the panels", "caption": "Under the panels", "none": "Nowhere"}
-"""Where a panel's name stands."""
+NAMES = {"heading": "Above the panels", "caption": "Below the panels", "none": "None"}
+"""Where a panel's name is written."""
 
 BOTH = ("front", "back")
 SMALLEST = {True: 6.0, False: 10.0}
-"""Points, and pixels where nothing is printed: smaller letters are hard to read."""
+"""Font size, in points in print and else in pixels, below which text is hard to read."""
 
 WAIT = 120
-"""Milliseconds after a change before a figure is drawn: somebody writes, or steps through a list."""
+"""Milliseconds from the last change to the preview, as the user may go on typing."""
 
 
 class ExportDialog(LooksDialog):
-    """A figure of what the window shows; answers: one for each panel.
+    """A dialog for a figure of what the window shows, with an answer for each panel.
 
     `copying` is emitted with "picture", "command" or "python", and the recipe.
     """
@@ -55,68 +57,68 @@ class ExportDialog(LooksDialog):
     what, file_kinds, sizes = "Figure", FIGURE_KINDS, FIGURE_SIZES
     copying = QtCore.Signal(str, object)
 
-    def __init__(
-        self,
-        recipe: Recipe,
-        surfaces: Surfaces,
-        given: ArrayStore,
-        answers: list[Answer],
-        version: str,
-        exports: Exports,
-        parent: QtWidgets.QWidget | None = None,
-    ) -> None:
+    def __init__(self, context: Context, recipe: Recipe, surfaces: Surfaces, answers: list[Answer]) -> None:
         self.pane = PreviewPane()
-        super().__init__(recipe, surfaces, given, exports, parent, self.pane)
-        self._answers, self._version = answers, version
+        super().__init__(context, recipe, surfaces, self.pane)
+        self._answers = answers
         self.kinds.choose((recipe.page.format or FORMATS[0]).upper())
-        self.section("Show")
+        self.form.section("Show")
         self.names = Choice(NAMES, recipe.page.title)
-        self.row("&Names", self.names, "Where the name of each panel stands")
+        self.form.row("&Names", self.names, "Where the name of each panel stands", "title")
         self.add_shares()
-        self.both = self.tick("&Front and back", recipe.page.views == BOTH, "Each panel from both sides")
-        self.transparent = self.tick("No &background", recipe.page.transparent, "Transparent where nothing is drawn")
-        self.crop = self.tick("Without the empty &margins", recipe.page.crop, "Cut to what is drawn")
+        self.both = self.form.tick("&Front and back", recipe.page.views == BOTH, "Each panel from both sides")
+        page = recipe.page
+        tip = "Transparent where nothing is drawn"
+        self.transparent = self.form.tick("Transparent &background", page.transparent, tip, "transparent")
+        self.crop = self.form.tick("Crop the &margins", page.crop, "Crop to what is drawn", "crop")
         self.values: QtWidgets.QCheckBox | None = None
         if any(part.has_values for part in recipe.document.parts):
-            self.values = self.tick("&Values at anchors", recipe.page.anchor_values, "The number beside each anchor")
-        self.section("Look")
+            tip = "The number beside each anchor"
+            self.values = self.form.tick("&Values at anchors", page.anchor_values, tip, "anchor_values")
+        self.form.section("Look")
         self.add_look()
         self.letters = QtWidgets.QDoubleSpinBox(decimals=1, maximum=72, singleStep=0.5, suffix=" pt")
-        self.letters.setSpecialValueText("As they fit")
+        self.letters.setSpecialValueText("Automatic")
         self.letters.setButtonSymbols(QtWidgets.QAbstractSpinBox.ButtonSymbols.NoButtons)
-        self.letters.setValue(recipe.page.text or 0.0)
-        self.row("&Text", self.letters, "The size of labels in points, the others in proportion; 0: as they fit")
+        self.letters.setValue(recipe.page.font_size or 0.0)
+        self.form.row("&Text", self.letters, "Size of labels in points, other text in proportion; 0 for automatic")
+        self.size.rows.idClicked.connect(self._suit_size)
         self._add_copying()
         self._number, self._asked = 0, set[int]()
         self._soon = QtCore.QTimer(self, singleShot=True, interval=WAIT, timeout=self._draw)
-        exports.previews.answered.connect(self._show_preview)
-        exports.previews.refused.connect(self._show_refusal)
+        self._exports.previews.answered.connect(self._show_preview)
+        self._exports.previews.refused.connect(self._show_refusal)
         self.pane.resized.connect(self._soon.start)
-        self.on_change(self._changed)
+        self.form.changed.connect(self._changed)
 
     def chosen(self) -> Recipe:
         recipe = super().chosen()
         views = recipe.page.views
         if self.both.isChecked() != (views == BOTH):
             views = BOTH if self.both.isChecked() else ()
-        page = replace(
-            recipe.page,
-            transparent=self.transparent.isChecked(),
-            crop=self.crop.isChecked(),
-            title=self.names.currentData(),
-            views=views,
-            text=self._text(),
-            format=self.kinds.choice().lower(),
-            anchor_values=recipe.page.anchor_values if self.values is None else self.values.isChecked(),
-        )
+        page = replace(recipe.page, views=views, font_size=self._font_size(), format=self.kinds.choice().lower())
         return replace(recipe, page=page)
 
-    def _text(self) -> float | None:
-        """As it was where nobody has changed it: the box has one digit."""
-        value, was = self.letters.value(), self._recipe.page.text
+    def beside_kinds(self) -> list[QtWidgets.QWidget]:
+        recipe = quiet_label("with its recipe")
+        recipe.setToolTip("A .json file beside the figure, which opens in the window and redraws the figure")
+        return [recipe]
+
+    def _font_size(self) -> float | None:
+        """Return the font size, unrounded where the user has not changed it."""
+        value, was = self.letters.value(), self._recipe.page.font_size
         if was is not None and abs(value - was) < 0.05:
             return was
         return max(value, 2.0) if value else None
+
+    def _suit_size(self, *_: object) -> None:
+        """Crop a figure of one column, and let its panels share a bar; reset both for others."""
+        is_one = is_column(self.size.text())
+        has_one_bar = is_one and suits_one_bar(self._recipe)
+        if has_one_bar and self._recipe.document.range == "own":
+            self.allow_sharing(False)
+        self.crop.setChecked(is_one or self._recipe.page.crop)
+        self.shared.setChecked(has_one_bar or self._recipe.document.range != "own")
 
     def check(self) -> None:
         self.check_size(self.chosen())
@@ -124,7 +126,7 @@ class ExportDialog(LooksDialog):
     def work(self, path: str) -> Callable[..., None]:
         recipe = self.chosen()
         check_export(recipe.document, path)
-        return partial(write_figure, self._figure(recipe), recipe, self._given, path, self._version)
+        return partial(write_figure, self._figure(recipe), recipe, self._given, path, version())
 
     def _figure(self, recipe: Recipe) -> Figure:
         return figure_of(recipe, self._surfaces, self._answers)
@@ -136,7 +138,7 @@ class ExportDialog(LooksDialog):
         self._soon.start()
 
     def _draw(self) -> None:
-        """Have it drawn as the dialog stands now, if that makes sense."""
+        """Draw the preview, if all values are right."""
         self._number = 0
         self.pane.wait()
         try:
@@ -163,13 +165,14 @@ class ExportDialog(LooksDialog):
         unit, letters = ("mm", "pt") if found.is_printed else ("pixels", "px")
         is_small = found.smallest < SMALLEST[found.is_printed] - 0.05
         words = f"{self.size.name()}, {width:.0f} × {height:.0f} {unit}. Smallest text {found.smallest:.2g} {letters}"
-        return f"{words}, which is hard to read." if is_small else f"{words}.", is_small
+        words = f"{words}, which is hard to read." if is_small else f"{words}."
+        return " ".join((words, *found.remarks)), is_small or bool(found.remarks)
 
     # ------------------------------------------------------------------ copies
     def _add_copying(self) -> None:
-        self.copy_picture = self.button("&Copy picture", "The figure as an image, to be pasted elsewhere")
+        tip = "Copy the figure as an image"
+        self.copy_picture = self.button("&Copy picture", tip, lambda: self._copy("picture"))
         put_icon(self.copy_picture, "copy")
-        self.copy_picture.clicked.connect(lambda: self._copy("picture"))
         self.copy_line = self.button("Copy as co&mmand or Python", "One line that makes this figure")
         self.copy_line.setProperty("chevron", True)
         menu = QtWidgets.QMenu(self.copy_line)

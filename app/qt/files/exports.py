@@ -1,4 +1,4 @@
-"""The files that are drawn in the background while the window goes on, and the chip that says how far they are."""
+"""Files that are drawn in the background, and the badge in the status bar with their progress."""
 
 import os
 import threading
@@ -10,23 +10,33 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import OutputError
 
+from ...document.page import Page
+from ...drawing.painters.qt import number_width, paint_number
 from ...figures.worker import FigureJob
 from ..look.bare_button import BareButton
 from ..look.icons import pixmap, put_icon
 from ..look.layouts import in_row
 from ..look.look import LOOK
-from ..look.numbers import number_width, paint_number
 from ..look.painting import baseline, paint_rounded, smooth_painter
-from .preview import Draughtsman
+from .preview import PreviewRenderer
 
 PATIENCE = 5.0
 """Seconds that closing waits for drawings to stop; what still goes on then stops by itself, without a file."""
 
 
 class Export(QtCore.QObject):
-    """One file on its way; made by `Exports.start`.
+    """A file that is being drawn; made by `Exports.start`.
 
-    path: of the file; what: "Movie" or "Figure"; fraction: the share done, 0 to 1; words: what is being done.
+    Attributes
+    ----------
+    path
+        The path of the file.
+    what
+        "Movie" or "Figure".
+    fraction
+        The fraction that is done, from 0 to 1.
+    words
+        What is being done.
     """
 
     saved = QtCore.Signal(str)  # the path
@@ -49,7 +59,7 @@ class Export(QtCore.QObject):
 
     @property
     def percent(self) -> int:
-        """100 only at the end."""
+        """Return the progress in percent, 100 only at the end."""
         return int(100 * self.fraction)
 
     def _go_on(self, fraction: float, words: str) -> None:
@@ -58,7 +68,7 @@ class Export(QtCore.QObject):
             self._exports.changed.emit()
 
     def _end(self, message: str | None) -> None:
-        """message: None if the file is there, "" if it was cancelled, otherwise why it is not there."""
+        """Report the end: None if the file is there, "" if it was cancelled, otherwise why it could not be made."""
         if not self._exports.forget(self):
             return
         if message is None:
@@ -71,10 +81,20 @@ class Export(QtCore.QObject):
 
 
 class Exports(QtCore.QObject):
-    """All that is being drawn, a process each.  `saved` has the path, `failed` a sentence; a cancelled one has neither.
+    """The files that are being drawn, a process each.
 
-    running: in the order of their starts.  folder: where the last one went, "" at first.  previews: what draws for
-    dialogs, and for the clipboard.
+    `saved` is emitted with a path, `failed` with a sentence; neither for a file that was cancelled.
+
+    Attributes
+    ----------
+    running
+        The exports, in the order of their starts.
+    folder
+        Where the last file went, "" at first.
+    chosen
+        The format and size that were chosen last, by what was drawn and the page it was to be on.
+    previews
+        The renderer of previews for dialogs, and of pictures for the clipboard.
     """
 
     changed = QtCore.Signal()
@@ -85,7 +105,8 @@ class Exports(QtCore.QObject):
         super().__init__(parent)
         self.running: list[Export] = []
         self.folder = ""
-        self.previews = Draughtsman(self)
+        self.chosen: dict[tuple[str, Page], tuple[str, str]] = {}
+        self.previews = PreviewRenderer(self)
 
     def start(self, work: Callable[..., object], path: str, what: str) -> Export:
         """Run `work(progress=...)`, whose result is the file at `path`.
@@ -94,7 +115,7 @@ class Exports(QtCore.QObject):
         """
         name = os.path.basename(path)
         if any(_is_same(path, export.path) for export in self.running):
-            raise OutputError(f"{name} is being drawn already; wait for it, cancel it, or choose another name.")
+            raise OutputError(f"{name} is already being drawn; wait for it, cancel it, or choose another name.")
         try:
             export = Export(work, path, what, self)
         except OSError as error:
@@ -105,14 +126,14 @@ class Exports(QtCore.QObject):
         return export
 
     def cancel(self, export: Export) -> None:
-        """Stop it: what was at the path stays.  It runs on until its process has noticed."""
+        """Cancel the export, which ends once its process has noticed; a file at the path stays as it was."""
         if export in self.running:
             export.is_stopping, export.words = True, "stopping…"
             export.job.cancel()
             self.changed.emit()
 
     def close(self) -> None:
-        """Cancel all and wait for them."""
+        """Cancel all exports, and wait until they have ended."""
         self.previews.close()
         for export in self.running:
             export.is_stopping = True
@@ -124,7 +145,7 @@ class Exports(QtCore.QObject):
         self.changed.emit()
 
     def forget(self, export: Export) -> bool:
-        """It has ended; False if it was forgotten before."""
+        """Forget an export that has ended, and return False if it was forgotten before."""
         if export not in self.running:
             return False
         self.running.remove(export)
@@ -137,7 +158,7 @@ def _is_same(path: str, other: str) -> bool:
 
 
 class _Line:
-    """From the job's thread to the window, which may be gone before the job is: then a signal would be a crash."""
+    """Passes signals from the job's thread to the window, which may be gone before the job is."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -153,9 +174,9 @@ class _Line:
                 signal.emit(*words)
 
 
-# ---------------------------------------------------------------------- the chip
-class ExportChip(QtWidgets.QWidget):
-    """For the status bar: "Movie 34 %" with a bar and ✕, "2 exports, 40 %" with a menu; hidden when nothing runs."""
+# ---------------------------------------------------------------------- the badge
+class ExportBadge(QtWidgets.QWidget):
+    """A badge in the status bar: "Movie 34 %" with a bar and ✕, "2 exports, 40 %" with a menu; hidden when idle."""
 
     WIDEST = 220
 
@@ -181,7 +202,7 @@ class ExportChip(QtWidgets.QWidget):
         return QtCore.QSize(0, 22)  # rather cut off than a wider window
 
     def open_menu(self) -> None:
-        """All that run, each with what cancels it."""
+        """Return the running exports, each with an entry that cancels it."""
         self._list()
         height = self.menu.sizeHint().height()
         self.menu.popup(self.mapToGlobal(QtCore.QPoint(0, -height - 2)))
@@ -208,7 +229,7 @@ class ExportChip(QtWidgets.QWidget):
             self._list()
 
     def _list(self) -> None:
-        """Fill the menu; one that is open keeps its entries, which say how far they are."""
+        """Fill the menu; one that is open keeps its entries and updates their progress."""
         running = self._exports.running
         if [export for export, _ in self._listed] != running:
             self.menu.clear()
@@ -229,15 +250,15 @@ class ExportChip(QtWidgets.QWidget):
 
 
 def _summary(running: list[Export]) -> tuple[str, float]:
-    """The words of the chip, and the share of its bar."""
+    """Return the text of the badge, and the fraction of its bar."""
     mean, first = sum(export.fraction for export in running) / len(running), running[0]
     if len(running) > 1:
         return f"{len(running)} exports, {int(100 * mean)} %", mean
-    return f"{first.what}, stopping…" if first.is_stopping else f"{first.what} {first.percent} %", mean
+    return f"{first.what}, cancelling…" if first.is_stopping else f"{first.what} {first.percent} %", mean
 
 
 class _Share(BareButton):
-    """Words and a bar, painted here: digits of one width, and no new picture while nothing that is seen changes."""
+    """A text and a progress bar, painted with digits of one width, and only when either changes."""
 
     PAD, GAP, BAR, CHEVRON = 6, 8, 56, 14
 
@@ -251,7 +272,7 @@ class _Share(BareButton):
         self.update()
 
     def show_share(self, words: str, fraction: float, has_menu: bool) -> None:
-        """fraction: 0 to 1; has_menu: shown by an arrow."""
+        """Show a text with a bar at a fraction from 0 to 1, and an arrow if there is a menu."""
         if (words, has_menu) != (self.text(), self._has_menu):
             self._has_menu = has_menu
             self.setText(words)
@@ -267,7 +288,7 @@ class _Share(BareButton):
         return QtCore.QSize(0, 22)
 
     def _widest(self) -> str:
-        """The words with room for three digits, so that the bar stands still."""
+        """Return the text with room for three digits, so that the bar does not move."""
         head, _, last = self.text().removesuffix(" %").rpartition(" ")
         return f"{head} 100 %" if last.isdigit() else self.text()
 

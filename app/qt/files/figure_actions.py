@@ -1,16 +1,20 @@
-"""The window's figures: exported, as movies and web pages, and copied."""
+"""Export of figures, movies and web pages, and copies to the clipboard."""
 
 import os
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
+from qtpy import QtCore
+
 from bihdist_core import BihdistError
 from bihdist_core.distances.answers import Answer
 
+from ...document.document import Document
 from ...document.page import Recipe
 from ...figures.export import Surfaces
-from ...version import version
+from ...session.recipe_file import written_recipe
 from ..context import Context
 from .copies import copy_line, copy_picture
 from .export_dialog import ExportDialog
@@ -25,43 +29,66 @@ if TYPE_CHECKING:
 Dialog = TypeVar("Dialog", bound=JobDialog)
 
 
+class OnceComplete(QtCore.QObject):
+    """Runs the latest action that was asked for while panels were still being computed, once they are complete."""
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._context = context
+        self._do: Callable[[], object] | None = None
+        context.complete.connect(self._end)
+        context.document_changed.connect(self._forget_closed)
+
+    def wait(self, do: Callable[[], object], words: str) -> None:
+        """Run an action once the panels are complete, unless another mesh is opened before; `words` tell of it."""
+        self._do = do
+        self._context.tell(f"{words} once the panels are complete", lambda: self._do is not None)
+
+    def _end(self) -> None:
+        do, self._do = self._do, None
+        if do is not None:
+            self._context.tell("")
+            do()
+
+    def _forget_closed(self, before: Document) -> None:
+        if before.surfaces != self._context.document.surfaces:
+            self._do = None
+
+
 def export_figure(context: Context) -> ExportDialog | None:
-    """Open the dialog for what the window shows; None, with a word to the user, while it is not complete."""
-    recipe = _complete_recipe(context)
+    """Open the dialog of figures; None while panels are computed, after which it opens."""
+    recipe = _complete_recipe(context, partial(export_figure, context))
     if recipe is None:
         return None
-    given, surfaces, answers = context.session.given, _surfaces(context, recipe), _answers(context, recipe)
-    dialog = ExportDialog(recipe, surfaces, given, answers, version(), context[Exports], context.widget)
+    dialog = ExportDialog(context, recipe, _surfaces(context, recipe), _answers(context, recipe))
     dialog.copying.connect(partial(_copy, context))
-    _allow_sharing(dialog, context)
+    _begin_as_last(dialog, context)
     return _opened(dialog, context)
 
 
 def export_movie(context: Context) -> MovieDialog | None:
-    """The same for a movie."""
-    recipe = _complete_recipe(context)
+    """Open the dialog of movies; None while panels are computed, after which it opens."""
+    recipe = _complete_recipe(context, partial(export_movie, context))
     if recipe is None:
         return None
-    given, surfaces = context.session.given, _surfaces(context, recipe)
-    dialog = MovieDialog(recipe, surfaces, given, context[Exports], context.widget)
-    _allow_sharing(dialog, context)
+    dialog = MovieDialog(context, recipe, _surfaces(context, recipe))
+    _begin_as_last(dialog, context)
     return _opened(dialog, context)
 
 
 def export_page(context: Context) -> "PageDialog | None":
-    """Open the dialog of a web page of what the window shows; the same."""
+    """Open the dialog of web pages; None while panels are computed, after which it opens."""
     from .page_dialog import PageDialog
 
-    recipe = _complete_recipe(context)
+    recipe = _complete_recipe(context, partial(export_page, context))
     if recipe is None:
         return None
-    given, surfaces = context.session.given, _surfaces(context, recipe)
-    return _opened(PageDialog(recipe, surfaces, given, context[Exports], context.widget), context)
+    return _opened(PageDialog(context, recipe, _surfaces(context, recipe)), context)
 
 
 def copy(context: Context, what: str) -> None:
-    """Copy what the window shows, as it would be exported: what is "picture", "command" or "python"."""
-    recipe = _complete_recipe(context)
+    """Copy the figure that would be exported, as a "picture", a "command" or "python"."""
+    recipe = _complete_recipe(context, partial(copy, context, what), "It is copied")
     if recipe is not None:
         try:
             _copy(context, what, recipe)
@@ -85,12 +112,13 @@ def _surfaces(context: Context, recipe: Recipe) -> Surfaces:
     return {mesh.name: context.session.mesh(mesh.name) for mesh in recipe.document.surfaces}
 
 
-def _complete_recipe(context: Context) -> Recipe | None:
+def _complete_recipe(context: Context, again: Callable[[], object], words: str = "The dialog opens") -> Recipe | None:
+    """Return the recipe of the window; None while panels are computed, after which `again` is called."""
     if not context.session.is_complete:
         if context.session.is_stopped:
-            context.fail("A panel was stopped; press Retry in it, or remove it, and export then.")
+            context.fail("A panel was stopped; press Retry in it or remove it, then export.")
         else:
-            context.fail("The panels are not complete yet; a figure can be exported once they are.")
+            context[OnceComplete].wait(again, words)
         return None
     if not context.document.panels:
         context.fail("There are no panels; add one first.")
@@ -98,14 +126,31 @@ def _complete_recipe(context: Context) -> Recipe | None:
     return shown_recipe(context)
 
 
-def _allow_sharing(dialog: LooksDialog, context: Context) -> None:
+def _begin_as_last(dialog: LooksDialog, context: Context) -> None:
+    """Offer the format and the size chosen last, or those of an opened recipe of a figure."""
+    what, page, preferences = dialog.what.lower(), context.page, context.preferences
+    format, size = getattr(preferences, f"{what}_format"), page.size or getattr(preferences, f"{what}_size")
+    usual = (page.format.upper(), page.size) if page.format else (format, size)
+    dialog.choose(*context[Exports].chosen.get((what, page), usual))
+
+    def remember(_: Export) -> None:
+        format, size = dialog.kinds.choice(), dialog.size.text()
+        context[Exports].chosen[what, page] = format, size
+        context.prefer(**{f"{what}_format": format, f"{what}_size": size})
+
+    dialog.started.connect(remember)
     answers = [shown.answer for shown in context.session.shown.values()]
     dialog.allow_sharing(len({answer.unit for answer in answers if answer.field is not None}) <= 1)
 
 
+def _saved(path: str, what: str) -> str:
+    beside = f", and beside it its recipe {written_recipe(path).name}" if what == ExportDialog.what else ""
+    return f"Saved {os.path.basename(path)}{beside}"
+
+
 def _opened(dialog: Dialog, context: Context) -> Dialog:
     def announce(export: Export) -> None:
-        export.saved.connect(lambda path: context.tell(f"Saved {os.path.basename(path)}"))
+        export.saved.connect(lambda path: context.tell(_saved(path, dialog.what)))
         export.failed.connect(lambda sentence: context.fail(f"{os.path.basename(export.path)}: {sentence}"))
 
     dialog.started.connect(announce)
@@ -115,7 +160,7 @@ def _opened(dialog: Dialog, context: Context) -> Dialog:
 
 
 def shown_recipe(context: Context) -> Recipe:
-    """What the window shows, on the page of the recipe that was opened last; turned since, with one view."""
+    """Return the recipe of the window, on the page of the one opened last; with one view if turned since."""
     document, page = context.document, context.page
     is_turned = bool(page.views) and document.camera != page.views[0]
     return Recipe(document, replace(page, views=()) if is_turned else page)

@@ -1,23 +1,22 @@
-"""What the window opens and writes, but for its session."""
+"""Opening meshes and sessions, and writing what the window shows."""
 
 import os
-from collections.abc import Callable
 
-from qtpy import QtCore, QtGui, QtWidgets
+from qtpy import QtCore, QtGui
 
 from bihdist_core import BihdistError, OutputError
-from bihdist_core.whole_file import check_output, whole_file
+from bihdist_core.file_output import atomic_write, check_output
 
 from ...document.file_names import file_name
 from ..context import Context
 from ..pages.messages import ask_which
 from .curve_files import CurveFiles, is_curve
-from .saving import MESH_FILES, ask_path
+from .saving import MESH_FILES, ask_file, ask_path
 from .session_actions import FILES, SessionFile
 
 
 class Files(QtCore.QObject):
-    """Opening by a dialog or by a drop; pictures of the window, figures, movies and web pages."""
+    """Opens files by a dialog or a drop, and saves pictures of the window."""
 
     dropping = QtCore.Signal(bool)  # whether something is held over the window that may be dropped
 
@@ -30,21 +29,14 @@ class Files(QtCore.QObject):
     # ------------------------------------------------------------------ opening
     def choose(self) -> None:
         """Ask for a file, and open it."""
-        self._ask("Open", FILES, self.open)
+        ask_file(self._context, "Open", FILES, self.open)
 
-    def choose_beside(self) -> None:
-        """A second mesh, beside the first."""
-        self._ask("Open beside", MESH_FILES, self._context.session.open_beside)
-
-    def _ask(self, title: str, files: str, take: Callable[[str], None]) -> None:
-        context = self._context
-        path, _ = QtWidgets.QFileDialog.getOpenFileName(context.widget, title, context.folder, files)
-        if path:
-            context.folder = os.path.dirname(path)
-            take(path)
+    def choose_second_mesh(self) -> None:
+        """Ask for a second mesh, and open it."""
+        ask_file(self._context, "Open second mesh", MESH_FILES, self._context.session.open_second_mesh)
 
     def open(self, path: str) -> None:
-        """A mesh, a session or recipe, or a curve for distances to start from."""
+        """Open a mesh, a session or recipe, or a source curve."""
         if not path.lower().endswith(".json"):
             self._context.open(path)
         elif is_curve(path):
@@ -71,33 +63,9 @@ class Files(QtCore.QObject):
             self.open(path)
 
     # ------------------------------------------------------------------ writing
-    def export_figure(self) -> None:
-        """Open the dialog of figures."""
-        from .figure_actions import export_figure
-
-        export_figure(self._context)
-
-    def export_movie(self) -> None:
-        """Open the dialog of movies."""
-        from .figure_actions import export_movie
-
-        export_movie(self._context)
-
-    def export_page(self) -> None:
-        """Open the dialog of web pages."""
-        from .figure_actions import export_page
-
-        export_page(self._context)
-
-    def copy(self, what: str) -> None:
-        """Copy the figure: "picture", or the line that makes it: "command", "python"."""
-        from .figure_actions import copy
-
-        copy(self._context, what)
-
     def choose_screenshot(self) -> None:
         """Ask for a file, and save a picture of the window there."""
-        name = file_name([self._context.session.first_surface.name], "window")
+        name = file_name([self._context.session.mesh().surface.name], "window")
         path = ask_path(self._context, "Save a picture of the window", name, (".png",))
         if path:
             try:
@@ -106,11 +74,11 @@ class Files(QtCore.QObject):
                 self._context.fail(error)
 
     def save_screenshot(self, path: str) -> None:
-        """The window as a PNG; OutputError if it cannot be written, and then what was there stays."""
+        """Save the window as a PNG; OutputError if it cannot be written, in which case an old file stays."""
         check_output(path, (".png",))
         if self._context.is_built:
             self._context.grid.draw_in_full()
-        with whole_file(path) as temporary:
+        with atomic_write(path) as temporary:
             if not self._context.widget.grab().toImage().save(str(temporary), "PNG"):
                 raise OutputError(f"{path} could not be written.")
         self._context.tell(f"Saved {os.path.basename(path)}")

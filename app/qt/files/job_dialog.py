@@ -1,6 +1,6 @@
-"""A dialog that asks how a file shall be, closes, and has the file drawn in the background."""
+"""The base of dialogs that have a file drawn in the background."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import ClassVar
@@ -9,28 +9,32 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import BihdistError
 
-from ..look.layouts import in_column, in_row
+from ...document.file_names import file_name
+from ...document.page import Recipe
+from ...figures.export import Surfaces
+from ..context import Context
+from ..look.form import Form, closing_buttons, describe, error_label
+from ..look.layouts import hairline, in_column, in_row, push_button
 from ..look.look import LOOK
 from ..look.segments import Segments
-from ..look.text_box import mark_wrong
 from .exports import Exports
 
 WIDTH = 388
-"""Of the column of choices, at the usual size of letters, in logical pixels."""
+"""Width of the form at the usual font size, in logical pixels."""
 
 BESIDE = 316
-"""The same beside a picture."""
+"""Width of the form beside a picture."""
 
 LARGE = (1140, 780)
-"""Of a dialog with a picture in it, where there is room."""
+"""Size of a dialog with a picture, where there is room."""
 
 LABEL, LABEL_BESIDE = 116, 96
-"""Of the words before a box."""
+"""Width of labels, and beside a picture."""
 
 
 @dataclass(frozen=True)
 class FileKind:
-    """extension: with its dot; name: on the button; words: in the file dialog."""
+    """A format: its extension with the dot, its name on the button, and its words in the file dialog."""
 
     extension: str
     name: str
@@ -38,7 +42,7 @@ class FileKind:
 
 
 class WrongBox(BihdistError):
-    """What stands in a box makes no sense; the message says why."""
+    """An error about the value of one control."""
 
     def __init__(self, message: str, box: QtWidgets.QWidget) -> None:
         super().__init__(message)
@@ -47,7 +51,7 @@ class WrongBox(BihdistError):
 
 @contextmanager
 def blamed_on(box: QtWidgets.QWidget) -> Iterator[None]:
-    """What is refused inside is the fault of what stands in the box."""
+    """A context whose errors are shown at a control."""
     try:
         yield
     except WrongBox:  # of another one
@@ -57,10 +61,17 @@ def blamed_on(box: QtWidgets.QWidget) -> Iterator[None]:
 
 
 class JobDialog(QtWidgets.QDialog):
-    """`started` is emitted with the `Export`; then the dialog is closed.  What is refused is said in the dialog.
+    """A dialog that starts an export; `started` is emitted with the `Export`, then the dialog is closed.
 
-    A class of its own for each sort of file adds sections and rows, and makes the work in `work(path)`.  what: it
-    draws, "Movie"; file_kinds: the formats that there are.
+    Errors are shown in the dialog. A subclass for each kind of file adds sections and rows, and makes the work in
+    `work(path)`.
+
+    Attributes
+    ----------
+    what
+        What is drawn, such as "Movie".
+    file_kinds
+        The formats to choose from.
     """
 
     what: ClassVar[str]
@@ -69,43 +80,44 @@ class JobDialog(QtWidgets.QDialog):
     started = QtCore.Signal(object)
 
     def __init__(
-        self,
-        name: str,
-        exports: Exports,
-        parent: QtWidgets.QWidget | None = None,
-        side: QtWidgets.QWidget | None = None,
+        self, context: Context, recipe: Recipe, surfaces: Surfaces, side: QtWidgets.QWidget | None = None
     ) -> None:
-        """name: of the file, as a proposal and without an extension; side: what stands beside the choices."""
-        super().__init__(parent)
+        """Begin with a recipe on surfaces; `side` stands beside the form."""
+        super().__init__(context.widget)
         self.setWindowTitle(f"Export {self.what.lower()}")
-        self._name, self._exports = name, exports
-        self._sentences: dict[QtWidgets.QWidget, QtWidgets.QLabel] = {}
-        self._side = side
+        self._recipe, self._surfaces, self._given = recipe, surfaces, context.session.given
+        self._name = file_name([each.path for each in recipe.document.surfaces], self.what.lower().split()[-1])
+        self._exports, self._side = context[Exports], side
         self._fill()
         self.kinds = Segments({kind.name: kind.name for kind in self.file_kinds}, "The format of the file", self)
         self.kinds.choose(self.file_kinds[0].name)
         self.kinds.setVisible(len(self.file_kinds) > 1)
+        self.kinds.chosen.connect(lambda *_: self.form.changed.emit())
         if len(self.file_kinds) > 1:
-            self.section("Format")
-            self.column.addWidget(self.kinds, 0, QtCore.Qt.AlignmentFlag.AlignLeft)
+            self.form.section("Format")
+            self.form.add(in_row(self.kinds, *self.beside_kinds(), None, spacing=10))
+
+    def beside_kinds(self) -> list[QtWidgets.QWidget]:
+        """Return the widget beside the formats."""
+        return []
 
     def check(self) -> None:
-        """BihdistError, or `WrongBox`, for what stands in the dialog and makes no sense."""
+        """Raise BihdistError, or `WrongBox`, for a wrong value."""
         raise NotImplementedError
 
     def work(self, path: str) -> Callable[..., object]:
-        """What draws the file at `path`; BihdistError if it cannot be."""
+        """Return the function that draws the file at `path`; BihdistError if it cannot be drawn."""
         raise NotImplementedError
 
     def export(self, path: str) -> None:
-        """Have it drawn to a path, and close; what is refused is said here instead."""
+        """Have the file drawn and close, or show the error."""
         with self.refusals_shown():
             self.check()
             self.started.emit(self._exports.start(self.work(path), path, self.what))
             self.accept()
 
     def choose_path(self) -> None:
-        """Ask where to, if all in the dialog makes sense."""
+        """Ask for a path if all values are right."""
         with self.refusals_shown():
             self.check()
             self._ask_path()
@@ -126,101 +138,43 @@ class JobDialog(QtWidgets.QDialog):
     @contextmanager
     def refusals_shown(self) -> Iterator[None]:
         """A context in which errors are shown at the box they are about, or under all boxes."""
-        self._forget_wrong()
+        self.refusal.setVisible(False)
+        self.form.clear_errors()
         try:
             yield
         except WrongBox as wrong:
-            self._show_wrong(wrong.box, str(wrong))
+            self.form.show_error(wrong.box, str(wrong))
+            self._fit()
+            self.scroll.ensureWidgetVisible(self.form.errors[wrong.box])
         except BihdistError as error:
-            self._show(self.refusal, str(error))
-
-    def _show_wrong(self, box: QtWidgets.QWidget, sentence: str) -> None:
-        self._show(self._sentences[box], sentence)
-        mark_wrong(box, True)
-        box.setAccessibleDescription(sentence)
-        box.setFocus()
-        self.scroll.ensureWidgetVisible(self._sentences[box])
-
-    def _show(self, label: QtWidgets.QLabel, sentence: str) -> None:
-        label.setText(sentence)
-        label.setVisible(True)
-        self._fit()
-
-    def _forget_wrong(self) -> None:
-        self.refusal.setVisible(False)
-        for box, sentence in self._sentences.items():
-            if not sentence.isHidden():
-                sentence.setVisible(False)
-                box.setAccessibleDescription("")
-                mark_wrong(box, False)
+            self.refusal.setText(str(error))
+            self.refusal.setVisible(True)
+            self._fit()
 
     # ------------------------------------------------------------------ how it is made
-    def section(self, title: str) -> None:
-        """A title; what is added next stands under it."""
-        label = QtWidgets.QLabel(title)
-        label.setProperty("heading", True)
-        if self.column.count():
-            self.column.addSpacing(12)
-        self.column.addWidget(label)
-
-    def row(self, label: str, box: QtWidgets.QWidget, tip: str) -> None:
-        """A box with words before it, and a place for what is wrong under it; label: with its access key."""
-        words = QtWidgets.QLabel(label, toolTip=tip)
-        words.setBuddy(box)
-        words.setMinimumWidth(round((LABEL if self._side is None else LABEL_BESIDE) * LOOK.scale))
-        self.name_box(box, label, tip)
-        self.column.addLayout(in_row(words, (box, 1)))
-        self.room_for_wrong(box)
-
-    def tick(self, words: str, is_on: bool, tip: str) -> QtWidgets.QCheckBox:
-        """Add a box that can be ticked."""
-        box = QtWidgets.QCheckBox(words, checked=is_on)
-        self.name_box(box, words, tip)
-        self.column.addWidget(box)
-        return box
-
-    def button(self, words: str, tip: str) -> QtWidgets.QPushButton:
-        """One more at the foot, before those that close the dialog."""
-        button = QtWidgets.QPushButton(words, autoDefault=False)
-        self.name_box(button, words, tip)
+    def button(self, text: str, tip: str, do: Callable[..., object] | None = None) -> QtWidgets.QPushButton:
+        """Add a button at the foot, before those that close the dialog."""
+        button = push_button(text, do)
+        describe(button, text, tip)
         self._feet.insertWidget(self._feet.count() - 1, button)
         return button
 
-    def room_for_wrong(self, box: QtWidgets.QWidget) -> None:
-        """Where the sentence stands if what is in the box makes no sense."""
-        self._sentences[box] = _sentence()
-        self.column.addWidget(self._sentences[box])
-
-    @staticmethod
-    def name_box(box: QtWidgets.QWidget, name: str, tip: str) -> None:
-        """Say what a box is for; name: with or without its access key."""
-        box.setAccessibleName(name.replace("&", ""))
-        box.setToolTip(tip)
-
     def _fill(self) -> None:
-        choices = QtWidgets.QWidget()
-        self.column = in_column(of=choices, spacing=8, margins=(24, 20, 24, 20))
+        self.form = Form(LABEL if self._side is None else LABEL_BESIDE, margins=(24, 20, 24, 20))
         self.scroll = QtWidgets.QScrollArea(widgetResizable=True)
-        self.scroll.setWidget(choices)
+        self.scroll.setWidget(self.form)
         self.scroll.viewport().setAutoFillBackground(False)
-        choices.setAutoFillBackground(False)
+        self.form.setAutoFillBackground(False)
         self.scroll.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.scroll.setFocusPolicy(QtCore.Qt.FocusPolicy.NoFocus)
-        self.refusal = _sentence()
-        role = QtWidgets.QDialogButtonBox.ButtonRole
-        buttons = QtWidgets.QDialogButtonBox(self)  # which a default button must know of
-        self.save = buttons.addButton("Export…", role.AcceptRole)
-        self.save.setDefault(True)
-        self.save.setToolTip("Choose where the file goes; it is drawn in the background")
-        self.cancel = buttons.addButton("Cancel", role.RejectRole)
-        self.cancel.setAutoDefault(False)
-        self.cancel.setToolTip("Close without a file (Esc)")
+        self.refusal = error_label()
+        tips = "Choose a file; it is drawn in the background", "Close without exporting (Esc)"
+        buttons, self.save, self.cancel = closing_buttons(self, "Export…", *tips)
         buttons.accepted.connect(self.choose_path)
-        buttons.rejected.connect(self.reject)
         self._feet = in_row((buttons, 1), spacing=8)
         self._foot = in_column(self.refusal, self._feet, spacing=8, margins=(24, 12, 24, 12))
         body = in_row(self.scroll, (self._side, 1), spacing=0) if self._side is not None else in_row(self.scroll)
-        in_column((body, 1), QtWidgets.QFrame(objectName="hairline"), self._foot, of=self, spacing=0)
+        in_column((body, 1), hairline(), self._foot, of=self, spacing=0)
 
     def showEvent(self, event: QtGui.QShowEvent) -> None:
         if not event.spontaneous():
@@ -229,11 +183,10 @@ class JobDialog(QtWidgets.QDialog):
         super().showEvent(event)
 
     def _fit(self) -> None:
-        """As high as all choices need, where the screen is; the rest is scrolled to."""
-        choices = self.scroll.widget()
+        """Take the height that the form needs, or scroll it where the screen is too low."""
         narrow = WIDTH if self._side is None else BESIDE
-        wide = max(round(narrow * LOOK.scale), choices.minimumSizeHint().width())
-        needed = 1 + _height(self.column, wide)
+        wide = max(round(narrow * LOOK.scale), self.form.minimumSizeHint().width())
+        needed = 1 + _height(self.form.column, wide)
         screen = self.screen().availableGeometry()
         foot = _height(self._foot, max(self.width(), wide))
         most = screen.height() - 60 - foot
@@ -247,42 +200,13 @@ class JobDialog(QtWidgets.QDialog):
                 self.resize(self._beside(screen.size()))
 
     def _beside(self, screen: QtCore.QSize) -> QtCore.QSize:
-        """As large as the window that it stands over leaves it, with a picture beside the choices."""
+        """Return the size of a dialog with a picture, within its window and the screen."""
         over = self.parentWidget().window().size() if self.parentWidget() else screen
         usual = QtCore.QSize(round(LARGE[0] * LOOK.scale), round(LARGE[1] * LOOK.scale))
         return usual.boundedTo(over - QtCore.QSize(40, 40)).boundedTo(screen - QtCore.QSize(20, 60))
 
 
-class Choice(QtWidgets.QComboBox):
-    """A list of texts by the words they stand for; it does not insist on the width of its longest entry."""
-
-    def __init__(self, texts: Mapping[str, str], now: str) -> None:
-        super().__init__()
-        for word, text in texts.items():
-            self.addItem(text, word)
-        self.setCurrentIndex(max(self.findData(now), 0))
-        self.setSizeAdjustPolicy(QtWidgets.QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.setMinimumContentsLength(12)
-
-
-class Count(QtWidgets.QSpinBox):
-    """A whole number, written or changed with the arrow keys."""
-
-    def __init__(self, least: int, most: int, value: int, suffix: str = "", nothing: str = "") -> None:
-        """nothing: what is said instead of the least number."""
-        super().__init__(minimum=least, maximum=most, value=value, suffix=suffix, specialValueText=nothing)
-        self.setButtonSymbols(QtWidgets.QAbstractSpinBox.ButtonSymbols.NoButtons)
-
-
 def _height(layout: QtWidgets.QLayout, width: int) -> int:
-    """What it needs at a width; sentences of several lines depend on it."""
+    """Return the height that a layout needs at a width, on which wrapped labels depend."""
     layout.activate()
     return int(layout.totalHeightForWidth(width) if layout.hasHeightForWidth() else layout.totalSizeHint().height())
-
-
-def _sentence() -> QtWidgets.QLabel:
-    label = QtWidgets.QLabel("", wordWrap=True, visible=False)
-    label.setTextFormat(QtCore.Qt.TextFormat.PlainText)
-    label.setTextInteractionFlags(QtCore.Qt.TextInteractionFlag.TextSelectableByMouse)
-    label.setProperty("error", True)
-    return label

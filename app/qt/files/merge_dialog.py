@@ -1,4 +1,4 @@
-"""The dialog of File > Merge vertices: a tolerance, and how many vertices would be left."""
+"""The dialog of File > Merge vertices: a tolerance, and how many vertices it merges."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -11,54 +11,63 @@ from bihdist_core.coincident_points import least_apart
 from bihdist_core.counts import counted
 from bihdist_core.progress import Progress
 
+from ...drawing.numbers import MINUS, number
 from ..background import Background
+from ..look.form import Form, closing_buttons
 from ..look.layouts import in_column, in_row, quiet_label
 from ..look.look import LOOK
-from ..look.numbers import MINUS, number
 from ..look.text_box import TextBox, mark_wrong
 
 WIDTH = 470
-"""Of its words, in logical pixels."""
-USUAL = 1e-6
-"""Of the extent: what single precision tells apart."""
-SOON_MS = 150
-"""From the last key to the count."""
-WHAT = (
-    "Vertices that are no farther apart become one, at the place of that with the least id; faces that lose a corner "
-    "are dropped. Vertices are then numbered anew."
+"""Width of the text, in logical pixels."""
+LABEL_WIDTH = 72
+"""Width of the label at the usual font size, in logical pixels: wide enough for its access key's underline."""
+USUAL_FRACTION = 1e-6
+"""Fraction of the extent that single precision tells apart."""
+COUNT_MS = 150
+"""Time from the last key to the count."""
+EXPLANATION = (
+    "Vertices within the tolerance become one, at the position of that with the least id. Faces that lose a corner are "
+    "dropped, and vertices are renumbered."
 )
 
 
 @dataclass(frozen=True, eq=False)
 class MergeCount:
-    """What a tolerance asks of a surface; surface(): reads it."""
+    """A request for the number of vertices that a tolerance merges; `surface()` reads the mesh."""
 
     surface: Callable[[], Surface]
     tolerance: float
 
 
 def merge_in_words(question: MergeCount, progress: Progress) -> Iterator[tuple[bool, str]]:
-    """Whether vertices of the surface would be merged, and how many, in words."""
+    """Yield whether vertices of the surface would be merged, with a sentence."""
     surface = question.surface()
     try:
         merged, _ = surface.merged(question.tolerance)
     except MeshError:
-        yield False, f"No face would be left within {question.tolerance:g}."
+        yield False, f"No face would be left with a tolerance of {question.tolerance:g}."
         return
     n, gone = surface.n_vertices, surface.n_vertices - merged.n_vertices
     if gone:
         dropped = surface.n_faces - merged.n_faces
         with_faces = f", with {counted(dropped, 'face')}" if dropped else ", and no face"
-        yield True, f"{gone:,} of {n:,} vertices would go{with_faces}."
+        yield True, f"{gone:,} of {n:,} vertices would be removed{with_faces}."
         return
-    yield False, f"No two vertices are so near; the nearest are {number(least_apart(surface.vertices))} apart."
+    yield False, f"No two vertices are that close; the closest are {number(least_apart(surface.vertices))} apart."
 
 
 class MergeDialog(QtWidgets.QDialog):
-    """`chosen` is emitted with the tolerance, in mesh units.
+    """A dialog that asks for the tolerance of a merge; `chosen` is emitted with it, in mesh units.
 
-    extent: the length of the diagonal of the mesh; surface(): reads it as it is before it is merged; tolerance: to
-    start from, None for the usual.
+    Parameters
+    ----------
+    extent
+        The length of the diagonal of the mesh.
+    surface
+        Reads the mesh as it is before it is merged.
+    tolerance
+        The tolerance to start from; None for the usual one.
     """
 
     chosen = QtCore.Signal(float)
@@ -75,26 +84,23 @@ class MergeDialog(QtWidgets.QDialog):
         super().__init__(parent)
         self.setWindowTitle(f"Merge vertices of {name}")
         self._surface, self._background = surface, background
-        about = QtWidgets.QLabel(WHAT, wordWrap=True)
+        about = QtWidgets.QLabel(EXPLANATION, wordWrap=True)
         about.setFixedWidth(WIDTH)
         self.box = TextBox(f"{usual_tolerance(extent) if tolerance is None else tolerance:g}")
         self.box.setFixedWidth(110)
-        self.box.setToolTip("A length in mesh units; 0 for what is exactly in one place")
-        self.box.setAccessibleName("Tolerance")
-        label = QtWidgets.QLabel("&Tolerance")
-        label.setBuddy(self.box)
-        label.setMinimumWidth(QtGui.QFontMetrics(LOOK.font()).horizontalAdvance("Tolerance") + 4)
-        units = quiet_label(f"mesh units; the mesh is {number(extent)} across")
         self.count = quiet_label("")
         self.count.setFixedWidth(WIDTH)
         self.count.setWordWrap(True)
         self.count.setMinimumHeight(2 * QtGui.QFontMetrics(LOOK.font()).lineSpacing() + 2)
         self.count.setAlignment(QtCore.Qt.AlignmentFlag.AlignLeft | QtCore.Qt.AlignmentFlag.AlignTop)
-        row = in_row(label, self.box, units, None, spacing=10)
-        words = in_column(about, row, self.count, spacing=14, margins=(24, 22, 24, 14))
-        column = in_column(words, self._footer(), of=self, spacing=0)
+        form = Form(LABEL_WIDTH, spacing=14, margins=(24, 22, 24, 14))
+        form.add(about)
+        tip = "A length in mesh units; 0 merges only identical positions"
+        form.row("&Tolerance", self.box, tip, unit=f"mesh units; the mesh is {number(extent)} across")
+        form.add(self.count)
+        column = in_column(form, self._footer(), of=self, spacing=0)
         column.setSizeConstraint(QtWidgets.QLayout.SizeConstraint.SetFixedSize)
-        self._soon = QtCore.QTimer(self, singleShot=True, interval=SOON_MS, timeout=self._ask)
+        self._soon = QtCore.QTimer(self, singleShot=True, interval=COUNT_MS, timeout=self._ask)
         self.box.textEdited.connect(self._edited)
         background.answered.connect(self._answered)
         background.failed.connect(self._failed)
@@ -105,7 +111,7 @@ class MergeDialog(QtWidgets.QDialog):
 
     @property
     def tolerance(self) -> float | None:
-        """What is typed; None where that is no length."""
+        """The tolerance that is typed; None where it is not a length."""
         try:
             value = float(self.box.text().strip().replace(MINUS, "-"))
         except ValueError:
@@ -113,24 +119,18 @@ class MergeDialog(QtWidgets.QDialog):
         return value if math.isfinite(value) and value >= 0 else None
 
     def accept(self) -> None:
-        """Merge, where it is known that there is something to merge."""
+        """Merge, if it is known that there is something to merge."""
         tolerance = self.tolerance
         if tolerance is not None and self.merge.isEnabled():
             super().accept()
             self.chosen.emit(tolerance)
 
     def _footer(self) -> QtWidgets.QWidget:
-        footer, role = QtWidgets.QFrame(objectName="footer"), QtWidgets.QDialogButtonBox.ButtonRole
-        buttons = QtWidgets.QDialogButtonBox(self)  # which a default button must know of
-        self.merge = buttons.addButton("&Merge", role.AcceptRole)
-        self.merge.setDefault(True)
+        footer = QtWidgets.QFrame(objectName="footer")
+        tips = "Merge them; Undo reverts it", "Close without merging (Esc)"
+        buttons, self.merge, _ = closing_buttons(self, "&Merge", *tips)
         self.merge.setEnabled(False)
-        self.merge.setToolTip("Merge them; Undo takes it back")
-        cancel = buttons.addButton("Cancel", role.RejectRole)
-        cancel.setAutoDefault(False)
-        cancel.setToolTip("All stays as it is (Esc)")
         buttons.accepted.connect(self.accept)
-        buttons.rejected.connect(self.reject)
         in_row((buttons, 1), of=footer, spacing=8, margins=(22, 12, 24, 12))
         return footer
 
@@ -143,7 +143,7 @@ class MergeDialog(QtWidgets.QDialog):
         mark_wrong(self.box, tolerance is None)
         if tolerance is None:
             self._background.ask(None)
-            self.count.setText(f"{self.box.text().strip()!r} is not a length, a number from 0.")
+            self.count.setText(f"{self.box.text().strip()!r} is not a length of 0 or more.")
             return
         self.count.setText("Counting…")
         self._background.ask(MergeCount(self._surface, tolerance))
@@ -164,5 +164,5 @@ class MergeDialog(QtWidgets.QDialog):
 
 
 def usual_tolerance(extent: float) -> float:
-    """A power of ten, a millionth of the extent or less."""
-    return 10.0 ** math.floor(math.log10(USUAL * extent)) if extent > 0 else 0.0
+    """Return the power of ten that is a millionth of the extent or less."""
+    return 10.0 ** math.floor(math.log10(USUAL_FRACTION * extent)) if extent > 0 else 0.0

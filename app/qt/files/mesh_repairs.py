@@ -1,11 +1,10 @@
-"""What is cut out of a mesh that is open and merged in it, and put back: steps of the history like any other."""
+"""Cutting an open mesh by a mask, merging its vertices, and undoing both, as steps of the history."""
 
-import os
 from collections.abc import Callable
 from functools import partial
 
 import numpy as np
-from qtpy import QtCore, QtWidgets
+from qtpy import QtCore
 
 from bihdist_core import Surface
 from bihdist_core.arrays import IntArray
@@ -19,13 +18,14 @@ from ...session.loaded_mesh import unmerged
 from ...session.repaired_surface import write_ids
 from ..context import Context
 from .merge_dialog import MergeDialog, merge_in_words
+from .saving import ask_file
 from .writing import Writing
 
-MASKS = "Masks, 1 for each vertex that stays (*.npy *.txt *.gii *.gii.gz *.annot *.label lh.* rh.*);;All files (*)"
+MASKS = "Masks, 1 for each vertex to keep (*.npy *.txt *.gii *.gii.gz *.annot *.label lh.* rh.*);;All files (*)"
 
 
 class MeshRepairs(QtCore.QObject):
-    """Of the mesh that the active panel shows."""
+    """Repairs of the mesh that the active panel shows."""
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -35,7 +35,7 @@ class MeshRepairs(QtCore.QObject):
 
     @property
     def _mesh(self) -> MeshFile:
-        """The mesh itself, also where the panel shows what is made from it."""
+        """The mesh, or the original where the panel shows one made from it."""
         document, active = self._context.document, self._context.active
         shown = document.mesh(document.panel(active.id).surface if active else document.surfaces[0].name)
         which = shown.path, shown.sha256
@@ -43,22 +43,17 @@ class MeshRepairs(QtCore.QObject):
 
     # ------------------------------------------------------------------ cutting
     def choose_cut(self) -> None:
-        """Ask for a mask, and cut out what it says."""
-        context = self._context
-        title = f"Cut out of {self._name(self._mesh)} by a mask"
-        path, _ = QtWidgets.QFileDialog.getOpenFileName(context.widget, title, context.folder, MASKS)
-        if path:
-            context.folder = os.path.dirname(path)
-            self.cut(path)
+        """Ask for a mask, and cut the mesh by it."""
+        ask_file(self._context, f"Cut {self._name(self._mesh)} by a mask", MASKS, self.cut)
 
     def cut(self, path: str) -> None:
-        """Cut out what a mask says, which is said in the window where it cannot be."""
+        """Cut the mesh by a mask, or tell why that is not possible."""
         surface = self._mesh.name
         self._context.session.apply(lambda document: with_repairs(document, path, None, surface))
 
     # ------------------------------------------------------------------ merging
     def ask_merge(self) -> None:
-        """Ask for a tolerance, and merge what is so near to each other."""
+        """Ask for a tolerance, and merge the vertices within it."""
         context, mesh = self._context, self._mesh
         loaded = context.session.loaded(mesh.name)
         if loaded is None or self._is_refused():
@@ -80,21 +75,21 @@ class MeshRepairs(QtCore.QObject):
         dialog.open()
 
     def merge(self, surface: str, tolerance: float) -> None:
-        """Merge the vertices of a surface that are no farther apart."""
+        """Merge the vertices of a surface within a tolerance."""
         self._context.session.apply(lambda document: with_repairs(document, None, tolerance, surface))
 
     def save_ids(self, path: str = "") -> None:
-        """Write the new id of each vertex of the file; with "" a file is asked for."""
+        """Write the new id of each vertex of the file; asks for a path if none is given."""
         mesh = self._mesh
         ids = self._ids(mesh)
         if ids is None:
             self._context.tell("No vertices of this mesh have been merged.")
             return
         name = file_name([mesh.path or mesh.name], "ids")
-        self._context[Writing].save("Save the table of ids", name, (".csv",), partial(write_ids, ids=ids), path)
+        self._context[Writing].save("Save vertex id table", name, (".csv",), partial(write_ids, ids=ids), path)
 
     def _name(self, mesh: MeshFile) -> str:
-        """For the user."""
+        """Return the name of a mesh for the user."""
         loaded = self._context.session.loaded(mesh.name)
         return mesh.name if loaded is None else loaded.surface.name
 
@@ -103,17 +98,17 @@ class MeshRepairs(QtCore.QObject):
         return None if loaded is None else loaded.new_ids
 
     def _is_refused(self) -> bool:
-        """Whether a mesh is there that is made from another, by ids that would be others."""
+        """Tell the user of a mesh made from this one, whose ids would change, and return whether there is one."""
         made = changed_mesh(self._context.document)
         if made is not None:
             self._context.fail(
-                f"{self._name(made)} has a changed copy, whose vertices are numbered as its own; "
-                "close that first (Tools > Robustness)."
+                f"{self._name(made)} has a perturbed copy with the same vertex ids; "
+                "remove it first (Tools > Robustness)."
             )
         return made is not None
 
     def _tell_merged(self, before: Document) -> None:
-        """How many have gone, once they have."""
+        """Tell how many vertices were merged, once they are."""
         context = self._context
         merges = {mesh.name: mesh.repairs.merge for mesh in before.surfaces if mesh.change is None}
         for mesh in context.document.surfaces:
@@ -121,19 +116,19 @@ class MeshRepairs(QtCore.QObject):
             if ids is not None:
                 left = int(ids.max()) + 1
                 gone = counted(len(ids) - left, "vertex", "vertices")
-                words = f"{gone} merged, {left:,} left; File > Save table of ids… has their numbers"
+                words = f"{gone} merged, {left:,} left; File > Save vertex id table… saves the old and new ids"
                 context.tell(words, _same(mesh, context))
 
     # ------------------------------------------------------------------ putting back
     def put_back(self) -> None:
-        """The mesh as it is in its file, with what was cut out of it, and nothing merged."""
+        """Restore the mesh of the file, neither cut nor merged."""
         mesh = self._mesh
         if not mesh.repairs.is_any:
-            self._context.tell("Nothing has been cut out of this mesh or merged.")
+            self._context.tell("This mesh has not been cut or merged.")
         elif mesh.repairs.merge is None or not self._is_refused():
             self._context.session.apply(lambda document: without_repairs(document, mesh.name))
 
 
 def _same(mesh: MeshFile, context: Context) -> Callable[[], bool]:
-    """Whether a mesh is as it was."""
+    """Return a function that tells whether the document still has a mesh."""
     return lambda: mesh in context.document.surfaces

@@ -5,15 +5,15 @@ from functools import partial
 
 from qtpy import QtWidgets
 
-from bihdist_core import ParameterError, VertexError
+from bihdist_core import BihdistError, ParameterError, VertexError
 
 from ...document.page import Recipe
 from ...figures.export import Surfaces
-from ...figures.movie import Movie, check_movie, write_movie
-from ...session.array_store import ArrayStore
-from ..look.layouts import quiet_label
-from .exports import Exports
-from .job_dialog import Count, FileKind, blamed_on
+from ...figures.movie import Movie, check_movie, mp4_lack, write_movie
+from ..context import Context
+from ..look.form import Count, describe
+from ..look.layouts import in_row, push_button, quiet_label
+from .job_dialog import FileKind, blamed_on
 from .looks_dialog import LooksDialog
 
 
@@ -23,39 +23,49 @@ class MovieDialog(LooksDialog):
     what = "Movie"
     file_kinds = (FileKind(".mp4", "MP4", "MP4 movie"), FileKind(".gif", "GIF", "GIF"))
     sizes = (
-        ("Usual", "", "follows what turns"),
+        ("Default", "", "fits the movement"),
         ("Small", "640px", "640 px wide"),
         ("Slide", "slide", "1920 × 1080 px"),
     )
 
-    def __init__(
-        self,
-        recipe: Recipe,
-        surfaces: Surfaces,
-        given: ArrayStore,
-        exports: Exports,
-        parent: QtWidgets.QWidget | None = None,
-    ) -> None:
-        super().__init__(recipe, surfaces, given, exports, parent)
-        self.section("Movement")
+    def __init__(self, context: Context, recipe: Recipe, surfaces: Surfaces) -> None:
+        super().__init__(context, recipe, surfaces)
+        if lack := mp4_lack():
+            self.kinds.choose("GIF")
+            self._add_advice(lack)
+        self.form.section("Movement")
         self.turn = Count(-3600, 3600, 360, suffix="°")
-        self.path_text = QtWidgets.QLineEdit(placeholderText="12, 900; empty: it stays")
+        self.path_text = QtWidgets.QLineEdit(placeholderText="e.g. 12, 900")
         self.frames = Count(2, 10_000, 120)
         self.fps = Count(1, 50, 25)
         self.length = quiet_label()
-        self.row("&Turn by", self.turn, "How far the shapes turn from the first frame to the last; 0: they stay")
-        self.row("Source &path", self.path_text, "Vertices the source goes through along edges, by their ids")
-        self.row("&Frames", self.frames, "How many pictures the movie has")
-        self.row("Frames a &second", self.fps, "How fast they are shown")
-        self.row("Length", self.length, "How long the movie lasts")
+        self.form.row("&Turn by", self.turn, "Rotation from the first frame to the last; 0 for none")
+        self.form.row("Source &path", self.path_text, "Ids of the vertices that the source moves through, along edges")
+        self.form.row("&Frames", self.frames, "Number of frames")
+        self.form.row("Frames per &second", self.fps, "Frame rate")
+        self.form.row("Length", self.length, "How long the movie lasts")
         for box in (self.frames, self.fps):
             box.valueChanged.connect(self._show_length)
         self._show_length()
-        self.section("Look")
+        self.form.section("Look")
         self.add_look()
         self.add_shares()
 
+    def choose(self, format: str, size: str) -> None:
+        super().choose("GIF" if mp4_lack() else format, size)
+
+    def _add_advice(self, lack: str) -> None:
+        """Add under the formats what MP4 needs, with a button that copies the command that installs it."""
+        words, _, line = lack.partition(": ")
+        copy = push_button("Copy the command", lambda: QtWidgets.QApplication.clipboard().setText(line))
+        copy.setObjectName("link")
+        copy.setVisible(bool(line))
+        describe(copy, "Copy the command that installs it", line)
+        self.form.column.insertLayout(2, in_row(quiet_label(words), copy, None))
+
     def check(self) -> None:
+        if self.kinds.choice() == "MP4" and (lack := mp4_lack()):
+            raise BihdistError(lack)
         self._movie()
         self.check_size(self.chosen())
 
@@ -74,7 +84,7 @@ class MovieDialog(LooksDialog):
         try:
             stops = tuple(int(word) for word in text.split(",")) if text else ()
         except ValueError:
-            raise ParameterError(f"{text!r} is not vertex ids with commas between them.") from None
+            raise ParameterError(f"{text!r} is not a list of vertex ids separated by commas.") from None
         surface = self._surfaces[self._recipe.document.panels[0].surface].surface
         for stop in stops:
             if not 0 <= stop < len(surface.vertices):

@@ -3,48 +3,38 @@
 from collections.abc import Callable
 from functools import partial
 
-from qtpy import QtWidgets
-
 from bihdist_core.counts import counted
-from bihdist_core.whole_file import check_output
+from bihdist_core.file_output import check_output
 
-from ...document.file_names import file_name
 from ...document.page import Recipe
 from ...figures.export import Surfaces
-from ...session.array_store import ArrayStore
 from ...web.contents import Contents
-from ...web.export import check_size, eigenpair_bytes, needed_eigenpairs, size_words, write_page
+from ...web.export import EIGENPAIR_BYTES, check_size, eigenpair_bytes, needed_eigenpairs, size_words, write_page
 from ...web.stored_mesh import PRECISIONS
+from ..context import Context
+from ..look.form import Choice
 from ..look.layouts import quiet_label
-from .exports import Exports
-from .job_dialog import Choice, FileKind, JobDialog
+from .job_dialog import FileKind, JobDialog
 
 PRECISION_NAMES = dict(zip(PRECISIONS, ("24 bits", "Single precision"), strict=True))
 
 
 class PageDialog(JobDialog):
-    """A page of what the window shows, in which distances are computed anew wherever one clicks."""
+    """A web page of what the window shows, in which a click computes new distances."""
 
     what = "Web page"
     file_kinds = (FileKind(".html", "HTML", "Web page"),)
 
-    def __init__(
-        self,
-        recipe: Recipe,
-        surfaces: Surfaces,
-        given: ArrayStore,
-        exports: Exports,
-        parent: QtWidgets.QWidget | None = None,
-    ) -> None:
-        """recipe: what the window shows, on these surfaces; given: arrays that it names."""
-        super().__init__(file_name([each.path for each in recipe.document.surfaces], "page"), exports, parent)
-        self._recipe, self._surfaces, self._given = recipe, surfaces, given
+    def __init__(self, context: Context, recipe: Recipe, surfaces: Surfaces) -> None:
+        super().__init__(context, recipe, surfaces)
         self._eigenpairs: int | None = None
-        self.section("Mesh")
+        self._room_is_left = True  # then readers can choose other distances that need eigenpairs
+        self.form.section("Mesh")
         self.precision = Choice(PRECISION_NAMES, PRECISIONS[0])
-        self.row("&Coordinates", self.precision, "How exactly the page has them; its distances are those of its mesh")
+        tip = "Precision of the stored vertices, from which the page computes its distances"
+        self.form.row("&Coordinates", self.precision, tip)
         self.carried = quiet_label()
-        self.column.addWidget(self.carried)
+        self.form.add(self.carried)
         with self.refusals_shown():
             self.check()
 
@@ -52,15 +42,17 @@ class PageDialog(JobDialog):
         document = self._recipe.document
         contents = Contents.of(document)
         loaded = self._surfaces[document.surfaces[0].name]
-        check_size(loaded.surface, loaded.mesh.path)
+        check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path)
         if self._eigenpairs is None:
             needed = needed_eigenpairs(contents, loaded).values()
             self._eigenpairs, total = max(needed, default=0), sum(needed)
-            size = size_words(eigenpair_bytes(total, len(loaded.surface.vertices)))
-            self.carried.setText(f"{counted(total, 'eigenpair')} in the file, some {size}")
+            size = eigenpair_bytes(total, len(loaded.surface.vertices))
+            self._room_is_left = size <= EIGENPAIR_BYTES
+            self.carried.setText(f"{counted(total, 'eigenpair')} in the file, about {size_words(size)}")
             self.carried.setVisible(bool(total))
 
     def work(self, path: str) -> Callable[..., object]:
         check_output(path, (".html",))
         precision = self.precision.currentData()
-        return partial(write_page, self._recipe, path, self._given, precision, self._eigenpairs or 0)
+        allowed = None if self._room_is_left else self._eigenpairs
+        return partial(write_page, self._recipe, path, self._given, precision, allowed)

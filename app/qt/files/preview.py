@@ -1,4 +1,4 @@
-"""The figure itself beside the choices of a dialog, drawn by a process that stays alive; the window never waits."""
+"""Previews of figures, drawn by a process that stays alive, while the window goes on."""
 
 import threading
 from collections.abc import Callable
@@ -16,14 +16,14 @@ from ...figures.worker import GONE, Worker
 from ..look.look import LOOK
 
 DIM = 0.35
-"""How much is seen of a picture that is not true any more."""
+"""Opacity of an outdated picture."""
 
 SQUARE = 8
-"""Pixels along a side of the squares that stand for nothing."""
+"""Side of the squares that show transparency, in pixels."""
 
 
-class Draughtsman(QtCore.QObject):
-    """Has things drawn one after the other in another process; of those that wait only the last of each kind is drawn.
+class PreviewRenderer(QtCore.QObject):
+    """Draws pictures one after the other in another process; of those that wait only the last of each kind is drawn.
 
     `answered` is emitted with the number of what was asked and the result, `refused` with it and a sentence; `dropped`
     with that of what nobody waits for any more.
@@ -42,7 +42,7 @@ class Draughtsman(QtCore.QObject):
         self._thread: threading.Thread | None = None
 
     def ask(self, kind: str, function: Callable[..., Any], *arguments: Any) -> int:
-        """Have a function called there; its number.
+        """Have a function called in the process, and return the number of the request.
 
         What was asked before of this kind, and has not begun, is dropped.
         """
@@ -58,7 +58,7 @@ class Draughtsman(QtCore.QObject):
             return self._number
 
     def close(self) -> None:
-        """End the process, whatever it draws."""
+        """End the process, even while it draws."""
         with self._change:
             self._is_closed = True
             self._change.notify()
@@ -81,7 +81,7 @@ class Draughtsman(QtCore.QObject):
             except BihdistError as error:
                 result, sentence = None, str(error)
             except OSError as error:
-                result, sentence = None, f"Nothing can be drawn in the background: {error.strerror or error}."
+                result, sentence = None, f"Cannot draw in the background: {error.strerror or error}."
             except Exception as error:
                 result, sentence = None, failure_in_words(error)
             with self._change:
@@ -126,18 +126,18 @@ class PreviewPane(QtWidgets.QWidget):
         LOOK.follow(self, self.update)
 
     def room(self) -> tuple[int, int]:
-        """Device pixels that a picture may have."""
+        """Return the largest size of a picture, in device pixels."""
         scale = self.devicePixelRatioF()
         width, height = self.width() - 2 * self.MARGIN, self.height() - 2 * self.MARGIN - self.LINE
         return max(round(width * scale), 64), max(round(height * scale), 64)
 
     def wait(self) -> None:
-        """What is shown is not true any more."""
+        """Show the picture as outdated."""
         self.is_true, self.is_waiting = False, True
         self.update()
 
     def show_late(self, pixels: AnyArray) -> None:
-        """A picture of what was chosen before, while another one is drawn."""
+        """Show a picture of an earlier choice, while the next is drawn."""
         self.image, self._small = image_of(pixels), QtGui.QImage()
         self.say("", False)
         self.is_waiting = True
@@ -179,7 +179,7 @@ class PreviewPane(QtWidgets.QWidget):
             painter.fillRect(QtCore.QRect(0, 0, self.width(), 2), QtGui.QColor(theme.accent))
 
     def _smaller(self, size: QtCore.QSize) -> QtGui.QImage:
-        """The picture at a size in device pixels, made once."""
+        """Return the picture scaled to a size in device pixels."""
         if self._small.size() != size:
             modes = QtCore.Qt
             self._small = self.image.scaled(
@@ -188,7 +188,7 @@ class PreviewPane(QtWidgets.QWidget):
         return self._small
 
     def _box(self) -> QtCore.QRect:
-        """Where the picture stands, in logical pixels."""
+        """Return the rectangle of the picture, in logical pixels."""
         wide, high = (side / self.devicePixelRatioF() for side in self.room())
         if self.image.isNull():
             return QtCore.QRect(self.MARGIN, round((self.height() - self.LINE) / 2), round(wide), 0)
@@ -198,7 +198,7 @@ class PreviewPane(QtWidgets.QWidget):
 
 
 def image_of(pixels: AnyArray) -> QtGui.QImage:
-    """A picture (height, width, 3 or 4) uint8 that owns its memory."""
+    """Return pixels (height, width, 3 or 4) uint8 as an image that owns its memory."""
     height, width, channels = pixels.shape
     kinds = QtGui.QImage.Format
     kind = kinds.Format_RGBA8888 if channels == 4 else kinds.Format_RGB888

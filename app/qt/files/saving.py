@@ -1,4 +1,4 @@
-"""Asking where a file goes, and writing it; what fails is said in the window."""
+"""Asking for a path to open or save, and writing a file or telling why it cannot be written."""
 
 import os
 import re
@@ -6,14 +6,13 @@ from collections.abc import Callable, Sequence
 
 from qtpy import QtWidgets
 
-from bihdist_core import BihdistError
 from bihdist_core.formats.mesh_names import GZIP, MESH_FORMATS
 
 from ..context import Context
 
 MESH_PATTERNS = " ".join([*(f"*{extension}" for extension in MESH_FORMATS), f"*{GZIP}", "lh.*", "rh.*"])
 MESH_FILES = f"Meshes ({MESH_PATTERNS});;All files (*)"
-"""What can be opened."""
+"""The filter of dialogs that open meshes."""
 
 NAMES = {
     ".txt": "Text, an id on each line",
@@ -24,6 +23,7 @@ NAMES = {
     ".func.gii": "GIFTI values",
     ".shape.gii": "GIFTI shape",
     ".obj": "OBJ",
+    ".glb": "glTF binary",
     ".off": "OFF",
     ".json": "JSON",
     ".pp": "MeshLab's picked points",
@@ -34,17 +34,37 @@ NAMES = {
 }
 
 
-def save(context: Context, title: str, name: str, formats: Sequence[str], write: Callable[[str], object]) -> None:
-    """Ask for a path (`ask_path`), and write what there is to it."""
-    path = ask_path(context, title, name, formats)
+def file_filter(kind: str, formats: Sequence[str]) -> str:
+    """Return the filter of a dialog that opens files of a kind, by their extensions."""
+    return f"{kind} ({' '.join(f'*{extension}' for extension in formats)});;All files (*)"
+
+
+def ask_file(context: Context, title: str, files: str, take: Callable[[str], object]) -> None:
+    """Ask for a file to open, by a filter of the dialog, and let a function take its path."""
+    path, _ = QtWidgets.QFileDialog.getOpenFileName(context.widget, title, context.folder, files)
+    if path:
+        context.folder = os.path.dirname(path)
+        take(path)
+
+
+def save(
+    context: Context,
+    title: str,
+    name: str,
+    formats: Sequence[str],
+    write: Callable[[str], object],
+    path: str = "",
+) -> None:
+    """Write to a path, which is asked for (`ask_path`) if none is given."""
+    path = path or ask_path(context, title, name, formats)
     if path:
         written(context, path, write)
 
 
 def ask_path(context: Context, title: str, name: str, formats: Sequence[str]) -> str:
-    """A path that ends in one of the formats, the first if none is typed; empty if the user has none.
+    """Ask for a path that ends in one of the formats, the first if none is typed; return "" if the user cancels.
 
-    name: a `file_name`.
+    `name` is a `file_name`.
     """
     dialog = QtWidgets.QFileDialog(context.widget, title, context.folder)
     dialog.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
@@ -63,25 +83,25 @@ def ask_path(context: Context, title: str, name: str, formats: Sequence[str]) ->
 
     dialog.filterSelected.connect(take_format)
     dialog.selectFile(name + formats[0])
-    if not dialog.exec():
+    paths = dialog.selectedFiles() if dialog.exec() else []
+    dialog.deleteLater()  # some fifty widgets, which the window would keep
+    if not paths:
         return ""
-    (path,) = dialog.selectedFiles()
+    (path,) = paths
     context.folder = os.path.dirname(path)
     return str(path)
 
 
 def written(context: Context, path: str, write: Callable[[str], object]) -> bool:
-    """Write a file, and say so or why not."""
-    try:
+    """Write a file, tell the user, and return whether it was written."""
+    with context.errors_shown():
         write(path)
-    except BihdistError as error:
-        context.fail(error)
-        return False
-    context.tell(saved_words(path))
-    return True
+        context.tell(saved_words(path))
+        return True
+    return False
 
 
 def saved_words(path: str) -> str:
-    """That a file is written, and where."""
+    """Return a sentence that a file was saved, with its folder."""
     folder, name = os.path.split(os.path.abspath(path))
     return f"Saved {name} in {folder}"

@@ -1,4 +1,4 @@
-"""The size of a figure: rows of sizes by what they are for, and boxes for one's own."""
+"""The size of a figure: named sizes, and boxes for a custom one."""
 
 from qtpy import QtCore, QtGui, QtWidgets
 
@@ -11,11 +11,11 @@ from ..look.look import LOOK
 UNITS = {"mm": "millimetres", "px": "pixels"}
 
 SizeNames = tuple[tuple[str, str, str], ...]
-"""Of each size its name, how it is written, and what is said beside it."""
+"""The name of each size, its text for `Size.parse`, and the detail beside it."""
 
 
 class SizeBoxes(QtWidgets.QWidget):
-    """`changed` is emitted when another size is chosen or written."""
+    """Rows of sizes over boxes for a custom one; `changed` is emitted when the size changes."""
 
     changed = QtCore.Signal()
 
@@ -24,9 +24,9 @@ class SizeBoxes(QtWidgets.QWidget):
         self._sizes, self._written = sizes, ""
         self.rows = QtWidgets.QButtonGroup(self)
         column = in_column(of=self, spacing=0)
-        for number, (name, _, detail) in enumerate((*sizes, ("Own size", "", ""))):
+        for number, (name, _, detail) in enumerate((*sizes, ("Custom", "", ""))):
             row = _SizeRow(name, detail)
-            row.setToolTip(f"{name}: {detail}" if detail else "Written in the boxes below")
+            row.setToolTip(f"{name}: {detail}" if detail else "The size in the boxes below")
             row.setAccessibleName(f"Size: {name}, {detail}" if detail else f"Size: {name}")
             self.rows.addButton(row, number)
             column.addWidget(row)
@@ -45,7 +45,7 @@ class SizeBoxes(QtWidgets.QWidget):
         self.write("")
 
     def text(self) -> str:
-        """The size as `Size.parse` reads it, empty for the usual one; as it was written while it is that one."""
+        """Return the size for `Size.parse`, empty for the default, and unchanged text where the size is unchanged."""
         text = self._text()
         return self._written if _read(text) == _read(self._written) else text
 
@@ -62,15 +62,15 @@ class SizeBoxes(QtWidgets.QWidget):
             if number and not _is_number(number):
                 raise ParameterError(f"{number!r} is not a number of {unit}.")
         if height and not width:
-            raise ParameterError("A height needs a width beside it.")
+            raise ParameterError("A height needs a width.")
         return f"{width}{'x' if height else ''}{height}{short}{'@' if dpi else ''}{dpi}"
 
     def name(self) -> str:
-        """Of the chosen row."""
+        """Return the name of the chosen row."""
         return str(self.rows.checkedButton().text())
 
     def write(self, text: str) -> None:
-        """Show a size as it is written: its row, or one's own."""
+        """Show a size by its row, or as a custom one."""
         self._written = text
         text = text.strip().replace("×", "x")
         known = [_read(written) for _, written, _ in self._sizes]
@@ -90,7 +90,7 @@ class SizeBoxes(QtWidgets.QWidget):
         self._show_usual()
 
     def _show_usual(self) -> None:
-        """What an empty box means."""
+        """Show what an empty box stands for."""
         for box in (self.width_box, self.height_box):
             box.setPlaceholderText("auto")
         self.dpi.setPlaceholderText(f"{PRINT_DPI:g}" if self.unit.currentText() == "mm" else "auto")
@@ -110,13 +110,13 @@ class SizeBoxes(QtWidgets.QWidget):
 
     def _box(self, name: str) -> QtWidgets.QLineEdit:
         called = f"{name} of the figure" if name != "Pixels per inch" else name
-        box = QtWidgets.QLineEdit(accessibleName=called, toolTip=f"{name}; empty: as the rest asks for")
+        box = QtWidgets.QLineEdit(accessibleName=called, toolTip=f"{name}; leave empty for automatic")
         box.setMinimumWidth(round(46 * LOOK.scale))
         return box
 
 
 def in_words(text: str) -> str:
-    """A size as one reads it: "85 mm", "1920 × 1080 px"."""
+    """Return a size in words: "85 mm", "1920 × 1080 px"."""
     size = Size.parse(text)
     return f"{' × '.join(f'{side:g}' for side in (size.width, size.height) if side is not None)} {size.unit}"
 
@@ -136,7 +136,7 @@ def _is_number(text: str) -> bool:
 
 
 class _SizeRow(QtWidgets.QRadioButton):
-    """A choice with a quiet word at its end."""
+    """A radio button with a quiet detail at its end."""
 
     def __init__(self, name: str, detail: str) -> None:
         super().__init__(name)

@@ -1,8 +1,7 @@
-"""Colour bars that end as in a session or recipe, whose fields are computed in the background."""
+"""Taking the ends of colour bars from a session or recipe, whose fields are computed in the background."""
 
 import os
 from collections.abc import Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
@@ -10,18 +9,17 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import BihdistError
 from bihdist_core.progress import Progress
 
-from ..background import Background
 from ..context import Context
 
 if TYPE_CHECKING:
-    from ...figures.ends import End
+    from ...figures.colour_limits import ColourLimit
 
 PATIENCE_MS = 400
-"""How long nothing is said of it."""
+"""Time before a progress dialog appears."""
 
 
 class TakenEnds(QtCore.QObject):
-    """One file at a time: a later one takes the place of one that is still computed.  `taken` has a sentence."""
+    """Takes the ends of one file at a time; a later one replaces one that is still computed."""
 
     taken = QtCore.Signal(str)
 
@@ -29,20 +27,13 @@ class TakenEnds(QtCore.QObject):
         super().__init__(context)
         self._context = context
         self._waiting: QtWidgets.QProgressDialog | None = None
+        self._background = context.background("ends", _computed, self._take, self._refuse, self._show_progress)
         context.closed.connect(self._end_waiting)
 
-    @cached_property
-    def _background(self) -> Background:
-        made = self._context.background("ends", _computed)
-        made.answered.connect(self._take)
-        made.failed.connect(self._refuse)
-        made.progressed.connect(self._show_progress)
-        return made
-
     def take(self, path: str) -> None:
-        """Let the colour bars end as there, as a step that can be undone, or say why not."""
+        """Let the colour bars end as in a file, as one step of the history, or tell why that is not possible."""
         self._end_waiting()
-        words = f"The fields of {os.path.basename(path)}…"
+        words = f"Computing the fields of {os.path.basename(path)}…"
         self._waiting = QtWidgets.QProgressDialog(
             words, "Cancel", 0, 100, self._context.widget,
             windowTitle="Ranges", minimumDuration=PATIENCE_MS, autoClose=False, autoReset=False,
@@ -52,7 +43,7 @@ class TakenEnds(QtCore.QObject):
         self._background.ask([path])
 
     def cancel(self) -> None:
-        """The ends stay as they are."""
+        """Leave the ends as they are."""
         self._background.ask(None)
         self._end_waiting()
 
@@ -60,17 +51,17 @@ class TakenEnds(QtCore.QObject):
         if self._waiting is not None and progress is not None:
             self._waiting.setValue(min(int(100 * progress[0]), 99))
 
-    def _take(self, request: list[str], ends: "tuple[End, ...]") -> None:
-        from ...figures.ends import ended_as
+    def _take(self, request: list[str], ends: "tuple[ColourLimit, ...]") -> None:
+        from ...figures.colour_limits import with_limits_of
 
         self._end_waiting()
         context = self._context
         try:
-            document, sentence = ended_as(context.document, ends, os.path.basename(request[0]))
+            document, sentence = with_limits_of(context.document, ends, os.path.basename(request[0]))
         except BihdistError as error:
             context.fail(error)
             return
-        context.edit(document)
+        context.session.show(document)
         context.tell(sentence)
         self.taken.emit(sentence)
 
@@ -86,8 +77,8 @@ class TakenEnds(QtCore.QObject):
             waiting.deleteLater()
 
 
-def _computed(request: list[str], progress: Progress) -> "Iterator[tuple[End, ...]]":
+def _computed(request: list[str], progress: Progress) -> "Iterator[tuple[ColourLimit, ...]]":
     # Not when the window opens, which is before what draws is imported.
-    from ...figures.ends import ends_in
+    from ...figures.colour_limits import limits_in
 
-    yield ends_in(request[0], progress)
+    yield limits_in(request[0], progress)

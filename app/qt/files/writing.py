@@ -1,27 +1,25 @@
-"""Files that are written in the background."""
+"""Writing files in the background."""
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 from qtpy import QtCore
 
 from bihdist_core import BihdistError
-from bihdist_core.progress import Progress
 
+from ..background import call
 from ..context import Context
 from .saving import ask_path, saved_words
 
 
 class Writing(QtCore.QObject):
-    """Asks where things go, and writes them in the background, one after the other."""
+    """Asks for paths, and writes files in the background, one after the other."""
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
         self._context = context
         self._waiting: list[Callable[[], str]] = []  # the first of them is being written
-        self._background = context.background("writing", _done)
-        self._background.answered.connect(self._say)
-        self._background.failed.connect(self._refuse)
+        self._background = context.background("writing", call, self._say, self._refuse)
         context.closed.connect(self._finish)
 
     def save(
@@ -33,7 +31,7 @@ class Writing(QtCore.QObject):
         path: str,
         remark: str = "",
     ) -> None:
-        """path: asks for one if it is empty.  remark: besides that it is written."""
+        """Write a file, asking for a path if none is given; `remark` is told besides."""
         path = path or ask_path(self._context, title, name, formats)
 
         def work() -> str:
@@ -49,7 +47,7 @@ class Writing(QtCore.QObject):
         self._background.ask((self._waiting[0],))
 
     def _finish(self) -> None:
-        """The window has closed: what waits is written all the same; the first is being written."""
+        """Write what still waits, as the window has closed."""
         for work in self._waiting[1:]:
             try:
                 work()
@@ -69,7 +67,3 @@ class Writing(QtCore.QObject):
         self._waiting.pop(0)
         if self._waiting:
             self._write_next()
-
-
-def _done(request: tuple[Callable[[], object]], progress: Progress) -> Iterator[object]:
-    yield request[0]()

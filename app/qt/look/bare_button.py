@@ -1,10 +1,10 @@
-"""A button that paints itself: whether the pointer is on it, and whether the keys are, and were brought by keyboard."""
+"""The base of buttons that paint themselves."""
 
 from qtpy import QtCore, QtGui, QtWidgets
 
 
 class BareButton(QtWidgets.QToolButton):
-    """Reached by Tab; is_pointed, has_keys: what its painting asks."""
+    """A button that is reached by Tab and knows whether to show the pointer and the keyboard focus."""
 
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
@@ -14,12 +14,12 @@ class BareButton(QtWidgets.QToolButton):
 
     @property
     def is_pointed(self) -> bool:
-        """Whether the pointer is on it; while a menu is open Qt does not notice that it leaves."""
+        """Whether the pointer is on it, also while a menu is open, when Qt does not notice that it leaves."""
         return bool(self.underMouse() and self.rect().contains(self.mapFromGlobal(QtGui.QCursor.pos())))
 
     @property
     def has_keys(self) -> bool:
-        """Whether the keys are here, and somebody who uses them has brought them."""
+        """Whether it has the keyboard focus, and got it by the keyboard."""
         return self._by_keyboard and self.hasFocus()
 
     def setMenu(self, menu: QtWidgets.QMenu) -> None:

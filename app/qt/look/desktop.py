@@ -1,4 +1,4 @@
-"""What the desktop has, light or dark, while the user leaves it to the desktop."""
+"""The theme of the desktop, light or dark."""
 
 import sys
 from collections.abc import Callable
@@ -12,7 +12,7 @@ PERSONALIZE = r"HKEY_CURRENT_USER\Software\Microsoft\Windows\CurrentVersion\Them
 
 
 class Desktop(QtCore.QObject):
-    """`changed` is emitted when its theme may be another one."""
+    """Watches the desktop; `changed` is emitted when its theme may have changed."""
 
     changed = QtCore.Signal()
 
@@ -22,7 +22,7 @@ class Desktop(QtCore.QObject):
         self._is_asked = False
 
     def theme(self) -> Theme:
-        """What the desktop has at present; the first question is also the start of watching it."""
+        """Return "light" or "dark"; the first call starts watching."""
         if QtWidgets.QApplication.instance() is None:
             return LIGHT
         if not self._is_asked:
@@ -46,18 +46,18 @@ class Desktop(QtCore.QObject):
 
 
 def portal() -> Any:
-    """The `Portal` of a Linux desktop, or None where there is none."""
+    """Return the `DesktopPortal` of a Linux desktop, None where there is none."""
     if not sys.platform.startswith("linux"):
         return None
     try:
         from . import portal as found  # needs Qt's D-Bus, which not every installation has
     except (ImportError, RuntimeError):
         return None
-    return found.Portal() if found.has_bus() else None
+    return found.DesktopPortal() if found.has_bus() else None
 
 
 def registry_is_dark() -> bool | None:
-    """What Windows has been told; None on other systems."""
+    """Return whether Windows is set to dark; None on other systems."""
     if sys.platform != "win32":
         return None
     value = QtCore.QSettings(PERSONALIZE, QtCore.QSettings.Format.NativeFormat).value("AppsUseLightTheme")
@@ -65,10 +65,10 @@ def registry_is_dark() -> bool | None:
 
 
 def palette_is_dark() -> bool:
-    """By the palette that Qt took from the desktop; the program's own stand in its windows."""
+    """Return whether the palette that Qt took from the desktop is dark."""
     ground = QtWidgets.QApplication.palette().color(QtGui.QPalette.ColorRole.Window)
     return lightness(ground.name()) < 0.2
 
 
 DESKTOP = Desktop()
-"""The process's."""
+"""The desktop of this process."""

@@ -1,4 +1,4 @@
-"""Icons: drawings of one colour in `assets/icons`, painted in the present colours at any scale."""
+"""Icons: drawings of one colour in `assets/icons`, painted in the colours of the theme at any scale."""
 
 from functools import lru_cache
 
@@ -10,19 +10,19 @@ from .look import LOOK
 from .style_sheet import ICONS
 
 SIDE = 20
-"""Of an icon, in logical pixels."""
+"""Side of an icon in logical pixels."""
 
 SCALES = (1, 2, 3)
 """Device pixels per logical pixel that an icon has pictures for."""
 
 
 def icon_names() -> list[str]:
-    """The names of all icons, sorted."""
+    """Return the names of all icons, sorted."""
     return sorted(path.stem for path in ICONS.glob("*.svg"))
 
 
 def icon(name: str, colour: str = "") -> QtGui.QIcon:
-    """In the colours of the present theme, also disabled and checked; or in one colour."""
+    """Return an icon in the colours of the theme, also disabled and checked, or in one colour."""
     # Otherwise it takes the pictures for scale 1; Qt 6 needs no telling.
     if qtpy.QT5:
         QtCore.QCoreApplication.setAttribute(QtCore.Qt.ApplicationAttribute.AA_UseHighDpiPixmaps)
@@ -37,7 +37,7 @@ def icon(name: str, colour: str = "") -> QtGui.QIcon:
 
 
 def window_icon() -> QtGui.QIcon:
-    """The program's own, in all sizes there are."""
+    """Return the program's own icon, in all sizes."""
     found = QtGui.QIcon()
     for picture in sorted((SAMPLES / "application").glob("*.png")):
         found.addFile(str(picture))
@@ -46,13 +46,14 @@ def window_icon() -> QtGui.QIcon:
 
 @lru_cache(maxsize=512)
 def pixmap(name: str, colour: str, scale: float = 1, side: int = SIDE) -> QtGui.QPixmap:
-    """One picture; side: in logical pixels."""
+    """Return a picture of an icon whose side is in logical pixels."""
     drawing = (ICONS / f"{name}.svg").read_text(encoding="utf-8").replace("currentColor", colour)
     found = QtGui.QPixmap(round(side * scale), round(side * scale))
     found.fill(QtCore.Qt.GlobalColor.transparent)
     painter = QtGui.QPainter(found)
     QtSvg.QSvgRenderer(drawing.encode()).render(painter)
     painter.end()
+    found = found.copy()  # without the painter's buffers, which a picture keeps and which are twice its size
     found.setDevicePixelRatio(scale)
     return found
 
@@ -60,7 +61,7 @@ def pixmap(name: str, colour: str, scale: float = 1, side: int = SIDE) -> QtGui.
 def put_icon(owner: "QtWidgets.QAbstractButton | QtWidgets.QAction", name: str, colour_of: str = "") -> None:
     """Give a button or an action an icon that keeps up with the theme.
 
-    colour_of: the name of the theme's colour it is painted in whatever its state; empty for the usual ones.
+    `colour_of` is the name of the theme's colour in which it is painted whatever its state; "" for the usual ones.
     """
 
     def paint() -> None:

@@ -1,4 +1,4 @@
-"""The look that all windows of the process have at present, as the user has chosen it."""
+"""The look of all windows of the process: theme and font size."""
 
 from collections.abc import Callable
 
@@ -9,16 +9,16 @@ from .style_sheet import style_sheet
 from .theme import LIGHT, THEMES, Theme, palette
 
 TALK = 1.35
-"""By how much letters are larger on the full screen of a talk."""
+"""Factor of the font size in full screen, for talks."""
 
 
 USUAL_DOTS = 96.0
 LEAST_LARGER = 1.1
-"""By how much a screen's dots must be denser than usual to be meant."""
+"""Factor of a screen's density from which on it counts."""
 
 
 class Look(QtCore.QObject):
-    """`changed` is emitted when the colours or the size of the letters have changed; what is painted then asks anew."""
+    """The theme and the font size; `changed` is emitted when either changes, and painted widgets then ask again."""
 
     changed = QtCore.Signal()
 
@@ -30,22 +30,22 @@ class Look(QtCore.QObject):
         DESKTOP.changed.connect(self._follow_desktop)
 
     def choose(self, word: str) -> None:
-        """ "light", "dark", or "desktop" for what the desktop has."""
+        """Choose "light", "dark", or "desktop" to follow the system."""
         self.choice = word
         self._become(THEMES.get(word) or DESKTOP.theme(), self.scale)
 
     def enlarge(self, scale: float) -> None:
-        """Letters as a multiple of the usual size."""
+        """The font size as a multiple of the usual one."""
         self._become(self.theme, self._usual * scale)
 
     def fit_to(self, dots_per_inch: float) -> None:
-        """Letters of the size that is usual on a screen."""
+        """Use the font size that is usual on a screen."""
         share = dots_per_inch / USUAL_DOTS
         self._usual = share if share >= LEAST_LARGER else 1.0
         self._become(self.theme, self._usual)
 
     def apply_theme(self, window: QtWidgets.QWidget) -> None:
-        """Put a window, with all in it, into the present colours, and in those that come."""
+        """Apply the theme to a window, now and whenever it changes."""
         _put_on(window, self)
         self.follow(window, lambda: _put_on(window, self))
 
@@ -54,7 +54,7 @@ class Look(QtCore.QObject):
         self.changed.connect(_Follower(owner, function).follow)
 
     def font(self, size: float = 13, bold: bool = False) -> QtGui.QFont:
-        """The system's font in logical pixels."""
+        """Return the system's font, with its size in logical pixels."""
         font = QtGui.QFont(QtWidgets.QApplication.font())
         font.setPixelSize(max(1, round(size * self.scale)))
         font.setWeight(QtGui.QFont.Weight.DemiBold if bold else QtGui.QFont.Weight.Normal)
@@ -71,7 +71,7 @@ class Look(QtCore.QObject):
 
 
 class _Follower(QtCore.QObject):
-    """A child of the owner: Qt ends its connections with it, also when the process ends."""
+    """Calls a function as long as its owner, the parent, lives."""
 
     def __init__(self, owner: QtCore.QObject, function: Callable[[], None]) -> None:
         super().__init__(owner)

@@ -19,9 +19,9 @@ DRAWN = {
 
 
 def mark_rules(theme: Theme, icons: Path) -> str:
-    """The part of the style sheet that shows marks; empty where nothing can be written: Qt then draws its own.
+    """Return the part of the style sheet that shows marks, drawn in the folder `icons`.
 
-    icons: where the drawings are.
+    It is empty where nothing can be written: Qt then draws its own.
     """
 
     def picture(mark: str, colour: str) -> str:
@@ -69,7 +69,7 @@ QToolButton::menu-arrow {{ image: {down}; width: 14px; height: 14px; }}
 
 
 def _written(mark: str, colour: str, icons: Path) -> Path:
-    """The file with a mark in a colour."""
+    """Return the file with a mark in a colour."""
     path = own_folder() / f"{mark}-{colour[1:]}.svg"
     if not path.exists():
         path.write_text(_drawing(mark, icons).replace("currentColor", colour), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""A folder of this process among the temporary ones, which goes with it; the next one sweeps those of killed ones."""
+"""A temporary folder of this process; those of killed processes are removed by the next one."""
 
 import atexit
 import os
@@ -12,13 +12,13 @@ from qtpy import QtCore
 
 PREFIX = "bihdist-look-"
 YOUNG_S = 60.0
-"""A folder that is younger may not have its lock yet."""
+"""Age from which on a folder without a lock is stale."""
 
 _kept: list[tuple[Path, QtCore.QLockFile]] = []
 
 
 def own_folder() -> Path:
-    """The folder, made where it is not there; OSError if it cannot be."""
+    """Return the folder, made if needed; OSError if it cannot be made."""
     if not _kept or not _kept[0][0].is_dir():
         _sweep()
         folder = Path(tempfile.mkdtemp(prefix=PREFIX))
@@ -30,7 +30,7 @@ def own_folder() -> Path:
 
 
 def remove_own_folder() -> None:
-    """To be called where the process ends without what Python does at its end."""
+    """Remove the folder where the process ends without Python's own cleanup."""
     while _kept:
         folder, lock = _kept.pop()
         lock.unlock()

@@ -11,26 +11,26 @@ SERVICE, PLACE = "org.freedesktop.portal.Desktop", "/org/freedesktop/portal/desk
 INTERFACE = "org.freedesktop.portal.Settings"
 GROUP, KEY = "org.freedesktop.appearance", "color-scheme"
 ANSWER_MS = 40
-"""How long the start waits for an answer; one that comes later is a change."""
+"""Time to wait for an answer at the start; a later one is taken as a change."""
 DARK, LIGHT = 1, 2
-"""What the desktop can say; 0 if it does not mind."""
+"""Values of the setting; 0 stands for no preference."""
 
 
 def has_bus() -> bool:
-    """Without one, D-Bus would start one and wait for it."""
+    """Return whether the session has a bus; D-Bus would otherwise start one and wait for it."""
     folder = os.environ.get("XDG_RUNTIME_DIR")
     return bool(os.environ.get("DBUS_SESSION_BUS_ADDRESS") or (folder and (Path(folder) / "bus").exists()))
 
 
 def darkness(words: Any) -> bool | None:
-    """What the desktop says, which comes wrapped in variants, once or twice; None if it says nothing."""
+    """Return the value of a setting wrapped in variants, once or twice; None if there is none."""
     while isinstance(words, QtDBus.QDBusVariant):
         words = words.variant()
     return {DARK: True, LIGHT: False}.get(words) if isinstance(words, int) else None
 
 
-class Portal(QtCore.QObject):
-    """is_dark: None where the desktop does not say; `changed` is emitted when that changes."""
+class DesktopPortal(QtCore.QObject):
+    """The setting of a desktop; `is_dark` is None where it has none, and `changed` is emitted on a change."""
 
     changed = QtCore.Signal()
 
@@ -58,7 +58,7 @@ class Portal(QtCore.QObject):
 
     @QtCore.Slot(QtDBus.QDBusError, QtDBus.QDBusMessage)
     def _refused(self, error: QtDBus.QDBusError, message: QtDBus.QDBusMessage) -> None:
-        """There is nobody who would know."""
+        """Take note that no portal answers."""
 
     @QtCore.Slot(QtDBus.QDBusMessage)
     def _told(self, message: QtDBus.QDBusMessage) -> None:

@@ -1,19 +1,21 @@
-"""A segmented control: a few words in one frame, of which one is chosen."""
+"""Segmented controls: a few words in one frame, of which one is chosen."""
+
+from typing import Any
 
 from qtpy import QtCore, QtGui, QtWidgets
 
 from .look import LOOK
 
 PADDING = 26
-"""To the left and right of a word together, with the frame."""
+"""Padding at both sides of a word together, with the frame, in logical pixels."""
 
 
 class Segments(QtWidgets.QWidget):
-    """choices: the words on it, and what each stands for; `chosen` is emitted with that when the user chooses."""
+    """A choice of a few texts, which stand for words; `chosen` is emitted with a word when the user chooses."""
 
-    chosen = QtCore.Signal(str)
+    chosen = QtCore.Signal(object)
 
-    def __init__(self, choices: dict[str, str], name: str, parent: QtWidgets.QWidget | None = None) -> None:
+    def __init__(self, choices: dict[str, Any], name: str, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAccessibleName(name)
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Fixed, QtWidgets.QSizePolicy.Policy.Fixed)
@@ -21,7 +23,7 @@ class Segments(QtWidgets.QWidget):
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(0)
         self._group = QtWidgets.QButtonGroup(self)
-        self.buttons: dict[str, QtWidgets.QPushButton] = {}
+        self.buttons: dict[Any, QtWidgets.QPushButton] = {}
         places = ["first", *["middle"] * (len(choices) - 2), "last"][: len(choices)]
         for place, (text, word) in zip(places, choices.items(), strict=True):
             button = QtWidgets.QPushButton(text, checkable=True, autoDefault=False)
@@ -36,16 +38,16 @@ class Segments(QtWidgets.QWidget):
         self._measure()
         LOOK.changed.connect(self._measure)
 
-    def choice(self) -> str:
-        """The word of the segment that is on, "" for none."""
+    def choice(self) -> Any:
+        """Return the value of the chosen segment, "" for none."""
         return next((word for word, button in self.buttons.items() if button.isChecked()), "")
 
-    def choose(self, word: str) -> None:
-        """Show a choice; nothing is emitted."""
+    def choose(self, word: Any) -> None:
+        """Show a choice without emitting `chosen`."""
         self.buttons[word].setChecked(True)
 
     def _measure(self) -> None:
-        """Each word has the room that it needs when it is chosen, and bold."""
+        """Give each word the room that it needs in bold."""
         metrics = QtGui.QFontMetrics(LOOK.font(bold=True))
         for button in self.buttons.values():
             button.setMinimumWidth(metrics.horizontalAdvance(button.text()) + PADDING)

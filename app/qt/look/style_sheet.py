@@ -1,4 +1,4 @@
-"""The style sheet of a window: all that Qt's own widgets need to look like the rest."""
+"""The style sheet of a window, for Qt's own widgets."""
 
 from ...samples import SAMPLES
 from .marks_in_controls import mark_rules
@@ -8,7 +8,7 @@ ICONS = SAMPLES / "icons"
 
 
 def style_sheet(theme: Theme, scale: float = 1.0) -> str:
-    """scale: of letters, as a multiple of the usual size."""
+    """Return the style sheet of a theme; `scale` is the font size as a multiple of the usual one."""
     usual, small, large = (round(size * scale) for size in (13, 12, 22))
     return f"""
 QMainWindow, QDialog, QMessageBox {{ background: {theme.window}; color: {theme.text}; }}

@@ -1,10 +1,10 @@
-"""Boxes to type in: the window keeps its keys, and what makes no sense has an outline."""
+"""Text boxes that leave shortcuts to the window, and the outline of wrong values."""
 
 from qtpy import QtCore, QtGui, QtWidgets
 
 
 class TextBox(QtWidgets.QLineEdit):
-    """A line to type in that leaves the window's own shortcuts to the window."""
+    """A text box that leaves the window's shortcuts to the window."""
 
     def event(self, event: QtCore.QEvent) -> bool:
         if event.type() == QtCore.QEvent.Type.ShortcutOverride and not self._edits(event):
@@ -13,7 +13,7 @@ class TextBox(QtWidgets.QLineEdit):
         return bool(super().event(event))
 
     def _edits(self, event: QtGui.QKeyEvent) -> bool:
-        """Whether a key is for the text rather than for the window."""
+        """Return whether a key is for the text rather than for the window."""
         modifier, keys = QtCore.Qt.KeyboardModifier, QtGui.QKeySequence.StandardKey
         if not event.modifiers() & (modifier.ControlModifier | modifier.AltModifier | modifier.MetaModifier):
             return True
@@ -28,7 +28,7 @@ class TextBox(QtWidgets.QLineEdit):
 
 
 def mark_wrong(box: QtWidgets.QWidget, is_wrong: bool) -> None:
-    """The style sheet's outline of what is wrong, which it looks for only when asked again."""
+    """Show or remove the outline of a wrong value."""
     if bool(box.property("wrong")) != is_wrong:
         box.setProperty("wrong", is_wrong)
         box.style().unpolish(box)

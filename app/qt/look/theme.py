@@ -13,13 +13,34 @@ from ...scene.style import CURVES, CURVES_ON_DARK
 
 @dataclass(frozen=True)
 class Theme:
-    """Colours as #rrggbb.
+    """The colours of the window as #rrggbb.
 
-    window: menus, bars and docks; canvas: the panels, with their views; raised: fields, menus, buttons.  border: lines
-    between parts; strong: outlines of controls.  quiet: what is beside the point.  accent: focus, what is checked,
-    progress, links; fill: the one button that is meant, and on_fill on it.  selection: the ground of what is chosen.
-    label: the ground of the label at the pointer.  curves: of plots, in the order of panels.  cells: of a matrix,
-    from 0 to its largest value.
+    Attributes
+    ----------
+    window
+        The ground of menus, bars and docks.
+    canvas
+        The ground of the panels, with their views.
+    raised
+        The ground of input fields, menus and buttons.
+    border
+        Lines between parts.
+    strong
+        Outlines of controls.
+    quiet
+        Text of minor importance.
+    accent
+        Focus, what is checked, progress and links.
+    fill, on_fill
+        The one button that is filled, and the text on it.
+    selection
+        The ground of what is chosen.
+    label
+        The ground of the label at the pointer.
+    curves
+        The curves of plots, in the order of panels.
+    cells
+        The cells of a matrix, from 0 to its largest value.
     """
 
     word: str
@@ -49,7 +70,7 @@ class Theme:
 
     @property
     def is_dark(self) -> bool:
-        """Whether surfaces stand on a dark ground."""
+        """Whether the theme is dark."""
         return lightness(self.canvas) < 0.5
 
 
@@ -111,27 +132,27 @@ THEMES = {theme.word: theme for theme in (LIGHT, DARK)}
 
 
 def lightness(colour: str) -> float:
-    """Relative luminance, 0 for black to 1 for white (WCAG 2)."""
+    """Return the relative luminance, 0 for black to 1 for white (WCAG 2)."""
     shares = [int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)]
     red, green, blue = (s / 12.92 if s <= 0.04045 else ((s + 0.055) / 1.055) ** 2.4 for s in shares)
     return 0.2126 * red + 0.7152 * green + 0.0722 * blue
 
 
 def contrast(one: str, other: str) -> float:
-    """From 1 to 21 (WCAG 2)."""
+    """Return the contrast of two colours, from 1 to 21 (WCAG 2)."""
     dark, light = sorted((lightness(one), lightness(other)))
     return (light + 0.05) / (dark + 0.05)
 
 
 def between(ends: tuple[str, str], share: float) -> QtGui.QColor:
-    """The colour at a share of the way from one end to the other."""
+    """Return the colour at a fraction of the way from one to another."""
     first, last = (QtGui.QColor(end) for end in ends)
     pairs = ((getattr(first, part)(), getattr(last, part)()) for part in ("redF", "greenF", "blueF"))
     return QtGui.QColor.fromRgbF(*(a + (b - a) * share for a, b in pairs))
 
 
 def palette(theme: Theme) -> QtGui.QPalette:
-    """For what Qt draws by itself."""
+    """Return the palette for what Qt draws by itself."""
     found = QtGui.QPalette()
     role, group = QtGui.QPalette.ColorRole, QtGui.QPalette.ColorGroup
     for each, colour in {

@@ -1,1 +1,1 @@
-"""What stands before, over or beside the panels: the start page, messages, preferences, help."""
+"""Pages before, over or beside the panels: the start page, messages, preferences, help."""

@@ -1,4 +1,4 @@
-"""What the user is told: a message to be read, which of several files, and a line above the panels."""
+"""Messages: dialogs with an error or a question, a choice of files, and a notice above the panels."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -10,10 +10,13 @@ from ..look.layouts import in_column, in_row
 from ..look.look import LOOK
 from ..look.text_lines import lines_of
 
+QUESTION_SIGN = 32
+"""Side of the icon in logical pixels."""
+
 
 # ---------------------------------------------------------------------- a message
 class Message(QtWidgets.QDialog):
-    """A sentence, and details that are folded away at first; all of it can be selected and copied."""
+    """A dialog with a sentence, and details that can be unfolded; both can be selected and copied."""
 
     def __init__(self, sentence: str, details: str = "", parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
@@ -28,12 +31,12 @@ class Message(QtWidgets.QDialog):
         # Qt would otherwise guess a width, and make long sentences narrow towers.
         self.sentence.setMinimumWidth(min(400, QtGui.QFontMetrics(LOOK.font()).horizontalAdvance(sentence) + 16))
         self.fold = QtWidgets.QPushButton("Show details", objectName="link", visible=bool(details), autoDefault=False)
-        self.fold.setToolTip("What happened, in full")
+        self.fold.setToolTip("Show the full report")
         self.fold.clicked.connect(self._unfold)
         self.details = QtWidgets.QPlainTextEdit(
             details, readOnly=True, visible=False, minimumHeight=140, accessibleName="Details"
         )
-        self.copy = QtWidgets.QPushButton("Copy", self, autoDefault=False, toolTip="Copy all of it to the clipboard")
+        self.copy = QtWidgets.QPushButton("Copy", self, autoDefault=False, toolTip="Copy the message to the clipboard")
         self.copy.clicked.connect(self._copy)
         shut = QtWidgets.QPushButton("Close", self, default=True, toolTip="Close this message (Esc)")
         shut.clicked.connect(self.accept)
@@ -64,19 +67,40 @@ class Message(QtWidgets.QDialog):
 
 
 def tell(window: QtWidgets.QWidget | None, sentence: str, details: str = "") -> Message:
-    """Show what needs to be read, and go on; above a dialog that is open it is that one's, or it would get no keys."""
+    """Show a message without waiting; its parent is the open dialog, if any, so that it gets the keyboard focus."""
     message = Message(sentence, details, QtWidgets.QApplication.activeModalWidget() or window)
     message.open()
     return message
 
 
+class Question(QtWidgets.QMessageBox):
+    """A question with an icon and buttons; `chosen` is the text of the one that was pressed."""
+
+    def __init__(
+        self, text: str, buttons: dict[str, QtWidgets.QMessageBox.ButtonRole], parent: QtWidgets.QWidget, sign: str = ""
+    ) -> None:
+        super().__init__(parent)
+        self.setWindowTitle("Biharmonic distance")
+        self.setTextFormat(QtCore.Qt.TextFormat.PlainText)
+        self.setText(text)
+        colour = LOOK.theme.warning if sign == "warning" else LOOK.theme.accent
+        self.setIconPixmap(pixmap(sign or "info", colour, self.devicePixelRatioF(), QUESTION_SIGN))
+        self.words = {words: self.addButton(words, role) for words, role in buttons.items()}
+        self.setDefaultButton(next(iter(self.words.values())))
+
+    @property
+    def chosen(self) -> str:
+        """The text of the button that was pressed."""
+        return next((words for words, button in self.words.items() if button is self.clickedButton()), "")
+
+
 # ---------------------------------------------------------------------- which of several files
 class WhichFile(QtWidgets.QDialog):
-    """A list of files, of which one is chosen."""
+    """A dialog in which one of several files is chosen."""
 
     def __init__(self, paths: Sequence[str], parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setWindowTitle("Open one of them")
+        self.setWindowTitle("Choose a file")
         question = QtWidgets.QLabel(f"{len(paths)} files were dropped. &Which one do you want to open?", wordWrap=True)
         self.list = QtWidgets.QListWidget(accessibleName="Files")
         self.list.setItemDelegate(_PathRows(self.list))
@@ -107,12 +131,12 @@ class WhichFile(QtWidgets.QDialog):
 
     @property
     def chosen(self) -> str:
-        """The path of the file that is chosen."""
+        """The path of the chosen file."""
         return str(self.list.currentItem().data(QtCore.Qt.ItemDataRole.UserRole))
 
 
 class _PathRows(QtWidgets.QStyledItemDelegate):
-    """A file's name, and under it its folder, shortened in the middle: both ends tell folders apart."""
+    """Rows with a file's name and under it its folder, shortened in the middle, as both ends tell folders apart."""
 
     HIGH = 46
 
@@ -140,7 +164,7 @@ class _PathRows(QtWidgets.QStyledItemDelegate):
 
 
 def from_home(folder: str) -> str:
-    """A folder as the user writes it."""
+    """Return a folder with "~" for the home folder."""
     home = os.path.expanduser("~")
     inside = folder == home or folder.startswith(home.rstrip(os.sep) + os.sep)
     return "~" + folder[len(home.rstrip(os.sep)) :] if inside and home != os.sep else folder
@@ -151,7 +175,7 @@ def _folder(path: str) -> str:
 
 
 def ask_which(window: QtWidgets.QWidget | None, paths: Sequence[str]) -> str | None:
-    """Which of these files shall be opened; None if none.  Waits for the answer."""
+    """Ask which of several files to open, wait for the answer, and return it; None if none."""
     dialog = WhichFile(paths, window)
     answer = dialog.chosen if dialog.exec() else None
     dialog.deleteLater()
@@ -160,7 +184,7 @@ def ask_which(window: QtWidgets.QWidget | None, paths: Sequence[str]) -> str | N
 
 # ---------------------------------------------------------------------- a line above the panels
 class Notice(QtWidgets.QWidget):
-    """A sentence on a coloured ground, with one thing to do about it and ✕; hidden while there is nothing to say."""
+    """A coloured line with a sentence, a button and ✕; hidden while there is nothing to tell."""
 
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
@@ -188,7 +212,7 @@ class Notice(QtWidgets.QWidget):
         action: tuple[str, Callable[[], None]] | None = None,
         seconds: float = 0,
     ) -> None:
-        """kind: "plain", "warning" or "error"; action: words and what they do; seconds: until it goes, 0 for never."""
+        """Show a text as "plain", "warning" or "error", with a button, for some seconds or until it is closed."""
         self.kind = kind
         self._soon.stop()
         self.words.setText(text)
@@ -213,7 +237,7 @@ class Notice(QtWidgets.QWidget):
 
     @property
     def colours(self) -> tuple[str, str]:
-        """Ground and words."""
+        """The colours of the background and the text."""
         theme = LOOK.theme
         return {
             "warning": (theme.warning_ground, theme.warning),
@@ -235,7 +259,7 @@ class Notice(QtWidgets.QWidget):
 
 
 class _TwoLines(QtWidgets.QWidget):
-    """Words on one or two lines; what does not fit ends in dots, and then all of it is in the tooltip."""
+    """A text on one or two lines; if it is cut short the whole text is in the tooltip."""
 
     MOST = 2
 
@@ -257,7 +281,7 @@ class _TwoLines(QtWidgets.QWidget):
         self.update()
 
     def lines(self, width: int) -> list[str]:
-        """What is written at this width, in logical pixels."""
+        """Return the lines at a width in logical pixels."""
         font, metrics = LOOK.font(), QtGui.QFontMetrics(LOOK.font())
         found = lines_of(self._text, font, max(width, 1), self.MOST, QtGui.QTextOption.WrapMode.WordWrap)
         return [metrics.elidedText(line, QtCore.Qt.TextElideMode.ElideRight, max(width, 1)) for line in found]

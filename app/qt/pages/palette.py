@@ -20,14 +20,17 @@ COMMAND = QtCore.Qt.ItemDataRole.UserRole
 
 
 class Palette(PopUp):
-    """recent: titles of what has been run, the last first; what is run comes to its front."""
+    """The command palette.
+
+    `recent` holds the titles of the commands that have been run, the latest first; running one puts it to the front.
+    """
 
     def __init__(self, commands: Sequence[Command], recent: list[str], parent: QtWidgets.QWidget) -> None:
         super().__init__(parent)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_DeleteOnClose)
         self._recent, self._most = recent, MOST_ROWS
         self._commands = sorted(commands, key=lambda command: self._age(command.title))
-        hint = "What to do; “mouse” for the gestures"
+        hint = "Type a command; “mouse” lists gestures"
         self.box = QtWidgets.QLineEdit(placeholderText=hint, accessibleName="Commands")
         self.box.textChanged.connect(self._show)
         self.box.installEventFilter(self)
@@ -38,7 +41,7 @@ class Palette(PopUp):
         self.rows.setMouseTracking(True)
         self.rows.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.rows.itemClicked.connect(self.run)
-        self.nothing = quiet_label("No command and no gesture has these words.")
+        self.nothing = quiet_label("No matching commands or gestures.")
         in_column(self.box, self.rows, self.nothing, of=self, spacing=6, margins=(8, 8, 8, 8))
         self._show("")
 
@@ -83,7 +86,7 @@ class Palette(PopUp):
         self._fit()
 
     def _fit(self) -> None:
-        """As high as what is found, up to what there is room for."""
+        """Make the palette as high as what is found, up to what there is room for."""
         count = self.rows.count()
         self.nothing.setVisible(not count)
         self.rows.setVisible(count > 0)
@@ -95,7 +98,7 @@ class Palette(PopUp):
 
 
 class _Row(QtWidgets.QStyledItemDelegate):
-    """What is done, quietly why it cannot be or that it is on, and at the right the keys."""
+    """Paints a command, quietly why it cannot be run or that it is on, and at the right the keys."""
 
     def sizeHint(self, option: QtWidgets.QStyleOptionViewItem, index: QtCore.QModelIndex) -> QtCore.QSize:
         return QtCore.QSize(0, round(ROW * LOOK.scale))

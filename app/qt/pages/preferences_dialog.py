@@ -4,17 +4,12 @@ from dataclasses import replace
 
 from qtpy import QtCore, QtGui, QtWidgets
 
-from ...document.looks import MOST_ISOLINES
+from ...document.settings import PREFERENCES, Preferences, Setting
 from ..look.layouts import in_column, in_row, quiet_label
 from ..look.look import LOOK
 from ..look.segments import Segments
-from ..preferences import Preferences
 
-THEMES = {"As the desktop": "desktop", "Light": "light", "Dark": "dark"}
-TURNING = {"Freely": "", "Turntable": "turntable"}
-SNAPPING = {"On vertices": "", "Anywhere in faces": "faces"}
-WHEEL = {"Forwards goes closer": "", "Forwards goes away": "reversed"}
-RESET = "All as at the first start."
+RESET = "Defaults restored."
 LABELS = 88
 """The width of the column of labels."""
 
@@ -27,18 +22,10 @@ class PreferencesDialog(QtWidgets.QDialog):
         self.setWindowTitle("Preferences")
         self._preferences = preferences  # what the dialog has no control for comes from here
         self._theme_before = LOOK.choice
-        self.theme = _segments(THEMES, "Theme", "The colours of the window; figures keep their own")
-        self.theme.chosen.connect(LOOK.choose)
-        self.isolines = QtWidgets.QSpinBox(maximum=MOST_ISOLINES, accessibleName="Isolines of new meshes")
-        about = f"About how many, at round values, when the program starts: 0 to {MOST_ISOLINES}, 0 for none"
-        self.isolines.setToolTip(about)
-        self.isolines.setFixedWidth(84)
-        self.wheel = _segments(WHEEL, "Wheel", "What turning the wheel away from you does to the view")
-        on_turntable = "On a turntable, what is up stays upright while the surface is dragged"
-        self.turning = _segments(TURNING, "Turning", on_turntable)
-        self.snapping = _segments(SNAPPING, "Source", "Where a click and a drag put the source; V switches it")
+        self.controls: dict[str, Segments | QtWidgets.QSpinBox] = {each.word: _control(each) for each in PREFERENCES}
+        self.controls["theme"].chosen.connect(LOOK.choose)
         self.again = QtWidgets.QPushButton("Reset all preferences", objectName="link", autoDefault=False)
-        self.again.setToolTip("Everything as at the first start, also the window's place; Cancel undoes it")
+        self.again.setToolTip("Restore defaults, also the window's place; Cancel undoes it")
         self.again.clicked.connect(self.reset)
         self.note = quiet_label()
         self.note.setMinimumWidth(QtGui.QFontMetrics(LOOK.font()).horizontalAdvance(RESET) + 4)
@@ -49,29 +36,25 @@ class PreferencesDialog(QtWidgets.QDialog):
         LOOK.apply_theme(self)
 
     def chosen(self) -> Preferences:
-        """As the dialog stands."""
-        return replace(
-            self._preferences,
-            theme=self.theme.choice(),
-            isolines=self.isolines.value(),
-            wheel_reversed=bool(self.wheel.choice()),
-            turntable=bool(self.turning.choice()),
-            snap=not self.snapping.choice(),
-        )
+        """Return the preferences as the dialog stands."""
+        controls = self.controls.items()
+        values = {word: each.choice() if isinstance(each, Segments) else each.value() for word, each in controls}
+        return replace(self._preferences, **values)
 
     def reset(self) -> None:
-        """All as at the first start, what has no control here too."""
+        """Restore all defaults, also of what has no control here."""
         self._preferences = Preferences()
         self._show(self._preferences)
         LOOK.choose(self._preferences.theme)
         self.note.setText(RESET)
 
     def _show(self, preferences: Preferences) -> None:
-        self.theme.choose(preferences.theme)
-        self.isolines.setValue(preferences.isolines)
-        self.wheel.choose("reversed" if preferences.wheel_reversed else "")
-        self.turning.choose("turntable" if preferences.turntable else "")
-        self.snapping.choose("" if preferences.snap else "faces")
+        for word, control in self.controls.items():
+            value = getattr(preferences, word)
+            if isinstance(control, Segments):
+                control.choose(value)
+            else:
+                control.setValue(value)
 
     def _rows(self) -> QtWidgets.QLayout:
         rows = QtWidgets.QGridLayout()
@@ -80,13 +63,11 @@ class PreferencesDialog(QtWidgets.QDialog):
         rows.setVerticalSpacing(16)
         rows.setColumnMinimumWidth(0, LABELS)
         left = QtCore.Qt.AlignmentFlag.AlignLeft | QtCore.Qt.AlignmentFlag.AlignVCenter
-        words = ("&Theme", "&Isolines", "&Wheel", "T&urning", "&Source")
-        controls = (self.theme, self.isolines, self.wheel, self.turning, self.snapping)
-        for row, (text, control) in enumerate(zip(words, controls, strict=True)):
-            label = QtWidgets.QLabel(text)
+        for row, (setting, control) in enumerate(zip(PREFERENCES, self.controls.values(), strict=True)):
+            label = QtWidgets.QLabel(setting.title)
             label.setBuddy(control)
             rows.addWidget(label, row, 0, left)
-            beside = [quiet_label("at the start")] if control is self.isolines else []
+            beside = [quiet_label(setting.unit)] if setting.unit else []
             rows.addLayout(in_row(control, *beside, spacing=8), row, 1, left)
         rows.setColumnStretch(1, 1)
         return rows
@@ -98,8 +79,8 @@ class PreferencesDialog(QtWidgets.QDialog):
         refuse = buttons.addButton(QtWidgets.QDialogButtonBox.StandardButton.Cancel)
         refuse.setAutoDefault(False)
         accept.setObjectName("fill")
-        accept.setToolTip("Keep these preferences")
-        refuse.setToolTip("All as it was before the dialog")
+        accept.setToolTip("Save preferences")
+        refuse.setToolTip("Discard changes")
         for button in (accept, refuse):
             button.setMinimumWidth(76)
             button.setIcon(type(button.icon())())  # some desktops put pictures on them
@@ -109,7 +90,13 @@ class PreferencesDialog(QtWidgets.QDialog):
         return footer
 
 
-def _segments(choices: dict[str, str], name: str, tip: str) -> Segments:
-    segments = Segments(choices, name)
-    segments.setToolTip(tip)
-    return segments
+def _control(setting: Setting) -> Segments | QtWidgets.QSpinBox:
+    """Return a control for a preference: one of several values, or a whole number."""
+    name = setting.title.replace("&", "")
+    if setting.choices:
+        control = Segments({text: value for value, text in setting.choices.items()}, name)
+    else:
+        control = QtWidgets.QSpinBox(maximum=setting.most, accessibleName=f"{name} {setting.unit}")
+        control.setFixedWidth(84)
+    control.setToolTip(setting.tip)
+    return control

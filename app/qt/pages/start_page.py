@@ -1,4 +1,4 @@
-"""What the window shows while no mesh is open: a way to open one, recent files, and the samples by their pictures."""
+"""The page that the window shows while no mesh is open: open a file, recent files and samples."""
 
 from datetime import datetime
 
@@ -12,13 +12,13 @@ from ..look.look import LOOK
 from ..look.painting import paint_rounded, smooth_painter
 from ..look.text_lines import lines_of
 from ..remembered import recent_files
-from .start_places import OpenButton, RecentRow, Tiles
+from .start_places import FIRST_SAMPLES, OpenButton, RecentRow, Tiles
 
 WIDEST = 1120
-"""Of what is on the page, in logical pixels, as all lengths here."""
+"""Greatest width of the content, in logical pixels, as all lengths here."""
 
 LOW = 640
-"""Pages less high than this have a lower place for drops, and fewer recent files."""
+"""Height below which the page has a lower drop zone and fewer recent files."""
 
 ROWS, ROWS_IN_LOW = 5, 4
 ZONE, ZONE_IN_LOW = 188, 156
@@ -26,12 +26,11 @@ MESSAGE_LINES = 3
 
 
 class StartPage(QtWidgets.QWidget):
-    """`chosen` is emitted with the path of a recent file or of a sample, the others when the user asks for them."""
+    """The start page; `chosen` is emitted with the path of a recent file or a sample."""
 
     open_wanted = QtCore.Signal()
     chosen = QtCore.Signal(str)
-    tour_wanted = QtCore.Signal()
-    commands_wanted = QtCore.Signal()
+    guide_wanted = QtCore.Signal()
 
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
@@ -40,20 +39,25 @@ class StartPage(QtWidgets.QWidget):
         self.zone = DropZone()
         self.zone.open.clicked.connect(lambda: self.open_wanted.emit())
         self.rows = [RecentRow() for _ in range(ROWS)]
-        self.nothing = quiet_label("Files that you open are listed here.")
+        self.nothing = quiet_label("Files you open are listed here.")
         self.tiles = Tiles()
         for place in (*self.rows, *self.tiles.tiles):
             place.clicked.connect(lambda *_, place=place: self.chosen.emit(place.path))
-        self.tour = _link("Take the five-step tour")
-        self.tour.clicked.connect(lambda: self.tour_wanted.emit())
-        self.commands = _link("All commands")
-        self.commands.clicked.connect(lambda: self.commands_wanted.emit())
+        self.guide = _link("Read the guide")
+        self.guide.clicked.connect(lambda: self.guide_wanted.emit())
+        self.more = _link("More samples")
+        self.more.clicked.connect(self._show_all_samples)
         self._fill()
         LOOK.changed.connect(self.update)
         self.refresh()
 
+    def _show_all_samples(self) -> None:
+        self.tiles.show_all()
+        self.more.hide()
+        self.tiles.tiles[len(FIRST_SAMPLES)].setFocus(QtCore.Qt.FocusReason.OtherFocusReason)
+
     def refresh(self) -> None:
-        """Read the recent files anew."""
+        """Read the recent files again."""
         files, now = recent_files(), datetime.now().astimezone()
         most = ROWS_IN_LOW if self.height() < LOW else ROWS
         for k, row in enumerate(self.rows):
@@ -63,14 +67,14 @@ class StartPage(QtWidgets.QWidget):
         self.nothing.setVisible(not files)
 
     def show_message(self, text: str) -> None:
-        """Say above the title why a file could not be opened; nothing if the text is empty."""
+        """Show above the title why a file could not be opened, "" for nothing."""
         self.message.show_text(text)
         self._under_message.setVisible(bool(text))
         if text:
             self.scroll.verticalScrollBar().setValue(0)
 
     def set_dropping(self, dropping: bool) -> None:
-        """Whether a file that the page would take is held over the window."""
+        """Show whether a file that can be opened is dragged over the window."""
         self.zone.set_dropping(dropping)
 
     def showEvent(self, event: QtGui.QShowEvent) -> None:
@@ -96,13 +100,14 @@ class StartPage(QtWidgets.QWidget):
         self.nothing.setContentsMargins(OpenButton.INSET, 4, 0, 0)
         files = in_column(self._recent, 8, self.nothing, *self.rows, None, spacing=0)
         ways = in_row((self.zone, 1), (files, 1), spacing=40)
-        links = in_row(self.tour, 16, self.commands, quiet_label("F1"), None, spacing=8)
+        samples = in_row(self._samples, None, self.more)
+        links = in_row(self.guide, 16, quiet_label("F1: all commands"), None, spacing=8)
         how = quiet_label("Then click the surface: distances from that point appear side by side.")
         self._under_message = QtWidgets.QWidget(visible=False)
         self._under_message.setFixedHeight(20)
         column = QtWidgets.QWidget(maximumWidth=WIDEST)
         title = (self.message, self._under_message, self.title, 4, how)
-        in_column(*title, 24, ways, 24, self._samples, 12, self.tiles, 24, links, of=column, spacing=0)
+        in_column(*title, 24, ways, 24, samples, 12, self.tiles, 24, links, of=column, spacing=0)
         sheet = QtWidgets.QWidget()
         middle = QtWidgets.QGridLayout(sheet)
         middle.setContentsMargins(24, 12, 24, 12)
@@ -125,7 +130,7 @@ def _link(text: str) -> QtWidgets.QPushButton:
 
 
 class Refusal(QtWidgets.QLabel):
-    """Why a file could not be opened, on a few lines; all of it is in the tooltip."""
+    """The reason why a file could not be opened, on a few lines; the whole text is in the tooltip."""
 
     def __init__(self) -> None:
         super().__init__(visible=False)
@@ -151,7 +156,7 @@ class Refusal(QtWidgets.QLabel):
 
 
 class DropZone(QtWidgets.QWidget):
-    """Where files are dropped, with the button that opens one."""
+    """The area for drops, with the button that opens a file."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -171,9 +176,9 @@ class DropZone(QtWidgets.QWidget):
         LOOK.changed.connect(self.update)
 
     def set_dropping(self, dropping: bool) -> None:
-        """Show whether a file is held over the zone."""
+        """Show whether a file is dragged over the window."""
         self.is_dropping = dropping
-        self.word.setText("Let go to open it" if dropping else "Drop a file here")
+        self.word.setText("Release to open" if dropping else "Drop a file here")
         self.update()
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:

@@ -1,4 +1,4 @@
-"""What can be chosen on the start page: a recent file, as a row, or a sample, as a tile with its picture."""
+"""Buttons of the start page: recent files as rows, samples as tiles with pictures."""
 
 import os
 from contextlib import suppress
@@ -22,17 +22,20 @@ ROW = 32
 
 NARROWEST_TILE, GAP = 112, 8
 SMALLEST_PICTURE, LARGEST_PICTURE = 88, 124
+FIRST_SAMPLES = ("figure", "beast", "hand", "genus3")
+"""The samples that are shown at first: limbs, many tips, fingers, handles."""
+
 MONTHS = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
 
 WHITE = 250
-"""From which brightness on, of 255, a picture's pixel may be its ground."""
+"""Brightness, of 255, from which on a pixel may belong to the background."""
 
 LINE = 1
-"""Pixels: a white line, an isoline, is narrower than a pixel with so many to each side; the ground is not."""
+"""Pixels at each side within which white lines, the isolines, end, but not the background."""
 
 
 class OpenButton(QtWidgets.QAbstractButton):
-    """Something that opens at a click, or at Enter when Tab has reached it.  path: of what is opened."""
+    """A button that opens the file at `path` by a click or by Enter."""
 
     INSET, RADIUS = 8, 6
 
@@ -61,12 +64,12 @@ class OpenButton(QtWidgets.QAbstractButton):
         self.update()
 
     def paint(self, painter: QtGui.QPainter) -> None:
-        """What stands on the ground."""
+        """Paint the content."""
         raise NotImplementedError
 
 
 def _write(painter: QtGui.QPainter, box: QtCore.QRectF, text: str, colour: str, align: QtCore.Qt.AlignmentFlag) -> None:
-    """One line; what does not fit loses its middle."""
+    """Write a line, with dots in its middle where it has no room."""
     short = painter.fontMetrics().elidedText(text, QtCore.Qt.TextElideMode.ElideMiddle, int(box.width()) + 1)
     painter.setPen(QtGui.QColor(colour))
     painter.drawText(box, align | QtCore.Qt.AlignmentFlag.AlignVCenter, short)
@@ -74,7 +77,7 @@ def _write(painter: QtGui.QPainter, box: QtCore.QRectF, text: str, colour: str, 
 
 # ---------------------------------------------------------------------- recent files
 class RecentRow(OpenButton):
-    """A file's name, its folder, and when it was opened."""
+    """A row with a file's name, its folder, and when it was opened."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -110,7 +113,7 @@ class RecentRow(OpenButton):
 
 
 def when(opened_at: datetime | None, now: datetime) -> str:
-    """ "today, 14:20", "yesterday", "12 Nov", "12 Nov 2023"; both in local time."""
+    """Return a local time as "today, 14:20", "yesterday", "12 Nov" or "12 Nov 2023"."""
     if opened_at is None:
         return ""
     if opened_at.date() == now.date():
@@ -123,13 +126,15 @@ def when(opened_at: datetime | None, now: datetime) -> str:
 
 # ---------------------------------------------------------------------- samples
 class Tiles(QtWidgets.QWidget):
-    """A tile for each sample, as many in a row as there is room for."""
+    """Tiles of samples, as many in a row as there is room for; at first only a few."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.tiles = [SampleTile(name) for name in sample_names()]
-        for tile in self.tiles:
+        names = [*FIRST_SAMPLES, *(name for name in sample_names() if name not in FIRST_SAMPLES)]
+        self.tiles = [SampleTile(name) for name in names]
+        for place, tile in enumerate(self.tiles):
             tile.setParent(self)
+            tile.setVisible(place < len(FIRST_SAMPLES))
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Fixed)
         LOOK.changed.connect(self._arrange)
 
@@ -137,19 +142,26 @@ class Tiles(QtWidgets.QWidget):
         super().resizeEvent(event)
         self._arrange()
 
+    def show_all(self) -> None:
+        """Show all samples."""
+        for tile in self.tiles:
+            tile.show()
+        self._arrange()
+
     def _arrange(self) -> None:
+        tiles = [tile for tile in self.tiles if not tile.isHidden()]
         columns = max(1, int((self.width() + GAP) // (NARROWEST_TILE * LOOK.scale + GAP)))
-        columns = min(columns, -(-len(self.tiles) // 2) or 1)  # at least two rows: the tiles grow instead
+        columns = min(columns, max(-(-len(tiles) // 2), len(FIRST_SAMPLES)))  # the tiles grow instead
         width = (self.width() + GAP) // columns - GAP
         height = SampleTile.height_for(width)
-        for k, tile in enumerate(self.tiles):
+        for k, tile in enumerate(tiles):
             row, column = divmod(k, columns)
             tile.setGeometry(column * (width + GAP), row * (height + GAP), width, height)
-        self.setFixedHeight(-(-len(self.tiles) // columns) * (height + GAP) - GAP)
+        self.setFixedHeight(-(-len(tiles) // columns) * (height + GAP) - GAP)
 
 
 class SampleTile(OpenButton):
-    """A sample's picture, its name and how many vertices it has."""
+    """A sample's picture, its name and its number of vertices."""
 
     RADIUS = 8
 
@@ -162,7 +174,7 @@ class SampleTile(OpenButton):
 
     @staticmethod
     def height_for(width: int) -> int:
-        """The height in pixels of a tile of this width."""
+        """Return the height of a tile of a width, in pixels."""
         return _picture_side(width) + round(18 + 40 * LOOK.scale)
 
     def paint(self, painter: QtGui.QPainter) -> None:
@@ -182,7 +194,7 @@ def _picture_side(width: int) -> int:
 
 @lru_cache(maxsize=64)
 def vertex_count(path: str) -> int:
-    """As the head of a PLY file says; 0 if it does not."""
+    """Return the number of vertices in the header of a PLY file; 0 if it has none."""
     with suppress(OSError, ValueError, IndexError), open(path, "rb") as file:
         for line in file:
             if line.startswith(b"element vertex "):
@@ -194,7 +206,7 @@ def vertex_count(path: str) -> int:
 
 @lru_cache(maxsize=64)
 def cut_out(name: str) -> QtGui.QPixmap:
-    """A sample's picture without its white ground, to stand on any; empty if there is none."""
+    """Return a sample's picture without its white background; empty if there is none."""
     try:
         with Image.open(thumbnail(name)) as file:
             picture = without_ground(np.asarray(file.convert("RGB")))
@@ -206,7 +218,7 @@ def cut_out(name: str) -> QtGui.QPixmap:
 
 
 def without_ground(picture: AnyArray) -> AnyArray:
-    """(h, w, 3) bytes, of something on white, as (h, w, 4): white is seen through, but not lines that cross the thing.
+    """Return a picture (h, w, 3) of something on white as (h, w, 4) bytes, whose white ground is transparent.
 
     The ground is what is white and wide.  A pixel beside it is a mixture of white with what is there, for which the
     darkest of its neighbours stands.
@@ -226,7 +238,7 @@ def without_ground(picture: AnyArray) -> AnyArray:
 
 
 def _largest(values: AnyArray, steps: int) -> AnyArray:
-    """Over the square of so many pixels to each side."""
+    """Return the maximum over a square of pixels, `steps` to each side."""
     for axis in (0, 1):
         before = values
         for shift in range(1, steps + 1):

@@ -1,4 +1,4 @@
-"""What happens in a panel by the mouse, and in its head and its bar: typed events, with who wants to hear of them."""
+"""Typed events for what the mouse does in a panel, and the handlers that listen to them."""
 
 from collections import defaultdict
 from collections.abc import Callable
@@ -6,7 +6,6 @@ from typing import Any, NamedTuple, TypeVar
 
 from qtpy import QtCore
 
-from ...document.quantities import Quantity
 from ...scene.picking import Hit
 
 Event = TypeVar("Event")
@@ -29,7 +28,7 @@ class Events:
 
 
 class Click(NamedTuple):
-    """Of the left button on the surface, without a move."""
+    """A click of the left button on the surface."""
 
     hit: Hit
     has_shift: bool = False
@@ -37,12 +36,16 @@ class Click(NamedTuple):
 
     @property
     def is_plain(self) -> bool:
-        """Whether neither Shift nor Ctrl was held."""
+        """True if neither Shift nor Ctrl was held."""
         return not (self.has_shift or self.has_ctrl)
 
 
+class SecondClick:
+    """The second of two clicks on the surface, the first of which was a plain `Click`."""
+
+
 class MarkClick(NamedTuple):
-    """On a pin marker.  tool: whose it is, by its word; number: from 1."""
+    """A click on a numbered mark of a tool; numbers start from 1."""
 
     tool: str
     number: int
@@ -50,7 +53,7 @@ class MarkClick(NamedTuple):
 
 
 class MarkDrag(NamedTuple):
-    """The tip of a pin marker, or with the tool "" a mark of the source by its number from 0, is over a place."""
+    """A mark is dragged to a place: one of a tool by its number, or of the source, with the tool "", from 0."""
 
     tool: str
     number: int
@@ -58,13 +61,13 @@ class MarkDrag(NamedTuple):
 
 
 class MarkRelease(NamedTuple):
-    """The button is up that has dragged a mark."""
+    """The end of dragging a mark of a tool."""
 
     tool: str
 
 
 class Stroke(NamedTuple):
-    """The surface is drawn on.  hit: None beside it."""
+    """A point of a drawn stroke, None beside the surface."""
 
     hit: Hit | None
 
@@ -74,53 +77,24 @@ class StrokeEnd(NamedTuple):
 
 
 class Hover(NamedTuple):
-    """hit: what is under the pointer, None beside the surface."""
+    """The place under the pointer, None beside the surface."""
 
     hit: Hit | None
 
 
 class BrushTouch(NamedTuple):
-    """pixel: how long a pixel is there."""
+    """A touch of a brush, with the length of a pixel there."""
 
     hit: Hit
     pixel: float
 
 
 class BrushLift:
-    """The button is up that has painted."""
+    """The end of a stroke of a brush."""
 
 
 class MenuWanted(NamedTuple):
-    """hit: None beside the surface; where: on the screen."""
+    """A request for the menu of a place, None beside the surface, at a point of the screen."""
 
     hit: Hit | None
     where: QtCore.QPoint
-
-
-# ---------------------------------------------------------------------- of the head and the bar
-class QuantityChosen(NamedTuple):
-    shows: Quantity
-
-
-class EditChosen(NamedTuple):
-    """word: the text of a `PanelEdit`."""
-
-    word: str
-
-
-class BarEnded(NamedTuple):
-    """end: where the colour bar is to end, None for the field's own maximum."""
-
-    end: float | None
-
-
-class SaveWanted:
-    """Of the panel's field."""
-
-
-class Cancelled:
-    """What is computed for the panel."""
-
-
-class Retried:
-    """What was cancelled, once more."""

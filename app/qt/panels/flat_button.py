@@ -1,11 +1,14 @@
 """A button without an outline: an icon, or words with the arrow of a menu, cut short where there is no room."""
 
+from collections.abc import Callable, Mapping
+from typing import TypeAlias
+
 from qtpy import QtCore, QtGui, QtWidgets
 
+from ...drawing.painters.qt import number_width, paint_number
 from ..look.bare_button import BareButton
 from ..look.icons import pixmap
 from ..look.look import LOOK
-from ..look.numbers import number_width, paint_number
 from ..look.painting import baseline, paint_rounded, smooth_painter
 
 HEIGHT = 26
@@ -20,11 +23,19 @@ ARROW = 14
 
 ICON_SIDE = 28
 
+Do: TypeAlias = Callable[..., object] | Mapping[str, Callable[..., object] | None] | QtWidgets.QMenu
+"""What a button does, or its menu, or what the entries of a new one do, with "" for a separator."""
+
 
 class FlatButton(BareButton):
-    """Paints itself; with a menu or a pop-up it opens on Space, Enter and Down.
+    """A button that paints itself; its menu or pop-up opens on Space, Enter and Down, too.
 
-    text: what it says; symbol: quiet, before the text where there is room; icon_name: instead of words.
+    Attributes
+    ----------
+    symbol
+        Quiet words before the text, where there is room.
+    icon_name
+        Icon in place of words.
     """
 
     activated = QtCore.Signal()  # by mouse or keyboard, where there is no menu
@@ -106,5 +117,56 @@ class FlatButton(BareButton):
 
 
 def paint_ring(painter: QtGui.QPainter, around: QtCore.QRectF) -> None:
-    """The outline of what has the focus by keyboard."""
+    """Paint the outline of a widget that has the focus by keyboard."""
     paint_rounded(painter, around.adjusted(1, 1, -1, -1), 6, line=LOOK.theme.accent, width=2)
+
+
+def icon_button(parent: QtWidgets.QWidget, icon: str, tip: str, do: Do, name: str = "") -> FlatButton:
+    """Return a button with an icon, whose accessible name is its tip if no other is given."""
+    button = FlatButton(parent, icon)
+    button.setToolTip(tip)
+    button.setAccessibleName(name or tip)
+    if not isinstance(do, Mapping | QtWidgets.QMenu):
+        button.activated.connect(do)
+        return button
+    menu = do if isinstance(do, QtWidgets.QMenu) else QtWidgets.QMenu(button)
+    for text, entry in do.items() if isinstance(do, Mapping) else ():
+        add_entry(menu, text, entry) if entry is not None else menu.addSeparator()
+    button.setMenu(menu)
+    return button
+
+
+def menu_button(
+    parent: QtWidgets.QWidget,
+    fill: Callable[[QtWidgets.QMenu], object],
+    tip: str,
+    name: str = "",
+    icon: str = "",
+    quiet: bool = False,
+) -> FlatButton:
+    """Return a button whose menu a function fills each time that it is opened."""
+    button = FlatButton(parent, icon, quiet=quiet)
+    button.setToolTip(tip)
+    button.setAccessibleName(name or tip)
+    menu = QtWidgets.QMenu(button)
+
+    def fill_anew() -> None:
+        menu.clear()
+        for inner in menu.findChildren(QtWidgets.QMenu, options=QtCore.Qt.FindChildOption.FindDirectChildrenOnly):
+            inner.deleteLater()  # which `clear` leaves in memory
+        fill(menu)
+
+    menu.aboutToShow.connect(fill_anew)
+    button.setMenu(menu)
+    return button
+
+
+def add_entry(
+    menu: QtWidgets.QMenu, text: str, do: Callable[[], object], is_on: bool | None = None, can: bool = True
+) -> QtWidgets.QAction:
+    """Add an entry to a menu, with a tick unless `is_on` is None, and disabled unless it `can` be chosen."""
+    action = menu.addAction(text, lambda *_: do())
+    action.setCheckable(is_on is not None)
+    action.setChecked(bool(is_on))
+    action.setEnabled(can)
+    return action

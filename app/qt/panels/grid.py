@@ -6,24 +6,25 @@ from collections.abc import Callable, Collection
 
 from qtpy import QtCore, QtGui, QtWidgets
 
-from ...document.beside_edits import MOST_SHOWN, letter_of
 from ...document.camera import Camera
 from ...document.derived_surfaces import COLUMNS, changed_mesh
 from ...document.document import Document, Panel
-from ...document.panel_edits import possible_edits
+from ...document.panel_edits import edits_that_are_on, possible_edits
+from ...document.second_mesh_edits import MOST_SHOWN, letter_of
+from ...document.settings import Preferences
 from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.style import PAPER, Style
 from ...session.bar_ends import bar_end, ends_with
 from ...session.session import Session
 from ..look.look import LOOK
-from .events import BarEnded, Cancelled, EditChosen, Events, QuantityChosen, Retried, SaveWanted
-from .eye import Eye
+from .camera_controller import CameraController
+from .events import Events
 from .grid_marks import GridMarks
 from .line_labels import LineLabels
-from .moving import Moving
+from .motion_state import MotionState
 from .panel import DistancePanel
 from .pointing import Pointing
-from .shades import Shades
+from .shading_cache import ShadingCache
 
 SIDE_BY_SIDE = 3
 """Panels in a row at most, but for those of two meshes that correspond; more stand in rows as even as can be."""
@@ -39,24 +40,32 @@ LINE = 1
 
 
 class PanelGrid(QtWidgets.QWidget):
-    """A panel for each of the document's, by its id.  events: what happens in each."""
+    """The panels of a document by their ids; `events` tells what the mouse does in each."""
 
     looked = QtCore.Signal(Camera, str)  # where the user has turned or moved the camera of a surface to
     activated = QtCore.Signal(int)  # a panel
+    quantity_chosen = QtCore.Signal(int, object)  # in a panel's head
+    edit_chosen = QtCore.Signal(int, str)  # the text of a `PanelEdit`, in a panel's menu
+    save_wanted = QtCore.Signal(int)  # the field of a panel
+    bar_ended = QtCore.Signal(int, object)  # where a colour bar is to end, None for the field's own maximum
+    cancelled = QtCore.Signal(int)  # the computation for a panel
+    retried = QtCore.Signal(int)  # what was cancelled
 
     def __init__(self, session: Session, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
         self.events = Events()
         self.offscreen = OffscreenRenderer()
-        self.moving = Moving(lambda: [panel.view for panel in self.panels], self)
+        self.motion = MotionState(lambda: [panel.view for panel in self.panels], self)
         self.labels = LineLabels(lambda: self.panels, self)
-        self._shades = Shades(self)
-        self._shades.made.connect(self.show_shading)
-        self.eyes = tuple(Eye(session, lambda: self.panels, self, place) for place in range(MOST_SHOWN))
-        self.eye = self.eyes[0]  # that of the first surface
-        for eye in self.eyes:
-            eye.placed.connect(self._placed)
+        self._shading_cache = ShadingCache(self)
+        self._shading_cache.made.connect(self.show_shading)
+        self.camera_controllers = tuple(
+            CameraController(session, lambda: self.panels, self, place) for place in range(MOST_SHOWN)
+        )
+        self.camera_controller = self.camera_controllers[0]  # that of the first surface
+        for controller in self.camera_controllers:
+            controller.placed.connect(self._placed)
         self.active = -1  # the id of the panel that the keys go to
         self.wheel_factor = 1.0
         self.keys: Callable[[QtGui.QKeyEvent], bool] = lambda event: False  # what a key does on a view
@@ -67,22 +76,22 @@ class PanelGrid(QtWidgets.QWidget):
         self._is_closed = False
         self._are_in_rows = self._correspond = False
         self.pointing = Pointing()
-        self.marks = GridMarks(session, lambda: self._panels, self.moving)
+        self.marks = GridMarks(session, lambda: self._panels, self.motion)
         LOOK.changed.connect(self.update)
         self.show_panels(session.document)
         self.show_edits(session.document)
 
     @property
     def panels(self) -> list[DistancePanel]:
-        """In the order of the document."""
+        """The panels in the order of the document."""
         return list(self._panels.values())
 
     def panel(self, id: int) -> DistancePanel:
-        """The panel of an id; KeyError if there is none."""
+        """Return the panel of an id; KeyError if there is none."""
         return self._panels[id]
 
     def has(self, id: int) -> bool:
-        """Whether there is a panel of this id."""
+        """Return whether there is a panel of this id."""
         return id in self._panels
 
     # ------------------------------------------------------------------ where the panels are
@@ -98,7 +107,7 @@ class PanelGrid(QtWidgets.QWidget):
         self._arrange()
 
     def _arrange(self) -> None:
-        """All panels of one size, whatever is in them; what is left over stands at the right and below."""
+        """Lay out the panels, all of one size, whatever is in them; what is left over stands at the right and below."""
         count = len(self._panels)
         if not count:
             return
@@ -116,7 +125,7 @@ class PanelGrid(QtWidgets.QWidget):
             row, column = divmod(number, columns)
             # The last in a row has what is left over: a pixel or two, no more than a panel has columns.
             panel.setGeometry(column * (width + LINE), row * (height + LINE), width, height)
-        self._look_again()  # panels that were kept for later may have had this size before
+        self._refit()  # panels that were kept for later may have had this size before
 
     # ------------------------------------------------------------------ the document
     def show_panels(self, document: Document) -> None:
@@ -127,7 +136,7 @@ class PanelGrid(QtWidgets.QWidget):
         for id in self._panels.keys() - wanted.keys():
             gone = self._panels.pop(id)
             gone.hide()
-            gone.rest()
+            gone.clear()
             # Kept for the next: VTK does not give back all the memory of a scene that is gone.
             self._spare.append(gone)
         for id, panel in wanted.items():
@@ -150,7 +159,7 @@ class PanelGrid(QtWidgets.QWidget):
     def show_edits(self, document: Document) -> None:
         """Let the panels' menus offer what is possible now; pins alone may change that."""
         for id, panel in self._panels.items():
-            panel.head.allow(possible_edits(document, id))
+            panel.head.allow(possible_edits(document, id), edits_that_are_on(document, id))
 
     def _new_panel(self) -> DistancePanel:
         panel = DistancePanel(self.offscreen, self)
@@ -158,41 +167,41 @@ class PanelGrid(QtWidgets.QWidget):
         view.pressed.connect(lambda: self.activate(panel.id))
         view.happened.connect(lambda event: self.events.emit(panel.id, event))
         view.moved.connect(lambda: self._looked(panel))
-        view.let_go.connect(self.moving.rest)
-        view.resized.connect(self._look_again)
+        view.camera_released.connect(self.motion.stop)
+        view.resized.connect(self._refit)
         view.drawn.connect(self._drawn)
         view.installEventFilter(self)
         self.labels.watch(panel)
         panel.head.clicked.connect(lambda: self.activate(panel.id))
-        for signal, kind in (
-            (panel.head.changed, QuantityChosen),
-            (panel.head.asked, EditChosen),
-            (panel.head.save_wanted, SaveWanted),
-            (panel.ended, BarEnded),
-            (panel.waiting.cancelled, Cancelled),
-            (panel.stopped.retried, Retried),
+        for signal, with_id in (
+            (panel.head.changed, self.quantity_chosen),
+            (panel.head.asked, self.edit_chosen),
+            (panel.head.save_wanted, self.save_wanted),
+            (panel.ended, self.bar_ended),
+            (panel.waiting.cancelled, self.cancelled),
+            (panel.stopped.retried, self.retried),
         ):
-            signal.connect(lambda *what, kind=kind: self.events.emit(panel.id, kind(*what)))
+            signal.connect(lambda *values, with_id=with_id: with_id.emit(panel.id, *values))
         view.show_style(self._style)
         return panel
 
     def _begin(self, panel: DistancePanel, shown: Panel) -> None:
         """Let a panel be one of the document's, without a field yet."""
         panel.id, panel.surface = shown.id, shown.surface
-        loaded, eye = self._session.loaded(panel.surface), self.eye_of(panel.surface)
-        panel.view.plotter.look_through(eye.camera)
+        loaded, controller = self._session.loaded(panel.surface), self.controller_of(panel.surface)
+        panel.view.plotter.look_through(controller.camera)
         panel.view.show_style(self._style)
         if loaded is not None:
             panel.show_surface(loaded)
             self._shade(panel)
         panel.view.wheel_factor = self.wheel_factor
-        panel.view.upright = eye.upright
+        panel.view.upright = controller.upright
         panel.view.over.show_axes(self._session.document.axes)
         self.marks.begin(panel)
         panel.show()
 
     def show_style(self, style: Style) -> bool:
-        """Let all panels look like this; whether what they show has to be shown again."""
+        """Let all panels have a style; return whether their fields have to be shown again."""
         if self._is_closed:
             return False  # the colours of the desktop have changed, or those of another window
         self._style = style
@@ -200,7 +209,7 @@ class PanelGrid(QtWidgets.QWidget):
         return any(changed)
 
     def show_surface(self, surfaces: Collection[str] | None = None) -> None:
-        """Other surfaces are there; surfaces: their names in the document, if these are not all."""
+        """Show surfaces that are new, all of them or those of these names."""
         for panel in self.panels:
             loaded = self._session.loaded(panel.surface)
             if loaded is not None and (surfaces is None or panel.surface in surfaces):
@@ -210,7 +219,7 @@ class PanelGrid(QtWidgets.QWidget):
         self.show_shading()
 
     def show_shading(self) -> None:
-        """Shade all surfaces as the document says, once the mesh for it has been made."""
+        """Shade all surfaces as the document says, once their meshes are there."""
         if not self._is_closed:
             for panel in self.panels:
                 self._shade(panel)
@@ -218,16 +227,16 @@ class PanelGrid(QtWidgets.QWidget):
     def _shade(self, panel: DistancePanel) -> None:
         shading, loaded = self._session.document.shading, self._session.loaded(panel.surface)
         if loaded is not None:
-            panel.show_shading(shading, self._shades.drawn(loaded.prepared.meshes, shading))
+            panel.show_shading(shading, self._shading_cache.drawn(loaded.prepared.meshes, shading))
 
     # ------------------------------------------------------------------ answers
     def show_answer(self, id: int) -> None:
-        """The answer that the session has now for a panel."""
+        """Show the answer that the session has now for a panel."""
         document, shown = self._session.document, self._session.shown
         for other in ends_with(document, shown, id):
             if other in self._panels:
-                end, in_shares = bar_end(document, shown, other, self._session.loaded), document.range == "shares"
-                self._panels[other].show_answer(shown[other], end, document.height, in_shares)
+                end, in_shares = bar_end(document, shown, other, self._session.loaded), document.range == "fraction"
+                self._panels[other].show_answer(shown[other], end, document.warp_factor, in_shares)
                 self.marks.show_isolines_again(document, other)
                 self.marks.show_in(document, other)
         self.pointing.show_again_soon()
@@ -246,33 +255,44 @@ class PanelGrid(QtWidgets.QWidget):
         for panel in self.panels:
             panel.view.over.show_axes(has_axes)
 
-    def turn_upright(self, is_turntable: bool | None = None) -> None:
-        """Let the surface turn as on a turntable, or freely; as it did, about what is up now, if None."""
-        for eye in self.eyes:
-            eye.is_turntable = self.eye.is_turntable if is_turntable is None else is_turntable
+    def follow_preferences(self, preferences: Preferences) -> None:
+        """Turn and zoom as the user prefers."""
+        self.wheel_factor = -1.0 if preferences.wheel_reversed else 1.0
+        for panel in (*self.panels, *self._spare):
+            panel.view.wheel_factor = self.wheel_factor
+        self.camera_controller.is_turntable = preferences.turntable
+        self.turn_upright()
+
+    def turn_upright(self) -> None:
+        """Let surfaces turn about what is up now, freely or as on a turntable."""
+        for controller in self.camera_controllers:
+            controller.is_turntable = self.camera_controller.is_turntable
         for panel in self.panels:
-            panel.view.upright = self.eye_of(panel.surface).upright
+            panel.view.upright = self.controller_of(panel.surface).upright
 
-    def eye_of(self, surface: str) -> Eye:
-        """The camera of a surface, by its name in the document."""
-        return next((eye for eye in self.eyes if surface and eye.surface == surface), self.eye)
+    def controller_of(self, surface: str) -> CameraController:
+        """Return the camera of a surface, by its name in the document."""
+        return next(
+            (controller for controller in self.camera_controllers if surface and controller.surface == surface),
+            self.camera_controller,
+        )
 
-    def _look_again(self) -> None:
-        for eye in self.eyes:
-            eye.look_again()
+    def _refit(self) -> None:
+        for controller in self.camera_controllers:
+            controller.refit()
 
     def _looked(self, panel: DistancePanel) -> None:
-        """The user has moved the camera of a panel; where they are linked, those of other surfaces follow."""
-        if self._session.surface is None:
+        """Take the move of a panel's camera by the user; linked cameras of other surfaces follow."""
+        if self._session.loaded() is None:
             return
-        eye = self.eye_of(panel.surface)
-        before, after = eye.known, eye.note()
-        seen = {eye.surface: after}
-        for other in self.eyes if self._session.document.linked else ():
-            followed = None if other is eye or before is None else other.follow(before, after)
+        controller = self.controller_of(panel.surface)
+        before, after = controller.known, controller.note()
+        seen = {controller.surface: after}
+        for other in self.camera_controllers if self._session.document.linked else ():
+            followed = None if other is controller or before is None else other.follow(before, after)
             if followed is not None:
                 seen[other.surface] = followed
-        self.moving.moved()
+        self.motion.moved()
         self.redraw()
         for surface, camera in seen.items():
             self.looked.emit(camera, surface)
@@ -291,7 +311,7 @@ class PanelGrid(QtWidgets.QWidget):
             self._once.append(function)
 
     def _drawn(self) -> None:
-        """One of the views; the others follow, and then all come to the screen."""
+        """Wait for the other views, which are drawn next, and then all come to the screen."""
         if self._once:
             QtCore.QTimer.singleShot(0, self._painted)
 
@@ -303,8 +323,8 @@ class PanelGrid(QtWidgets.QWidget):
             function()
 
     def draw_in_full(self) -> None:
-        """With all that comes only once the camera rests."""
-        self.moving.rest()
+        """Draw the panels with all that comes only once the camera rests."""
+        self.motion.stop()
         for panel in self.panels:
             panel.view.shot()
 
@@ -329,12 +349,6 @@ class PanelGrid(QtWidgets.QWidget):
             return True
         return bool(super().eventFilter(watched, event))
 
-    def turn_wheel(self, factor: float) -> None:
-        """-1 for a wheel that goes the other way."""
-        self.wheel_factor = factor
-        for panel in (*self.panels, *self._spare):
-            panel.view.wheel_factor = factor
-
     def focus(self, step: int = 0) -> None:
         """Give the keys to the active panel, or to another, so many steps on."""
         ids = list(self._panels)
@@ -343,7 +357,7 @@ class PanelGrid(QtWidgets.QWidget):
             self._panels[ids[(place + step) % len(ids)]].view.setFocus(QtCore.Qt.FocusReason.ShortcutFocusReason)
 
     def close_views(self) -> None:
-        """For good: nothing is drawn from now on."""
+        """Close the views: nothing is drawn from now on."""
         self._is_closed = True
         self.labels.close()
         self.offscreen.close()

@@ -1,4 +1,4 @@
-"""What a document marks on its surfaces, in every panel of the grid: where fields start, what tools mark, insets."""
+"""Marks of a document on its surfaces, in every panel of the grid: sources, marks of tools, insets."""
 
 from collections.abc import Callable, Mapping
 
@@ -7,14 +7,13 @@ from qtpy import QtGui
 from bihdist_core.distances.answers import Answer
 
 from ...document.document import Document, Panel
-from ...document.tools import tools
 from ...marks.field_marks import starts
-from ...marks.marked_panel import MarkedPanel
+from ...marks.marked_panel import MarkedPanel, marks_of_tools
 from ...marks.primitives import Caption
 from ...session.isoline_points import IsolinePoint, passed
 from ...session.questions import vertex_at
 from ...session.session import Session
-from .moving import Moving
+from .motion_state import MotionState
 from .panel import DistancePanel
 
 NOTHING = Answer(label="")
@@ -25,11 +24,13 @@ SELECTED_MS = 600
 
 
 class GridMarks:
-    """panels: asks for those that are shown, by their ids."""
+    """The marks of a document in all panels that are shown."""
 
-    def __init__(self, session: Session, panels: Callable[[], Mapping[int, DistancePanel]], moving: Moving) -> None:
-        self._session, self._shown, self._moving = session, panels, moving
-        self._lit: dict[str, tuple[str, ...]] = {}  # points, by the words of tools
+    def __init__(
+        self, session: Session, panels: Callable[[], Mapping[int, DistancePanel]], motion: MotionState
+    ) -> None:
+        self._session, self._shown, self._motion = session, panels, motion
+        self._highlighted: dict[str, tuple[str, ...]] = {}  # points, by the words of tools
         self._is_drawn_on = self._keeps_steps = False
         self._brush: QtGui.QCursor | None = None
 
@@ -38,34 +39,42 @@ class GridMarks:
         return self._shown()
 
     def begin(self, panel: DistancePanel) -> None:
-        """A panel shows a surface from now on: what is marked there whatever the field."""
-        panel.view.pointer.draw_on(self._is_drawn_on)
+        """Start marking a panel's surface, with what is marked there whatever the field."""
+        panel.view.draw_on(self._is_drawn_on)
         panel.show_isolines(self._session.document.isolines)
-        panel.view.pointer.set_brush(self._brush_of(panel))
+        panel.view.set_brush(self._brush_of(panel))
 
     # ------------------------------------------------------------------ sources
     def expect_sources(self, document: Document) -> None:
         """Tell each panel where its field starts."""
         for panel in document.panels:
-            surface = self._session.surface_in(panel.id)
+            surface = self._session.mesh(panel.id).surface
             first = next((vertex_at(document.point(name).at, surface) for name in panel.shows.points), None)
-            self._panels[panel.id].marks.expect(first, starts(document, panel, surface))
+            question = self._session.questions[panel.id]
+            self._panels[panel.id].marks.expect(question, first, starts(document, panel, surface))
+
+    def show_sources(self, document: Document) -> None:
+        """Mark at once where the fields that are shown start, or no longer."""
+        self.expect_sources(document)
+        for id, panel in self._panels.items():
+            if self._session.is_answered(id):  # where another field is on its way, its source comes with it
+                panel.marks.mark_field(panel.answer, None)
 
     def draw_on(self, is_drawn_on: bool) -> None:
-        """Whether the left button draws on the surfaces, and no longer turns them there."""
+        """Set whether the left button draws on the surfaces, and no longer turns them there."""
         self._is_drawn_on = is_drawn_on
         for panel in self._panels.values():
-            panel.view.pointer.draw_on(is_drawn_on)
+            panel.view.draw_on(is_drawn_on)
 
     # ------------------------------------------------------------------ what tools mark
     def show(self, document: Document) -> None:
-        """What tools mark in each panel."""
+        """Show what tools mark in each panel."""
         changed = [self.show_in(document, panel.id) for panel in document.panels]
         if any(changed):
-            self._moving.moved(SELECTED_MS)
+            self._motion.moved(SELECTED_MS)
 
     def show_in(self, document: Document, id: int) -> bool:
-        """What tools mark in a panel; whether other vertices are selected there."""
+        """Show what tools mark in a panel; return whether other vertices are selected there."""
         panel, widget, shown = document.panel(id), self._panels[id], self._session.shown.get(id)
         surfaces = {mesh.name: self._session.loaded(mesh.name) for mesh in document.surfaces}
         there = {name: loaded for name, loaded in surfaces.items() if loaded is not None}
@@ -73,8 +82,8 @@ class GridMarks:
             return False
         answer = NOTHING if shown is None else shown.answer
         marked = MarkedPanel(document, panel, there, answer, widget.marks.found)
-        marks = {tool.word: tool.load(tool.marks)(marked) for tool in tools() if tool.marks}
-        has_other_areas = [widget.marks.show(word, found, self.lit(word)) for word, found in marks.items()]
+        marks = marks_of_tools(marked)
+        has_other_areas = [widget.marks.show(word, found, self.highlighted(word)) for word, found in marks.items()]
         captions = (mark for found in marks.values() for mark in found if isinstance(mark, Caption))
         widget.show_caption(next(captions, Caption()))
         return any(has_other_areas)
@@ -87,23 +96,23 @@ class GridMarks:
             if id in [panel.id for panel in self._session.document.panels]:
                 self.show_in(self._session.document, id)
 
-    def lit(self, tool: str) -> tuple[str, ...]:
-        """The points of a tool's marks that stand out, by its word."""
-        return self._lit.get(tool, ())
+    def highlighted(self, tool: str) -> tuple[str, ...]:
+        """Return the points of a tool's marks that stand out, by its word."""
+        return self._highlighted.get(tool, ())
 
-    def light(self, tool: str, points: tuple[str, ...]) -> None:
+    def highlight(self, tool: str, points: tuple[str, ...]) -> None:
         """Let a tool's marks at these points stand out, and no others of it."""
-        if points != self.lit(tool):
-            self._lit[tool] = points
-            if self._session.surface is not None:
+        if points != self.highlighted(tool):
+            self._highlighted[tool] = points
+            if self._session.loaded() is not None:
                 self.show(self._session.document)
 
     # ------------------------------------------------------------------ brushes
     def set_brush(self, brush: QtGui.QCursor | None) -> None:
-        """What a drag paints with in the panels of the first surface, None if it turns them."""
+        """Set what a drag paints with in the panels of the first surface, None if it turns them."""
         self._brush = brush
         for panel in self._panels.values():
-            panel.view.pointer.set_brush(self._brush_of(panel))
+            panel.view.set_brush(self._brush_of(panel))
 
     def _brush_of(self, panel: DistancePanel) -> QtGui.QCursor | None:
         surfaces = self._session.document.surfaces
@@ -113,22 +122,22 @@ class GridMarks:
     def show_insets(self, document: Document) -> None:
         """Enlarge the document's places in each panel."""
         for panel in self._panels.values():
-            panel.show_insets(document.zooms)
+            panel.show_insets(document.insets)
         self.settle_insets()
 
     def settle_insets(self) -> None:
-        """Put them where there is room, seen from where the camera is now."""
-        for panel in self._panels.values() if self._session.surface is not None else ():
+        """Put insets where there is room, seen from where the camera is now."""
+        for panel in self._panels.values() if self._session.loaded() is not None else ():
             panel.settle_insets()
 
     def show_isolines(self, document: Document) -> None:
-        """Those of the document, through its points, too."""
+        """Show the document's isolines, those through its points included."""
         for panel in document.panels:
             if panel.id in self._panels:
                 self._panels[panel.id].show_isolines(document.isolines, self._through(document, panel))
 
     def keep_steps(self, are_kept: bool) -> None:
-        """Whether isolines keep their steps for as long as these will do, which they do while a source moves."""
+        """Set whether isolines keep their steps for as long as these will do, which they do while a source moves."""
         if are_kept == self._keeps_steps:
             return
         self._keeps_steps = are_kept
@@ -138,7 +147,7 @@ class GridMarks:
             self.show_isolines(self._session.document)
 
     def show_isolines_again(self, document: Document, id: int) -> None:
-        """Those through its points, with the answer that a panel shows now."""
+        """Show the isolines through points, with the answer that a panel shows now."""
         if document.isolines.through:
             self._panels[id].show_isolines(document.isolines, self._through(document, document.panel(id)))
 

@@ -1,6 +1,6 @@
 """The line over a panel: what it shows, the parameters, and the panel's own menu."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from html import escape
@@ -8,16 +8,18 @@ from html import escape
 from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import Surface
-from bihdist_core.distances.kinds import Spec, Value
+from bihdist_core.distances.distance_types import Spec, Value
 
 from ...document.panel_edits import panel_edits
 from ...document.quantities import Difference, Quantity, kind_name, quantity_name
+from ...drawing.painters.qt import paint, rgba_of
+from ...drawing.shapes import Box, Path, Shape, Text, disc, rounded
 from ..look.icons import pixmap
 from ..look.layouts import in_column
 from ..look.look import LOOK
-from ..look.painting import paint_rounded, smooth_painter
+from ..look.painting import smooth_painter
 from .flat_button import ICON_SIDE, FlatButton
-from .number_box import PopUp
+from .number_box import ReadPopUp
 from .parameters import ChoiceControl, Control, FixedWord, NumberControl, parameter_control, signs
 from .quantity_menu import RAW_WORDS, Choices, fill_menu, offered_kinds
 
@@ -33,9 +35,6 @@ LETTER_SIDE, LETTER_ROOM = 18, 24
 
 DOT_ROOM, DOT = 13, 4.0
 """For the dot of a curve, and its radius."""
-
-EXACT = ("biharmonic", "commute-time")
-"""Distances of all eigenpairs, of which nothing can be left out."""
 
 
 class PanelHead(QtWidgets.QWidget):
@@ -62,7 +61,9 @@ class PanelHead(QtWidgets.QWidget):
         # Panels are equally wide whatever is in here.
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
         self.name = FlatButton(self, bold=True)
-        self.name.setMenu(self._menu(self._fill_name_menu))
+        menu = QtWidgets.QMenu(self, toolTipsVisible=True)
+        menu.aboutToShow.connect(lambda: self._fill_name_menu(menu))
+        self.name.setMenu(menu)
         self.warning = QtWidgets.QLabel(self, visible=False)
         self.info = FlatButton(self, "info")
         self.info.setAccessibleName("What to look for, and how exact it is")
@@ -70,16 +71,17 @@ class PanelHead(QtWidgets.QWidget):
         self.more = FlatButton(self, "more")
         self.more.setToolTip("Add, duplicate, move or remove panels, save the field")
         self.more.setAccessibleName("The panel: add, duplicate, move, remove, save")
-        self.more.setMenu(self._menu(None))
+        self.more.setMenu(QtWidgets.QMenu(self, toolTipsVisible=True))
         self._about = self.more.menu().addAction("What to look for…")
         self._about.triggered.connect(lambda: QtCore.QTimer.singleShot(0, lambda: self._open_info(self.more)))
         self._line_under_about = self.more.menu().addSeparator()
         self.edits = {word: self.more.menu().addAction(word) for word in panel_edits()}
         for word, action in self.edits.items():
+            action.setCheckable(panel_edits()[word].is_on is not None)
             action.triggered.connect(lambda *_, word=word: self.asked.emit(word))
         self.more.menu().addSeparator()
         self.more.menu().addAction("Save field…").triggered.connect(self.save_wanted)
-        self._sheet = PopUp(self)
+        self._sheet = ReadPopUp(self)
         self._sheet_words = QtWidgets.QLabel(self._sheet, wordWrap=True)
         self._sheet_words.setFixedWidth(280)
         in_column(self._sheet_words, of=self._sheet, margins=(12, 10, 12, 12))
@@ -93,12 +95,12 @@ class PanelHead(QtWidgets.QWidget):
 
     # ------------------------------------------------------------------ what is told
     def show_quantity(self, shows: Quantity, fields: Sequence[str] | None = None) -> None:
-        """Say what is shown, without emitting.  fields: the user's own that are there to choose."""
+        """Show a quantity, without emitting; `fields` are the user's own that are there to choose."""
         self.shows = shows
         if fields is not None:
             self._choices.fields = tuple(fields)
         self._choices.keep(shows)
-        bounded = [self._choices.bounded(p) for spec in shows.specs for p in spec.kind.parameters]
+        bounded = [self._choices.bounded(p) for spec in shows.specs for p in spec.distance_type.parameters]
         made_of = (type(shows), *(part.word for part in shows.parts), *bounded)
         # Controls that fit stay, as a hand may be on one of them.
         if made_of != self._made_of:
@@ -112,31 +114,32 @@ class PanelHead(QtWidgets.QWidget):
         self.show_info(self._info)
 
     def show_surface(self, surface: Surface | None) -> None:
-        """Which surface it is on, where parameters have their bounds; None for none any more."""
+        """Show which surface it is on, where parameters have their bounds; None for none any more."""
         self._choices.surface, self._method = surface, ((), "", False)
         if surface is not None:
             self.show_quantity(self.shows)
 
-    def allow(self, words: set[str]) -> None:
-        """Which of the panel's edits are possible."""
+    def allow(self, words: set[str], ticked: set[str]) -> None:
+        """Let the panel's edits be offered that are possible, with ticks at those that are on."""
         for word, action in self.edits.items():
             action.setEnabled(word in words)
+            action.setChecked(word in ticked)
 
-    def show_method(self, specs: tuple[Spec, ...], label: str, is_stand_in: bool = False) -> None:
-        """What the field has been computed by, "geodesic, heat method", for the control that says "auto", and of a
+    def show_method(self, specs: tuple[Spec, ...], label: str, is_preview: bool = False) -> None:
+        """Show what the field has been computed by, "geodesic, heat method", for the control that says "auto", and of a
         stand-in for any."""
-        self._method = specs, label.partition(", ")[2].partition(",")[0], is_stand_in
+        self._method = specs, label.partition(", ")[2].partition(",")[0], is_preview
         self._show_method()
 
     def _show_method(self) -> None:
-        specs, method, is_stand_in = self._method
+        specs, method, is_preview = self._method
         control = self._of_parameter.get((0, "method"))
         if isinstance(control, ChoiceControl) and not self.shows.is_difference:
-            control.show_meant(method if specs == self.shows.specs else "", is_stand_in)
+            control.show_actual(method if specs == self.shows.specs else "", is_preview)
             self._lay_out()
 
     def show_info(self, text: str) -> None:
-        """What to look for, the accuracy and remarks, as rich text; empty for the hint alone."""
+        """Show what to look for, the accuracy and remarks, as rich text; empty for the hint alone."""
         self._info = text
         hint = self.shows.hint
         html = text or f"{escape(hint[:1].upper() + hint[1:])}."
@@ -147,7 +150,7 @@ class PanelHead(QtWidgets.QWidget):
         self._sheet_html = html  # laid out when somebody wants to read it
 
     def show_warning(self, text: str) -> None:
-        """That the answer is poor, and why; empty for one that is not."""
+        """Warn that the answer is poor, and why; empty for one that is not."""
         if text == self._warning:
             return
         self._warning = text
@@ -157,7 +160,7 @@ class PanelHead(QtWidgets.QWidget):
         self._restyle()
 
     def show_letter(self, letter: str, name: str) -> None:
-        """Of the panel's surface, where there are two, and the name of that; "" for none."""
+        """Show the letter of the panel's surface, where there are two, and that surface's name; "" for none."""
         self.setToolTip(f"{letter}: {name}" if letter else "")
         self._choices.has_other = bool(letter)
         if letter != self.letter:
@@ -166,20 +169,20 @@ class PanelHead(QtWidgets.QWidget):
             self.update()
 
     def show_plain(self, name: str) -> None:
-        """The name of a surface that is shown as it is; "" where it is said what is shown on it."""
+        """Show the name of a surface without a field; "" where the head says what is shown on it."""
         if name != self._plain:
             self._plain = name
             self.show_quantity(self.shows)
 
     def show_dot(self, colour: str) -> None:
-        """Of the panel's curve in a plot that is open; "" for none."""
+        """Show the dot of the panel's curve in a plot that is open; "" for none."""
         if colour != self._dot:
             self._dot = colour
             self._lay_out()
             self.update()
 
     def set_compact(self, compact: bool) -> None:
-        """Lower, for a panel with little height."""
+        """Set whether the head is lower, for a panel with little height."""
         self._is_compact = compact
         self.setFixedHeight(round((COMPACT_HEIGHT if compact else HEIGHT) * LOOK.scale))
 
@@ -196,12 +199,6 @@ class PanelHead(QtWidgets.QWidget):
     def _subtract(self, raw: bool) -> None:
         if isinstance(self.shows, Difference):
             self._choose(replace(self.shows, raw=raw))
-
-    def _menu(self, fill: Callable[[QtWidgets.QMenu], None] | None) -> QtWidgets.QMenu:
-        menu = QtWidgets.QMenu(self, toolTipsVisible=True)
-        if fill is not None:
-            menu.aboutToShow.connect(lambda: fill(menu))
-        return menu
 
     def _fill_name_menu(self, menu: QtWidgets.QMenu) -> None:
         fill_menu(menu, self.shows, self._choices, self._choose)
@@ -222,13 +219,13 @@ class PanelHead(QtWidgets.QWidget):
             control.hide()
             control.deleteLater()
         parts = [part for part in self.shows.parts if part.specs]
-        signed = iter(signs([p for part in parts for p in part.specs[0].kind.parameters]))
+        signed = iter(signs([p for part in parts for p in part.specs[0].distance_type.parameters]))
         self._mode: ChoiceControl | None = None
         self._by: ChoiceControl | None = None
         self._of_parameter: dict[tuple[int, str], Control] = {}
         is_difference = self.shows.is_difference
         for place, part in enumerate(self.shows.parts):
-            for parameter in part.specs[0].kind.parameters if part.specs else ():
+            for parameter in part.specs[0].distance_type.parameters if part.specs else ():
                 of_what = f" ({('first', 'second')[place]}: {part.heading})" if is_difference else ""
                 bounded = self._choices.bounded(parameter)
                 control = parameter_control(self, bounded, next(signed), of_what)
@@ -241,11 +238,14 @@ class PanelHead(QtWidgets.QWidget):
             self.controls.append(self._mode)
         elif self.shows.done:
             words: dict[Value, str] = {kind.word: f"by {kind_name(kind).lower()}" for kind in offered_kinds()}
-            self._by = ChoiceControl(self, words, f"By which distance it is {self.shows.done}")
+            short: dict[Value, str] = {
+                kind.word: f"by {(kind.short or kind_name(kind)).lower()}" for kind in offered_kinds()
+            }
+            self._by = ChoiceControl(self, words, f"By which distance it is {self.shows.done}", short)
             self._by.chosen.connect(lambda word: self._choose(self._choices.with_part(self.shows, 0, word)))
             self.controls.insert(0, self._by)
-        elif not self.controls and self.shows.word in EXACT:
-            self.controls.append(FixedWord(self, "exact", "Of all eigenpairs; there is nothing to choose"))
+        elif not self.controls and any(spec.distance_type.is_complete for spec in self.shows.specs):
+            self.controls.append(FixedWord(self, "exact", "Uses all eigenpairs; nothing to choose"))
         order: list[QtWidgets.QWidget] = [self.name]
         for control in self.controls:
             inside: list[QtWidgets.QWidget] = [control]
@@ -278,7 +278,7 @@ class PanelHead(QtWidgets.QWidget):
         self._lay_out()
 
     def _restyle(self) -> None:
-        """Colours, letters or marks are others."""
+        """Follow the colours and font size of the window."""
         self.warning.setPixmap(pixmap("warning", LOOK.theme.warning, self.devicePixelRatioF(), 16))
         for control in self.controls:
             if isinstance(control, NumberControl):
@@ -288,7 +288,7 @@ class PanelHead(QtWidgets.QWidget):
         self.update()
 
     def _lay_out(self) -> None:
-        """From the left name, warning, parameters; from the right the two buttons."""
+        """Lay out name, warning and parameters from the left, and the two buttons from the right."""
         controls = [c for c in self.controls if not (self._plain or (self._warning and isinstance(c, FixedWord)))]
         self.name.setText(self._name)
         left = MARGIN + self._letter_room + (DOT_ROOM if self._dot else 0)
@@ -296,8 +296,14 @@ class PanelHead(QtWidgets.QWidget):
         self.more.setGeometry(right, self._top(ICON_SIDE), ICON_SIDE, ICON_SIDE)
         name = self.name.sizeHint().width()
         warning = WARNING_ROOM if self._warning else 0
-        shown, sliders, has_info = self._fitting(controls, right - left - name - warning)
-        if self._by in controls and self._by not in shown:
+        for is_short in (False, True):
+            if self._by is not None:
+                self._by.shorten(is_short)
+            shown, sliders, has_info = self._fitting(controls, right - left - name - warning)
+            if self._by in shown:
+                break
+        if self._by is not None and self._by in controls and self._by not in shown:
+            self._by.shorten(False)
             # By which distance it is tells panels apart, and what it is does not.
             self.name.setText(f"{self._by.text()[:1].upper()}{self._by.text()[1:]}")
             name = self.name.sizeHint().width()
@@ -331,7 +337,7 @@ class PanelHead(QtWidgets.QWidget):
             left, spare = left + BETWEEN + width, spare - more
 
     def _fitting(self, controls: list[Control], room: int) -> tuple[list[Control], bool, bool]:
-        """Which of the controls there is room for, whether with sliders, and whether beside the button with remarks."""
+        """Return the controls there is room for, whether with sliders, and whether beside the button with remarks."""
         wide = self.width()
         most = len(controls) if wide >= ALL_FROM else 1 if wide >= FIRST_FROM else 0
         plans = [(most, True, True)] if wide >= SLIDERS_FROM else []
@@ -360,19 +366,16 @@ class PanelHead(QtWidgets.QWidget):
         self.clicked.emit()
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        painter = smooth_painter(self)
-        painter.fillRect(self.rect(), QtGui.QColor(LOOK.theme.canvas))
+        theme, middle = LOOK.theme, self.height() / 2
+        shapes: list[Shape] = []
         if self._dot:
-            painter.setPen(QtCore.Qt.PenStyle.NoPen)
-            painter.setBrush(QtGui.QColor(self._dot))
-            painter.drawEllipse(QtCore.QPointF(MARGIN + self._letter_room + 8, self.height() / 2), DOT, DOT)
+            shapes.append(disc((MARGIN + self._letter_room + 8, middle), DOT, rgba_of(self._dot)))
         if self.letter:
             side = round(LETTER_SIDE * LOOK.scale)
-            badge = QtCore.QRectF(MARGIN + 4, self._top(side), side, side)
-            paint_rounded(painter, badge, 4, LOOK.theme.pressed)
-            painter.setFont(LOOK.font(11, bold=True))
-            painter.setPen(QtGui.QColor(LOOK.theme.text))
-            painter.drawText(badge, QtCore.Qt.AlignmentFlag.AlignCenter, self.letter)
+            badge = Box(MARGIN + 4, self._top(side), side, side)
+            text = Text(self.letter, *badge.middle, 11 * LOOK.scale, rgba_of(theme.text), True, "centre", "line")
+            shapes += [Path(rounded(badge, 4), rgba_of(theme.pressed)), text]
+        paint(smooth_painter(self, theme.canvas), shapes)
 
     @property
     def _letter_room(self) -> int:

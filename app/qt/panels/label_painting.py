@@ -4,23 +4,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from qtpy import QtCore, QtGui
+from qtpy import QtGui
 
 from bihdist_core.arrays import AnyArray, ByteArray, FloatArray
 
-from ...scene.field_actor import CASING
+from ...drawing.painters.qt import paint
+from ...drawing.shapes import Pen, Text
 from ...scene.levels import BOLD
 from ...scene.line_labels import PAD, STRAIGHT
-from ...scene.style import RIM, Style
+from ...scene.style import CASING, Style
 from ..look.look import LOOK
-from ..look.painting import round_pen
 
 FONT_SIZE = 11.0
 """Logical pixels."""
 
 
 @dataclass(frozen=True)
-class Written:
+class PlacedLabel:
     """A text of this width about a middle (x, y) of the picture, in logical pixels, turned against the clock."""
 
     text: str
@@ -32,17 +32,8 @@ class Written:
     is_through: bool
 
 
-def label_font(ratio: float) -> QtGui.QFont:
-    """In device pixels, of which there are so many in a logical one."""
-    font = LOOK.font(FONT_SIZE, bold=True)
-    font.setPixelSize(max(1, round(font.pixelSize() * ratio)))
-    return font
-
-
-def painted(
-    picture: AnyArray, written: Sequence[Written], style: Style, signed: bool, top: float, ratio: float
-) -> AnyArray:
-    """A copy of a picture (h, w, 4) of a field that goes up to `top`, with these on it; ratio: device pixels each."""
+def painted(picture: AnyArray, written: Sequence[PlacedLabel], style: Style, signed: bool, ratio: float) -> AnyArray:
+    """Return a copy of a picture (h, w, 4) with labels; `ratio` is the number of device pixels in a pixel."""
     result = picture.copy()
     for label in written:
         _open(result, label, style, ratio)
@@ -50,27 +41,21 @@ def painted(
     image = QtGui.QImage(result.data, width, height, 4 * width, QtGui.QImage.Format.Format_RGBX8888)
     painter = QtGui.QPainter(image)
     painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-    font = label_font(ratio)
-    metrics = QtGui.QFontMetricsF(font)
-    for label in written:
-        painter.resetTransform()
-        painter.translate(*(ratio * x for x in label.middle))
-        painter.rotate(-label.angle)
-        path = QtGui.QPainterPath()
-        start = QtCore.QPointF(-metrics.horizontalAdvance(label.text) / 2, metrics.capHeight() / 2)
-        path.addText(start, font, label.text)
-        rim = style.mark_edge if label.is_through else style.rim(signed, label.value)
-        if rim is not None:
-            width = 2 * (CASING if label.is_through else RIM) * ratio
-            painter.strokePath(path, round_pen(QtGui.QColor.fromRgbF(*rim), width))
-        colour = style.source if label.is_through else style.line(signed, label.value / top if top > 0 else 0.0)
-        painter.fillPath(path, QtGui.QColor.fromRgbF(*colour))
+    paint(painter, [_shape(label, style, signed, ratio) for label in written])
     painter.end()
     return _pixels(image)
 
 
-def _open(picture: AnyArray, label: Written, style: Style, ratio: float) -> None:
-    """A gap in the line, in place: as the surface is on both sides of it."""
+def _shape(label: PlacedLabel, style: Style, signed: bool, ratio: float) -> Text:
+    """Return a label in device pixels, in the colour of its line."""
+    ink = style.isoline_ink(signed, label.value, label.is_through)
+    halo = ink.rim and Pen(ink.rim, 2 * ink.rim_width * ratio, cap="round", join="round")
+    (x, y), size = (ratio * place for place in label.middle), ratio * round(FONT_SIZE * LOOK.scale)
+    return Text(label.text, x, y, size, ink.colour, True, "centre", "capitals", label.angle, halo)
+
+
+def _open(picture: AnyArray, label: PlacedLabel, style: Style, ratio: float) -> None:
+    """Clear a gap in a label's line, in place, with the colours of the surface on both sides of it."""
     height, width, _ = picture.shape
     across = style.isoline_width / 2 * (BOLD if label.is_bold or label.is_through else 1.0)
     band = ratio * (across + CASING * label.is_through + STRAIGHT * FONT_SIZE * LOOK.scale + 1.2)
@@ -99,7 +84,7 @@ def _open(picture: AnyArray, label: Written, style: Style, ratio: float) -> None
 
 
 def _pixels(image: QtGui.QImage) -> ByteArray:
-    """(h, w, 4) a copy of its pixels."""
+    """Return a copy of an image's pixels (h, w, 4)."""
     memory = image.constBits()
     if hasattr(memory, "setsize"):  # of PyQt
         memory.setsize(image.sizeInBytes())

@@ -3,32 +3,37 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-import numpy as np
 from qtpy import QtCore, QtGui
 
 from bihdist_core.arrays import AnyArray, FloatArray
 
-from ...marks.line_looks import SOURCE
+from ...drawing.axes import axes_shapes, middle
+from ...drawing.line_looks import SOURCE
+from ...drawing.painters.qt import box_of, paint, rectangle, rgba_of
+from ...drawing.pointer import REACH, ring_shapes
+from ...drawing.shapes import Box, Path, Shape, polyline
 from ...marks.primitives import LegendRow
-from ...scene.axes import arms, middle
 from ...scene.camera import camera_seen, frame
 from ...scene.lines_of_sight import pixels_in
+from ..look.look import LOOK
 from . import overlay
 from .line_marks import LineMarks, pen_of
-from .mark_texts import paint_texts
-from .notes import paint_legend, paint_note
-from .overlay import Pointed
+from .mark_shapes import point_of, text_shapes
+from .overlay import ROW, Pointed
 from .point_marks import PointMarks
 
 if TYPE_CHECKING:
     from .view import View
 
 DAB = 4.0
-"""Pixels across of a vertex that a brush touches."""
+"""Logical pixels across of a vertex that a brush touches."""
+
+AXIS_LETTER, AXIS_WIDTH = 11.0, 1.5
+"""Logical pixels of the font of the axes' letters, and of their arms' width."""
 
 
 class MarksOver:
-    """view: what they lie over.  Lines alone are told by a drawing of the surface where they are hidden."""
+    """All that lies over a view; only lines need the depths of its picture to know where they are hidden."""
 
     def __init__(self, view: "View") -> None:
         self._view = view
@@ -42,26 +47,22 @@ class MarksOver:
         self._has_axes = False
         self._covered = QtCore.QRect()  # by the ring and its label
         self._dabs: list[tuple[str, QtGui.QPolygonF]] = []  # of a brush that is down
-        self.ends = np.empty((0, 3))  # of what is joined
 
     # ------------------------------------------------------------------ what there is
     def say(self, sentence: str) -> None:
-        """In the middle of the view: why there is no field; "" for nothing."""
+        """Show why there is no field in the middle of the view; "" for nothing."""
         if sentence != self.sentence:
             self.sentence = sentence
             self._view.update()
 
     def write(self, notes: Sequence[str]) -> None:
-        """A few words under the head, with a triangle: how many extrema there are; the first for which there is room.
-
-        () for nothing.
-        """
+        """Show how many extrema there are, in the first words for which there is room; () for nothing."""
         if notes != self.notes:
             self.notes = notes
             self._view.update()
 
     def show_axes(self, has_axes: bool) -> None:
-        """Whether a cross in a corner says where x, y and z point to."""
+        """Show or hide the cross in a corner that says where x, y and z point to."""
         if has_axes != self._has_axes:
             self._has_axes = has_axes
             self._view.update()
@@ -73,18 +74,18 @@ class MarksOver:
         self._view.update(before | self._covered)
 
     def show_legend(self, rows: Sequence[LegendRow]) -> None:
-        """What glyphs stand for."""
+        """Show what glyphs stand for."""
         if rows != self.legend:
             self.legend = rows
             self._view.update()
 
     def show_strokes(self, strokes: Sequence[AnyArray]) -> None:
-        """What has been drawn so far, points (k, 3)."""
+        """Show the lines drawn so far, points (k, 3) each."""
         self.strokes = strokes
         self._view.update()
 
     def show_dabs(self, points: FloatArray | None, colour: str = "") -> None:
-        """More vertices (k, 3) that a brush has touched, shown as long as the brush is down; None for none."""
+        """Show more vertices (k, 3) that a brush has touched, as long as it is down; None for none."""
         if points is None:
             self._dabs.clear()
         else:
@@ -93,21 +94,15 @@ class MarksOver:
             self._dabs.append((colour, QtGui.QPolygonF([QtCore.QPointF(*place) for place in at.tolist()])))
         self._view.update()
 
-    def show_ends(self, points: FloatArray) -> None:
-        """Rings at points (k, 3) that are joined with each other, dashed where the surface hides them."""
-        if len(points) or len(self.ends):
-            self.ends = points
-            self._view.update()
-
-    def see(self) -> None:
-        """Another picture has been drawn: what is hidden in it?"""
-        self.points.see_again()
-        self.lines.see()
+    def find_hidden(self) -> None:
+        """Find what is hidden in the picture that has just been drawn."""
+        self.points.find_hidden()
+        self.lines.find_hidden()
         self._covered = self._cover()
 
     # ------------------------------------------------------------------ painting
     def paint(self, painter: QtGui.QPainter) -> None:
-        """What lies lowest first."""
+        """Paint what lies lowest first."""
         view = self._view
         painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
         self.lines.paint(painter)
@@ -115,46 +110,52 @@ class MarksOver:
             painter.setPen(QtGui.QPen(QtGui.QColor(colour), DAB))
             painter.drawPoints(places)
         self.points.paint_flat(painter)
-        if self._has_axes:
-            at = middle(view.width(), view.height(), view.scene.insets.corners)
-            overlay.paint_axes(painter, arms(frame(camera_seen(view.camera, 1.0))), at)
-        paint_texts(painter, self.points.texts(), QtCore.QRectF(view.rect()))
-        self.points.paint_standing(painter)
-        if self.legend and not self.sentence:
-            paint_legend(painter, QtCore.QRectF(view.rect()), self.legend)
-        elif self.notes and not self.sentence:
-            paint_note(painter, QtCore.QRectF(view.rect()), view.scene.style, self.notes)
+        room = box_of(view.rect())
+        shapes = [*self._axes(), *text_shapes(self.points.texts(), room), *self.points.standing_shapes()]
+        if not self.sentence:
+            shapes += overlay.legend_shapes(room, view.scene.style, self.legend)
+            top = ROW * LOOK.scale if self.legend else 0.0
+            below = Box(0.0, top, room.width, room.height - top)
+            shapes += overlay.note_shapes(below, view.scene.style, self.notes) if self.notes else []
+        paint(painter, shapes)
         if self.sentence:
             overlay.paint_sentence(painter, view.rect(), self.sentence)
-        for end in self.ends:
-            self._paint_ring(painter, view.place_of(end), True, not view.sees(end))
+        paint(painter, [*self._stroke_shapes(), *self._pointed_shapes()])
+
+    def _axes(self) -> list[Shape]:
+        view = self._view
+        if not self._has_axes:
+            return []
+        at, colour = middle(view.width(), view.height(), view.scene.insets.corners), rgba_of(LOOK.theme.quiet)
+        return axes_shapes(frame(camera_seen(view.camera, 1.0)), at, AXIS_LETTER * LOOK.scale, AXIS_WIDTH, colour)
+
+    def _stroke_shapes(self) -> list[Shape]:
+        view = self._view
+        shapes: list[Shape] = []
         for stroke in self.strokes:
-            path = QtGui.QPainterPath(view.place_of(stroke[0]))
-            for place in stroke[-1:] if len(stroke) < 2 else stroke[1:]:
-                path.lineTo(view.place_of(place))
-            for each in SOURCE.strokes:
-                painter.strokePath(path, pen_of(each, view.scene.style, view.proportion))
-        if self.pointed is not None:
-            self._paint_pointed(painter, self.pointed)
+            places = [point_of(view.place_of(place)) for place in (stroke if len(stroke) > 1 else [*stroke, *stroke])]
+            shapes += [
+                Path(polyline(places), pen=pen_of(each, view.scene.style, view.proportion)) for each in SOURCE.strokes
+            ]
+        return shapes
 
-    def _paint_pointed(self, painter: QtGui.QPainter, pointed: Pointed) -> None:
-        at = self._view.place_of(pointed.position)
-        self._paint_ring(painter, at, pointed.is_own, pointed.is_hidden)
+    def _pointed_shapes(self) -> list[Shape]:
+        if (pointed := self.pointed) is None:
+            return []
+        at = point_of(self._view.place_of(pointed.position))
+        shapes = ring_shapes(at, pointed.is_own, pointed.is_hidden, self._view.proportion)
         if pointed.value:
-            place = overlay.label_place(at, pointed.value, pointed.share, QtCore.QRectF(self._view.rect()))
-            overlay.paint_label(painter, place, pointed.value, pointed.share)
-
-    def _paint_ring(self, painter: QtGui.QPainter, at: QtCore.QPointF, is_own: bool, is_hidden: bool) -> None:
-        with overlay.shrunk(painter, at, self._view.proportion):
-            overlay.paint_ring(painter, at, is_own, is_hidden)
+            box = overlay.label_box(at, pointed.value, pointed.share, box_of(self._view.rect()))
+            shapes += overlay.label_shapes(box, pointed.value, pointed.share)
+        return shapes
 
     def _cover(self) -> QtCore.QRect:
-        """What the ring and its label take."""
+        """Return the area of the ring and its label."""
         if self.pointed is None:
             return QtCore.QRect()
-        at, reach = self._view.place_of(self.pointed.position), overlay.REACH
-        found = QtCore.QRectF(at.x() - reach, at.y() - reach, 2 * reach, 2 * reach)
+        at = point_of(self._view.place_of(self.pointed.position))
+        found = rectangle(Box(*at, 0.0, 0.0).grown(REACH))
         if self.pointed.value:
-            view = QtCore.QRectF(self._view.rect())
-            found |= overlay.label_place(at, self.pointed.value, self.pointed.share, view)
+            view = box_of(self._view.rect())
+            found |= rectangle(overlay.label_box(at, self.pointed.value, self.pointed.share, view))
         return found.toAlignedRect().adjusted(-2, -2, 2, 2)

@@ -1,4 +1,4 @@
-"""One number to be set: a slider, and a pop-up with a slider and a box for the exact value."""
+"""One number to be set: a slider, and pop-ups with a box for the exact value or for where a colour bar ends."""
 
 from functools import cache
 from math import exp, inf, log
@@ -6,10 +6,11 @@ from math import exp, inf, log
 from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import ParameterError
-from bihdist_core.distances.kinds import Parameter, Value
+from bihdist_core.distances.distance_types import Parameter, Value
 
+from ...document.looks import LARGEST
+from ...drawing.numbers import MINUS, number
 from ..look.look import LOOK
-from ..look.numbers import MINUS, number
 from ..look.painting import smooth_painter
 from ..look.text_box import TextBox, mark_wrong
 from .flat_button import paint_ring
@@ -21,7 +22,7 @@ SYMBOLS = {"alpha": "α"}
 
 
 def value_of_step(parameter: Parameter, step: int) -> float:
-    """The value at a slider position; one of the marks where it is within half a step."""
+    """Return the value at a slider position; one of the marks where it is within half a step."""
     mark = _marks(parameter).get(step)
     if mark is not None:
         return mark
@@ -33,12 +34,12 @@ def value_of_step(parameter: Parameter, step: int) -> float:
 
 @cache
 def _marks(parameter: Parameter) -> dict[int, float]:
-    """The marks by their steps."""
+    """Return the marks by their steps."""
     return {step_of_value(parameter, mark): mark for mark in reversed(parameter.marks)}
 
 
 def step_of_value(parameter: Parameter, value: float) -> int:
-    """The slider position of a value; outside of 0 to STEPS for what no slider offers."""
+    """Return the slider position of a value; outside of 0 to STEPS for what no slider offers."""
     low, high = _ends(parameter)
     if parameter.logarithmic and value <= 0:
         return 0
@@ -51,17 +52,17 @@ def _ends(parameter: Parameter) -> tuple[float, float]:
 
 
 def symbol(parameter: Parameter) -> str:
-    """The symbol of a parameter, such as t, or its name."""
+    """Return the symbol of a parameter, such as t, or its name."""
     return SYMBOLS.get(parameter.name, parameter.name)
 
 
 def meaning(parameter: Parameter) -> str:
-    """As a sentence begins."""
+    """Return the parameter's meaning as a sentence begins."""
     return f"{parameter.meaning[:1].upper()}{parameter.meaning[1:]}"
 
 
 def shown_value(parameter: Parameter, value: Value) -> str:
-    """As it stands in the head: a mark as a fraction, else three digits, or four where three do not say it."""
+    """Return a value as the head shows it: a mark as a fraction, else three digits, or four where three are too few."""
     if isinstance(value, str):
         return value
     if parameter.is_whole:
@@ -97,7 +98,7 @@ class ValueSlider(QtWidgets.QSlider):
         LOOK.changed.connect(self.update)
 
     def show_value(self, value: Value) -> None:
-        """Without emitting, and not under the user's hand."""
+        """Show a value without emitting, and not under the user's hand."""
         if not self.isSliderDown():
             with QtCore.QSignalBlocker(self):
                 self.setValue(min(max(step_of_value(self.parameter, float(value)), 0), STEPS))
@@ -132,7 +133,7 @@ class PopUp(QtWidgets.QFrame):
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_NoMouseReplay)
 
     def open_under(self, control: QtWidgets.QWidget, right: int = 0) -> None:
-        """Below a control, on the screen; right: of its left side."""
+        """Open below a control and within the screen, so far to the right of its left side."""
         self._under = control
         self.adjustSize()
         place = control.mapToGlobal(QtCore.QPoint(right, control.height() + 2))
@@ -142,6 +143,11 @@ class PopUp(QtWidgets.QFrame):
             place.setY(control.mapToGlobal(QtCore.QPoint(0, 0)).y() - self.height() - 2)
         self.move(place)
         self.show()
+
+    def mouseDoubleClickEvent(self, event: QtGui.QMouseEvent) -> None:
+        # The second press of a double click on the control is no click beside the sheet that the first has opened.
+        if self.rect().contains(event.pos()):
+            super().mouseDoubleClickEvent(event)
 
     def keyPressEvent(self, event: QtGui.QKeyEvent) -> None:
         if event.key() == QtCore.Qt.Key.Key_Escape:
@@ -153,6 +159,44 @@ class PopUp(QtWidgets.QFrame):
         super().hideEvent(event)
         self._under.update()  # the pointer may have left it meanwhile
         self.closed.emit()
+
+
+class ReadPopUp(PopUp):
+    """A sheet that is only read: pointing goes on under it, and so does the first key, which closes it."""
+
+    def __init__(self, parent: QtWidgets.QWidget) -> None:
+        super().__init__(parent)
+        # A popup would have the keys and the pointer to itself.
+        self.setWindowFlags(QtCore.Qt.WindowType.ToolTip | QtCore.Qt.WindowType.FramelessWindowHint)
+
+    def showEvent(self, event: QtGui.QShowEvent) -> None:
+        super().showEvent(event)
+        QtWidgets.QApplication.instance().installEventFilter(self)
+
+    def hideEvent(self, event: QtGui.QHideEvent) -> None:
+        QtWidgets.QApplication.instance().removeEventFilter(self)
+        super().hideEvent(event)
+
+    def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
+        kinds, kind = QtCore.QEvent.Type, event.type()
+        if watched in (self, self.windowHandle()) or watched.parent() is self:
+            return False
+        if kind == kinds.ShortcutOverride and event.key() == QtCore.Qt.Key.Key_Escape:
+            event.accept()  # it comes as a key then, and closes this alone
+            return True
+        if kind not in (
+            kinds.ShortcutOverride,
+            kinds.KeyPress,
+            kinds.MouseButtonPress,
+            kinds.Wheel,
+            kinds.WindowDeactivate,
+        ):
+            return False
+        self.close()
+        # A click beside it only closes it.
+        return bool(
+            kind == kinds.MouseButtonPress or (kind == kinds.KeyPress and event.key() == QtCore.Qt.Key.Key_Escape)
+        )
 
 
 class TypedPopUp(PopUp):
@@ -218,7 +262,7 @@ class NumberPopUp(TypedPopUp):
         self._lay_out(self.slider, self.box)
 
     def show_value(self, value: Value) -> None:
-        """Without emitting; what is being typed stays."""
+        """Show a value without emitting; what is being typed stays."""
         self._value = value
         self.slider.show_value(value)
         if not (self.isVisible() and self.box.isModified()):
@@ -242,3 +286,39 @@ class NumberPopUp(TypedPopUp):
         self.close()
         if value != self._value:
             self.chosen.emit(value)
+
+
+class EndPopUp(TypedPopUp):
+    """Asks where a colour bar ends; `chosen(None)` for the field's own maximum."""
+
+    def __init__(self, parent: QtWidgets.QWidget) -> None:
+        super().__init__("The colours end at", parent)
+        self.box.setFixedWidth(110)
+        self.box.setAccessibleName("Where the colours end")
+        self.own = QtWidgets.QPushButton("Its own maximum", self, clicked=lambda: self._choose(None))
+        self._lay_out(self.box, self.own)
+
+    def ask(self, control: QtWidgets.QWidget, end: float, maximum: float, unit: str) -> None:
+        """Open under the colour bar, whose colours end at `end`; the field's own maximum is proposed beside it."""
+        self.words.setText(f"The colours end at{f' ({unit})' if unit else ''}")
+        self.box.setText(f"{end:.6g}")
+        self.own.setToolTip(number(maximum))
+        self.own.setEnabled(end != maximum)
+        self._complain("")
+        self.adjustSize()
+        self.open_under(control, (control.width() - self.width()) // 2)
+
+    def _typed(self) -> None:
+        text = self.box.text().strip().replace(MINUS, "-")
+        try:
+            end = float(text.replace(",", "")) if text.count(",") != 1 or "." in text else float(text.replace(",", "."))
+        except ValueError:
+            end = float("nan")
+        if not 1 / LARGEST <= end <= LARGEST:
+            self._complain(f"{text!r} is not a positive number.")
+            return
+        self._choose(end)
+
+    def _choose(self, end: float | None) -> None:
+        self.close()
+        self.chosen.emit(end)

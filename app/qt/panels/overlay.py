@@ -1,37 +1,55 @@
-"""What lies over a view and needs no drawing of the surface: the ring and the label at the pointer, the
-axes, and sentences."""
+"""Shapes over a view beside its marks: the label at the pointer, notes and a legend in a corner, sentences."""
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from qtpy import QtCore, QtGui
 
 from bihdist_core.arrays import FloatArray
 
-from ...scene.axes import ARM, Arm
+from ...drawing.glyphs import TRIANGLE_UP
+from ...drawing.painters.qt import rgba_of, text_width
+from ...drawing.shapes import Box, Path, Point, Shape, Text, rounded
+from ...marks.primitives import LegendRow, PointMark
+from ...scene.style import Style
 from ..look.look import LOOK
-from ..look.numbers import number_width, paint_number
-from ..look.painting import paint_rounded, round_pen, translucent
+from ..look.painting import paint_rounded, translucent
+from .mark_shapes import mark_shapes, sample_shapes
 
-REACH = 14
-"""Logical pixels about a place that its ring may cover."""
+LABEL_HEIGHT, LABEL_PADDING, LABEL_GAP, LABEL_TEXT = 24.0, 8.0, 7.0, 12.0
+LABEL_OFFSET = (16.0, -38.0)
+"""Logical pixels from the place to the label's left top corner."""
 
-RING, ECHO = 8.0, 6.0
-"""Radius of the ring under the pointer, and of that in the other panels."""
+LEFT, TOP, GAP = 14.0, 15.0, 10.0
+"""Logical pixels: from the view's corner to the glyph of a note, and from that to the words."""
 
-BRIGHT, DARK = QtGui.QColor("#FFFFFF"), QtGui.QColor("#14161A")
+WIDEST_NOTE = 0.85
+"""Largest fraction of a view's width that a note takes."""
 
-LABEL_HEIGHT, LABEL_PADDING, LABEL_GAP = 24.0, 8.0, 7.0
-LABEL_OFFSET = QtCore.QPointF(16, -38)
-"""From the place to the label's left top corner."""
+LOW, TINY = 240, 170
+"""Logical pixels: in lower views the shape needs the room, and notes take their short form, or are left out."""
+
+SMALL = 0.7
+"""Size of a mark in a legend, as a fraction of its usual size."""
+
+ROW, NOTE_TEXT = 24.0, 12.5
+"""Logical pixels from a legend to a note under it, and of the size of their font."""
 
 
 @dataclass(frozen=True)
 class Pointed:
     """The place that is pointed at, in this panel or in another.
 
-    position: (3,); is_hidden: whether the surface is before it; value, share: what the label at the pointer says.
+    Attributes
+    ----------
+    position
+        (3,) the place.
+    is_own
+        Whether the pointer is in this panel.
+    is_hidden
+        Whether the surface is before the place.
+    value, share
+        What the label at the pointer says.
     """
 
     position: FloatArray
@@ -41,85 +59,75 @@ class Pointed:
     share: str = ""
 
 
-@contextmanager
-def shrunk(painter: QtGui.QPainter, at: QtCore.QPointF, share: float) -> Iterator[None]:
-    """Paint at this share of the usual size about a place."""
-    painter.save()
-    painter.translate(at)
-    painter.scale(share, share)
-    painter.translate(-at)
-    yield
-    painter.restore()
+def label_box(at: Point, value: str, share: str, view: Box) -> Box:
+    """Return the box of a place's label, always inside the view."""
+    (x, y), (right, up), scale = at, LABEL_OFFSET, LOOK.scale
+    width = 2 * LABEL_PADDING + text_width(value, LABEL_TEXT * scale, True)
+    width += LABEL_GAP + text_width(share, LABEL_TEXT * scale) if share else 0.0
+    height = LABEL_HEIGHT * scale
+    left = x + right if x + right + width <= view.right - 2 else x - right - width
+    top = y + up if y + up >= view.y + 2 else y + right
+    return Box(max(min(left, view.right - width), view.x), top, width, height)
 
 
-def paint_ring(painter: QtGui.QPainter, at: QtCore.QPointF, is_own: bool, is_hidden: bool) -> None:
-    """A white ring between dark rims, which shows on every colour; is_own: under the pointer, with a dot.
-
-    is_hidden: on the far side of the surface, dashed.
-    """
-    painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
-    radius = RING if is_own else ECHO
-    for colour, width in ((DARK, 4.5), (BRIGHT, 2.0)):
-        pen = QtGui.QPen(colour, width)
-        if is_hidden:
-            pen.setCapStyle(QtCore.Qt.PenCapStyle.FlatCap)
-            pen.setDashPattern([4.0 / width, 3.0 / width])
-        painter.setPen(pen)
-        painter.drawEllipse(at, radius, radius)
-    if is_own:
-        painter.setPen(QtGui.QPen(DARK, 1))
-        painter.setBrush(BRIGHT)
-        painter.drawEllipse(at, 2.0, 2.0)
-
-
-def label_place(at: QtCore.QPointF, value: str, share: str, view: QtCore.QRectF) -> QtCore.QRectF:
-    """Where the label of a place stands, always inside the view."""
-    width = 2 * LABEL_PADDING + number_width(LOOK.font(12, bold=True), value)
-    if share:
-        width += LABEL_GAP + number_width(LOOK.font(12), share)
-    size = QtCore.QSizeF(width, LABEL_HEIGHT * LOOK.scale)
-    place = QtCore.QRectF(at + LABEL_OFFSET, size)
-    if place.right() > view.right() - 2:
-        place.moveRight(at.x() - LABEL_OFFSET.x())
-    if place.top() < view.top() + 2:
-        place.moveTop(at.y() + LABEL_OFFSET.x())
-    place.moveLeft(max(min(place.left(), view.right() - width), view.left()))
-    return place
-
-
-def paint_label(painter: QtGui.QPainter, place: QtCore.QRectF, value: str, share: str, is_meant: bool = False) -> None:
-    """A value and its fraction of the maximum; is_meant: it is the one of several that a key takes."""
+def label_shapes(box: Box, value: str, share: str, is_target: bool = False) -> list[Shape]:
+    """Return a value and its fraction of the maximum in a box; with `is_target` as the one that a key takes."""
     theme = LOOK.theme
     ground, plain, quiet = theme.label, theme.label_text, theme.label_quiet
-    if is_meant:
+    if is_target:
         ground, plain, quiet = theme.fill, theme.on_fill, theme.on_fill
-    paint_rounded(painter, place, 4, ground)
-    x = place.left() + LABEL_PADDING
-    for text, bold, colour in ((value, True, plain), (share, False, quiet)):
-        painter.setFont(LOOK.font(12, bold))
-        metrics = painter.fontMetrics()
-        painter.setPen(QtGui.QColor(colour))
-        baseline = place.center().y() + (metrics.ascent() - metrics.descent()) / 2
-        x = paint_number(painter, x, baseline, text) + LABEL_GAP
+    x, y, size = box.x + LABEL_PADDING, box.middle[1], LABEL_TEXT * LOOK.scale
+    after = x + text_width(value, size, True) + LABEL_GAP
+    texts = (value, x, plain, True), (share, after, quiet, False)
+    return [
+        Path(rounded(box, 4), rgba_of(ground)),
+        *(
+            Text(text, left, y, size, rgba_of(ink), is_bold, level="line", are_digits_even=True)
+            for text, left, ink, is_bold in texts
+        ),
+    ]
 
 
-def paint_axes(painter: QtGui.QPainter, arms: Sequence[Arm], at: tuple[float, float]) -> None:
-    """The cross of the axes about a place."""
-    painter.setFont(LOOK.font(11))
-    metrics = painter.fontMetrics()
-    x, y = at
-    for arm in arms:
-        painter.setPen(round_pen(translucent(LOOK.theme.quiet, arm.opacity), 1.5))
-        painter.drawLine(QtCore.QPointF(x, y), QtCore.QPointF(x + ARM * arm.x, y - ARM * arm.y))
-        if arm.letter_at is None:
-            continue
-        right, up = arm.letter_at
-        width = metrics.horizontalAdvance(arm.name)
-        painter.drawText(QtCore.QPointF(x + right - width / 2, y - up + metrics.xHeight() / 2), arm.name)
+def note_shapes(view: Box, style: Style, notes: Sequence[str]) -> list[Shape]:
+    """Return the shapes of the number of extrema, in the first words for which there is room.
+
+    In a tiny view they would lie on the surface; the dock says them, too.
+    """
+    scale = LOOK.scale
+    if view.height < TINY * scale:
+        return []
+    size, y, left = NOTE_TEXT * scale, view.y + TOP * scale, LEFT + TRIANGLE_UP.pixels + GAP
+    room = WIDEST_NOTE * view.width - left
+    fitting = (words for words in notes[view.height < LOW * scale :] if text_width(words, size) <= room)
+    words = next(fitting, notes[-1])
+    ground = Box(4, view.y + 2, left + text_width(words, size), 2 * (TOP * scale - 2))
+    return [
+        Path(rounded(ground, 4), rgba_of(LOOK.theme.canvas, 0.8)),
+        *mark_shapes(PointMark(0, TRIANGLE_UP), (LEFT, y), style, 1.0),
+        Text(words, left, y, size, rgba_of(LOOK.theme.quiet), level="line"),
+    ]
+
+
+def legend_shapes(view: Box, style: Style, rows: Sequence[LegendRow]) -> list[Shape]:
+    """Return the legend of the glyphs, in a view that has room for it."""
+    theme, scale = LOOK.theme, LOOK.scale
+    if view.height < LOW * scale:
+        return []
+    x, y, size = LEFT + 2, TOP * scale, NOTE_TEXT * scale
+    shapes: list[Shape] = []
+    for row in rows:
+        if row.colour:
+            shapes += mark_shapes(PointMark(0, row.glyph, row.colour), (x, y), style, SMALL)
+        else:
+            shapes += sample_shapes(row.glyph, (x, y), rgba_of(theme.quiet if row.glyph.rise else theme.text))
+        x += 14 * scale
+        shapes.append(Text(row.text, x, y, size, rgba_of(theme.quiet), level="line"))
+        x += text_width(row.text, size) + 22 * scale
+    return shapes
 
 
 def paint_sentence(painter: QtGui.QPainter, view: QtCore.QRect, words: str) -> None:
-    """Why there is no field, in the middle, on the ground of the panel."""
+    """Paint why there is no field, in the middle, on the ground of the panel; Qt breaks the lines."""
     painter.setFont(LOOK.font(13))
     room = view.adjusted(24, 24, -24, -24)
     flags = int(QtCore.Qt.AlignmentFlag.AlignCenter | QtCore.Qt.TextFlag.TextWordWrap)

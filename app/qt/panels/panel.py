@@ -11,32 +11,31 @@ from bihdist_core.analysis.places import Places
 from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.distances.answers import Answer
 
-from ...document.document import COMPARISON, Zoom
+from ...document.document import COMPARISON, Inset
 from ...document.looks import AS_IT_IS, TWENTY_STEPS, Isolines, Shading
 from ...document.quantities import DistanceFrom
 from ...marks.primitives import Caption
-from ...scene.bands import band_edges
-from ...scene.drawable import drawable
-from ...scene.height_field import rise, warp_by_scalar
+from ...scene.bands import band_edges, beyond
+from ...scene.drawable import drawable, rise, warp_by_scalar
+from ...scene.field_actor import FieldActor
 from ...scene.levels import in_unit, with_kept_step
 from ...scene.offscreen_renderer import OffscreenRenderer
-from ...scene.picking import LatePicker
+from ...scene.picking import Picker
 from ...scene.prepared import Drawn
 from ...session.answering import Shown
 from ...session.isoline_points import IsolinePoint
 from ...session.loaded_mesh import LoadedMesh
+from ...session.questions import Question
 from ..look.layouts import in_column
 from ..look.look import LOOK
-from .answer_bar import show_answer
+from .answer_words import copied_words, reading_of, value_words
 from .colour_bar import ColourBar
-from .end_box import EndPopUp
 from .head import PanelHead
+from .number_box import EndPopUp
 from .overlay import Pointed
 from .panel_marks import PanelMarks
 from .panel_view import PanelView
-from .stopped import Stopped, stopped_words
-from .value_words import copied_words, value_words
-from .waiting import Waiting
+from .waiting import Stopped, Waiting, stopped_words
 
 COMPACT_BELOW = 360
 """Logical pixels of a panel's height under which its head and its bar are lower."""
@@ -48,7 +47,7 @@ NOTHING = Drawn(AS_IT_IS, vtkPolyData(), None)
 
 
 class DistancePanel(QtWidgets.QWidget):
-    """See the module.  id, surface: those of the document's panel."""
+    """A panel of the document, by its id and the name of its surface."""
 
     ended = QtCore.Signal(object)  # where its colour bar is to end, None for the field's own maximum
 
@@ -73,16 +72,17 @@ class DistancePanel(QtWidgets.QWidget):
         self._height_field: Surface | None = None  # that is drawn instead of the surface
         self._raised: tuple[int, float, float] | None = None  # its field, where that ends, and its height
         self._shading, self._drawn = AS_IT_IS, NOTHING  # of the surface as it lies
-        self._zooms: tuple[Zoom, ...] = ()
+        self._insets: tuple[Inset, ...] = ()
         self.isolines = TWENTY_STEPS  # of the document
         self._top = 0.0  # where the colours of the answer end
         self.answer: Answer | None = None
+        self._asked: Question | None = None  # what is answered by that
         self._is_preview = self._is_waiting = self._in_shares = self._is_compact = self.keeps_step = False
         self.show_active(False)  # as long as it is the only one
 
     # ------------------------------------------------------------------ how it looks
     def show_active(self, is_active: bool) -> None:
-        """Whether this is the panel that the keys go to."""
+        """Set whether this is the panel that the keys go to."""
         self._accent.setVisible(is_active)
         self._accent.raise_()
 
@@ -95,21 +95,22 @@ class DistancePanel(QtWidgets.QWidget):
         self._place_waiting()
 
     def _place_waiting(self) -> None:
-        """Over the view, or where the shape fills that, over the bar, if it is empty; if not, a line has to do."""
+        """Place the progress over the view, or over an empty bar in a low panel, where the shape fills the view."""
         is_at_bar, view = self._is_compact and self._is_waiting, self.view.geometry()
         top = view.bottom() + 1 if is_at_bar else view.top()
         self.waiting.fit(top, view.width(), self._is_compact, is_at_bar or not self._is_compact)
         self.stopped.fit()
 
-    def rest(self) -> None:
+    def clear(self) -> None:
         """Show nothing, and keep nothing of what was shown."""
         self.view.plotter.clear()
+        self.view.forget_picture()
         self._forget()
 
     def _forget(self) -> None:
-        self.loaded = self.answer = self._height_field = self._raised = None
-        self._drawn, self._zooms = NOTHING, ()
-        self.marks.rest()
+        self.loaded = self.answer = self._asked = self._height_field = self._raised = None
+        self._drawn, self._insets = NOTHING, ()
+        self.marks.clear()
         self.view.picker = None
         self.view.scene.show_surface(vtkPolyData(), (0, 1, 0, 1, 0, 1))
         self.view.show_empty(True)
@@ -120,9 +121,10 @@ class DistancePanel(QtWidgets.QWidget):
 
     # ------------------------------------------------------------------ state into pixels
     def show_surface(self, loaded: LoadedMesh) -> None:
-        """Another surface, without a field yet; or the same in another look, with what others have added to it."""
+        """Show another surface without a field yet, or the same one anew with what others have added to it."""
         if loaded is not self.loaded:
             self.view.plotter.clear()
+            self.view.forget_picture()
         self._forget()
         self.loaded = loaded
         self.head.show_surface(loaded.surface)
@@ -130,55 +132,59 @@ class DistancePanel(QtWidgets.QWidget):
         self.view.picker = loaded.prepared.picker
         self._drawn = loaded.prepared.meshes.usual
         self.view.scene.show_surface(self._drawn.mesh, loaded.prepared.bounds)
-        self.view.scene.take_stand_in(self._drawn.stand_in)
-        self.view.scene.show_bare()
+        self._field_actor.stand_in.take(self._drawn.stand_in)
+        self._field_actor.show_bare()
         self.view.show_empty(False)
 
     def show_shading(self, shading: Shading, drawn: Drawn) -> None:
-        """Shade the surface so; drawn: the mesh for that, as it lies."""
-        scene = self.view.scene
-        scene.show_shading(shading)
+        """Shade the surface; `drawn` is its mesh for that shading, not raised."""
+        actor = self._field_actor
+        actor.show_shading(shading)
         if self._height_field is None and drawn is not self._drawn:
-            scene.show_normals(drawn.mesh)
-            scene.take_stand_in(drawn.stand_in)
+            actor.show_normals(drawn.mesh)
+            actor.stand_in.take(drawn.stand_in)
         elif self._height_field is not None and shading != self._shading:
-            scene.show_normals(drawable(self._height_field, shading))
+            actor.show_normals(drawable(self._height_field, shading))
         self._shading, self._drawn = shading, drawn
         self.view.redraw()
 
-    def show_insets(self, zooms: tuple[Zoom, ...]) -> None:
+    def show_insets(self, insets: tuple[Inset, ...]) -> None:
         """Enlarge these places."""
-        self._zooms = zooms
-        self.view.scene.insets.show(zooms, self.positions)
+        self._insets = insets
+        self.view.scene.insets.show(insets, self.positions)
         self.view.redraw()
 
     def settle_insets(self) -> None:
         """Put the insets where they hide the least."""
-        if self.loaded is not None and self._zooms:
+        if self.loaded is not None and self._insets:
             samples = self.loaded.prepared.samples if self._height_field is None else self.positions
             self.view.scene.insets.settle(samples, self.marks.places)
 
     def show_isolines(self, isolines: Isolines, through: tuple[IsolinePoint, ...] = ()) -> None:
-        """These, and one through each of the points, which have dots."""
+        """Show the isolines of the document, and one through each of these points, which have dots."""
         self.isolines = isolines
-        scene = self.view.scene
-        scene.show_isolines(self._lines, tuple(point.value for point in through))
+        actor = self._field_actor
+        actor.show_isolines(self._lines, tuple(point.value for point in through))
         self.marks.mark_passed(through, self.answer)
-        scene.show_bands(self._edges)
+        actor.show_bands(self._edges)
         self._show_bar()
         self._warn()
         self.view.redraw()
 
     @property
+    def _field_actor(self) -> FieldActor:
+        return self.view.scene.field_actor
+
+    @property
     def _edges(self) -> AnyArray:
-        """(k,) fractions of the maximum at which bands end."""
+        """The fractions (k,) of the maximum at which bands end."""
         is_signed = self.answer is not None and self.answer.is_signed
-        return band_edges(self._lines, self.view.scene.maximum, is_signed)
+        return band_edges(self._lines, self._field_actor.maximum, is_signed)
 
     @property
     def _lines(self) -> Isolines:
-        """The document's, as those of the answer."""
-        answer, step = self.answer, self.view.scene.levels.step
+        """The document's isolines in the unit of the answer."""
+        answer, step = self.answer, self._field_actor.levels.step
         if answer is None:
             return self.isolines
         lines = in_unit(self.isolines, answer.scale, self._in_shares, answer.is_signed)
@@ -195,38 +201,41 @@ class DistancePanel(QtWidgets.QWidget):
         return self._height_field or (None if self.loaded is None else self.loaded.surface)
 
     @property
-    def source(self) -> int | None:
-        """Where its field starts."""
-        return self.marks.source
-
-    @property
     def positions(self) -> FloatArray:
-        """(n, 3) where the vertices are drawn."""
+        """The places (n, 3) where the vertices are drawn."""
         return self.marks.positions
 
     # ------------------------------------------------------------------ answers
     def show_answer(
         self, shown: Shown, maximum: float | None = None, height: float = 0.0, in_shares: bool = False
     ) -> None:
-        """A field with its colour bar up to `maximum`, its own if None; or why there is none.
+        """Show a field with its colour bar, or why there is none.
 
-        height: of the height field that a flat surface becomes.  in_shares: the bar reads fractions of the maximum.
+        Parameters
+        ----------
+        maximum
+            Upper colour limit, the field's own maximum if None.
+        height
+            Height of the height field that a flat surface becomes.
+        in_shares
+            Whether the bar reads fractions of the maximum.
         """
         self._in_shares = in_shares and shown.answer.signs is None
         self.answer = answer = shown.answer
         self._top = maximum or answer.maximum
-        scene = self.view.scene
-        if self._lines != scene.wanted_isolines:
-            scene.show_isolines(self._lines)
+        actor = self._field_actor
+        if self._lines != actor.isolines:
+            actor.show_isolines(self._lines)
         self._raise(answer, self._top, height)
         if answer.colours is not None:
-            scene.show_colours(answer.colours)
+            actor.show_colours(answer.colours)
         elif answer.field is None:
-            scene.show_bare(is_plain=not answer.failure)
+            actor.show_bare(is_plain=not answer.failure)
         else:
-            scene.show_field(answer.field, maximum, answer.is_signed, not answer.is_rough)
-            scene.show_bands(self._edges)
-        self.marks.mark_field(answer)
+            actor.show_field(answer.field, maximum, answer.is_signed, not answer.is_rough)
+            actor.show_bands(self._edges)
+        self._asked = shown.question
+        self.marks.mark_field(answer, self._asked)
         self.view.redraw()
         self.show_waiting(None)
         self.show_error_estimate(shown)
@@ -237,22 +246,25 @@ class DistancePanel(QtWidgets.QWidget):
         if answer is None or answer.field is None:
             self.bar.clear()
         else:
-            show_answer(self.bar, answer, self.view.scene, self._edges, self._in_shares)
+            actor = self._field_actor
+            goes_beyond = beyond(answer.field, actor.maximum, answer.is_signed)
+            reading = reading_of(answer, actor, self._in_shares)
+            self.bar.show_range(reading, self.view.scene.style, self._edges, goes_beyond)
 
     def show_caption(self, caption: Caption) -> None:
-        """What stands at the bar and in the head besides the field."""
+        """Show what stands at the bar and in the head besides the field."""
         self.bar.show_rest(caption.value, caption.unit)
         self.bar.show_sentence(caption.sentence)
         self.head.show_plain(caption.plain)
 
     def ask_end(self) -> None:
-        """Let it be typed where the colour bar ends."""
+        """Open the box for the upper colour limit."""
         answer = self._current
         if answer is not None and answer.field is not None:
-            self._end.ask(self.bar, self.view.scene.maximum, answer.maximum, answer.unit)
+            self._end.ask(self.bar, self._field_actor.maximum, answer.maximum, answer.unit)
 
     def _end_at(self, end: float | None) -> None:
-        """What was typed is in the answer's unit, and the document's are fractions."""
+        """Emit where the bar ends: what was typed is in the answer's unit, and the document's ends are fractions."""
         scale = 1.0 if self.answer is None else self.answer.scale
         self.ended.emit(None if end is None else end / scale)
 
@@ -269,65 +281,69 @@ class DistancePanel(QtWidgets.QWidget):
         if field is None:
             self._height_field, self.view.picker = None, prepared.picker
             scene.show_shape(self._drawn.mesh, prepared.bounds)
-            scene.take_stand_in(self._drawn.stand_in)
+            scene.field_actor.stand_in.take(self._drawn.stand_in)
         else:
             *others, low, high = prepared.bounds
             up = rise(prepared.bounds, height)
             shape = self._height_field = warp_by_scalar(shape, field, top, up)
-            self.view.picker = LatePicker(shape)  # made when somebody points at it
+            self.view.picker = Picker(shape)  # whose blocks are made when somebody points at it
             scene.show_shape(drawable(shape, self._shading), (*others, low - up, high + up))
-            scene.take_stand_in(None)
+            scene.field_actor.stand_in.take(None)
         self.marks.follow(shape)
-        self.show_insets(self._zooms)
+        self.show_insets(self._insets)
         self.settle_insets()
 
     def show_error_estimate(self, shown: Shown) -> None:
-        """How accurate the field is."""
+        """Show how accurate the field is."""
         self.answer, self._is_preview = shown.answer, shown.is_preview
         accuracy = shown.answer.accuracy
         self._warn()
-        self.head.show_method(shown.asked.specs, shown.answer.label, shown.is_preview)
+        self.head.show_method(shown.question.specs, shown.answer.label, shown.is_preview)
         texts = [shown.answer.label, self.head.shows.hint, accuracy.text]
         self.head.show_info("<br>".join(escape(f"{text[0].upper()}{text[1:]}.") for text in texts if text))
 
     def _warn(self) -> None:
-        """Of what is not as one would think."""
+        """Show a warning of a poor accuracy, or of too many isolines."""
         poor = ""
         if self.answer is not None and self.answer.accuracy.is_poor and not self._is_preview:
             poor = f"Not exact here: only {self.answer.accuracy.text}."
-        self.head.show_warning(" ".join(filter(None, (poor, self.view.scene.too_many))))
+        self.head.show_warning(" ".join(filter(None, (poor, self._field_actor.too_many))))
 
     def show_waiting(self, progress: tuple[float, str] | None, is_old: bool = True) -> None:
-        """What is being computed; None when nothing is.  is_old: the field that is shown is not what is asked for."""
-        is_waiting = progress is not None and is_old
-        changes = is_waiting != self._is_waiting
-        self._is_waiting = is_waiting
+        """Show what is being computed, None for nothing; `is_old` where the field is not the one asked for."""
+        self._stand_back(progress is not None and is_old)
         self._place_waiting()
-        self.view.dim(is_waiting)
-        self.stopped.hide()
-        # Why there is no field is not said of one that is on its way.
-        self.view.over.say("" if is_waiting or self.answer is None else self.answer.failure)
         if progress is None:
             self.waiting.hide()
         else:
             self.waiting.show_progress(*progress)
-        if changes and is_waiting:
-            # It takes a while: let the place be seen meanwhile.
-            self.marks.mark_field(self.answer)
+
+    def show_behind(self, is_behind: bool) -> None:
+        """Let the field be pale, without words, while it is too far behind a source that moves."""
+        self.waiting.hide()
+        self._stand_back(is_behind)
+
+    def _stand_back(self, is_behind: bool) -> None:
+        """Let the field be pale while another is on its way, and mark where that one starts; or no longer."""
+        changes = is_behind != self._is_waiting
+        self._is_waiting = is_behind
+        self.view.dim(is_behind)
+        self.stopped.hide()
+        # Why there is no field is not said of one that is on its way.
+        self.view.over.say("" if is_behind or self.answer is None else self.answer.failure)
+        if changes or is_behind:  # the source may go on
+            self.marks.mark_field(self.answer, None if is_behind else self._asked)
         if changes:
             self._show_bar()
 
     def show_stopped(self, shown: Shown | None = None, is_old: bool = True) -> None:
-        """The user has stopped it, and this is what it shows.  is_old: which is not what is asked for."""
+        """Show that the user has stopped it, and what it shows; `is_old` where that is not what was asked for."""
         words = stopped_words(shown)
         if self.stopped.is_saying(words):
             return
-        self.show_waiting(None)
-        self._is_waiting = is_old
-        self.view.dim(is_old)
+        self.show_behind(is_old)
         self.view.over.say("")
         self.stopped.show_words(words)
-        self._show_bar()
 
     # ------------------------------------------------------------------ the pointer
     def point_at(self, vertex: int | None, is_own: bool, is_hidden: bool = False) -> None:
@@ -347,12 +363,12 @@ class DistancePanel(QtWidgets.QWidget):
             self.bar.show_value(float(answer.field[vertex]))
 
     def image_of(self, vertex: int) -> int | None:
-        """Where the map that is shown leads from a vertex; None for nowhere, and where no map is shown."""
+        """Return the vertex that the map shown leads to; None for none, and where no map is shown."""
         leads_to = None if self._current is None else self._current.leads_to
         return None if leads_to is None or leads_to[vertex] < 0 else int(leads_to[vertex])
 
-    def echo(self, place: Places | None) -> None:
-        """Put a ring at one place, and its value into the bar: somewhere else the pointer is there."""
+    def highlight_place(self, place: Places | None) -> None:
+        """Put a ring at a place, and its value into the bar, while the pointer is elsewhere, as in a chart."""
         if place is None or self.loaded is None:
             self.point_at(None, False)
             return
@@ -362,5 +378,5 @@ class DistancePanel(QtWidgets.QWidget):
         self.bar.show_value(None if field is None else float(place.values(field)[0]))
 
     def words_at(self, vertex: int) -> str:
-        """Its value in words, for the clipboard."""
+        """Return the value of a vertex in words, for the clipboard."""
         return copied_words(self._current, vertex, self.head.shows)

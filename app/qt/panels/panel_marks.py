@@ -1,8 +1,8 @@
-"""What is marked on the surface of a panel: kept as vertices and places, so that it follows the shape that is shown."""
+"""The marks of a panel: kept as vertices and places, so that they follow the shape that is shown."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
-from itertools import chain
+from itertools import chain, takewhile
 from typing import Any, TypeVar
 
 import numpy as np
@@ -15,19 +15,26 @@ from ...marks.field_marks import isoline_points, largest
 from ...marks.primitives import AreaMark, LegendRow, LineMark, PointMark, SurfaceMark
 from ...scene.selected import selected_colours
 from ...session.isoline_points import IsolinePoint
+from ...session.questions import Question
 from .panel_view import PanelView
 
 FIELD, ISOLINES = "field", "isolines"
-"""Whose the marks are that are no tool's."""
+"""Keys of the marks that belong to no tool."""
 
 Kind = TypeVar("Kind", PointMark, LineMark, AreaMark, LegendRow)
 
 
 class PanelMarks:
-    """view: that they are seen in.  positions: (n, 3) where the vertices are drawn, in a height field raised.
+    """The marks in a view.
 
-    source: a vertex that stands for where the field starts, None for one that starts nowhere.  found: what has been
-    found beside the window's thread, by its type.
+    Attributes
+    ----------
+    positions
+        (n, 3) places of the vertices, raised in a height field.
+    source
+        A vertex where the field starts, None for one that starts nowhere.
+    found
+        What has been found beside the window's thread, by its type.
     """
 
     def __init__(self, view: PanelView) -> None:
@@ -37,24 +44,22 @@ class PanelMarks:
 
     def _forget(self) -> None:
         self.source: int | None = None
-        self._starts: Sequence[SurfaceMark] = ()
+        self._starts: dict[Question, Sequence[SurfaceMark]] = {}  # the oldest first
         self._shown: dict[str, tuple[SurfaceMark, ...]] = {}  # by the words of tools
-        self._lit: dict[str, Collection[str]] = {}
+        self._highlighted: dict[str, Collection[str]] = {}
         self.found: dict[type, Any] = {}
-        self._ends: Sequence[int] = ()
 
-    def rest(self) -> None:
+    def clear(self) -> None:
         """Mark nothing, and keep nothing of it."""
         for tool in self._shown:
             self.show(tool, ())
         self.positions = np.empty((0, 3))
         self._forget()
         self._view.over.show_strokes(())
-        self._put_ends()
 
     def begin(self, surface: Surface) -> None:
         """Lie on a surface; nothing is marked there yet."""
-        self.rest()
+        self.clear()
         self.positions = surface.vertices
 
     def follow(self, surface: Surface) -> None:
@@ -63,46 +68,56 @@ class PanelMarks:
         for tool in self._shown:
             self._put_points(tool)
         self._put_lines()
-        self._put_ends()
 
     @property
     def places(self) -> FloatArray:
-        """(k, 3) where points are marked, and where the field starts."""
+        """The places (k, 3) of marked points, and of where the field starts."""
         starts = [] if self.source is None else [self.source]
         shown = [self._view.over.points.positions(tool) for tool in self._shown]
         return np.concatenate([self.positions[starts], *shown])
 
     # ------------------------------------------------------------------ what belongs to the field
-    def expect(self, source: int | None, starts: Sequence[SurfaceMark]) -> None:
-        """Where the field starts; marked once that field is there."""
-        self.source, self._starts = source, starts
+    def expect(self, asked: Question, source: int | None, starts: Sequence[SurfaceMark]) -> None:
+        """Take where the field that answers a question starts; it is marked once that field is there."""
+        self.source = source
+        self._starts.pop(asked, None)
+        self._starts[asked] = starts
 
-    def mark_field(self, answer: Answer | None) -> None:
-        """Mark where the field starts, and where a difference is largest: how large it is stands at the bar."""
-        most = [] if answer is None else [replace(mark, text="") for mark in largest(answer)]
-        self.show(FIELD, [*self._starts, *most])
+    def mark_field(self, answer: Answer | None, asked: Question | None) -> None:
+        """Mark where the field starts that answers a question, of the last one if none is named or it is not known.
+
+        The place of the largest difference is marked, too: how large it is stands at the bar.
+        """
+        starts = next(reversed(self._starts.values()), ())
+        if asked is not None and asked in self._starts:
+            starts = self._starts[asked]
+            for older in list(takewhile(lambda question: question != asked, self._starts)):
+                del self._starts[older]
+        marks = [] if answer is None else largest(answer)
+        most = [replace(mark, text="") if isinstance(mark, PointMark) else mark for mark in marks]
+        self.show(FIELD, [*starts, *most])
 
     def mark_passed(self, points: Sequence[IsolinePoint], answer: Answer | None) -> None:
-        """Dots at points that isolines of an answer pass through."""
+        """Mark points that isolines of an answer pass through by dots."""
         self.show(ISOLINES, [] if answer is None else isoline_points(points, answer))
 
     # ------------------------------------------------------------------ what tools mark
-    def show(self, tool: str, marks: Sequence[SurfaceMark], lit: Collection[str] = ()) -> bool:
-        """The marks of a tool, by its word, instead of those that it had; whether areas of it are others.
+    def show(self, tool: str, marks: Sequence[SurfaceMark], highlighted: Collection[str] = ()) -> bool:
+        """Show the marks of a tool in place of those that it had; return whether its areas have changed.
 
-        lit: the points of the document whose marks stand out.
+        The marks of the points `highlighted` stand out.
         """
         before, now = self._shown.get(tool, ()), tuple(marks)
-        if not len(self.positions) or (before, self._lit.get(tool, ())) == (now, lit):
+        if not len(self.positions) or (before, self._highlighted.get(tool, ())) == (now, highlighted):
             return False
-        self._shown[tool], self._lit[tool] = now, lit
+        self._shown[tool], self._highlighted[tool] = now, highlighted
         self._put_points(tool)
         if _of(LineMark, before) != _of(LineMark, now):
             self._put_lines()
         self._view.over.show_legend(self._all(LegendRow))
         has_other_areas = _of(AreaMark, before) != _of(AreaMark, now)
         if has_other_areas:
-            self._view.scene.show_selected(selected_colours(self._all(AreaMark), len(self.positions)))
+            self._view.scene.field_actor.show_selected(selected_colours(self._all(AreaMark), len(self.positions)))
             self._view.redraw()
         return has_other_areas
 
@@ -111,7 +126,7 @@ class PanelMarks:
 
     def _put_points(self, tool: str) -> None:
         points, over = _of(PointMark, self._shown[tool]), self._view.over.points
-        over.show(tool, points, self._places(points), self._lit[tool])
+        over.show(tool, points, self._places(points), self._highlighted[tool])
         # What a tool lets be dragged comes before where the field starts.
         handles = {
             tool: [mark for mark in _of(PointMark, marks) if mark.is_handle] for tool, marks in self._shown.items()
@@ -130,21 +145,12 @@ class PanelMarks:
 
     # ------------------------------------------------------------------ what is being done
     def show_strokes(self, strokes: Sequence[tuple[np.ndarray, np.ndarray]]) -> None:
-        """What has been drawn so far: of each stroke the corners (k, 3) of faces, and the weights (k, 3) of these."""
+        """Show the lines drawn so far, each by corners (k, 3) of faces and the weights (k, 3) of these."""
         self._view.over.show_strokes([np.einsum("kc,kcx->kx", w, self.positions[corners]) for corners, w in strokes])
 
     def show_dabs(self, vertices: IntArray | None, colour: str = "") -> None:
-        """More vertices (k,) that a brush has touched, None for none; see `MarksOver.show_dabs`."""
+        """Show more vertices (k,) that a brush has touched, None for none; see `MarksOver.show_dabs`."""
         self._view.over.show_dabs(None if vertices is None else self.positions[vertices], colour)
-
-    def mark_ends(self, vertices: Sequence[int] = ()) -> None:
-        """Rings at vertices that are joined with each other."""
-        self._ends = vertices
-        self._put_ends()
-
-    def _put_ends(self) -> None:
-        known = [vertex for vertex in self._ends if vertex < len(self.positions)]
-        self._view.over.show_ends(self.positions[known])
 
 
 def _of(kind: type[Kind], marks: Sequence[SurfaceMark]) -> list[Kind]:

@@ -5,10 +5,10 @@ from functools import lru_cache
 
 from qtpy import QtCore, QtGui, QtWidgets
 
-from bihdist_core.distances.kinds import Parameter, Value
+from bihdist_core.distances.distance_types import Parameter, Value
 
+from ...drawing.painters.qt import number_width
 from ..look.look import LOOK
-from ..look.numbers import number_width
 from ..look.painting import baseline
 from .flat_button import GAP, HEIGHT, PAD, FlatButton
 from .number_box import STEPS, NumberPopUp, ValueSlider, meaning, shown_value, symbol, value_of_step
@@ -18,42 +18,61 @@ SLIDER_MOST, SLIDER_LEAST = 88, 72
 
 
 class ChoiceControl(FlatButton):
-    """Some words of which one holds; `chosen(word)` by the user.  words: as they are given, to how they are shown."""
+    """A choice of words; emits `chosen(word)` when the user chooses.
+
+    Parameters
+    ----------
+    words
+        How each word is shown.
+    short
+        The same where there is little room.
+    """
 
     chosen = QtCore.Signal(object)
 
-    def __init__(self, parent: QtWidgets.QWidget, words: dict[Value, str], tip: str) -> None:
+    def __init__(
+        self, parent: QtWidgets.QWidget, words: dict[Value, str], tip: str, short: dict[Value, str] | None = None
+    ) -> None:
         super().__init__(parent, quiet=True)
-        self.words, self.tip = words, tip
+        self.words, self.tip, self._short, self._is_short = words, tip, short or words, False
         self.value: Value = next(iter(words))
-        self._meant, self._is_stand_in = "", False
+        self._actual, self._is_preview = "", False
         menu = QtWidgets.QMenu(self)
         menu.aboutToShow.connect(lambda: fill_choices(menu, words, self.value, self._choose))
         self.setMenu(menu)
 
     def show_value(self, value: Value) -> None:
-        """Without emitting."""
+        """Show a value without emitting."""
         self.value = value
-        meant = self._meant and (f": {self._meant}" if value == "auto" else f", now {self._meant}")
-        is_said = value == "auto" or self._is_stand_in
-        self.setText(self.words.get(value, str(value)) + (meant if is_said else ""))
+        actual = self._actual and (f": {self._actual}" if value == "auto" else f", now {self._actual}")
+        is_said = value == "auto" or self._is_preview
+        words = self._short if self._is_short else self.words
+        self.setText(words.get(value, str(value)) + (actual if is_said else ""))
         self.setToolTip(self.tip)
         self.setAccessibleName(f"{self.tip}: {self.text()}")
 
-    def show_meant(self, meant: str, is_stand_in: bool = False) -> None:
-        """What "auto" stands for.  is_stand_in: it is shown in the place of what is chosen, whatever that is."""
-        if (meant, is_stand_in) != (self._meant, self._is_stand_in):
-            self._meant, self._is_stand_in = meant, is_stand_in
+    def shorten(self, is_short: bool) -> None:
+        """Show the short words, or the whole ones."""
+        self._is_short = is_short
+        self.show_value(self.value)
+
+    def show_actual(self, actual: str, is_preview: bool = False) -> None:
+        """Show what "auto" stands for, or with `is_preview` what is shown in place of any choice."""
+        if (actual, is_preview) != (self._actual, self._is_preview):
+            self._actual, self._is_preview = actual, is_preview
             self.show_value(self.value)
 
     def least(self, with_slider: bool) -> int:
-        """Pixels that it needs."""
-        return int(self.sizeHint().width())
+        """Return the pixels that it needs, as many as the longest short word, so that panels are worded alike."""
+        width, wide = int(self.sizeHint().width()), QtGui.QFontMetrics(LOOK.font()).horizontalAdvance
+        if self._short is not self.words:
+            width += max(*map(wide, self._short.values()), wide(self.text())) - wide(self.text())
+        return width
 
     most = least
 
     def show_slider(self, shown: bool) -> None:
-        """There is none."""
+        """Do nothing, as there is no slider."""
 
     def add_to(self, menu: QtWidgets.QMenu) -> None:
         """Offer the same in another menu."""
@@ -89,7 +108,7 @@ class NumberControl(QtWidgets.QWidget):
         self.show_slider(False)
 
     def show_value(self, value: Value) -> None:
-        """Without emitting."""
+        """Show a value without emitting."""
         self.value = value
         self.slider.show_value(value)
         self.pop_up.show_value(value)
@@ -107,11 +126,11 @@ class NumberControl(QtWidgets.QWidget):
         self._lay_out()
 
     def least(self, with_slider: bool) -> int:
-        """Pixels that it needs."""
+        """Return the pixels that it needs."""
         return self._needed(with_slider, SLIDER_LEAST)
 
     def most(self, with_slider: bool) -> int:
-        """Pixels that it can use."""
+        """Return the pixels that it can use."""
         return self._needed(with_slider, SLIDER_MOST)
 
     def open_under(self, control: QtWidgets.QWidget) -> None:
@@ -164,12 +183,12 @@ class NumberControl(QtWidgets.QWidget):
 
 @lru_cache
 def _longest(parameter: Parameter) -> str:
-    """Of the values that a slider gives."""
+    """Return the longest text of the values that a slider gives."""
     return max((shown_value(parameter, value_of_step(parameter, step)) for step in range(STEPS + 1)), key=len)
 
 
 class FixedWord(QtWidgets.QLabel):
-    """What holds of a distance that has no parameters."""
+    """A word about a distance that has no parameters."""
 
     def __init__(self, parent: QtWidgets.QWidget, text: str, tip: str) -> None:
         super().__init__(text, parent)
@@ -180,16 +199,16 @@ class FixedWord(QtWidgets.QLabel):
         self.setIndent(0)
 
     def least(self, with_slider: bool) -> int:
-        """Pixels that it needs."""
+        """Return the pixels that it needs."""
         return round(2 * PAD + number_width(LOOK.font(), self.text()) + 2)
 
     most = least
 
     def show_slider(self, shown: bool) -> None:
-        """There is none."""
+        """Do nothing, as there is no slider."""
 
     def add_to(self, menu: QtWidgets.QMenu) -> None:
-        """There is nothing to choose."""
+        """Do nothing, as there is nothing to choose."""
 
 
 Control = ChoiceControl | NumberControl | FixedWord
@@ -197,20 +216,29 @@ Control = ChoiceControl | NumberControl | FixedWord
 
 
 def parameter_control(parent: QtWidgets.QWidget, parameter: Parameter, sign: str, of_what: str) -> Control:
-    """of_what: which of two distances it belongs to, or nothing."""
+    """Return the control of a parameter; `of_what` names which of two distances it belongs to."""
     if parameter.choices:
         head, semicolon, rest = meaning(parameter).partition(";")
-        return ChoiceControl(parent, {word: word for word in parameter.choices}, f"{head}{of_what}{semicolon}{rest}")
+        words: dict[Value, str] = {word: "Dijkstra" if word == "dijkstra" else word for word in parameter.choices}
+        return ChoiceControl(parent, words, f"{head}{of_what}{semicolon}{rest}")
     return NumberControl(parent, parameter, sign, f"{meaning(parameter)}{of_what}")
 
 
 def fill_choices(menu: QtWidgets.QMenu, words: dict[Value, str], now: Value, choose: Callable[[Value], None]) -> None:
     """Let a menu offer these words, the present one ticked."""
-    menu.clear()
+    empty_menu(menu)
     for value, shown in words.items():
         action = menu.addAction(shown)
         tick(action, value == now)
         action.triggered.connect(lambda *_, value=value: choose(value))
+
+
+def empty_menu(menu: QtWidgets.QMenu) -> None:
+    """Remove all entries of a menu and delete the menus in it, which `clear` leaves in memory."""
+    menu.clear()
+    direct = QtCore.Qt.FindChildOption.FindDirectChildrenOnly
+    for inner in menu.findChildren(QtWidgets.QMenu, options=direct):
+        inner.deleteLater()
 
 
 def tick(action: QtWidgets.QAction, is_chosen: bool) -> None:
@@ -220,7 +248,7 @@ def tick(action: QtWidgets.QAction, is_chosen: bool) -> None:
 
 
 def signs(parameters: Sequence[Parameter]) -> list[str]:
-    """How the parameters of one head are called: those with the same symbol are numbered, t₁ and t₂."""
+    """Return the symbols of one head's parameters: equal ones are numbered, t₁ and t₂."""
     symbols = [symbol(parameter) for parameter in parameters]
     return [
         f"{each}{'₁₂₃₄'[symbols[:place].count(each)]}" if symbols.count(each) > 1 else each

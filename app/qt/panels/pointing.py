@@ -9,29 +9,29 @@ from .panel import DistancePanel
 
 
 class Pointing:
-    """At most one place at a time."""
+    """The place that is pointed at, at most one at a time."""
 
     def __init__(self) -> None:
         self._panels: Mapping[int, DistancePanel] = {}
         self._at: tuple[int, int] | None = None  # panel, vertex
 
     def begin(self, panels: Mapping[int, DistancePanel]) -> None:
-        """These are shown from now on."""
+        """Take the panels that are shown from now on."""
         self._panels = panels
 
     @property
     def is_on(self) -> bool:
-        """Whether any panel shows a ring."""
+        """True if any panel shows a ring."""
         return self._at is not None
 
     def leave(self) -> None:
-        """Nothing is pointed at."""
+        """Point at nothing."""
         self._at = None
         for panel in self._panels.values():
             panel.point_at(None, False)
 
     def show(self, id: int, vertex: int | None) -> None:
-        """Mark a vertex in every panel of its surface, and show its values; id: the panel under the pointer.
+        """Mark a vertex in every panel of its surface, and show its values; `id` is the panel under the pointer.
 
         In panels of a surface that is made from that, or that it is made from, the same vertex there; where a map is
         shown, in those of the other surface the vertex that it leads to.
@@ -54,7 +54,7 @@ class Pointing:
             panel.point_at(vertex, other == id, is_hidden)
 
     def show_again_soon(self) -> None:
-        """The field or the camera has changed under the pointer."""
+        """Show the place again soon: the field or the camera has changed under the pointer."""
         QtCore.QTimer.singleShot(0, self._show_again)
 
     def _show_again(self) -> None:

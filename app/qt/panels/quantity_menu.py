@@ -8,7 +8,7 @@ from functools import partial
 from qtpy import QtWidgets
 
 from bihdist_core import ParameterError, Surface
-from bihdist_core.distances.kinds import Kind, Parameter, Spec, Value, kind_of, kinds
+from bihdist_core.distances.distance_types import DistanceType, Parameter, Spec, Value, distance_type, distance_types
 
 from ...document.quantities import (
     Difference,
@@ -19,18 +19,18 @@ from ...document.quantities import (
     quantity_kinds,
     quantity_name,
 )
-from .parameters import tick
+from .parameters import empty_menu, tick
 
 RAW_WORDS: dict[Value, str] = {False: "fractions of the maximum", True: "in units"}
 """How the two ways to subtract are called, by `Difference.raw`."""
 
 
-def offered_kinds() -> list[Kind]:
-    """The distances that there are."""
+def offered_kinds() -> list[DistanceType]:
+    """Return the distances that there are."""
     found = []
-    for word in kinds():
+    for word in distance_types():
         with suppress(ParameterError):  # somebody else's that cannot be loaded; asked for by its word it says why
-            found.append(kind_of(word))
+            found.append(distance_type(word))
     return found
 
 
@@ -50,11 +50,11 @@ class Choices:
                 before[spec.word] = spec
 
     def bounded(self, parameter: Parameter) -> Parameter:
-        """With the values that it can have on the surface."""
-        return parameter if self.surface is None else parameter.on(self.surface)
+        """Return a parameter with the values that it can have on the surface."""
+        return parameter if self.surface is None else parameter.limited_to(self.surface)
 
     def with_part(self, shows: Quantity, place: int, chosen: str | OwnField | Spec) -> Quantity:
-        """Another distance, by its word or with parameters, or field at a place of what is shown."""
+        """Return the quantity with another distance, by its word or with parameters, or another field at a place."""
         parts = list(shows.parts)
         # Where distances start, nobody chooses here.
         point = [*parts[place].points, *shows.points, "source"][0]
@@ -64,7 +64,7 @@ class Choices:
         return shows.with_parts(tuple(parts))
 
     def difference(self, shows: Quantity, chosen: str | OwnField) -> Difference:
-        """What is shown less another."""
+        """Return the difference of what is shown and another quantity."""
         return Difference(shows, self._part(chosen, 1, [*shows.points, "source"][0]))
 
     def _part(self, chosen: str | OwnField | Spec, place: int, point: str) -> Quantity:
@@ -73,12 +73,12 @@ class Choices:
         if isinstance(chosen, Spec):
             return DistanceFrom(chosen, point)
         spec = self._before[place].get(chosen) or Spec.of(chosen)
-        return DistanceFrom(spec if self.surface is None else spec.on(self.surface), point)
+        return DistanceFrom(spec if self.surface is None else spec.limited_to(self.surface), point)
 
 
 def fill_menu(menu: QtWidgets.QMenu, shows: Quantity, choices: Choices, choose: Callable[[Quantity], None]) -> None:
     """Make the entries; `choose` is called with the quantity that one stands for."""
-    menu.clear()
+    empty_menu(menu)
 
     def choose_part(place: int, chosen: str | OwnField) -> None:
         choose(choices.with_part(shows, place, chosen))
@@ -95,8 +95,8 @@ def fill_menu(menu: QtWidgets.QMenu, shows: Quantity, choices: Choices, choose: 
         if shows.choices:
             menu.addSeparator()
         (spec,) = shows.specs
-        _add_parts(menu.addMenu(_plain(f"By {kind_name(spec.kind)}")), choices, shows, partial(choose_part, 0))
-        _add(menu, "The distance itself", "", partial(choose, DistanceFrom(spec)))
+        _add_parts(menu.addMenu(_plain(f"By {kind_name(spec.distance_type)}")), choices, shows, partial(choose_part, 0))
+        _add(menu, "Show the distance", "", partial(choose, DistanceFrom(spec)))
         return
     _add_parts(menu, choices, shows, partial(choose_part, 0))
     menu.addSeparator()
@@ -107,7 +107,7 @@ def fill_menu(menu: QtWidgets.QMenu, shows: Quantity, choices: Choices, choose: 
         return  # of colours there are no differences
 
     def can_differ(part: Quantity) -> bool:
-        """Less itself it would be zero, unless a parameter can be another."""
+        """Return whether the difference with a part is not zero everywhere."""
         return part.word != shows.word or (part.is_distance and bool(part.specs[0].values))
 
     inner = menu.addMenu("Difference with")
@@ -133,7 +133,7 @@ def _add_parts(
     choose: Callable[[str | OwnField], None],
     is_offered: Callable[[Quantity], bool] = lambda part: True,
 ) -> None:
-    """Every distance, then every field."""
+    """Add an entry for every distance, then for every field."""
     menu.setToolTipsVisible(True)
     for kind in offered_kinds():
         if is_offered(DistanceFrom(Spec.of(kind.word))):
@@ -154,5 +154,5 @@ def _add(menu: QtWidgets.QMenu, text: str, tip: str, choose: Callable[[], None])
 
 
 def _plain(text: str) -> str:
-    """An "&" in a name is one."""
+    """Return a text in which "&" stands for itself."""
     return text.replace("&", "&&")

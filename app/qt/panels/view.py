@@ -10,8 +10,8 @@ from bihdist_core.arrays import AnyArray, FloatArray
 
 from ...scene import moves
 from ...scene.offscreen_renderer import OffscreenRenderer
-from ...scene.picking import Hit, LatePicker, Picker, pixel_of
-from ...scene.proportion import proportion
+from ...scene.panel_scene import proportion
+from ...scene.picking import Hit, Picker, pixel_of
 from ...scene.style import Style
 from ..look.look import LOOK
 
@@ -27,6 +27,8 @@ AT_ONCE = 0.15
 DIMMED = 0.28
 """How opaque a field is that is no longer the answer."""
 
+NO_PIXELS = np.empty((0, 0, 4), np.uint8)
+
 KEY_TURN, KEY_SHIFT = 15.0, 0.05
 """Degrees, and shares of the view's height, for a key."""
 
@@ -36,7 +38,7 @@ class View(QtWidgets.QWidget):
 
     pressed = QtCore.Signal()  # any button
     happened = QtCore.Signal(object)  # one of `events`
-    let_go = QtCore.Signal()  # the button that has moved the camera
+    camera_released = QtCore.Signal()  # the button that has moved the camera
     moved = QtCore.Signal()  # the camera
     resized = QtCore.Signal()
     drawn = QtCore.Signal()  # another picture
@@ -47,14 +49,14 @@ class View(QtWidgets.QWidget):
         self.offscreen = offscreen
         self.plotter = offscreen.new_plotter(self.redraw)
         self.scene = offscreen.new_scene(scale=self.devicePixelRatioF(), plotter=self.plotter)
-        self.picker: Picker | LatePicker | None = None
+        self.picker: Picker | None = None
         self.handles = np.empty((0, 3))  # where the source's marks are
         self.upright: FloatArray | None = None  # what stays upright while the surface turns
         self._picture: QtGui.QImage | None = None
-        self._drawing = np.empty((0, 0, 4), np.uint8)
+        self._drawing = NO_PIXELS
         self._written: AnyArray | None = None
         self.pictures = 0  # how many have been drawn
-        self._is_stale, self._is_empty, self._is_dimmed = True, True, False
+        self._is_stale, self.is_empty, self._is_dimmed = True, True, False
         self.setMouseTracking(True)
         self.setFocusPolicy(QtCore.Qt.FocusPolicy.StrongFocus)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_OpaquePaintEvent)
@@ -86,22 +88,12 @@ class View(QtWidgets.QWidget):
         return proportion(self.width(), self.height())
 
     @property
-    def mark_size(self) -> float:
-        """How far the mark of a source is across, in logical pixels."""
-        return self.scene.style.marker_size * self.proportion
-
-    @property
-    def is_empty(self) -> bool:
-        """Whether there is no surface in the view."""
-        return self._is_empty
-
-    @property
     def is_stale(self) -> bool:
-        """Whether it is on the screen, and has not been drawn as it is now."""
-        return self._is_stale and not self._is_empty and not self.visibleRegion().isEmpty()
+        """True if the view is on the screen and has not been drawn as it is now."""
+        return self._is_stale and not self.is_empty and not self.visibleRegion().isEmpty()
 
     def show_style(self, style: Style) -> bool:
-        """Look like this from now on; whether that is another look, so that all has to be shown again."""
+        """Take a style; return whether it is another one, so that everything has to be shown again."""
         ratio = self.devicePixelRatioF()
         if (style, ratio) == (self.scene.style, self.scene.scale):
             return False
@@ -111,12 +103,16 @@ class View(QtWidgets.QWidget):
         return True
 
     def show_empty(self, is_empty: bool) -> None:
-        """Whether there is no surface: then nothing is drawn."""
-        self._is_empty, self._picture = is_empty, None
+        """Set whether there is no surface: then nothing is drawn."""
+        self.is_empty = is_empty
         self.redraw()
 
+    def forget_picture(self) -> None:
+        """Drop the picture: it shows another surface than the one that is drawn next."""
+        self._picture, self._drawing, self._written = None, NO_PIXELS, None
+
     def redraw(self) -> None:
-        """The surface, its field, its marks or the camera have changed: draw once, when Qt paints next."""
+        """Draw once more when Qt paints next, as the surface, its field, its marks or the camera have changed."""
         self._is_stale = True
         self.update()
 
@@ -129,14 +125,13 @@ class View(QtWidgets.QWidget):
     # ------------------------------------------------------------------ painting
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         painter = QtGui.QPainter(self)
-        ground = QtGui.QColor(LOOK.theme.canvas)
-        if self._is_empty:
-            painter.fillRect(event.rect(), ground)
+        # At a fractional scale the picture may end a pixel before the view does.
+        painter.fillRect(event.rect(), QtGui.QColor(LOOK.theme.canvas))
+        if self.is_empty:
             return
         waits = self._waits()
         picture = self._picture if waits else self._drawn()
-        if self._is_dimmed or picture is None:
-            painter.fillRect(event.rect(), ground)
+        if self._is_dimmed:
             painter.setOpacity(DIMMED)
         if waits and picture is not None:
             painter.drawImage(self.rect(), picture)  # which may be of another size
@@ -146,13 +141,13 @@ class View(QtWidgets.QWidget):
         self.paint_over(painter)
 
     def paint_over(self, painter: QtGui.QPainter) -> None:
-        """What lies over the picture."""
+        """Paint what lies over the picture."""
 
-    def see_again(self) -> None:
-        """Another picture has been drawn: other places may be hidden."""
+    def update_hidden(self) -> None:
+        """Update which places are hidden, after another picture has been drawn."""
 
     def _waits(self) -> bool:
-        """Whether keys and clicks come first: other views have taken long, and what is painted is as it was."""
+        """Return whether keys and clicks come first: other views have taken long, and what is painted is as it was."""
         waits = self._is_old() and self.offscreen.seconds > AT_ONCE
         if waits:
             QtCore.QTimer.singleShot(0, self.update)
@@ -162,7 +157,7 @@ class View(QtWidgets.QWidget):
         return self._is_stale or self._picture is None or self._picture.size() != QtCore.QSize(*self.pixels)
 
     def _drawn(self) -> QtGui.QImage:
-        """The picture, drawn if something has changed since."""
+        """Return the picture, drawn if something has changed since."""
         width, height = self.pixels
         if self._is_old() or self._picture is None:
             QtCore.QTimer.singleShot(0, self.offscreen.begin)
@@ -170,13 +165,13 @@ class View(QtWidgets.QWidget):
             self._drawing, self._written = self.offscreen.picture(self.scene, (width, height)), None
             self._picture = self._image(self._drawing)
             self._is_stale = False
-            self.see_again()
+            self.update_hidden()
             self.pictures += 1
             self.drawn.emit()
         return self._picture
 
     def _image(self, pixels: AnyArray) -> QtGui.QImage:
-        """In the memory of pixels (h, w, 4), which have to be kept."""
+        """Return an image in the memory of pixels (h, w, 4), which have to be kept."""
         height, width, _ = pixels.shape
         image = QtGui.QImage(pixels.data, width, height, 4 * width, QtGui.QImage.Format.Format_RGBX8888)
         image.setDevicePixelRatio(self.devicePixelRatioF())
@@ -184,22 +179,22 @@ class View(QtWidgets.QWidget):
 
     @property
     def picture(self) -> AnyArray | None:
-        """(h, w, 4) uint8: the surface as it is seen now; None before it is drawn again."""
-        return None if self._is_stale or self._is_empty or self._picture is None else self._drawing
+        """The surface as it is seen now, (h, w, 4) uint8; None before it is drawn again."""
+        return None if self._is_stale or self.is_empty or self._picture is None else self._drawing
 
     def write(self, pixels: AnyArray) -> None:
-        """The picture (h, w, 4) with what is written on it, until the next one is drawn."""
+        """Show the picture (h, w, 4) with what is written on it, until the next one is drawn."""
         self._written, self._picture = pixels, self._image(pixels)
         self.update()
 
     def draw_in_full(self) -> None:
         """Draw the surface again where something has stood in for it."""
-        if self.scene.is_stand_in:
-            self.scene.show_stand_in(False)
+        if self.scene.field_actor.stand_in.is_shown:
+            self.scene.field_actor.show_stand_in(False)
             self.redraw()
 
     def shot(self) -> AnyArray:
-        """(height, width, 3) uint8: the surface and what is written on it, without what lies over it."""
+        """Return the surface and what is written on it (h, w, 3) uint8, without what lies over it."""
         self.draw_in_full()
         self._drawn()
         self.shot_wanted.emit()
@@ -207,9 +202,9 @@ class View(QtWidgets.QWidget):
 
     # ------------------------------------------------------------------ places
     def parts(self) -> Iterator[tuple[vtkRenderer, QtGui.QRegion, tuple[int, int, int, int]]]:
-        """The view without its insets, and these: renderers, regions, and (left, top, width, height) of the picture.
+        """Yield the view without its insets, and each of these: the renderer, its region, and its box in device pixels.
 
-        The latter are device pixels, of the view's own all of them.
+        The box is (left, top, width, height), for the view itself all of its picture.
         """
         (width, height), ratio = self.pixels, self.devicePixelRatioF()
         placed = self.scene.insets.placed.items()
@@ -226,30 +221,30 @@ class View(QtWidgets.QWidget):
             yield each, regions[each], box
 
     def place_of(self, point: FloatArray, renderer: vtkRenderer | None = None) -> QtCore.QPointF:
-        """Where a point (3,) is seen, in logical pixels; renderer: of an inset, if it is that."""
+        """Return the position of a point (3,) in logical pixels; in an inset, if its renderer is given."""
         x, y = pixel_of(renderer or self.renderer, point)
         ratio = self.devicePixelRatioF()
         return QtCore.QPointF(x / ratio, self.height() - y / ratio)
 
     def pick(self, position: QtCore.QPoint) -> Hit | None:
-        """Where the surface is met under a point of the view."""
-        if self.picker is None or self._is_empty:
+        """Return the hit on the surface under a point of the view."""
+        if self.picker is None or self.is_empty:
             return None
         pixel = self._pixel(position)
         self.offscreen.fit(self.pixels)
         return self.picker.pick(self.scene.insets.renderer_at(*pixel), *pixel)
 
     def sees(self, point: FloatArray) -> bool:
-        """Whether no part of the surface is before a point (3,) of it."""
+        """Return whether no part of the surface is before a point (3,) of it."""
         return self.picker is None or self.picker.sees(self.renderer, point)
 
     def _pixel(self, position: QtCore.QPoint) -> tuple[float, float]:
-        """Device pixels, y up."""
+        """Return the device pixel, y up, at a point of the view."""
         ratio = self.devicePixelRatioF()
         return (position.x() + 0.5) * ratio, (self.height() - position.y() - 0.5) * ratio
 
     def pixel_size(self, point: FloatArray) -> float:
-        """How long a logical pixel is at a point (3,)."""
+        """Return the length of a logical pixel at a point (3,)."""
         camera = self.camera
         if camera.GetParallelProjection():
             return float(2 * camera.GetParallelScale() / max(self.height(), 1))
@@ -257,8 +252,8 @@ class View(QtWidgets.QWidget):
         return float(2 * depth * np.tan(np.radians(camera.GetViewAngle()) / 2) / max(self.height(), 1))
 
     def mark_at(self, position: QtCore.QPoint) -> int:
-        """The number of the source's mark that is seen under a point of the view; -1 for none."""
-        if not 0 < len(self.handles) <= MOST_HELD or self.picker is None or self._is_empty:
+        """Return the number of the source's mark that is seen under a point of the view; -1 for none."""
+        if not 0 < len(self.handles) <= MOST_HELD or self.picker is None or self.is_empty:
             return -1
         x, y = self._pixel(position)
         renderer = self.renderer
@@ -267,12 +262,12 @@ class View(QtWidgets.QWidget):
         at = np.array([pixel_of(renderer, handle) for handle in self.handles])
         away = np.hypot(x - at[:, 0], y - at[:, 1])
         nearest = int(away.argmin())
-        reach = (self.mark_size / 2 + MARK_SLACK) * self.devicePixelRatioF()
+        reach = (self.scene.style.marker_size * self.proportion / 2 + MARK_SLACK) * self.devicePixelRatioF()
         return nearest if away[nearest] <= reach and self.sees(self.handles[nearest]) else -1
 
     # ------------------------------------------------------------------ the camera
     def zoom(self, factor: float, position: QtCore.QPoint | None = None) -> None:
-        """Nearer by a factor, about what is under a point of the view; about the middle if none is given."""
+        """Zoom in by a factor about what is under a point of the view, or about its middle."""
         about = np.array(self.camera.GetFocalPoint())
         if position is not None:
             hit = self.pick(position)
@@ -281,13 +276,13 @@ class View(QtWidgets.QWidget):
         self.moved.emit()
 
     def turn_by(self, right: int, up: int) -> None:
-        """A step by the keyboard: the surface turns as if it was dragged."""
+        """Turn the surface by a step of the keyboard, as if it was dragged."""
         step = KEY_TURN / moves.TURN
         moves.turn(self.camera, right * step, up * step, (1, 1), self.upright)
         self.moved.emit()
 
     def shift_by(self, right: int, up: int) -> None:
-        """The same sideways."""
+        """Move the surface sideways by a step of the keyboard."""
         moves.shift(self.camera, right * KEY_SHIFT, up * KEY_SHIFT, 1)
         self.moved.emit()
 

@@ -1,14 +1,23 @@
-"""What a panel says while its field is computed: how far that is, in words, and a way to stop it."""
+"""The progress of a panel's computation with a way to stop it, and what is shown once it has been stopped."""
 
 from qtpy import QtCore, QtGui, QtWidgets
 
+from bihdist_core.sources.words import short_words_of
+
+from ...drawing.numbers import progress_share
+from ...drawing.painters.qt import number_width, paint_number
+from ...session.answering import Shown
+from ..look.layouts import in_column
 from ..look.look import LOOK
-from ..look.numbers import number_width, paint_number
-from ..look.painting import translucent
+from ..look.painting import paint_rounded, smooth_painter, translucent
 from .flat_button import ICON_SIDE, FlatButton
 
 HEIGHT, COMPACT_HEIGHT = 28, 18
 LINE = 2
+"""Logical pixels of the words' height, and of the line above them."""
+
+MARGIN, ABOVE = 24, 12
+"""Least logical pixels from the note on a stopped computation to the sides of the view, and to its lower edge."""
 
 
 class Waiting(QtWidgets.QWidget):
@@ -26,7 +35,7 @@ class Waiting(QtWidgets.QWidget):
         self.hide()
 
     def show_progress(self, fraction: float, words: str) -> None:
-        """Words such as "eigenpairs", and the share done; NaN where that is not known."""
+        """Show words such as "eigenpairs", and the fraction done; NaN where that is not known."""
         self._fraction, self._words = fraction, words
         self.setAccessibleDescription(self.text)
         self.setToolTip("" if self._has_words else self.text)
@@ -36,12 +45,12 @@ class Waiting(QtWidgets.QWidget):
 
     @property
     def text(self) -> str:
-        """What is waited for, with how much of it is done where that is known."""
-        known = 0.0 <= self._fraction <= 1.0
-        return f"{self._words}, {self._fraction:.0%}".replace("%", " %") if known else f"{self._words}…"
+        """The work that is waited for, with the percentage done where that is known."""
+        share = progress_share(self._fraction)
+        return f"{self._words}, {share}" if share else f"{self._words}…"
 
     def fit(self, top: int, width: int, is_compact: bool, has_words: bool) -> None:
-        """Lie at this height of the panel, with this width; has_words: or only the line and the cross."""
+        """Lie at this height of the panel, with words or only the line and the cross."""
         self._has_words = has_words
         high = round((COMPACT_HEIGHT if is_compact else HEIGHT) * LOOK.scale)
         self.setGeometry(0, top, width, LINE + high)
@@ -66,3 +75,57 @@ class Waiting(QtWidgets.QWidget):
         painter.fillRect(QtCore.QRectF(0, LINE, 14 + width + 8, self.height() - LINE), ground)
         baseline = LINE + (self.height() - LINE + metrics.ascent() - metrics.descent()) / 2
         paint_number(painter, 14, baseline, text)
+
+
+class Stopped(QtWidgets.QWidget):
+    """Low in a view, where it hides little of a shape; `retried` by its button."""
+
+    retried = QtCore.Signal()
+
+    def __init__(self, parent: QtWidgets.QWidget) -> None:
+        super().__init__(parent)
+        self.words = QtWidgets.QLabel(self, wordWrap=True)
+        self.words.setAlignment(QtCore.Qt.AlignmentFlag.AlignCenter)
+        self.button = QtWidgets.QPushButton("Retry", self, autoDefault=False)
+        self.button.setToolTip("Compute this panel again from the start")
+        self.button.clicked.connect(self.retried)
+        button = self.button, 0, QtCore.Qt.AlignmentFlag.AlignCenter
+        in_column(self.words, button, of=self, spacing=8, margins=(12, 8, 12, 10))
+        self.hide()
+
+    def show_words(self, words: str) -> None:
+        """Show why there is no field, and the button that starts it again."""
+        self.words.setText(words)
+        self.fit()
+        self.show()
+        self.raise_()
+
+    def is_saying(self, words: str) -> bool:
+        """Return whether these words are shown, whose button somebody may be about to press."""
+        return not self.isHidden() and self.words.text() == words
+
+    def fit(self) -> None:
+        """Lie low in the view, as narrow as the words are."""
+        view = self.parentWidget().rect()
+        margins, metrics = self.layout().contentsMargins(), QtGui.QFontMetrics(LOOK.font())
+        beside = margins.left() + margins.right()
+        room = max(view.width() - 2 * MARGIN - beside, 1)
+        room_for_all, wrap = QtCore.QRect(0, 0, room, 10_000), int(QtCore.Qt.TextFlag.TextWordWrap)
+        words = metrics.boundingRect(room_for_all, wrap, self.words.text())
+        width = max(words.width() + 2, self.button.sizeHint().width())
+        self.words.setFixedSize(width, words.height())
+        size = QtCore.QSize(width + beside, self.layout().totalSizeHint().height())
+        top = max(view.height() - size.height() - ABOVE, 0)
+        self.setGeometry(QtCore.QRect(QtCore.QPoint((view.width() - size.width()) // 2, top), size))
+
+    def paintEvent(self, event: QtGui.QPaintEvent) -> None:
+        paint_rounded(smooth_painter(self), QtCore.QRectF(self.rect()), 6, translucent(LOOK.theme.canvas, 0.88))
+
+
+def stopped_words(shown: Shown | None) -> str:
+    """Return words on a panel that was stopped: it shows the answer to its last question, a preview, or nothing."""
+    if shown is None or shown.answer.field is None:
+        return "Stopped. Nothing is shown."
+    at = getattr(shown.question, "at", None)
+    where = "" if at is None else f", from {'vertex ' if isinstance(at, int) else ''}{short_words_of(at)}"
+    return f"Stopped. Shown: {shown.answer.label}{where}."

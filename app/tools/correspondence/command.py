@@ -10,7 +10,11 @@ from ...commands.result import Facts, Result, distance_facts
 from ...commands.terminal import accuracy, progress_line
 from .options import PAIRS_MEANING
 
-WORDS = "from a few pairs of corresponding vertices, a map from one mesh to another"
+WORDS = "map one mesh to another, from a few pairs of corresponding vertices"
+EXAMPLES = (
+    "bihdist correspond figure figure_pose2 --pairs 1:1,300:300,900:900 -o map.npy",
+    "bihdist correspond figure figure_pose2 --pairs @pairs.txt --truth identity -o map.txt",
+)
 TEXT = ".txt"
 
 
@@ -30,10 +34,10 @@ def run(options: argparse.Namespace) -> Result:
 
     from bihdist_core.applications.correspondence import Correspondence
     from bihdist_core.distances.answers import Distances, same_on
+    from bihdist_core.file_output import check_output
     from bihdist_core.formats.vertex_maps import MAP_FORMATS, read_map, read_pairs, write_map
-    from bihdist_core.whole_file import check_output
 
-    from .evaluate_command import curve_facts, judged
+    from .evaluate_command import curve_facts, described_errors
 
     check_output(options.output, MAP_FORMATS)
     (chosen,) = specs(options, [options.distance])
@@ -62,7 +66,7 @@ def run(options: argparse.Namespace) -> Result:
     }  # fmt: skip
     if truth is not None:
         with progress_line() as progress:
-            (line,), (curve,) = judged(two, found[:, None], truth, progress=progress)
+            (line,), (curve,) = described_errors(two, found[:, None], truth, progress=progress)
         print(f"{options.output}: {line}")
         facts["errors"] = curve_facts(curve)
     return Result(facts)

@@ -18,7 +18,11 @@ if TYPE_CHECKING:
     from bihdist_core.laplacian import Laplacian
     from bihdist_core.progress import Progress
 
-WORDS = "how far maps from one mesh to another are from the truth: mean, median, the cumulative curve"
+WORDS = "measure how far maps between meshes are from the truth"
+EXAMPLES = (
+    "bihdist evaluate figure figure_pose2 map.npy --truth identity",
+    "bihdist evaluate figure figure_pose2 map.npy --truth identity --samples 400 -o curve.pdf",
+)
 TEXT = ".csv"
 METHODS = ("auto", "exact", "heat", "dijkstra")
 
@@ -35,10 +39,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--symmetry",
         metavar="MAP",
-        help="for each vertex of B its symmetric partner, which counts as right, too; without it and with it is said",
+        help="for each vertex of B its symmetric partner, which also counts as right; both errors are printed",
     )
     parser.add_argument(
-        "--samples", type=count, metavar="N", help="of so many vertices of A, drawn evenly by id (default: all)"
+        "--samples", type=count, metavar="N", help="errors of N vertices of A, spaced evenly by id (default: all)"
     )
     parser.add_argument(
         "--method",
@@ -53,8 +57,8 @@ def run(options: argparse.Namespace) -> Result:
     import numpy as np
 
     from bihdist_core.applications.map_errors import sampled_vertices
+    from bihdist_core.file_output import check_outputs
     from bihdist_core.formats.vertex_maps import read_map
-    from bihdist_core.whole_file import check_outputs
 
     from ...figures.error_figure import ERROR_FORMATS, ErrorFigure, save_error_figure
 
@@ -71,7 +75,7 @@ def run(options: argparse.Namespace) -> Result:
     columns = np.stack([found[ids] for found in maps.values()], axis=1)
     for words, also in (("", None), *([(", partners count", partners)] if partners is not None else [])):
         with progress_line() as progress:
-            lines, found_curves = judged(two, columns, truth[ids], also, options.method, progress)
+            lines, found_curves = described_errors(two, columns, truth[ids], also, options.method, progress)
         for path, line, curve in zip(maps, lines, found_curves, strict=True):
             curves[f"{Path(path).stem}{words}"] = curve
             print(f"{path}: {line}{words}")
@@ -84,11 +88,12 @@ def run(options: argparse.Namespace) -> Result:
 
 
 def curve_facts(curve: "ErrorCurve") -> Facts:
-    """The errors of a map, over the root of the area; None for what is infinite, as a vertex is mapped nowhere."""
+    """Return the errors of a map over the root of the area; None for those that are infinite, as a vertex has no
+    image."""
     return {"mean": curve.mean, "median": curve.median, "area_under_curve": curve.area, "n_vertices": len(curve.errors)}
 
 
-def judged(
+def described_errors(
     laplacian: "Laplacian",
     found: "np.ndarray",
     truth: "np.ndarray",
@@ -96,7 +101,7 @@ def judged(
     method: str = "auto",
     progress: "Progress | None" = None,
 ) -> "tuple[list[str], list[ErrorCurve]]":
-    """The errors of maps (m, q) to a surface: of each in words and as a curve."""
+    """Return the errors of maps (m, q) to a surface, each in words and as a curve."""
     import numpy as np
 
     from bihdist_core.applications.map_errors import LIMIT, error_curve, error_distance, map_errors

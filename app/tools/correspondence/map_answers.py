@@ -5,27 +5,24 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bihdist_core import BihdistError, Cancelled, ParameterError, Surface, VertexError
-from bihdist_core.applications.carrying import carried_back, position_colours
-from bihdist_core.applications.correspondence import NOWHERE
+from bihdist_core import BihdistError, Cancelled, Surface, VertexError
+from bihdist_core.applications.correspondence import NOWHERE, carried_back, position_colours
 from bihdist_core.arrays import IntArray
 from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, failed
-from bihdist_core.distances.kinds import Spec
-from bihdist_core.formats.vertex_maps import read_map
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
 from ...document.document import Document, MeshFile
-from ...document.file import checksum
 from ...session.loaded_mesh import LoadedMesh
-from ...session.questions import Question
-from .maps import SAME_IDS, MapColours, MapFile, Maps
+from ...session.questions import Question, question_of
+from .maps import MapColours, MapFile, Maps, map_in
 from .pairs import other_side
 from .prediction_answers import NO_OTHER, correspondence, pairs_on
 
-NO_PAIRS = "There is no pair yet, and pairs make the map."
-"""What a panel of a map says where there can be none."""
+NO_PAIRS = "There are no pairs yet to make a map from."
+"""The message of a panel that shows a map before there is a pair."""
 
 
 @dataclass(frozen=True)
@@ -48,9 +45,9 @@ class PositionQuestion(Question):
 
 @dataclass(frozen=True)
 class MapQuestion(Question):
-    """Where a map to another surface leads: one in a file, or one that pairs of points here and there make.
+    """The map to another surface, in a file or made by pairs of points here and there.
 
-    other: that surface, None if there is none.
+    `other` is that surface, None if there is none.
     """
 
     mesh: MeshFile
@@ -68,7 +65,7 @@ class MapQuestion(Question):
 
     @property
     def about(self) -> Hashable:
-        """All but the pairs."""
+        """The values that the answer depends on, except the pairs."""
         return (self.mesh, self.areas, self.by, self.other, "map")
 
     @property
@@ -81,8 +78,8 @@ class MapQuestion(Question):
     def answer(
         self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
     ) -> Answer:
-        """Each vertex in the colour of the one that it is mapped to."""
-        other = loaded.standing_beside(self.other)
+        """Return each vertex in the colour of the one that it is mapped to."""
+        other = loaded.shown_with(self.other)
         if other is None:
             return Answer(label=str(self), failure=NO_OTHER)
         try:
@@ -103,8 +100,8 @@ class MapQuestion(Question):
         return Answer(label=label, colours=colours, leads_to=found, error_estimate=ErrorEstimate(), remark=remark)
 
 
-def map_question(shows: MapColours, document: Document, surface: str) -> PositionQuestion | MapQuestion:
-    """What the colours of a map ask of a document's surface."""
+@question_of.register
+def _(shows: MapColours, document: Document, surface: str) -> PositionQuestion | MapQuestion:
     mesh, areas, there = document.mesh(surface), document.areas, other_side(document, surface)
     if not shows.by:
         return PositionQuestion(mesh, areas)
@@ -115,7 +112,7 @@ def map_question(shows: MapColours, document: Document, surface: str) -> Positio
 
 
 def _reached_in_words(found: IntArray, onto: Surface) -> str:
-    """How much of the other surface is reached, and how many vertices are mapped nowhere."""
+    """Return a sentence on the vertices of the other surface that are reached, and on those mapped nowhere."""
     reached, count = len(np.unique(found[found != NOWHERE])), len(onto.vertices)
     sentence = f"{reached:,} of {count:,} vertices of {onto.name} are reached"
     lost = int((found == NOWHERE).sum())
@@ -123,24 +120,10 @@ def _reached_in_words(found: IntArray, onto: Surface) -> str:
 
 
 def colours_words(answer: Answer | None) -> tuple[str, ...]:
-    """What the colours of an answer say, and the same shorter; () of one that has none."""
+    """Return the meaning of an answer's colours, in more and in fewer words; () for an answer without colours."""
     if answer is None or answer.colours is None:
         return ()
     if answer.leads_to is None:
         return "red, green and blue from x, y and z", "coloured by position", ""
     reached = len(np.unique(answer.leads_to[answer.leads_to != NOWHERE]))
     return answer.remark, f"{reached:,} vertices are reached", ""
-
-
-def map_file(path: str, one: Surface, two: Surface) -> MapFile:
-    """What a document calls a map in a file, from one surface to another; ParameterError for what is none."""
-    if path != SAME_IDS:
-        read_map(path, one, two)
-    return MapFile(path, "" if path == SAME_IDS else checksum(path))
-
-
-def map_in(map: MapFile, one: Surface, two: Surface) -> IntArray:
-    """(n,) the map; ParameterError if the file is not what it was, or no map between these surfaces."""
-    if map.sha256 and checksum(map.path) != map.sha256:
-        raise ParameterError(f"The map {map.path} is not what it was when it was chosen (its checksum differs).")
-    return read_map(map.path, one, two)

@@ -1,267 +1,273 @@
-"""The section "Error" of the dock of pairs: how far maps are from the truth, and the full map."""
+"""The errors of the maps of a document at sampled vertices, found in the background.
 
-from collections.abc import Iterator
-from typing import Any
+Errors are geodesic distances on the second surface from where sampled vertices of the first belong. These are found
+once, whatever pairs there are, so that another pair costs its maps alone.
+"""
 
-from qtpy import QtWidgets
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
-from bihdist_core.applications.map_errors import ErrorCurve
-from bihdist_core.distances.kinds import Spec
-from bihdist_core.formats.vertex_maps import MAP_FORMATS, write_map
-from bihdist_core.progress import Progress
+import numpy as np
+
+from bihdist_core import BihdistError, Cancelled, Laplacian, ParameterError, Surface
+from bihdist_core.applications.correspondence import NOWHERE
+from bihdist_core.applications.map_errors import (
+    ErrorCurve,
+    error_curve,
+    error_distance,
+    error_method,
+    map_errors,
+    sampled_vertices,
+)
+from bihdist_core.arrays import AnyArray, FloatArray, IntArray
+from bihdist_core.distances.answers import failure_in_words
+from bihdist_core.distances.distance_types import Spec
+from bihdist_core.distances.geodesic import GeodesicDistance
+from bihdist_core.progress import Progress, part
+from bihdist_core.sources.source import Source
 
 from ...document.document import Document
-from ...document.file_names import file_name
-from ...document.quantities import kind_name
-from ...qt.context import Context
-from ...qt.docks.dock import PAD
-from ...qt.docks.panel_dots import curve_colour
-from ...qt.files.saving import save
-from ...qt.look.look import LOOK
-from ...qt.panels.flat_button import FlatButton
-from .error_chart import ErrorChart, ErrorTable, MapCurve
-from .judgement import Asked, Judgement, Judging, Map, asked_of, maps_of
-from .map_truth import MapTruth
-from .maps import MapColours, MapFile, Maps, show_maps, shows_maps
+from ...session.loaded_mesh import LoadedMesh
+from .maps import SAME_IDS, MapFile, Maps, Truth, map_in
 from .pairs import whole_pairs
-from .prediction import predict, predicts_in
+from .prediction_answers import correspondence
 
-NO_TRUTH = "Without a truth there is no error. Choose the same ids, or a map's file, where it is known."
-NO_MAP = "Errors come with the first pair."
+MAX_KEPT_VALUES = 40_000_000
+"""Numbers of four bytes that are kept of geodesic distances: from 400 vertices of a surface of 100,000."""
+
+VERTICES_PER_BLOCK = 8
+"""The vertices whose distances are found between two answers, unless that takes longer than ANSWER_INTERVAL_S
+seconds."""
+
+ANSWER_INTERVAL_S = 0.7
+
+ORDER_SEED = 20
+"""The seed of the random order in which sampled vertices are measured, so that the first ones lie all over the
+surface."""
+
+Map = Spec | MapFile
+"""Made by the document's pairs and a distance, or in a file."""
 
 
-class MapErrors(QtWidgets.QWidget):
-    """See the module.  judgement: what is shown, None for nothing."""
+def maps_of(document: Document) -> tuple[Map, ...]:
+    """Return the maps that panels show or predict by, each once, and those of the document's files."""
+    shown = [panel.shows for panel in document.panels if panel.shows.relates_surfaces]
+    return (*dict.fromkeys(spec for each in shown for spec in each.specs), *document[Maps].maps)
 
-    def __init__(self, context: Context) -> None:
-        super().__init__()
-        self.context = context
-        self.judgement: Judgement | None = None
-        self.asked: Asked | None = None
-        self._answered: tuple[object, ...] = ()  # what the judgement is about
-        self._failure = ""  # why there is none
-        self._dotted: list[Any] = []  # panels that have a dot of these
-        self.truth = MapTruth(self)
-        self.chart, self.table = ErrorChart(), ErrorTable()
-        self.note = QtWidgets.QLabel(wordWrap=True)
-        self.note.setProperty("quiet", True)
-        self.full = QtWidgets.QPushButton("Compute full map", autoDefault=False)
-        self.full.setToolTip("Where every vertex of A is on B, by each distance, in colours")
-        self.full.clicked.connect(self.show_or_leave_maps)
-        self.save = FlatButton(self, "save")
-        self.save.setToolTip("Save a full map: for each vertex of A one of B")
-        self.save.setAccessibleName("Save a full map")
-        self.save.setMenu(QtWidgets.QMenu(self.save))
-        self.save.menu().aboutToShow.connect(self._fill_maps)
-        self.mirror = QtWidgets.QCheckBox("mirror counts")
-        self.mirror.setToolTip("The symmetric partner of the right place is as good; where it is, a map's file says")
-        self.mirror.clicked.connect(self._count_mirror)
-        self._lay_out()
-        self._background = context.background("map errors", self._judge)
-        self._judging = Judging()
-        self._background.answered.connect(self._take)
-        self._background.failed.connect(self._refuse)
-        LOOK.follow(self, self._show)
 
-    def _lay_out(self) -> None:
-        line = QtWidgets.QFrame(objectName="hairline")
-        heading = QtWidgets.QLabel("Error")
-        heading.setProperty("heading", True)
-        top = QtWidgets.QHBoxLayout()
-        top.addWidget(heading)
-        top.addStretch(1)
-        top.addWidget(self.truth.button)
-        bottom = QtWidgets.QHBoxLayout()
-        bottom.setSpacing(8)
-        bottom.addWidget(self.full)
-        bottom.addWidget(self.save)
-        bottom.addStretch(1)
-        bottom.addWidget(self.mirror)
-        inside = QtWidgets.QVBoxLayout()
-        inside.setContentsMargins(PAD, 8, PAD, PAD)
-        inside.setSpacing(8)
-        inside.addLayout(top)
-        for widget in (self.chart, self.table, self.note):
-            inside.addWidget(widget)
-        inside.addLayout(bottom)
-        whole = QtWidgets.QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(0)
-        whole.addWidget(line)
-        whole.addLayout(inside)
+# ---------------------------------------------------------------------- the truth
+def is_same_ids(one: Surface, two: Surface) -> bool:
+    """Return whether both surfaces have the same faces, so that equal ids correspond."""
+    return len(one.vertices) == len(two.vertices) and np.array_equal(one.faces, two.faces)
 
-    # ------------------------------------------------------------------ what is told
-    def show_document(self, document: Document) -> None:
-        """The document is another: are its maps, or is what is right?"""
-        loaded = [self.context.session.loaded(mesh.name) for mesh in document.surfaces[:2]]
-        there = [each for each in loaded if each is not None]
-        self.setVisible(len(there) == 2)
-        if len(there) < 2:
-            self._ask(None)
-            return
-        self._ask(asked_of(document, *there))
-        self._show()
 
-    def show_answer(self) -> None:
-        """A panel has another answer: perhaps a full map."""
-        self.save.setVisible(bool(self._full_maps()))
+def truth_of(truth: Truth, one: Surface, two: Surface) -> IntArray | None:
+    """Return the right vertex (n,) for each vertex of one surface, -1 where it is not known; None without a truth.
 
-    def show_again(self) -> None:
-        """The panels have forgotten what was drawn on them."""
-        if self.asked is not None:
-            self._put_dots(self._colours())
+    Raises ParameterError for a map that does not fit these surfaces.
+    """
+    if truth.file is not None:
+        return _on_faces(map_in(truth.file, one, two), two)
+    if truth.word == "identity" or (truth.word == "auto" and is_same_ids(one, two)):
+        return _on_faces(map_in(MapFile(SAME_IDS), one, two), two)
+    return None
 
-    def show_closed(self) -> None:
-        """Ask for nothing while the dock is closed."""
-        self._ask(None)
-        self._put_dots({})
 
-    def _ask(self, asked: Asked | None) -> None:
-        before, self.asked = self.asked, asked
-        if asked is None or before is None or asked.about != before.about:
-            if asked is None or before is None or not _is_judged_alike(asked, before):
-                self.judgement = None
-            self._failure = ""
-            self._background.ask(asked)
+def _on_faces(right: IntArray, two: Surface) -> IntArray:
+    """Replace vertices without faces, from which no distance is defined, by -1."""
+    return np.where((right != NOWHERE) & (two.component_of_vertex[right] >= 0), right, NOWHERE)
 
-    def _judge(self, asked: Asked, progress: Progress) -> Iterator[Judgement]:
-        yield from self._judging.judge(asked, progress)
 
-    def _take(self, asked: Asked, judgement: Judgement) -> None:
-        self.judgement, self._answered, self._failure = judgement, asked.about, ""
-        self._show()
+def partners_of(truth: Truth, two: Surface) -> IntArray | None:
+    """Return the symmetric partner (n,) of each vertex of the second surface, None if partners do not count."""
+    return _on_faces(map_in(truth.partners, two, two), two) if truth.mirror and truth.partners is not None else None
 
-    def _refuse(self, asked: Asked, sentence: str) -> None:
-        self.judgement, self._failure = None, sentence
-        self._show()
+
+def right_places(truth: Truth, one: Surface, two: Surface, vertex: int, is_on_first: bool) -> list[int]:
+    """Return the right vertex for a vertex of either surface, and its symmetric partner if that counts; [] if
+    unknown."""
+    right = truth_of(truth, one, two)
+    if right is None:
+        return []
+    partners = partners_of(truth, two)
+    if is_on_first:
+        found = [int(right[vertex])]
+        found += [] if partners is None or found[0] == NOWHERE else [int(partners[found[0]])]
+    else:
+        images = [vertex] if partners is None else [vertex, int(partners[vertex])]
+        found = [int(each) for image in images if image != NOWHERE for each in np.flatnonzero(right == image)[:1]]
+    return [each for each in dict.fromkeys(found) if each != NOWHERE]
+
+
+# ---------------------------------------------------------------------- errors
+class KeptGeodesics:
+    """Geodesic distances on a surface from `count` vertices, each found once; used like a `Distance` by
+    `map_errors`."""
+
+    is_symmetric = False
+    """So that `map_errors` asks for fields, which are kept, and not for pairs."""
+
+    def __init__(self, laplacian: Laplacian, count: int) -> None:
+        self.surface = laplacian.surface
+        self.distance: GeodesicDistance = error_distance(laplacian, count)
+        self.most = max(MAX_KEPT_VALUES // max(len(self.surface.vertices), 1), 1)
+        self._columns: dict[int, FloatArray] = {}
+
+    def missing(self, vertices: Sequence[int]) -> list[int]:
+        """Return the vertices whose distances are not known yet, each once."""
+        return [vertex for vertex in dict.fromkeys(vertices) if vertex not in self._columns]
+
+    def find(self, vertices: Sequence[int], progress: Progress | None = None) -> None:
+        """Compute the distances from these vertices, and forget those that were asked for the longest ago."""
+        new = self.missing(vertices)
+        if new:
+            found = self.distance.from_sources(new, progress).astype(np.float32)
+            self._columns.update(zip(new, np.ascontiguousarray(found.T), strict=True))
+        for vertex in vertices:
+            self._columns[vertex] = self._columns.pop(vertex)
+        while len(self._columns) > max(self.most, len(vertices)):
+            del self._columns[next(iter(self._columns))]
+
+    def from_sources(self, vertices: IntArray) -> AnyArray:
+        """Return the distances (n, m) from (m,) vertices."""
+        ids = np.asarray(vertices).tolist()
+        self.find(ids)
+        return np.stack([self._columns[vertex] for vertex in ids], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class MapErrorRequest:
+    """The maps whose errors are wanted, the surfaces they are between, and the truth."""
+
+    one: LoadedMesh
+    two: LoadedMesh
+    areas: str
+    maps: tuple[Map, ...]
+    pairs: tuple[tuple[Source | None, Source | None], ...]
+    truth: Truth
+
+    @property
+    def about(self) -> tuple[object, ...]:
+        """The values that the answer depends on."""
+        return id(self.one.surface), id(self.two.surface), self.areas, self.maps, self.pairs, self.truth
+
+
+def request_of(document: Document, one: LoadedMesh, two: LoadedMesh) -> MapErrorRequest:
+    """Return the request for the errors of a document's maps."""
+    pairs = tuple((document.point(pair.first).at, document.point(pair.second).at) for pair in whole_pairs(document))
+    return MapErrorRequest(one, two, document.areas, maps_of(document), pairs, document[Maps].truth)
+
+
+@dataclass(frozen=True, eq=False)
+class MapErrors:
+    """The error curves of maps over `known` of the `wanted` sampled vertices.
+
+    `failures` are the reasons why maps have none, `method` the distance of the errors in words.
+    """
+
+    curves: dict[Map, ErrorCurve]
+    failures: dict[Map, str]
+    known: int
+    wanted: int
+    vertices: int
+    method: str
 
     @property
     def is_whole(self) -> bool:
-        """Whether errors are shown of all vertices that are wanted, for the pairs that there are now."""
-        asked, judged = self.asked, self.judgement
-        return asked is not None and judged is not None and judged.is_whole and self._answered == asked.about
+        """Return whether the errors of all wanted vertices are known."""
+        return self.known == self.wanted or not self.curves
 
-    # ------------------------------------------------------------------ what is seen
-    @property
-    def _document(self) -> Document:
-        return self.context.document
 
-    def _show(self) -> None:
-        asked, document = self.asked, self._document
-        if asked is None:
+class MapErrorWorker:
+    """Finds errors of maps, on one thread; what does not depend on pairs is kept from one request to the next."""
+
+    def __init__(self) -> None:
+        self._kept: KeptGeodesics | None = None
+
+    def errors(self, asked: MapErrorRequest, progress: Progress | None = None) -> Iterator[MapErrors]:
+        """Yield the curves over more and more of the sampled vertices, the last over all of them.
+
+        Yields nothing without a truth or a map. Raises ParameterError for a truth that does not fit, and Cancelled
+        as `progress` does.
+        """
+        one, two = asked.one.surface, asked.two.surface
+        right = truth_of(asked.truth, one, two)
+        if right is None or not asked.maps:
             return
-        word = self.truth.word
-        self.truth.show()
-        self.mirror.setChecked(document[Maps].truth.mirror)
-        self.mirror.setEnabled(word != "none")
-        has_maps = bool(document[Maps].maps or (whole_pairs(document) and asked.maps))
-        judged = self.judgement if word != "none" and has_maps else None
-        curves = [] if judged is None else self._curves(judged)
-        self.chart.setVisible(bool(curves))
-        self.chart.show_curves(curves)
-        failures = [] if judged is None else self._failures(judged)
-        self.table.setVisible(bool(curves or failures))
-        self.table.show_rows(curves, failures)
-        self.note.setText(NO_TRUTH if word == "none" else NO_MAP if not has_maps else self._over(judged))
-        has_full = shows_maps(document)
-        self.full.setText("Show predictions" if has_full else "Compute full map")
-        self.full.setEnabled(bool(has_full or document[Maps].maps or whole_pairs(document)))
-        self.show_answer()
-        self._put_dots(self._colours())
+        partners = partners_of(asked.truth, two)
+        ids = sampled_vertices(len(one.vertices), self._samples(asked))
+        # Vertices of no face are mapped nowhere, and nobody can say where they belong.
+        ids = np.random.default_rng(ORDER_SEED).permutation(
+            ids[(right[ids] != NOWHERE) & (one.component_of_vertex[ids] >= 0)]
+        )
+        if not len(ids):
+            raise ParameterError("The truth is not known for any of the sampled vertices.")
+        found, failures = self._images(asked, ids, part(progress, 0, 0.2))
+        if not found:
+            yield MapErrors({}, failures, 0, len(ids), len(one.vertices), "")
+            return
+        kept = self._geodesics(asked, len(ids))
+        report, to = part(progress, 0.25, 1), np.stack(list(found.values()), axis=1)
+        for stop in self._stops(kept, right[ids], partners, report):
+            errors = map_errors(kept, to[:stop], right[ids[:stop]], partners)  # type: ignore[arg-type]
+            curves = {map: error_curve(column) for map, column in zip(found, errors.T, strict=True)}
+            yield MapErrors(curves, failures, stop, len(ids), len(one.vertices), kept.distance.label)
 
-    def _over(self, judged: Judgement | None) -> str:
-        """Over how many vertices, by which distance."""
-        if judged is None:
-            return self._failure or "Finding errors…"
-        if not judged.curves:
-            return " ".join(dict.fromkeys(judged.failures.values()))
-        known = f"{judged.known:,}" if judged.is_whole else f"{judged.known:,} of {judged.wanted:,}"
-        vertices = "vertices" if judged.wanted == judged.vertices else "sampled vertices"
-        return f"over {known} {vertices}; {judged.method}"
+    def _samples(self, asked: MapErrorRequest) -> int | None:
+        wanted = asked.truth.samples or len(asked.one.surface.vertices)
+        return min(wanted, max(MAX_KEPT_VALUES // len(asked.two.surface.vertices), 1))
 
-    def name_of(self, map: Map) -> str:
-        """In the table."""
-        if isinstance(map, MapFile):
-            return map.name
-        same = [each for each in maps_of(self._document) if isinstance(each, Spec) and each.word == map.word]
-        return kind_name(map.kind) if len(same) < 2 else str(map)
+    def _images(
+        self, asked: MapErrorRequest, ids: IntArray, progress: Progress | None
+    ) -> tuple[dict[Map, IntArray], dict[Map, str]]:
+        """Return the images (m,) of these vertices under each map, and the reasons why maps have none."""
+        found: dict[Map, IntArray] = {}
+        failures: dict[Map, str] = {}
+        for k, map in enumerate(asked.maps):
+            step = part(progress, k / len(asked.maps), (k + 1) / len(asked.maps))
+            try:
+                if isinstance(map, MapFile):
+                    found[map] = map_in(map, asked.one.surface, asked.two.surface)[ids]
+                elif asked.pairs:
+                    known = correspondence(asked.areas, map, asked.pairs, asked.one, asked.two, step)
+                    found[map] = known.map(ids)
+            except Cancelled:
+                raise
+            except (BihdistError, MemoryError) as error:
+                failures[map] = failure_in_words(error)
+        return found, failures
 
-    def _colour_of(self, map: Map) -> str:
-        maps = maps_of(self._document)
-        return curve_colour(maps.index(map)) if map in maps else LOOK.theme.quiet
+    def _geodesics(self, asked: MapErrorRequest, count: int) -> KeptGeodesics:
+        laplacian, kept = asked.two.distances(asked.areas).laplacian, self._kept
+        surface = laplacian.surface
+        if kept is None or kept.surface is not surface or kept.distance.method != error_method(surface, count):
+            kept = self._kept = KeptGeodesics(laplacian, count)
+        return kept
 
-    def _curves(self, judged: Judgement) -> list[MapCurve]:
-        return [
-            MapCurve(self.name_of(map), self._colour_of(map), curve)
-            for map, curve in judged.curves.items()
-            if map in maps_of(self._document)
-        ]
-
-    def _failures(self, judged: Judgement) -> list[tuple[str, str, str]]:
-        return [(self.name_of(map), self._colour_of(map), why) for map, why in judged.failures.items()]
-
-    def _colours(self) -> dict[int, str]:
-        """Of the dots in the heads of panels: those of their curves."""
-        document, found = self._document, {}
-        for panel in document.panels:
-            shows = panel.shows
-            if predicts_in(panel) and panel.surface == document.surfaces[1].name:
-                found[panel.id] = self._colour_of(shows.specs[0])
-            elif isinstance(shows, MapColours) and shows.by:
-                found[panel.id] = self._colour_of(
-                    document[Maps].of(shows.by) if isinstance(shows.by, str) else shows.by
-                )
-        return found
-
-    def _put_dots(self, colours: dict[int, str]) -> None:
-        panels = list(self.context.grid.panels)
-        for panel in panels:
-            if panel.id in colours or panel in self._dotted:
-                panel.head.show_dot(colours.get(panel.id, ""))
-        self._dotted = [panel for panel in panels if panel.id in colours]
-
-    def named_curves(self) -> dict[str, ErrorCurve]:
-        """What the chart shows."""
-        return {curve.name: curve.errors for curve in self.chart.curves}
-
-    def _count_mirror(self, counts: bool) -> None:
-        self.truth.count_mirror(counts)
-        self.mirror.setChecked(self._document[Maps].truth.mirror)
-
-    # ------------------------------------------------------------------ maps
-    def show_or_leave_maps(self) -> None:
-        """The full map by each distance, or predictions again."""
-        document = self._document
-        self.context.edit(predict(document) if shows_maps(document) else show_maps(document))
-
-    def _full_maps(self) -> dict[Spec, Any]:
-        """Those that are there, (n,) each."""
-        session = self.context.session
-        found = {}
-        for panel in self._document.panels:
-            shown = session.shown.get(panel.id)
-            is_by_pairs = panel.shows.is_map and panel.shows.specs
-            if not is_by_pairs or shown is None or not session.is_answered(panel.id):
-                continue
-            if shown.answer.leads_to is not None:
-                found[panel.shows.specs[0]] = shown.answer.leads_to
-        return found
-
-    def _fill_maps(self) -> None:
-        menu = self.save.menu()
-        menu.clear()
-        for spec, found in self._full_maps().items():
-            action = menu.addAction(f"Save the map by {self.name_of(spec).lower()}…")
-            action.triggered.connect(lambda *_, spec=spec, found=found: self.save_map(spec, found))
-
-    def save_map(self, spec: Spec, found: Any) -> None:
-        """Ask for a file, and write a map's vertices (n,)."""
-        asked = self.asked
-        meshes = [] if asked is None else [each.surface.name for each in (asked.one, asked.two)]
-        name = file_name(meshes, "map", str(spec))
-        save(self.context, "Save the map", name, MAP_FORMATS, lambda path: write_map(path, found))
+    @staticmethod
+    def _stops(kept: KeptGeodesics, right: IntArray, partners: IntArray | None, report: Progress) -> Iterator[int]:
+        """Yield how many of the right answers (m,) are known by now, each time that there are more."""
+        answers = [[int(each)] for each in right]
+        if partners is not None:
+            answers = [[*each, *(int(p) for p in partners[each] if p != NOWHERE)] for each in answers]
+        stop, last = 0, time.monotonic()
+        while stop < len(answers) and not kept.missing(answers[stop]):
+            stop += 1
+        if 0 < stop < len(answers):
+            yield stop
+        while stop < len(answers):
+            report(stop / len(answers), f"errors of {stop:,} of {len(answers):,} vertices")
+            some = answers[stop : stop + VERTICES_PER_BLOCK]
+            kept.find([vertex for each in some for vertex in each], _checked(report, stop / len(answers)))
+            stop += len(some)
+            if stop < len(answers) and time.monotonic() - last > ANSWER_INTERVAL_S:
+                last = time.monotonic()
+                yield stop
+        kept.find([vertex for each in answers for vertex in each])
+        yield stop
 
 
-def _is_judged_alike(one: Asked, other: Asked) -> bool:
-    """Whether what is known of the one is near what is to come of the other: only pairs or maps differ."""
-    return (one.about[:3], one.truth) == (other.about[:3], other.truth)
+def _checked(report: Progress, share: float) -> Progress:
+    """Return a progress that can be cancelled, and reports no other fraction than `share`."""
+    return lambda fraction, text: report(share, text)

@@ -1,5 +1,4 @@
-"""What maps are measured by, as a menu: which places are right, over how many vertices.  `section` is what shows the
-errors."""
+"""The menu of the truth that maps are measured by, and over how many vertices."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -8,144 +7,123 @@ from typing import Any
 
 from qtpy import QtWidgets
 
-from bihdist_core import BihdistError
+from bihdist_core.applications.map_errors import ErrorCurve
 from bihdist_core.formats.vertex_maps import MAP_FORMATS
 
 from ...document.file_names import file_name
+from ...qt.context import Context
 from ...qt.files.chart_files import paper_theme, save_figure
-from ...qt.files.saving import save
-from ...qt.panels.flat_button import FlatButton
-from .judgement import is_same_ids
-from .map_answers import map_file
-from .maps import MapFile, Maps, with_map, with_truth
+from ...qt.files.saving import ask_file, file_filter, save
+from ...qt.panels.flat_button import add_entry, menu_button
+from .map_errors import MapErrorRequest, is_same_ids
+from .maps import MapFile, Maps, map_file, with_map, with_truth
 
-READ = f"Maps ({' '.join(f'*{extension}' for extension in MAP_FORMATS)});;All files (*)"
+MAPS = file_filter("Maps", MAP_FORMATS)
 SAMPLES = {100: "Over 100 sampled vertices", 400: "Over 400 sampled vertices", 0: "Over all vertices"}
 
 
 class MapTruth:
-    """button: says what is right, and has the menu."""
+    """A button that names the truth, with a menu.
 
-    def __init__(self, section: Any) -> None:
-        self._section, self._context = section, section.context
-        self.button = FlatButton(section, quiet=True)
-        self.button.setAccessibleName("Truth")
-        self.button.setToolTip("What is right, and over how many vertices errors are found")
-        self._menu = QtWidgets.QMenu(self.button)
-        self._menu.aboutToShow.connect(self._fill)
-        self.button.setMenu(self._menu)
+    `request()` returns what errors are asked for now, None without two meshes; `curves()` those that are shown.
+    """
+
+    def __init__(
+        self,
+        parent: QtWidgets.QWidget,
+        context: Context,
+        request: Callable[[], MapErrorRequest | None],
+        curves: Callable[[], dict[str, ErrorCurve]],
+    ) -> None:
+        self._context, self._request, self._curves = context, request, curves
+        tip = "The ground truth, and the number of sampled vertices"
+        self.button = menu_button(parent, self._fill, tip, "Truth", quiet=True)
 
     def show(self) -> None:
-        """Say what is right now."""
+        """Show the name of the truth on the button."""
         truth, word = self._context.document[Maps].truth, self.word
         named = truth.file.name if truth.file is not None else "same ids" if word == "identity" else "not known"
         self.button.setText(f"truth: {named}")
 
     @property
     def word(self) -> str:
-        """One of TRUTHS, but for "auto", which means one of the others."""
-        truth, asked = self._context.document[Maps].truth, self._section.asked
+        """The kind of truth, one of TRUTHS except "auto", which stands for another."""
+        truth, asked = self._context.document[Maps].truth, self._request()
         if truth.word != "auto" or asked is None:
             return str(truth.word)
         return "identity" if is_same_ids(asked.one.surface, asked.two.surface) else "none"
 
-    def _fill(self) -> None:
-        self._menu.clear()
-        asked, truth, word = self._section.asked, self._context.document[Maps].truth, self.word
+    def _fill(self, menu: QtWidgets.QMenu) -> None:
+        asked, truth, word = self._request(), self._context.document[Maps].truth, self.word
         if asked is None:
             return
         has_ids = len(asked.one.surface.vertices) == len(asked.two.surface.vertices)
-        self._add("Same ids", partial(self._choose, word="identity", file=None), word == "identity", has_ids)
-        self._add("A map's file…", self.choose, word == "file")
-        self._add("Not known", partial(self._choose, word="none", file=None), word == "none")
-        self._menu.addSeparator()
+        add = partial(add_entry, menu)
+        choose_truth = partial(ask_file, self._context, "Where each vertex of A belongs on B", MAPS, self.take)
+        add("Same ids", partial(self._choose, word="identity", file=None), word == "identity", has_ids)
+        add("A map's file…", choose_truth, word == "file")
+        add("Not known", partial(self._choose, word="none", file=None), word == "none")
+        menu.addSeparator()
         for samples, words in SAMPLES.items():
-            self._add(words, partial(self._choose, samples=samples), truth.samples == samples)
-        self._menu.addSeparator()
-        self._add("Symmetric partners from a map's file…", self.choose_partners)
-        self._add("Show the map of a file…", self.choose_map)
-        self._menu.addSeparator()
-        has_curves = bool(self._section.named_curves())
-        self._add("Save the curves as a figure…", self.save_figure, can=has_curves)
-        self._add("Save the curves' numbers…", self.save_numbers, can=has_curves)
-
-    def _add(self, words: str, do: Callable[[], None], is_on: bool | None = None, can: bool = True) -> None:
-        action = self._menu.addAction(words)
-        action.setCheckable(is_on is not None)
-        action.setChecked(bool(is_on))
-        action.setEnabled(can)
-        action.triggered.connect(lambda *_: do())
+            add(words, partial(self._choose, samples=samples), truth.samples == samples)
+        menu.addSeparator()
+        add("Symmetric partners from a map's file…", self.choose_partners)
+        add("Show the map of a file…", partial(ask_file, self._context, "A map from A to B", MAPS, self.take_map))
+        menu.addSeparator()
+        has_curves = bool(self._curves())
+        add("Save the curves as a figure…", self.save_figure, can=has_curves)
+        add("Save the curves' numbers…", self.save_numbers, can=has_curves)
 
     def _choose(self, **changes: Any) -> None:
         session = self._context.session
         session.show(with_truth(session.document, replace(session.document[Maps].truth, **changes)))
 
-    # ------------------------------------------------------------------ by a dialog
-    def choose(self) -> None:
-        """Ask for the file of the true map."""
-        self._ask("Where each vertex of A belongs on B", self.take)
-
+    # ------------------------------------------------------------------ files
     def choose_partners(self) -> None:
         """Ask for the file of symmetric partners."""
-        self._ask("The symmetric partner of each vertex of B", self.take_partners)
+        ask_file(self._context, "The symmetric partner of each vertex of B", MAPS, self.take_partners)
 
-    def choose_map(self) -> None:
-        """Ask for the file of a map to be compared."""
-        self._ask("A map from A to B", self.take_map)
-
-    def _ask(self, title: str, take: Callable[[str], None]) -> None:
-        folder = self._context.folder
-        path, _ = QtWidgets.QFileDialog.getOpenFileName(self._section, title, folder, READ)
-        if path:
-            take(path)
-
-    # ------------------------------------------------------------------ files
     def take(self, path: str) -> None:
-        """The map in a file is right, or why it cannot be."""
+        """Take the map in a file as the truth, or say why it cannot be."""
         file = self._read(path)
         if file is not None:
             self._choose(word="file", file=file)
 
     def take_partners(self, path: str) -> None:
-        """Symmetric partners count from now on, as a file says, or why they cannot."""
+        """Count symmetric partners as the map in a file says, or say why it cannot be."""
         file = self._read(path, is_on_second=True)
         if file is not None:
             self._choose(partners=file, mirror=True)
 
     def take_map(self, path: str) -> None:
-        """Show where the map of a file leads, and judge it beside the others; or why it cannot be."""
-        file, session = self._read(path), self._context.session
+        """Show the map of a file, with its errors beside the others, or say why it cannot be."""
+        file = self._read(path)
         if file is not None:
-            try:
-                session.show(with_map(session.document, file))
-            except BihdistError as error:
-                self._context.fail(error)
+            self._context.session.apply(lambda document: with_map(document, file))
 
     def count_mirror(self, counts: bool) -> None:
-        """Whether symmetric partners count; what they are is asked for where it is not known."""
+        """Count symmetric partners or not; ask for their file if it is not known."""
         if counts and self._context.document[Maps].truth.partners is None:
             self.choose_partners()
         else:
             self._choose(mirror=counts)
 
     def _read(self, path: str, is_on_second: bool = False) -> MapFile | None:
-        asked = self._section.asked
+        asked = self._request()
         if asked is None:
             return None
         one, two = asked.one.surface, asked.two.surface
-        try:
+        with self._context.errors_shown():
             return map_file(path, two if is_on_second else one, two)
-        except BihdistError as error:
-            self._context.fail(error)
-            return None
+        return None
 
     # ------------------------------------------------------------------ the curves
     def _file_name(self) -> str:
-        asked = self._section.asked
+        asked = self._request()
         return file_name([] if asked is None else [asked.one.surface.name, asked.two.surface.name], "map-errors")
 
     def save_figure(self, path: str = "") -> None:
-        """In the style of the page, in the colours that go with its ground."""
+        """Save the curves in the style of the page, with the colours that go with its background."""
         from ...figures.chart_page import ChartLook
         from ...figures.error_figure import ErrorFigure, save_error_figure
         from ...scene.style import style_of
@@ -155,7 +133,7 @@ class MapTruth:
 
         def figure() -> ErrorFigure:
             style = style_of(page.style, context.document.colours)
-            return ErrorFigure(self._section.named_curves(), colours, ChartLook(style))
+            return ErrorFigure(self._curves(), colours, ChartLook(style))
 
         save_figure(context, "Save the curves as a figure", self._file_name(), save_error_figure, figure, path)
 
@@ -163,6 +141,6 @@ class MapTruth:
         """Ask for a file, and write the curves of errors as a table."""
         from ...figures.error_figure import ErrorFigure, save_error_figure
 
-        curves = self._section.named_curves()
+        curves = self._curves()
         name = self._file_name()
         save(self._context, "Save the curves", name, (".csv",), lambda p: save_error_figure(ErrorFigure(curves), p))

@@ -5,63 +5,63 @@ from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.errors import ParameterError
 from bihdist_core.scalars import whole_number
 
-from ...document.document import Document, Panel, Point, free_names, unlike
+from ...document.document import Document, check_unique, with_new_point
+from ...document.file import checksum
 from ...document.json_values import record, text
 from ...document.looks import one_of
 from ...document.part import Part
 from ...document.quantities import DistanceFrom, Quantity, read_spec
-from .pairs import Pairs
+from .pairs import Pairs, show_instead
 
 if TYPE_CHECKING:
+    from bihdist_core.arrays import IntArray
     from bihdist_core.surface import Surface
-
-    from .map_answers import MapQuestion, PositionQuestion
 
 MOST_MAPS = 5
 """Shown beside the surface that they lead to."""
 
 MAP, MAP_BY, POSITIONS = "map ", "map by ", "position colours"
-"""What the words of a map begin with, of one that pairs make by a distance, and the words of what it leads to."""
+"""The beginning of the words of a map of a file and of a map by pairs; the words of colours by position."""
 
 SAME_IDS = "identity"
-"""In the place of a file: each vertex is mapped to that of the same id."""
+"""The path of the map that takes each vertex to that of the same id."""
 
 TRUTHS = ("auto", "none", "identity", "file")
-"""Where it stands what is right: "auto" takes the same ids where both surfaces have the same faces."""
+"""The kinds of truth; "auto" is "identity" if both surfaces have the same faces."""
 
 
 @dataclass(frozen=True)
 class MapFile:
-    """A map from vertices to vertices: path of a file, or SAME_IDS.  sha256: of the file's bytes."""
+    """The path of a map from vertices to vertices, or SAME_IDS, with the checksum of the file."""
 
     path: str
     sha256: str = ""
 
     def __post_init__(self) -> None:
         if not self.path:
-            raise ParameterError(f"A map stands in a file, or is {SAME_IDS!r}.")
+            raise ParameterError(f"A map is the path of a file, or {SAME_IDS!r}.")
 
     def at(self, named: Callable[[str], str]) -> "MapFile":
-        """The map with another path."""
+        """Return the map with another path."""
         return self if self.path == SAME_IDS else replace(self, path=named(self.path))
 
     @property
     def name(self) -> str:
-        """For the user."""
+        """Its name for the user."""
         return "same ids" if self.path == SAME_IDS else os.path.splitext(os.path.basename(self.path))[0]
 
 
 @dataclass(frozen=True)
 class Truth:
-    """What maps from the document's first surface to its second are measured by.
+    """The truth of maps from the document's first surface to its second.
 
-    word: one of TRUTHS.  file: the map that is right, where it stands in one.  partners: for each vertex of the second
-    surface its symmetric partner; mirror: whether that counts as right, too.  samples: of so many vertices errors are
-    found, 0 for all.
+    `word` is one of TRUTHS and `file` the true map of "file". `partners` has the symmetric partner of each vertex of
+    the second surface, which counts as right, too, with `mirror`. Errors are found at so many `samples`, 0 for all
+    vertices.
     """
 
     word: str = "auto"
@@ -73,19 +73,19 @@ class Truth:
     def __post_init__(self) -> None:
         one_of(self.word, TRUTHS, "truth")
         if whole_number(self.samples, "A number of sampled vertices") < 0:
-            raise ParameterError(f"Errors are found of a number of vertices, or of all for 0, not of {self.samples}.")
+            raise ParameterError(f"The number of sampled vertices is 0, for all, or more, not {self.samples}.")
         if (self.word == "file") != (self.file is not None):
-            raise ParameterError("A truth that stands in a file, and no other, names it.")
+            raise ParameterError('A truth names a file if it is "file", and otherwise none.')
         if self.mirror and self.partners is None:
-            raise ParameterError("For symmetric partners to count as right, they have to be known: name their map.")
+            raise ParameterError("Symmetric partners can count as right only with the file of their map.")
 
 
 @dataclass(frozen=True)
 class MapColours(Quantity):
-    """Where a map from the document's first surface leads, in colours; see `bihdist_core.applications.carrying`.
+    """A map from the document's first surface, in colours; see `bihdist_core.applications.correspondence`.
 
-    by: the distance by which the document's pairs make the map, the path of one of its maps, or "": the surface's own
-    colours by position, which are those of the vertices that maps lead to.
+    `by` is the distance by which the document's pairs make the map, the path of one of its maps, or "" for the
+    surface's own colours by position, which maps to it show.
     """
 
     by: Spec | str = ""
@@ -112,7 +112,7 @@ class MapColours(Quantity):
 
     @property
     def title(self) -> str:
-        return f"{MAP_BY}{self.by.kind.name.lower()}" if isinstance(self.by, Spec) else str(self)
+        return f"{MAP_BY}{self.by.distance_type.name.lower()}" if isinstance(self.by, Spec) else str(self)
 
     @property
     def heading(self) -> str:
@@ -135,17 +135,11 @@ class MapColours(Quantity):
         if surface != document.surfaces[0].name:
             raise ParameterError(f"Maps are from the surface {document.surfaces[0].name!r}, and shown on it.")
 
-    def question(self, document: Document, surface: str) -> "PositionQuestion | MapQuestion":
-        """What has to be answered to show where the map leads."""
-        from .map_answers import map_question
-
-        return map_question(self, document, surface)
-
     def with_paths(self, named: Callable[[str], str]) -> "MapColours":
         return MapColours(MapFile(self.by).at(named).path) if isinstance(self.by, str) and self.by else self
 
     def to_json(self) -> dict[str, Any]:
-        return {"map": self.by} if isinstance(self.by, str) else {"map_by": self.by.in_full}
+        return {"map": self.by} if isinstance(self.by, str) else {"map_by": self.by.canonical}
 
     @classmethod
     def from_json(cls, data: dict[str, Any], where: str) -> Quantity | None:
@@ -159,32 +153,40 @@ class MapColours(Quantity):
 
 
 def map_colours(text: str, **parameters: object) -> MapColours:
-    """From words as `str` writes them; ParameterError for others."""
+    """Return the quantity with these words, as `str` writes them; ParameterError for others."""
     if text == POSITIONS:
         return MapColours()
     if text.startswith(MAP_BY):
         return MapColours(Spec.parse(text.removeprefix(MAP_BY), **parameters))
     if text.startswith(MAP) and text.removeprefix(MAP).strip():
         return MapColours(text.removeprefix(MAP).strip())
-    raise ParameterError(f"{text!r} is no map: write 'map by biharmonic', 'map FILE' or {POSITIONS!r}.")
+    raise ParameterError(f"{text!r} is not a map; write 'map by biharmonic', 'map FILE' or {POSITIONS!r}.")
 
 
 @dataclass(frozen=True)
 class Maps(Part):
-    """Maps in files, and what all maps are measured by."""
+    """Maps in files, and the truth that all maps are measured by.
+
+    Attributes
+    ----------
+    maps
+        The files of the maps.
+    truth
+        The truth that the errors of all maps are measured by.
+    """
 
     maps: tuple[MapFile, ...] = ()
     truth: Truth = Truth()
 
     def of(self, path: str) -> MapFile:
-        """The map in a file; ParameterError if there is none."""
+        """Return the map in a file; ParameterError if there is none."""
         found = next((each for each in self.maps if each.path == path), None)
         if found is None:
             raise ParameterError(f"There is no map {path!r}.")
         return found
 
     def check(self, document: Document) -> None:
-        unlike([map.path for map in self.maps], "map")
+        check_unique([map.path for map in self.maps], "map")
         if self.maps:
             check_two(document)
 
@@ -196,57 +198,67 @@ class Maps(Part):
         return Maps(tuple(map.at(named) for map in self.maps), replace(self.truth, file=file, partners=partners))
 
     def check_files(self, surfaces: Mapping[str, "Surface"]) -> None:
-        """Every map is one between the first two surfaces."""
-        from .map_answers import map_in
-
+        """Raise ParameterError unless every map is one between the first two surfaces."""
         for map in self.maps:
             map_in(map, *list(surfaces.values())[:2])
 
 
+def map_file(path: str, one: "Surface", two: "Surface") -> MapFile:
+    """Return the map in a file, from one surface to another, with its checksum; ParameterError for other files."""
+    from bihdist_core.formats.vertex_maps import read_map
+
+    if path != SAME_IDS:
+        read_map(path, one, two)
+    return MapFile(path, "" if path == SAME_IDS else checksum(path))
+
+
+def map_in(map: MapFile, one: "Surface", two: "Surface") -> "IntArray":
+    """Return the map (n,); ParameterError if its file has changed, or is no map between these surfaces."""
+    from bihdist_core.formats.vertex_maps import read_map
+
+    if map.sha256 and checksum(map.path) != map.sha256:
+        raise ParameterError(f"The map {map.path} has changed since it was chosen (its checksum differs).")
+    return read_map(map.path, one, two)
+
+
 def check_two(document: Document) -> None:
-    """ParameterError where there are not two surfaces."""
+    """Raise ParameterError unless there are two surfaces."""
     if len(document.surfaces) < 2:
-        raise ParameterError("A map is from one surface to another, and there are not two.")
+        raise ParameterError("A map is between two meshes; open a second one beside the first.")
 
 
 def show_maps(document: Document, by: Sequence[Spec | str] | None = None) -> Document:
-    """The second surface in its colours by position, and the first once for each map.
+    """Show the second surface in its colours by position, and the first once for each map.
 
-    by: distances, and paths of the document's maps; if None all of these, and the distances that panels show or that
-    maps are by.  ParameterError where there are not two surfaces.
+    `by` has distances and paths of the document's maps; None stands for all of these, and for the distances that
+    panels show. Raises ParameterError without a second surface.
     """
-    if len(document.surfaces) < 2:
-        raise ParameterError("A map is from one mesh to another; open a second one beside the first.")
+    check_two(document)
     first, second = (mesh.name for mesh in document.surfaces[:2])
     specs = list(dict.fromkeys(spec for panel in document.panels for spec in panel.shows.specs))
     if by is None:
         by = [*(specs if document[Pairs].pairs else ()), *(map.path for map in document[Maps].maps)][:MOST_MAPS]
     by = by or [Spec.of("biharmonic")]
     wanted = [(second, MapColours()), *((first, MapColours(each)) for each in by)]
-    ids = {name: [panel.id for panel in document.panels_of(name)] for name in (first, second)}
-    panels, next_id = [], document.next_id
-    for surface, shows in wanted:
-        id, next_id = (ids[surface].pop(0), next_id) if ids[surface] else (next_id, next_id + 1)
-        panels.append(Panel(id, shows, surface))
-    return replace(document, panels=tuple(panels), next_id=next_id, range="own")
+    return show_instead(document, wanted)
 
 
 def shows_maps(document: Document) -> bool:
-    """Whether a panel shows one."""
+    """Return whether a panel shows a map."""
     return any(panel.shows.is_map for panel in document.panels)
 
 
 def with_map(document: Document, map: MapFile) -> Document:
-    """With one more, shown beside the others; one of the same file goes."""
+    """Return the document with one more map, which replaces one of the same file."""
     maps = tuple(each for each in document[Maps].maps if each.path != map.path)
-    document = document.with_part(replace(document[Maps], maps=(*maps, map)))
+    document = document.with_changed(Maps, maps=(*maps, map))
     if len(document[Maps].maps) > MOST_MAPS:
         raise ParameterError(f"There are at most {MOST_MAPS} maps of files.")
     return show_maps(document)
 
 
 def without_maps(document: Document) -> Document:
-    """Without maps and what they are measured by, as when one of the surfaces becomes another.
+    """Return the document without maps and their truth, as when one of the surfaces is replaced.
 
     A panel of a map by a distance shows that distance; others of maps go, but for the last panel of their surface.
     """
@@ -264,15 +276,14 @@ def without_maps(document: Document) -> Document:
 
 
 def _with_source(document: Document, surface: str) -> tuple[Document, str]:
-    """Where fields of a surface start: where they do already, or have done."""
+    """Return the document with a source on a surface, and its name."""
     names = [name for panel in document.panels_of(surface) for name in panel.shows.points]
     names += [p.name for p in document.points if p.surface == surface and p.name.startswith("source")]
     if names:
         return document, names[0]
-    (name,) = free_names("source", 1, [point.name for point in document.points])
-    return replace(document, points=(*document.points, Point(name, None, surface))), name
+    return with_new_point(document, "source", None, surface)
 
 
 def with_truth(document: Document, truth: Truth) -> Document:
-    """Measured by something else."""
-    return document.with_part(replace(document[Maps], truth=truth))
+    """Return the document with another truth."""
+    return document.with_changed(Maps, truth=truth)

@@ -4,34 +4,36 @@ from weakref import WeakKeyDictionary
 
 from bihdist_core.distances.answers import Answer
 
-from ...marks.glyphs import CANDIDATE, CROSS, PIN
+from ...drawing.glyphs import CANDIDATE, CROSS, PIN
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import Caption, LegendRow, PointMark
 from ...scene.style import PINS, WAITING
-from .candidate_judgement import CandidatesJudged, CandidatesJudging, candidates_asked
+from .candidate_errors import CandidateErrors, CandidateErrorWorker, candidate_request
 from .map_answers import colours_words
 from .maps import Maps, Truth
 from .pair_locations import Candidate, LocatedPairPoint, candidate_in, located_pair_points
 from .pairs import pair_words, waiting_point
-from .prediction import predicts_in
+from .quantity import predicts_in
 
 
 def marks(marked: MarkedPanel) -> list[PointMark | LegendRow | Caption]:
-    """The points on a panel's surface, and the best candidate of its answer with where the point belongs."""
+    """Return the points on a panel's surface, and the best candidate of its answer with where the point belongs."""
     document, panel = marked.document, marked.panel
     candidate = candidate_in(document, panel, marked.answer)
     found: list[PointMark | LegendRow | Caption] = [
         *(pair_mark(each) for each in located_pair_points(document, panel.surface, marked.loaded)),
         _caption(marked, candidate),
     ]
-    judged = marked.find(CandidatesJudged, lambda: None if candidate is None else _judged(marked, candidate.vertex))
-    if judged is not None and judged.places:
+    errors = marked.find(
+        CandidateErrors, lambda: None if candidate is None else _candidate_errors(marked, candidate.vertex)
+    )
+    if errors is not None and errors.places:
         name = "The place where the point belongs"
         if candidate is not None:
             name = f"The place where point {candidate.number} belongs"
-        found += [*(PointMark(vertex, CROSS, name=name) for vertex in judged.places), LegendRow(CROSS, "truth")]
+        found += [*(PointMark(vertex, CROSS, name=name) for vertex in errors.places), LegendRow(CROSS, "truth")]
     if candidate is not None:
-        off = None if judged is None else judged.errors.get(panel.id)
+        off = None if errors is None else errors.errors.get(panel.id)
         aside = f"{100 * candidate.share:.1f} %" if off is None else f"{100 * off:.1f} % off"
         name, text = f"The candidate for point {candidate.number}", str(candidate.vertex)
         found.append(PointMark(candidate.vertex, CANDIDATE, WAITING, text, candidate.number, name=name, aside=aside))
@@ -40,7 +42,7 @@ def marks(marked: MarkedPanel) -> list[PointMark | LegendRow | Caption]:
 
 
 def _caption(marked: MarkedPanel, candidate: Candidate | None) -> Caption:
-    """The misfit of the candidate; where none is predicted, what waits, once for each surface; or what colours say."""
+    """Return the caption of a panel: the misfit of the candidate, the next step, or the meaning of the colours."""
     document, panel, answer = marked.document, marked.panel, marked.answer
     if candidate is not None:
         return Caption(value=candidate.misfit, unit="misfit of the best")
@@ -57,26 +59,26 @@ def _caption(marked: MarkedPanel, candidate: Candidate | None) -> Caption:
 
 
 def pair_mark(located: LocatedPairPoint) -> PointMark:
-    """A pin marker at one point of a pair."""
+    """Return a pin marker at one point of a pair."""
     colour = WAITING if located.is_waiting else PINS[located.pair.colour]
     return PointMark(
         located.vertex, PIN, colour, number=located.number, name=f"Point {located.number}", point=located.point
     )
 
 
-def _judged(marked: MarkedPanel, vertex: int) -> CandidatesJudged:
-    """Where the point belongs, and how far the candidate is from there, as far as that is known; found once."""
+def _candidate_errors(marked: MarkedPanel, vertex: int) -> CandidateErrors:
+    """Return the errors of the candidate, found once for each answer."""
     document, known = marked.document, _found.setdefault(marked.answer, {})
     truth = document[Maps].truth
     if truth not in known:
-        known[truth] = CandidatesJudged((), {})
-        one, two = (marked.loaded.standing_beside(mesh) for mesh in document.surfaces[:2])
+        known[truth] = CandidateErrors((), {})
+        one, two = (marked.loaded.shown_with(mesh) for mesh in document.surfaces[:2])
         asked = None
         if one is not None and two is not None:
-            asked = candidates_asked(document, one, two, {marked.panel.id: vertex})
-        for judged in () if asked is None else CandidatesJudging().judge(asked):
-            known[truth] = judged
+            asked = candidate_request(document, one, two, {marked.panel.id: vertex})
+        for found in () if asked is None else CandidateErrorWorker().errors(asked):
+            known[truth] = found
     return known[truth]
 
 
-_found: WeakKeyDictionary[Answer, dict[Truth, CandidatesJudged]] = WeakKeyDictionary()
+_found: WeakKeyDictionary[Answer, dict[Truth, CandidateErrors]] = WeakKeyDictionary()

@@ -13,10 +13,10 @@ from ...document.option import Option, Row, unsaid
 from ...document.page import Recipe
 from .maps import SAME_IDS, MapFile, Maps, show_maps
 from .pairs import Pairs, drop_half, pair_instead, place_point
-from .prediction import predict
+from .quantity import predict
 
 PAIRS = "pairs"
-"""In the place of a map's file: the maps that pairs make, by each distance that is shown."""
+"""The word that stands for the maps by pairs, in the place of a map's file."""
 
 PAIRS_MEANING = (
     "known pairs, vertex I of A and J of B: 1:2,3:4; or of a file with a line `i,j` for each, @FILE, or - for standard "
@@ -37,9 +37,7 @@ def _put(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
         _check_two(document, "--pairs", "pairs=")
         document = pair_instead(document, [(int(i), int(j)) for i, j in pairs])
     if "predict" in values and values.get("maps"):
-        raise ParameterError(
-            "--predict and --map (in Python predict= and maps=) are figures of their own; leave one of them out."
-        )
+        raise ParameterError("--predict and --map (in Python predict= and maps=) cannot be combined; leave one out.")
     if "predict" in values:
         document = _with_prediction(document, values["predict"])
     elif len(values.get("maps", ())):
@@ -48,35 +46,35 @@ def _put(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
 
 
 def _with_prediction(document: Document, vertex: int) -> Document:
-    """Where a vertex of the first surface is on the second, by each distance that is shown.
+    """Predict a vertex of the first surface on the second, by each distance that is shown.
 
-    ParameterError without pairs, or a second surface.
+    Raises ParameterError without pairs or a second surface.
     """
     _check_two(document, "--predict", "predict=")
     if not any(not pair.is_half for pair in document[Pairs].pairs):
-        raise ParameterError("--predict goes by pairs; name them with --pairs (in Python, give pairs=).")
+        raise ParameterError("--predict needs pairs; name them with --pairs (in Python, give pairs=).")
     return place_point(drop_half(predict(document)), document.surfaces[0].name, vertex)
 
 
 def _with_maps(document: Document, names: Sequence[str]) -> Document:
-    """Maps from the first surface to the second, in colours: files, "identity", or PAIRS.
+    """Show maps from the first surface to the second: files, "identity", or PAIRS.
 
-    ParameterError without a second surface, without pairs for PAIRS, and for a file that cannot be read.
+    Raises ParameterError without a second surface, without pairs for PAIRS, and for a file that cannot be read.
     """
     _check_two(document, "--map", "maps=")
     if PAIRS in names and not document[Pairs].pairs:
-        raise ParameterError(f"--map {PAIRS} is made by pairs; name them with --pairs (in Python, give pairs=).")
+        raise ParameterError(f"--map {PAIRS} needs pairs; name them with --pairs (in Python, give pairs=).")
     files = [name for name in dict.fromkeys(names) if name != PAIRS]
     maps = tuple(MapFile(path, "" if path == SAME_IDS else checksum(path)) for path in files)
     specs = dict.fromkeys(spec for panel in document.panels for spec in panel.shows.specs)
     by = [each for name in dict.fromkeys(names) for each in (specs if name == PAIRS else [name])]
-    return show_maps(document.with_part(replace(document[Maps], maps=maps)), by)
+    return show_maps(document.with_changed(Maps, maps=maps), by)
 
 
 def _check_two(document: Document, option: str, argument: str) -> None:
     if len(document.surfaces) < 2:
         raise ParameterError(
-            f"{option} goes from one mesh to another; name a second one after the first (in Python, beside= with "
+            f"{option} goes from one mesh to another; name a second one after the first (in Python, second_mesh= with "
             f"{argument})."
         )
 
@@ -90,6 +88,7 @@ ROWS = (
                 f"for each of A; or `{PAIRS}`, for the maps by each --distance from --pairs; with commas for several",
                 (),
                 flag="map",
+                group="",
                 metavar="MAP,…",
                 is_list=True,
                 replaces_panels=True,
@@ -98,11 +97,20 @@ ROWS = (
                 "predict",
                 "instead of distances how badly each vertex of B fits vertex V of A, by each --distance from --pairs, "
                 "and which fits best",
+                group="",
                 metavar="V",
                 read=int,
                 replaces_panels=True,
             ),
-            Option("pairs", PAIRS_MEANING, (), metavar="I:J,…|@FILE", read=pairs_from_words, write=pairs_text),
+            Option(
+                "pairs",
+                PAIRS_MEANING,
+                (),
+                group="",
+                metavar="I:J,…|@FILE",
+                read=pairs_from_words,
+                write=pairs_text,
+            ),
         ),
         put=_put,
         is_of_two=True,

@@ -12,13 +12,13 @@ from ...document.document import Document, Panel
 from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import vertex_at
 from .pairs import Pair, Pairs, half_pair, number_of, waiting_point, whole_pairs
-from .prediction import predicts_in
 from .prediction_answers import candidate_of
+from .quantity import predicts_in
 
 
 @dataclass(frozen=True)
 class LocatedPairPoint:
-    """A point of a pair, by its name, at a vertex.  number: of the pair, from 1."""
+    """A point of a pair at a vertex, with the number of the pair from 1."""
 
     number: int
     pair: Pair
@@ -27,13 +27,13 @@ class LocatedPairPoint:
 
     @property
     def is_waiting(self) -> bool:
-        """Whether it has no partner yet."""
+        """Return whether the point has no partner yet."""
         return self.pair.is_half
 
 
 @dataclass(frozen=True)
 class Candidate:
-    """The vertex that fits the waiting point best.  misfit: of it; share: of the largest misfit, 0 to 1."""
+    """The vertex that fits the point without a partner best, with its misfit, also as a share of the largest."""
 
     number: int
     vertex: int
@@ -42,7 +42,7 @@ class Candidate:
 
 
 def located_pair_points(document: Document, surface: str, loaded: LoadedMesh) -> tuple[LocatedPairPoint, ...]:
-    """Those on the surface of a name, which is there; what is no vertex stands at the nearest."""
+    """Return the points of pairs on a surface, each at its nearest vertex."""
     found = []
     for pair in document[Pairs].pairs:
         for name in pair.points:
@@ -54,7 +54,7 @@ def located_pair_points(document: Document, surface: str, loaded: LoadedMesh) ->
 
 
 def candidate_in(document: Document, panel: Panel, answer: Answer | None) -> Candidate | None:
-    """That of a panel which predicts; None where it shows no prediction, or nothing waits."""
+    """Return the candidate of a panel, None if it predicts nothing."""
     half, waiting = half_pair(document), waiting_point(document)
     if not predicts_in(panel) or half is None or waiting is None or waiting.surface == panel.surface:
         return None
@@ -65,7 +65,7 @@ def candidate_in(document: Document, panel: Panel, answer: Answer | None) -> Can
 
 
 def vertex_pairs(document: Document, first: Surface, second: Surface) -> IntArray:
-    """(k, 2) the vertices of whole pairs on both surfaces, for a file.  ParameterError if there are none."""
+    """Return the vertices (k, 2) of whole pairs on both surfaces, for a file; ParameterError if there are none."""
     pairs = [
         [
             vertex_at(document.point(name).at, surface)
@@ -74,5 +74,5 @@ def vertex_pairs(document: Document, first: Surface, second: Surface) -> IntArra
         for pair in whole_pairs(document)
     ]
     if not pairs:
-        raise ParameterError("There are no pairs to be written.")
+        raise ParameterError("There are no pairs to write.")
     return np.array(pairs)

@@ -1,4 +1,4 @@
-"""Where a point of one surface is on another, as the pairs of a document predict it."""
+"""The prediction of where a point of one surface is on another, from the pairs of a document."""
 
 import threading
 from collections.abc import Callable, Hashable, Sequence
@@ -10,30 +10,30 @@ from bihdist_core import BihdistError, Cancelled, Correspondence, VertexError
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, failed, same_on
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
 from ...document.document import Document, MeshFile
 from ...session.loaded_mesh import LoadedMesh
-from ...session.questions import ByDistance, vertex_at
+from ...session.questions import ByDistance, question_of, vertex_at
 from .pairs import other_side, waiting_point, whole_pairs
-from .quantity import PREDICTION
+from .quantity import PREDICTION, Prediction
 
 NO_OTHER = "There is no second mesh: open one beside this to find corresponding points."
-"""What a panel of a prediction says where there can be none."""
+"""The message of a panel that predicts without a second mesh."""
 
 MISFIT = "misfit"
 """The unit of predictions: distances in them are fractions of the largest one."""
 
-SPARE = 64
+MAX_SPARE_COLUMNS = 64
 """Columns of points that are in no pair any more which are kept: of one that is dragged, of what is undone."""
 
 
 class KnownColumns:
     """Distances of a surface's vertices from some of them, (n,) each, for any thread; the latest come last.
 
-    solved: how many were found so far.
+    `solved` is the number of columns computed so far.
     """
 
     def __init__(self) -> None:
@@ -42,7 +42,7 @@ class KnownColumns:
         self._lock = threading.Lock()
 
     def of(self, areas: str, spec: Spec) -> dict[int, FloatArray]:
-        """What is known by a distance, by vertex: a copy, to which more can be added."""
+        """Return a copy of the columns of a distance, by vertex."""
         with self._lock:
             return dict(self._columns.get((areas, spec), {}))
 
@@ -56,7 +56,7 @@ class KnownColumns:
                 if vertex in columns:
                     known[vertex] = known.pop(vertex, columns[vertex])
             spare = [vertex for vertex in known if vertex not in wanted]
-            for vertex in spare[: max(len(spare) - SPARE, 0)]:
+            for vertex in spare[: max(len(spare) - MAX_SPARE_COLUMNS, 0)]:
                 del known[vertex]
 
     def keep(self, areas: str, wanted: set[Spec]) -> None:
@@ -72,10 +72,9 @@ class KnownColumns:
 
 @dataclass(frozen=True)
 class PredictionQuestion(ByDistance):
-    """How badly each vertex fits a point of another surface, from pairs of points here and there.
+    """The misfit of each vertex to a point of another surface, from pairs of points here and there.
 
-    other: that surface, None if there is none.  at: the point there; None where no point of it waits, or none can be
-    predicted.
+    `other` is that surface, None if there is none, and `at` the point, None if none is to be predicted.
     """
 
     mesh: MeshFile
@@ -87,7 +86,7 @@ class PredictionQuestion(ByDistance):
 
     @property
     def about(self) -> Hashable:
-        """All but where the points are, and whether there is one."""
+        """The values that the answer depends on, except where the points are."""
         return (self.mesh, self.areas, self.spec, self.other, self.at is None, "prediction")
 
     @property
@@ -100,8 +99,9 @@ class PredictionQuestion(ByDistance):
     def answer(
         self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
     ) -> Answer:
-        """The misfit of every vertex to the point; neither field nor failure where none waits, or no pair is known."""
-        other = loaded.standing_beside(self.other)
+        """Return the misfit of every vertex to the point; neither field nor failure where none waits, or no pair is
+        known."""
+        other = loaded.shown_with(self.other)
         if self.other is None or other is None:
             return Answer(label=str(self), failure=NO_OTHER)
         if self.at is None or not self.pairs:
@@ -117,14 +117,14 @@ class PredictionQuestion(ByDistance):
         field.flags.writeable = False
         label = f"prediction by {known.distance_n.label}"
         if np.isnan(field).all():
-            return Answer(label=label, failure="The point is on another component than one of the pairs' points.")
+            return Answer(label=label, failure="The point and those of the pairs are on different components.")
         best, share = candidate_of(field)
         sentence = f"the best is vertex {best}, misfit {field[best]:.4g}, {100 * share:.1f} % of the largest"
         return Answer(label=label, unit=MISFIT, field=field, error_estimate=ErrorEstimate(), remark=sentence)
 
     def is_at_hand(self, loaded: LoadedMesh) -> bool:
-        """Whether the distances from all points of the pairs are known, or nothing waits."""
-        other = loaded.standing_beside(self.other)
+        """Return whether the distances from all points of the pairs are known, or none are needed."""
+        other = loaded.shown_with(self.other)
         if other is None or self.at is None:
             return True
         sides = loaded.distances(self.areas), other.distances(self.areas)
@@ -138,18 +138,18 @@ class PredictionQuestion(ByDistance):
         return True
 
 
-def prediction_question(document: Document, surface: str, spec: Spec) -> PredictionQuestion:
-    """What a prediction by a distance asks of a document's surface."""
+@question_of.register
+def _(shows: Prediction, document: Document, surface: str) -> PredictionQuestion:
     there, waiting = other_side(document, surface), waiting_point(document)
     other = None if there is None else document.mesh(there)
-    asked = PredictionQuestion(document.mesh(surface), document.areas, spec, other, (), None)
+    asked = PredictionQuestion(document.mesh(surface), document.areas, shows.spec, other, (), None)
     if there is None or waiting is None or waiting.surface != there or not whole_pairs(document):
         return asked  # what is plain is the same whatever pairs there are
     return replace(asked, pairs=pairs_on(document, surface, there), at=waiting.at)
 
 
 def pairs_on(document: Document, surface: str, there: str) -> tuple[tuple[Source | None, Source | None], ...]:
-    """Of the whole pairs of a document, where their points are on one surface and on the other."""
+    """Return the points of whole pairs on one surface and on the other."""
     on = [{document.point(name).surface: document.point(name).at for name in p.points} for p in whole_pairs(document)]
     return tuple((each[surface], each[there]) for each in on)
 
@@ -162,9 +162,9 @@ def correspondence(
     two: LoadedMesh,
     progress: Progress | None = None,
 ) -> Correspondence:
-    """From one surface to another, of pairs of points of the one and the other; columns that are known are used again.
+    """Return the correspondence of two surfaces by pairs of points; known columns are used again.
 
-    Raises what distances and vertices do.
+    Raises the errors of distances and vertices.
     """
     spec = same_on(spec, (one.distances(areas), two.distances(areas)), part(progress, 0.0, 0.5))
     on_one = one.distances(areas).get(spec, part(progress, 0.0, 0.3))
@@ -178,6 +178,7 @@ def correspondence(
 
 
 def candidate_of(field: FloatArray) -> tuple[int, float]:
-    """The vertex with the least misfit (n,), not all of them NaN, and that as a fraction of the largest."""
+    """Return the vertex with the least misfit (n,), and that misfit as a fraction of the largest; not all may be
+    NaN."""
     best, most = int(np.nanargmin(field)), float(np.nanmax(field))
     return best, float(field[best]) / most if most > 0 else 0.0

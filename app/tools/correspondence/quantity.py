@@ -1,27 +1,26 @@
-"""Where a point of the other surface is predicted, as what a panel can show."""
+"""The prediction of a point of the other surface, as a quantity of panels."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 
-from ...document.document import Document
+from ...document import edits
+from ...document.document import Document, Panel
 from ...document.json_values import record
 from ...document.quantities import ByDistance, Choice, Quantity, read_spec
-
-if TYPE_CHECKING:
-    from .prediction_answers import PredictionQuestion
+from .pairs import show_instead, sides
 
 PREDICTION = "prediction by "
-"""What the words of a prediction begin with."""
+"""The beginning of the words of a prediction."""
 
 
 @dataclass(frozen=True)
 class Prediction(ByDistance):
-    """How badly each vertex fits the point that waits for its partner, by a distance (paper, section 5.2).
+    """The misfit of each vertex to the point without a partner, by a distance (paper, section 5.2).
 
-    From the document's pairs; it starts nowhere.  Nothing where no point of the other surface waits.
+    It follows from the document's pairs and starts nowhere.
     """
 
     spec: Spec
@@ -42,17 +41,11 @@ class Prediction(ByDistance):
 
     @classmethod
     def choice_by(cls, spec: Spec, has_other: bool) -> Choice | None:
-        tip = "Where points of the other mesh are on this one, by this distance"
-        return Choice("Prediction by it", tip, cls(spec)) if has_other else None
-
-    def question(self, document: Document, surface: str) -> "PredictionQuestion":
-        """What has to be answered to predict the partner of the next point."""
-        from .prediction_answers import prediction_question
-
-        return prediction_question(document, surface, self.spec)
+        tip = "Where points of the other mesh are on this one"
+        return Choice("Prediction by this distance", tip, cls(spec)) if has_other else None
 
     def to_json(self) -> dict[str, Any]:
-        return {"prediction": self.spec.in_full}
+        return {"prediction": self.spec.canonical}
 
     @classmethod
     def from_json(cls, data: dict[str, Any], where: str) -> Quantity | None:
@@ -61,3 +54,31 @@ class Prediction(ByDistance):
     @classmethod
     def from_words(cls, words: str, point: str, parameters: Mapping[str, object]) -> Quantity | None:
         return cls(Spec.parse(words.removeprefix(PREDICTION), **parameters)) if words.startswith(PREDICTION) else None
+
+
+def predict(document: Document) -> Document:
+    """Show the first surface in one panel, and the second in a panel for each distance that was shown, which
+    predicts by it.
+
+    Raises ParameterError without a second surface.
+    """
+    first, second = sides(document)
+    found = [spec for panel in document.panels for spec in panel.shows.specs]
+    specs = list(dict.fromkeys(found))[: edits.MOST_ADDED - 1] or [Spec.of("biharmonic")]
+    wanted = [(first, Prediction(specs[0])), *((second, Prediction(spec)) for spec in specs)]
+    return show_instead(document, wanted)
+
+
+def predicts(document: Document) -> bool:
+    """Return whether a panel shows a prediction."""
+    return any(predicts_in(panel) for panel in document.panels)
+
+
+def predicts_in(panel: Panel) -> bool:
+    """Return whether a panel shows a prediction."""
+    return isinstance(panel.shows, Prediction)
+
+
+def show_distances(document: Document) -> Document:
+    """Let every panel of a prediction show its distance again, from where the others start."""
+    return edits.show_distances(document, predicts_in)

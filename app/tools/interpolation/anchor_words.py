@@ -23,7 +23,7 @@ class AnchorFile:
     text: str = ""
 
     def read(self, surface: "Surface") -> "Anchors":
-        """Its anchors at vertices of a surface; ParameterError as `read_anchors`."""
+        """Return its anchors at vertices of a surface; ParameterError as `read_anchors`."""
         from bihdist_core.formats.anchors import anchors_at, read_anchors
         from bihdist_core.formats.pins import picked_from, pins_format
 
@@ -34,7 +34,8 @@ class AnchorFile:
 
 
 def anchors_from_words(text: str) -> Marks | AnchorFile:
-    """Vertices, some with a value, from `12=0,40`; or @FILE, or - for standard input; ParameterError for else."""
+    """Return vertices, some with a value, from `12=0,40`, @FILE, or - for standard input; ParameterError for other
+    words."""
     path = file_in(text)
     if path:
         return AnchorFile("standard input", standard_input("anchors")) if path == "-" else AnchorFile(path)
@@ -51,7 +52,8 @@ def anchors_from_words(text: str) -> Marks | AnchorFile:
 
 
 def anchors_on(asked: Marks | AnchorFile, surface: "Surface") -> "Anchors":
-    """The anchors on a surface; ParameterError for one without a value, VertexError for one that is not there."""
+    """Return the anchors on a surface; ParameterError for one without a value, VertexError for one that is not
+    there."""
     import numpy as np
 
     from bihdist_core.formats.anchors import Anchors
@@ -63,7 +65,7 @@ def anchors_on(asked: Marks | AnchorFile, surface: "Surface") -> "Anchors":
         if value is None:
             raise ParameterError(f"Anchor {vertex} has no value; write {vertex}=0.5, say.")
         if vertex in seen:
-            raise ParameterError(f"Vertex {vertex} is an anchor twice.")
+            raise ParameterError(f"Vertex {vertex} is named twice among the anchors.")
         seen.add(vertex)
     vertices = surface.check_vertices([vertex for vertex, _ in asked])
     values = np.array([value for _, value in asked], float)

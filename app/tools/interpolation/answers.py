@@ -11,17 +11,18 @@ from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, failed
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source, SourceSet
 
-from ...document.document import MeshFile
+from ...document.document import Document, MeshFile
 from ...session.loaded_mesh import LoadedMesh
-from ...session.questions import ByDistance, vertex_at
+from ...session.questions import ByDistance, question_of, vertex_at
+from .part import Anchors
 from .quantity import Interpolant
 
 NO_ANCHORS = "There is no anchor with a value: click the surface to set one."
-"""What a panel of an interpolant says before there is one."""
+"""The message of a panel of an interpolant without anchors."""
 
 VALUE = "value"
 """The unit of what is interpolated, which is the user's own."""
@@ -30,7 +31,7 @@ VALUE = "value"
 class InterpolantMemory:
     """The last interpolant of a surface by each distance, for any thread.
 
-    columns: of distances from anchors, solved for so far.
+    `columns` is the number of columns of distances from anchors solved for so far.
     """
 
     def __init__(self) -> None:
@@ -39,7 +40,7 @@ class InterpolantMemory:
         self._lock = threading.Lock()
 
     def last(self, areas: str, spec: Spec) -> ShepardInterpolant | None:
-        """The interpolant that was put here last for a distance."""
+        """Return the last interpolant by a distance."""
         with self._lock:
             return self._last.get((areas, spec))
 
@@ -68,7 +69,7 @@ class InterpolantQuestion(ByDistance):
 
     @property
     def about(self) -> Hashable:
-        """All but where the anchors are, and their values."""
+        """The values that the answer depends on, except the anchors."""
         return (self.mesh, self.areas, self.spec, self.total, "interpolant")
 
     def __str__(self) -> str:
@@ -77,7 +78,7 @@ class InterpolantQuestion(ByDistance):
     def answer(
         self, loaded: LoadedMesh, progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
     ) -> Answer:
-        """The field; what is known of the last interpolant by this distance is used again."""
+        """Return the field; what is known of the last interpolant by this distance is used again."""
         if not self.anchors:
             return Answer(label=str(self), failure=NO_ANCHORS)
         memory = loaded.memory(InterpolantMemory)
@@ -107,7 +108,7 @@ class InterpolantQuestion(ByDistance):
         return Answer(label=label, unit=unit, field=field, error_estimate=ErrorEstimate(), is_signed=is_signed)
 
     def is_at_hand(self, loaded: LoadedMesh) -> bool:
-        """Whether the distances from all anchors are known."""
+        """Return whether the distances from all anchors are known."""
         last = loaded.memory(InterpolantMemory).last(self.areas, self.spec)
         if last is None:
             return False
@@ -115,5 +116,13 @@ class InterpolantQuestion(ByDistance):
         return all(vertex_at(at, loaded.surface) in known for at, _ in self.anchors)
 
     def start(self, field: FloatArray, surface: Surface) -> Source:
-        """The anchors."""
+        """Return the anchors."""
         return SourceSet(tuple(vertex_at(at, surface) for at, _ in self.anchors))
+
+
+@question_of.register
+def _(shows: Interpolant, document: Document, surface: str) -> InterpolantQuestion:
+    listed = document[Anchors]
+    anchors = [(document.point(anchor.point), anchor) for anchor in listed.anchors if not anchor.left_out]
+    known = tuple((p.at, a.value) for p, a in anchors if p.surface == surface and a.value is not None)
+    return InterpolantQuestion(document.mesh(surface), document.areas, shows.spec, known, listed.weights, shows.total)

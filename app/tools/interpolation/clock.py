@@ -1,8 +1,10 @@
-"""How long panels take to follow a value, and what had to be solved for it, in the status bar."""
+"""The time that panels take to follow a value, and the number of new solves, in the status bar."""
 
 import time
 
 from qtpy import QtCore
+
+from bihdist_core.counts import counted
 
 from ...qt.context import Context
 from ...session.loaded_mesh import LoadedMesh
@@ -11,7 +13,7 @@ from .part import Anchor, Anchors
 
 
 class AnchorClock:
-    """See the module."""
+    """Measures how long all panels take to follow the values of anchors."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
@@ -20,14 +22,14 @@ class AnchorClock:
         self._anchors: tuple[Anchor, ...] = ()
 
     def begin(self, anchors: tuple[Anchor, ...]) -> None:
-        """The values become these."""
+        """Start the clock: the values become these."""
         session = self._context.session
         loaded = session.loaded()
         if loaded is not None and anchors != session.document[Anchors].anchors:
             self._begun, self._columns, self._anchors = time.perf_counter(), _columns(loaded), anchors
 
     def note(self) -> None:
-        """A panel shows another field; once all do it is said, after they have been painted."""
+        """Note that a panel shows another field; the time is told when all do, after they were painted."""
         session = self._context.session
         if session.document[Anchors].anchors != self._anchors:
             self._begun = None  # something else has been done meanwhile
@@ -40,10 +42,10 @@ class AnchorClock:
         if begun is None or loaded is None:
             return
         count = _columns(loaded) - self._columns
-        solved = "no solve" if not count else f"{count} {'column' if count == 1 else 'columns'} solved for"
-        self._context.tell(f"repainted in {1000 * (time.perf_counter() - begun):.0f} ms, {solved}")
+        solved = f", with {counted(count, 'new solve')}" if count else ", without solving again"
+        self._context.status.show_time(f"Updated in {1000 * (time.perf_counter() - begun):.0f} ms{solved}")
 
 
 def _columns(loaded: LoadedMesh) -> int:
-    """Of distances from anchors, solved for so far."""
+    """Return the number of columns of distances solved for so far."""
     return loaded.memory(InterpolantMemory).columns

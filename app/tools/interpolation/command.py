@@ -10,7 +10,12 @@ from ...commands.result import Result, distance_facts
 from ...commands.terminal import accuracy, progress_line, tell_moved
 from .anchor_words import AnchorFile, anchors_from_words, anchors_on
 
-WORDS = "values at a few vertices, interpolated on the whole mesh by a distance"
+WORDS = "interpolate values at a few vertices over the whole mesh"
+EXAMPLES = (
+    "bihdist interpolate hand --anchors 12=0,400=1 -o values.npy",
+    "bihdist interpolate hand --anchors 12=0,400=1 --distance biharmonic,geodesic -o values.csv",
+    "bihdist interpolate hand --anchors @anchors.csv -o values.vtp",
+)
 TEXT = ".csv"
 anchors = as_argument(anchors_from_words)
 
@@ -43,13 +48,13 @@ def run(options: argparse.Namespace) -> Result:
     """Write the interpolant of values at a few vertices, and print its other extrema."""
     import numpy as np
 
-    from bihdist_core.analysis.other_extrema import other_extrema
+    from bihdist_core.analysis.persistence import other_extrema
     from bihdist_core.applications.interpolation import ShepardInterpolant
     from bihdist_core.applications.tips import at_tips, tips
     from bihdist_core.distances.answers import Distances
+    from bihdist_core.file_output import check_output
     from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
     from bihdist_core.sources.source import SourceSet
-    from bihdist_core.whole_file import check_output
 
     check_output(options.output, FIELD_FORMATS)
     chosen = specs(options, list(dict.fromkeys(options.distance or ["biharmonic"])))

@@ -5,9 +5,10 @@ from collections.abc import Iterator
 import numpy as np
 from qtpy import QtWidgets
 
-from bihdist_core.analysis.other_extrema import OtherExtrema
+from bihdist_core.analysis.persistence import OtherExtrema
 from bihdist_core.applications.tips import at_tips, tips
 from bihdist_core.arrays import AnyArray, IntArray
+from bihdist_core.counts import counted
 from bihdist_core.progress import Progress
 
 from ...document.document import Document
@@ -15,21 +16,24 @@ from ...document.quantities import kind_name
 from ...qt.context import Context
 from ...qt.docks.fact_table import FactTable
 from ...session.loaded_mesh import LoadedMesh
+from .part import Anchors
 from .quantity import interpolated
 
 
 class AnchorExtrema(FactTable):
-    """Those at tips of the shape, where any monotone field must have one, are counted apart."""
+    """The numbers of extrema besides the anchors; those at tips of the shape, which any monotone field has, are
+    counted apart."""
+
+    HEADS = SHORT_HEADS = ("at tips", "elsewhere")
+    HEAD = 22.0
 
     def __init__(self, context: Context, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self._context = context
         self._ends: IntArray | None = None  # the tips of the surface; None until they are found
         self._about: tuple[object, ...] | None = None
-        self._tips = context.background("tips", _found_tips)
-        self._tips.answered.connect(self._take_tips)
-        self._tips.failed.connect(self._no_tips)
-        context.found_changed.connect(self._take_found)
+        self._tips = context.background("tips", _compute_tips, self._take_tips, self._refuse_tips)
+        context.found_changed.connect(lambda kind: self.show_counts() if kind is OtherExtrema else None)
 
     def show_document(self, document: Document) -> None:
         """Look for the tips of another surface's limbs, and count extrema anew."""
@@ -44,18 +48,13 @@ class AnchorExtrema(FactTable):
         self._ends = found
         self.show_counts()
 
-    def _no_tips(self, *_: object) -> None:
-        self._ends = np.zeros(0, int)
-        self.show_counts()
-
-    def _take_found(self, kind: type) -> None:
-        if kind is OtherExtrema:
-            self.show_counts()
+    def _refuse_tips(self, about: object, sentence: str) -> None:
+        self._take_tips(about, np.zeros(0, int))
 
     def show_counts(self) -> None:
         """Show how many extrema each interpolant has beside its anchors."""
         session, grid = self._context.session, self._context.grid
-        if session.surface is None or "anchors" not in session.document.docks:
+        if session.loaded() is None or "anchors" not in session.document.docks:
             return
         facts: list[tuple[str, ...]] = []
         for panel in session.document.panels_of():
@@ -63,32 +62,35 @@ class AnchorExtrema(FactTable):
             part = interpolated(panel.shows)
             if part is not None:
                 counts = self._counts(panel.id)
-                words = ("…", "…") if counts is None else tuple(map(str, counts))
-                facts.append((kind_name(part.spec.kind), *words))
+                # By a single anchor all is one value.
+                unknown = "…" if len(session.document[Anchors].anchors) > 1 else "–"
+                words = (unknown, unknown) if counts is None else tuple(map(str, counts))
+                facts.append((kind_name(part.spec.distance_type), *words))
             if any(shown.id == panel.id for shown in grid.panels):
                 grid.panel(panel.id).view.over.write(() if counts is None else in_words(*counts))
-        self.show_facts([("Panel", "at tips", "elsewhere"), *facts] if facts else [])
+        self.show_facts(facts)
 
     def _counts(self, panel: int) -> tuple[int, int] | None:
         found = self._context.found(panel, OtherExtrema)
         if found is None or self._ends is None:
             return None
-        near = int(at_tips(self._context.session.first_surface, found.vertices, self._ends).sum())
+        near = int(at_tips(self._context.session.mesh().surface, found.vertices, self._ends).sum())
         return near, len(found.vertices) - near
 
     def leave(self) -> None:
-        """Say nothing in panels any more."""
+        """Clear the lines in the panels."""
         for panel in self._context.grid.panels:
             panel.view.over.write(())
 
 
-def in_words(near: int, elsewhere: int) -> tuple[str, str]:
-    """What a panel says of so many extrema at tips, and so many elsewhere; and the same in short."""
-    word = "extremum" if near + elsewhere == 1 else "extrema"
+def in_words(near: int, elsewhere: int) -> tuple[str, ...]:
+    """Return a panel's line on numbers of extrema at tips and elsewhere, in more and in fewer words."""
+    found = counted(near + elsewhere, "extremum", "extrema")
     at_tips_too = f", {near} at tips" if near else ""
-    return f"{near + elsewhere} {word} besides the anchors{at_tips_too}", f"{near + elsewhere}{at_tips_too}"
+    counts = f"{found} besides the anchors", found, f"{near + elsewhere}"
+    return tuple(words + at_tips_too for words in counts)
 
 
-def _found_tips(about: tuple[LoadedMesh, str], progress: Progress) -> Iterator[IntArray]:
+def _compute_tips(about: tuple[LoadedMesh, str], progress: Progress) -> Iterator[IntArray]:
     loaded, areas = about
     yield tips(loaded.distances(areas).laplacian)

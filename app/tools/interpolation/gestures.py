@@ -1,10 +1,8 @@
-"""What is done to anchors on panels that show an interpolant: put, dragged, removed."""
+"""Clicks and drags on panels that show an interpolant: they place, move and remove anchors."""
 
 from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
-
-from bihdist_core import ParameterError
 
 from ...document.document import Document
 from ...document.edits import put_point
@@ -13,7 +11,7 @@ from ...qt.dragging import Dragging
 from ...qt.gesture import Gesture
 from ...qt.panels.events import Click
 from .part import Anchors, add_anchor, remove_anchors
-from .quantity import Interpolant
+from .quantity import interpolants
 
 if TYPE_CHECKING:
     from ...scene.picking import Hit
@@ -27,37 +25,32 @@ class AnchorGestures(Gesture):
         self._moved = ""  # the name of the point that is dragged
 
     def is_on(self, panel: int) -> bool:
-        """Whether a panel shows an interpolant, so that what is done there is done to anchors."""
-        shows = self.context.document.panel(panel).shows
-        return any(isinstance(part, Interpolant) for part in shows.parts)
+        """Return whether a panel shows an interpolant."""
+        return bool(interpolants(self.document.panel(panel).shows))
 
     def click(self, panel: int, click: Click) -> None:
         self.put(panel, click.hit)
 
     def put(self, panel: int, hit: "Hit") -> None:
-        """An anchor at a vertex, with the value that the panel has there."""
+        """Add an anchor at a vertex, with the value that the panel has there."""
         session = self.context.session
         document, surface = session.document, session.document.panel(panel).surface
-        try:
+        with self.context.errors_shown():  # there may be too many
             changed, name = add_anchor(document, hit.vertex, self._value(panel, hit.vertex), surface)
-        except ParameterError as error:  # there are too many
-            self.context.fail(error)
-            return
-        session.show(changed)
-        self.choose(name)
+            session.show(changed)
+            self.choose(name)
 
     def _value(self, panel: int, vertex: int) -> float:
-        """What is there, so that nothing changes yet; 0 for the first anchor and 1 for the second."""
+        """Return the value there, so that nothing changes yet; 0 for the first anchor and 1 for the second."""
         session = self.context.session
         known = [a for a in session.document[Anchors].anchors if a.value is not None and not a.left_out]
-        shown = session.shown.get(panel)
-        field = None if shown is None else shown.answer.field
-        if len(known) < 2 or field is None or not session.is_answered(panel):
+        answer = session.answer(panel)
+        if len(known) < 2 or answer is None or answer.field is None or not session.is_answered(panel):
             return float(min(len(known), 1))
-        return float(f"{field[vertex]:.3g}")
+        return float(f"{answer.field[vertex]:.3g}")
 
     def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
-        """In a menu: what can be done with the place."""
+        """Add what can be done at a place to a menu."""
         name = self._name_at(panel, hit.vertex)
         if name:
             menu.addAction("Remove this anchor", lambda: self.remove([name]))
@@ -65,24 +58,23 @@ class AnchorGestures(Gesture):
             menu.addAction("Anchor here\tClick", lambda: self.put(panel, hit))
 
     def choose(self, point: str) -> None:
-        """Let the anchor at a point stand out, in the list, too."""
-        self.context.grid.marks.light("anchors", (point,) if point else ())
+        """Highlight the anchor at a point, in the list, too."""
+        self.context.grid.marks.highlight("anchors", (point,) if point else ())
         self.chosen.emit(point)
 
     def remove(self, points: list[str]) -> None:
         """Remove the anchors at these points."""
-        session = self.context.session
-        session.show(remove_anchors(session.document, points))
+        self.context.session.apply(lambda document: remove_anchors(document, points))
 
     def remove_chosen(self) -> bool:
-        lit = self.context.grid.marks.lit("anchors")
-        found = [anchor.point for anchor in self.context.document[Anchors].anchors if anchor.point in lit]
+        highlighted = self.context.grid.marks.highlighted("anchors")
+        found = [anchor.point for anchor in self.document[Anchors].anchors if anchor.point in highlighted]
         if found:
             self.remove(found)
         return bool(found)
 
     def drag(self, panel: int, number: int, hit: "Hit") -> None:
-        """One of the anchors is over a place; one that another has is passed."""
+        """Move an anchor, past vertices that another has."""
         session = self.context.session
         document, surface = session.document, session.document.panel(panel).surface
         if not self._moved:
@@ -91,7 +83,7 @@ class AnchorGestures(Gesture):
                 return
             self._moved = names[number]
             self.choose(self._moved)
-            self.context[Dragging].set_off()
+            self.context[Dragging].begin()
         if not self._name_at(panel, hit.vertex):
             moved = put_point(document, self._moved, hit.vertex, surface)
             session.show(moved, key=f"drag of {self._moved}", live=True)
@@ -100,11 +92,11 @@ class AnchorGestures(Gesture):
         self._moved = ""
 
     def _name_at(self, panel: int, vertex: int) -> str:
-        document = self.context.document
+        document = self.document
         names = anchor_points(document, document.panel(panel).surface)
         return next((name for name in names if document.point(name).at == vertex), "")
 
 
 def anchor_points(document: Document, surface: str) -> list[str]:
-    """The names of the points of the anchors on a surface, in order."""
+    """Return the names of the points of the anchors on a surface, in order."""
     return [a.point for a in document[Anchors].anchors if document.point(a.point).surface == surface]

@@ -1,17 +1,17 @@
 """Anchors on surfaces."""
 
-from ...marks.glyphs import RING
+from ...drawing.glyphs import RING
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import PointMark
 from ...session.questions import vertex_at
 from .part import Anchor, Anchors
-from .quantity import Interpolant
+from .quantity import interpolants
 
 
 def marks(marked: MarkedPanel) -> list[PointMark]:
     """Rings with their values, in the order of the document; in the window interpolants let them be dragged."""
     document, surface = marked.document, marked.loaded.surface
-    is_held = not marked.is_for_figure and any(isinstance(part, Interpolant) for part in marked.panel.shows.parts)
+    is_held = not marked.is_for_figure and bool(interpolants(marked.panel.shows))
     anchors = [(anchor, document.point(anchor.point)) for anchor in document[Anchors].anchors]
     return [
         _ring(anchor, vertex_at(point.at, surface), is_held)

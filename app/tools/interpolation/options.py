@@ -18,7 +18,7 @@ def _anchors_of(recipe: Recipe) -> dict[str, Any]:
     document, anchors = recipe.document, recipe.document[Anchors].anchors
     marks = [(vertex_of(document.point(anchor.point)), anchor.value) for anchor in anchors]
     if len(dict(marks)) < len(marks) or None in dict(marks):
-        raise NotExpressible("Two marks are at one vertex, or one is where nobody has put it.")
+        raise NotExpressible("Two anchors are at one vertex, or one has not been placed.")
     if any(anchor.left_out for anchor in anchors):
         raise NotExpressible("An anchor is left out.")
     return {"anchors": dict(marks)} if marks else {}
@@ -36,7 +36,7 @@ def _with_anchors(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
         found = marks.read(read_repaired(mesh_path(mesh.path), mesh.repairs))
         marks = dict(zip(found.vertices.tolist(), found.values.tolist(), strict=True))
     marks = marks.items() if isinstance(marks, Mapping) else [m if isinstance(m, tuple) else (m, None) for m in marks]
-    document = without_orphans(document, document.with_part(replace(document[Anchors], anchors=())))
+    document = without_orphans(document, document.with_changed(Anchors, anchors=()))
     names = free_names("anchor", len(marks), [point.name for point in document.points])
     surface = document.surfaces[0].name
     points = (Point(name, vertex, surface) for name, (vertex, _) in zip(names, marks, strict=True))
@@ -56,9 +56,8 @@ def _weights_of(recipe: Recipe) -> dict[str, Any]:
 
 
 def _with_weights(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
-    anchors = recipe.document[Anchors]
-    weights = replace(anchors.weights, **values)
-    return replace(recipe, document=recipe.document.with_part(replace(anchors, weights=weights)))
+    weights = replace(recipe.document[Anchors].weights, **values)
+    return replace(recipe, document=recipe.document.with_changed(Anchors, weights=weights))
 
 
 ROWS = (

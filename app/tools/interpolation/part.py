@@ -1,15 +1,17 @@
 """Anchors: marked points with values, which interpolants have there; pure edits of them."""
 
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass, replace
+from functools import partial
 
 from bihdist_core.applications.weights import INVERSE_DISTANCES, Weights
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source
 
-from ...document.document import Document, Point, free_names
+from ...document.document import Document, with_new_point
 from ...document.labels import check_name
 from ...document.looks import LARGEST
+from ...document.on_surface import SurfaceItem
 from ...document.part import Part
 from ...document.removal import without_orphans
 
@@ -19,10 +21,10 @@ MOST_ANCHORS = 500
 
 @dataclass(frozen=True)
 class Anchor:
-    """A marked point, filled with the colour of a value; of the field's own there if it is None.
+    """A marked point, filled with the colour of a value, or of the field there if the value is None.
 
-    Interpolants have the values of those that have one, unless they are left out.  name: for the user, that of the
-    point if empty.
+    Interpolants have the values of all anchors that have one and are not left out. Without a name, the user sees
+    that of the point.
     """
 
     point: str
@@ -40,7 +42,15 @@ class Anchor:
 
 @dataclass(frozen=True)
 class Anchors(Part):
-    """The anchors in their order, and how interpolants weigh them."""
+    """The anchors of a document, and how interpolants weigh them.
+
+    Attributes
+    ----------
+    anchors
+        The anchors, in their order.
+    weights
+        The weights of the anchors in interpolants.
+    """
 
     anchors: tuple[Anchor, ...] = ()
     weights: Weights = INVERSE_DISTANCES
@@ -61,16 +71,16 @@ class Anchors(Part):
 
 
 def with_anchors(document: Document, anchors: Iterable[Anchor]) -> Document:
-    """With these anchors and no others; their points are there."""
-    return document.with_part(replace(document[Anchors], anchors=tuple(anchors)))
+    """Return the document with these anchors and no others; their points are there."""
+    return document.with_changed(Anchors, anchors=tuple(anchors))
 
 
 def add_anchor(
     document: Document, at: Source, value: float | None, surface: str = "A", name: str = ""
 ) -> tuple[Document, str]:
-    """With an anchor there, and the name of its point; one that is there already gets the value.
+    """Return the document with an anchor there, and the name of its point; an anchor that is there gets the value.
 
-    ParameterError beyond MOST_ANCHORS.
+    Raises ParameterError beyond MOST_ANCHORS.
     """
     anchors = document[Anchors].anchors
     for anchor in anchors:
@@ -79,16 +89,23 @@ def add_anchor(
             return change_anchor(document, replace(anchor, value=value, left_out=False)), anchor.point
     if len(anchors) >= MOST_ANCHORS:
         raise ParameterError(f"There are at most {MOST_ANCHORS} anchors.")
-    (point_name,) = free_names("anchor", 1, [point.name for point in document.points])
-    document = replace(document, points=(*document.points, Point(point_name, at, surface)))
+    document, point_name = with_new_point(document, "anchor", at, surface)
     return with_anchors(document, (*anchors, Anchor(point_name, value, name=name))), point_name
 
 
 def change_anchor(document: Document, anchor: Anchor) -> Document:
-    """Another value or name of the anchor at a point."""
+    """Change the value or the name of the anchor at a point."""
     return with_anchors(document, (anchor if old.point == anchor.point else old for old in document[Anchors].anchors))
 
 
 def remove_anchors(document: Document, points: Iterable[str]) -> Document:
-    """Without the anchors at these points."""
+    """Return the document without the anchors at these points."""
     return without_orphans(document, document.with_part(document[Anchors].without_points(set(points))))
+
+
+def items(document: Document) -> Iterator[SurfaceItem]:
+    """Yield the anchors, all in one row."""
+    points = document[Anchors].points
+    if points:
+        detail, remove_all = f"{len(points):,} of Interpolation", partial(remove_anchors, points=points)
+        yield SurfaceItem("anchors", "Anchors", detail, "ring", remove_all, count=len(points), dock="anchors")

@@ -2,28 +2,24 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 
 from ...document.document import Document
 from ...document.edits import show_distances as distances_again
 from ...document.json_values import flag, record
 from ...document.quantities import ByDistance, Choice, Quantity, read_spec
-from .part import Anchors
-
-if TYPE_CHECKING:
-    from .answers import InterpolantQuestion
 
 INTERPOLANT, TOTAL = "interpolant by ", "weights by "
-"""What the words of an interpolant begin with."""
+"""The beginnings of the words of an interpolant and of a sum of weights."""
 
 
 @dataclass(frozen=True)
 class Interpolant(ByDistance):
     """The values of the document's anchors, interpolated by a distance (paper, section 5.2); it starts nowhere.
 
-    total: the sum of the anchors' weights instead.
+    With `total` it is the sum of the anchors' weights instead.
     """
 
     spec: Spec
@@ -31,7 +27,8 @@ class Interpolant(ByDistance):
     done = "interpolated"
 
     def marks_extrema(self, document: Document) -> bool:
-        """They tell against an interpolant but at its anchors; marked while the dock is open."""
+        """Return whether the extrema are marked, which a good interpolant has only at anchors: while the dock is
+        open."""
         return not self.total and "anchors" in document.docks
 
     @property
@@ -58,21 +55,10 @@ class Interpolant(ByDistance):
 
     @classmethod
     def choice_by(cls, spec: Spec, has_other: bool) -> Choice:
-        return Choice("Interpolant by it", "Values at anchors, interpolated by this distance", cls(spec))
-
-    def question(self, document: Document, surface: str) -> "InterpolantQuestion":
-        """What has to be answered to show the interpolant of the anchors on a surface."""
-        from .answers import InterpolantQuestion
-
-        anchors = [
-            (document.point(anchor.point), anchor) for anchor in document[Anchors].anchors if not anchor.left_out
-        ]
-        known = tuple((p.at, a.value) for p, a in anchors if p.surface == surface and a.value is not None)
-        mesh = document.mesh(surface)
-        return InterpolantQuestion(mesh, document.areas, self.spec, known, document[Anchors].weights, self.total)
+        return Choice("Interpolant by this distance", "Values at anchors, interpolated", cls(spec))
 
     def to_json(self) -> dict[str, Any]:
-        return {"interpolant": self.spec.in_full, **({"total": True} if self.total else {})}
+        return {"interpolant": self.spec.canonical, **({"total": True} if self.total else {})}
 
     @classmethod
     def from_json(cls, data: dict[str, Any], where: str) -> Quantity | None:
@@ -89,13 +75,18 @@ class Interpolant(ByDistance):
         return None
 
 
+def interpolants(shows: Quantity) -> list["Interpolant"]:
+    """Return the interpolants and sums of weights among the parts of a quantity."""
+    return [part for part in shows.parts if isinstance(part, Interpolant)]
+
+
 def interpolated(shows: Quantity) -> Interpolant | None:
-    """The interpolant that a panel shows by itself; None for another quantity, and for a sum of weights."""
+    """Return the interpolant that a panel shows by itself; None for another quantity, and for a sum of weights."""
     return shows if isinstance(shows, Interpolant) and not shows.total else None
 
 
 def interpolate(document: Document) -> Document:
-    """Every panel of a distance shows the interpolant by it; their colour bars, all of the same values, end alike."""
+    """Let every panel of a distance show the interpolant by it, with one range of colours."""
     return replace(
         document,
         range="shared" if document.range == "own" else document.range,
@@ -107,6 +98,6 @@ def interpolate(document: Document) -> Document:
 
 
 def show_distances(document: Document) -> Document:
-    """Every panel of an interpolant shows its distance, from where the others start."""
+    """Let every panel of an interpolant show its distance, from where the others start."""
     document = distances_again(document, lambda panel: isinstance(panel.shows, Interpolant))
     return replace(document, range="own" if document.range == "shared" else document.range)

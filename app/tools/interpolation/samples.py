@@ -3,18 +3,19 @@
 import numpy as np
 from qtpy import QtWidgets
 
-from bihdist_core import BihdistError
-from bihdist_core.arrays import AnyArray
+from bihdist_core.arrays import AnyArray, IntArray
 from bihdist_core.sources.source import SourceSet
 
 from ...document.document import Document, Panel
+from ...drawing.numbers import progress_words
 from ...qt.context import Context
-from ...session.farthest_points import Sampled, SamplesQuestion, Sampling
+from ...qt.look.layouts import in_row, push_button
+from ...session.farthest_points import SamplesRequest, find_samples
 from ...session.questions import first_source, vertex_at
 from .part import Anchors, add_anchor
 from .quantity import Interpolant
 
-USUAL, MOST = 5, 100
+USUAL_SAMPLES, MAX_SAMPLES = 5, 100
 """More anchors at first, and at most at once."""
 
 
@@ -27,22 +28,13 @@ class AnchorSamples(QtWidgets.QWidget):
     def __init__(self, context: Context) -> None:
         super().__init__()
         self._context = context
-        self._sampling = Sampling(context.post, self._sampled, self._show_going)
+        self._background = context.background("samples", find_samples, self._take, self._refuse, self._show_progress)
         self._asked: tuple[Document, AnyArray, int] | None = None  # of whose anchors, by which panel
-        self.add = QtWidgets.QPushButton("Add samples", autoDefault=False)
-        self.add.setToolTip("Anchors at points that are farthest from each other, by the active panel's distance")
-        self.add.clicked.connect(self.add_them)
-        self.count = QtWidgets.QSpinBox()
-        self.count.setRange(1, MOST)
-        self.count.setValue(USUAL)
+        tip = "Anchors at points that are farthest from each other, by the active panel's distance"
+        self.add = push_button("Add samples", self.add_them, tip)
+        self.count = QtWidgets.QSpinBox(minimum=1, maximum=MAX_SAMPLES, value=USUAL_SAMPLES)
         self.count.setAccessibleName("How many samples become anchors")
-        row = QtWidgets.QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(8)
-        row.addWidget(self.add)
-        row.addWidget(self.count)
-        row.addStretch(1)
-        context.closed.connect(self._sampling.close)
+        in_row(self.add, self.count, None, of=self, spacing=8)
 
     def add_them(self) -> None:
         """Look for farthest points, and make anchors of them."""
@@ -58,40 +50,39 @@ class AnchorSamples(QtWidgets.QWidget):
         self._asked = (document, np.array(there, int), panel.id)
         at = start[0] if len(start) == 1 else SourceSet(tuple(start))
         more = self.count.value() + len(there)
-        self._sampling.ask(
-            SamplesQuestion(document.mesh(panel.surface), document.areas, part.specs[0], at, more), loaded
-        )
+        self._background.ask(SamplesRequest(loaded, document.areas, part.specs[0], at, more))
 
-    def _sampled(self, sampled: Sampled) -> None:
+    def _take(self, request: SamplesRequest, vertices: IntArray) -> None:
         self._context.status.show_progress("")
-        asked, session = self._asked, self._context.session
-        if asked is None or sampled.vertices is None:
-            self._context.fail(sampled.failure)
+        asked, self._asked = self._asked, None
+        if asked is None:
             return
+        session = self._context.session
         document, there, panel = asked
         if (document[Anchors].anchors, document.points) != (session.document[Anchors].anchors, session.document.points):
             return  # they are farthest from others
-        shown = session.shown.get(panel)
-        field = shown.answer.field if shown is not None and len(there) > 1 and session.is_answered(panel) else None
-        new = [vertex for vertex in sampled.vertices.tolist() if vertex not in there]
+        answer = session.answer(panel) if len(there) > 1 and session.is_answered(panel) else None
+        field = None if answer is None else answer.field
+        new = [vertex for vertex in vertices.tolist() if vertex not in there]
         document, surface = session.document, session.document.panel(panel).surface
-        try:
+        with self._context.errors_shown():  # there may be too many
             for rank, vertex in enumerate(new):
                 share = rank / max(1, len(new) - 1)
                 value = share if field is None else float(field[vertex])
                 document, _ = add_anchor(document, vertex, float(f"{value:.3g}"), surface)
-        except BihdistError as error:  # too many
-            self._context.fail(error)
-            return
-        session.show(document)
+            session.show(document)
 
-    def _show_going(self, fraction: float | None, text: str) -> None:
-        is_going = fraction is not None and self._sampling.is_going
-        self._context.status.show_progress(f"{text}, {fraction:.0%}".replace("%", " %") if is_going else "")
+    def _refuse(self, request: SamplesRequest, sentence: str) -> None:
+        self._asked = None
+        self._context.status.show_progress("")
+        self._context.fail(sentence)
+
+    def _show_progress(self, going: tuple[float, str] | None) -> None:
+        self._context.status.show_progress("" if going is None or self._asked is None else progress_words(*going))
 
     @property
     def _panel(self) -> Panel | None:
-        """The active one, or the first of those that show an interpolant."""
+        """Return the active panel, or the first that shows an interpolant."""
         document, active = self._context.document, self._context.grid.active
         panels = sorted(document.panels, key=lambda panel: panel.id != active)
         return next((p for p in panels if isinstance(p.shows, Interpolant)), None)

@@ -1,7 +1,7 @@
 """The dock of pins: a list with what every panel has there, and below it the distances among them."""
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -14,28 +14,33 @@ from bihdist_core.distances.answers import Answer
 from bihdist_core.sources.words import short_words_of, source_from_words
 
 from ...document.document import Document
-from ...document.quantities import quantity_name
+from ...document.edits import move_source
+from ...document.quantities import column_names
 from ...document.shared_parts.pins import Pin, Pins, add_pins, change_pin, move_pin, remove_pins
+from ...drawing.numbers import number, percent, share
 from ...qt.context import Context
 from ...qt.docks.instrument import Instrument
-from ...qt.look.numbers import number, percent, share
+from ...qt.files.saving import ask_file
+from ...qt.look.form import error_label
+from ...qt.look.layouts import in_column, in_row, quiet_label
 from ...qt.look.segments import Segments
 from ...qt.look.text_box import TextBox, mark_wrong
+from ...qt.panels.badges import add_colours
 from ...qt.panels.events import MarkClick
-from ...qt.panels.flat_button import FlatButton
+from ...qt.panels.flat_button import add_entry, menu_button
+from ...qt.panels.parameters import empty_menu
 from ...scene.style import PINS
 from ...session.questions import source_at
 from .distances import PinDistances
-from .files import PinFiles
+from .files import PIN_FILES, PinFiles
 from .locations import LocatedPin, located_pins
-from .menus import PinMenu
 from .part import PinsListing
 from .table import PinRow, PinTable
 
 PAD = 12
 EMPTY = "Shift+click a surface to pin a point, or type vertex ids."
 WORD = re.compile(r"f[0-9]+:[^,;\s]*,[^,;\s]*|[^,;\s]+")
-"""Of what is typed: a place in a face has a comma of its own."""
+"""A typed word; a point in a face has a comma of its own."""
 
 
 class IdBox(TextBox):
@@ -59,70 +64,57 @@ class IdBox(TextBox):
 
 
 class PinsDock(Instrument):
-    """See the module."""
+    """The list of pins with their values in every panel, and the distances among them."""
 
-    word, title = "pins", "Pins"
+    word = "pins"
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
         self.places: tuple[LocatedPin, ...] = ()
         self._is_split = False
         self.files = PinFiles(context, lambda: self.places)
-        self.menu = PinMenu(self)
-        self.box = IdBox(placeholderText="Add ids, e.g. 12, 40")
-        self.box.setAccessibleName("Add pins at vertex ids")
+        self.row_menu = QtWidgets.QMenu(self)
+        self.box = IdBox(placeholderText="Add ids, e.g. 12, 40", accessibleName="Add pins at vertex ids")
         self.box.returnPressed.connect(self._add)
         self.box.textEdited.connect(self._forgive)
         self.box.left.connect(context.focus_panels)
         self.ways = Segments({"Value": "value", "% of max": "share"}, "Values")
-        self.ways.chosen.connect(self._choose_way)
-        self.wrong = QtWidgets.QLabel(visible=False, wordWrap=True)
-        self.wrong.setProperty("error", True)
+        self.ways.chosen.connect(lambda word: self.list_otherwise(shares=word == "share"))
+        self.wrong = error_label()
         self.table = PinTable(self)
-        self.table.chosen.connect(partial(context.grid.marks.light, "pins"))
+        self.table.chosen.connect(partial(context.grid.marks.highlight, "pins"))
         context.grid.events.on(MarkClick, self._choose)
-        self.table.rows.named.connect(self.rename)
+        self.table.named.connect(self.rename)
         self.table.moved.connect(self.move_to)
         self.table.removed.connect(self.remove)
-        self.table.menu_wanted.connect(self.menu.open_for_rows)
-        self.empty = QtWidgets.QLabel(EMPTY, wordWrap=True)
-        self.empty.setProperty("quiet", True)
+        self.table.menu_wanted.connect(self._open_row_menu)
+        self.empty = quiet_label(EMPTY, wraps=True)
         self.empty.setContentsMargins(PAD, 4, PAD, 4)
         self.empty.setAlignment(QtCore.Qt.AlignmentFlag.AlignTop)
         self.distances = PinDistances(context)
         self._soon = QtCore.QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self._show_rows)
-        self._lay_out()
-
-    def _lay_out(self) -> None:
-        top = QtWidgets.QHBoxLayout()
-        top.setContentsMargins(PAD, 8, PAD, 4)
-        top.setSpacing(8)
-        top.addWidget(self.box, 1)
-        top.addWidget(self.ways)
+        top = in_row((self.box, 1), self.ways, spacing=8, margins=(PAD, 8, PAD, 4))
         self.wrong.setContentsMargins(PAD, 0, PAD, 4)
         upper = QtWidgets.QWidget()
-        column = QtWidgets.QVBoxLayout(upper, spacing=0)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addLayout(top)
-        column.addWidget(self.wrong)
-        column.addWidget(self.empty)
-        column.addWidget(self.table, 1)
+        in_column(top, self.wrong, self.empty, (self.table, 1), of=upper, spacing=0)
         self._splitter = QtWidgets.QSplitter(QtCore.Qt.Orientation.Vertical, childrenCollapsible=False)
         self._splitter.setHandleWidth(1)
         self._splitter.addWidget(upper)
         self._splitter.addWidget(self.distances)
         self._splitter.splitterMoved.connect(self._keep_split)
-        whole = QtWidgets.QVBoxLayout(self, spacing=0)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.addWidget(self._splitter)
+        in_column(self._splitter, of=self, spacing=0)
         self.table.setMinimumHeight(90)
+        self.add_head_button("copy", "Copy the list, with all digits", self.copy_list)
+        self.add_head_button("save", "Save pins…", self.files.save)
+        tip = "Read, copy, rename, colour, move, remove"
+        self.head.append(menu_button(self, self._fill_menu, tip, "More about pins", "more"))
 
     def _keep_split(self, *_: int) -> None:
         self._is_split = True
 
     def _split(self) -> None:
-        """As much for the list as it needs, unless the user has said where it ends."""
+        """Give the list as much room as it needs, unless the user has moved the splitter."""
         if not self._is_split:
             rows = self.table.verticalHeader().defaultSectionSize() * (len(self.places) + 1)
             upper = rows + self.box.height() + 44
@@ -131,20 +123,6 @@ class PinsDock(Instrument):
     def resizeEvent(self, event: QtGui.QResizeEvent) -> None:
         super().resizeEvent(event)
         self._split()
-
-    def head_widgets(self) -> list[QtWidgets.QWidget]:
-        copy, save, more = (FlatButton(self, icon) for icon in ("copy", "save", "more"))
-        for button, tip, do in (
-            (copy, "Copy the list, with all digits", self.copy_list),
-            (save, "Save pins…", self.files.choose_and_save),
-        ):
-            button.setToolTip(tip)
-            button.setAccessibleName(tip)
-            button.activated.connect(do)
-        more.setToolTip("Read, copy, rename, colour, move, remove")
-        more.setAccessibleName("More about pins")
-        more.setMenu(self.menu.whole)
-        return [copy, save, more]
 
     # ------------------------------------------------------------------ what is told
     def show_document(self, document: Document, before: Document | None) -> None:
@@ -164,9 +142,10 @@ class PinsDock(Instrument):
         self._soon.start()
 
     def _choose(self, panel: int, mark: MarkClick) -> None:
-        """A pin marker has been clicked: its row is selected, or only it is no longer; with Ctrl besides the others."""
-        if mark.tool == self.word in self.context.document.docks:
-            point, chosen = self.context.document[Pins].pins[mark.number - 1].point, set(self.table.points)
+        """Select the row of a pin marker that was clicked, or deselect it if it is the only one; with Ctrl, besides
+        the others."""
+        if mark.tool == self.word in self.document.docks:
+            point, chosen = self.document[Pins].pins[mark.number - 1].point, set(self.table.points)
             self.table.select(tuple(chosen ^ {point}) if mark.has_ctrl else () if chosen == {point} else (point,))
 
     def end(self) -> None:
@@ -177,75 +156,46 @@ class PinsDock(Instrument):
 
     # ------------------------------------------------------------------ the list
     def answers(self) -> list[tuple[str, Answer, bool]]:
-        """Of each panel: the head of its column, what it shows, and whether that is still to change."""
-        session = self.context.session
-        document, name = session.document, session.document.surfaces[0].name
-        panels = [panel for panel in document.panels if panel.surface == name]
-        names = [quantity_name(panel.shows) for panel in panels]
+        """Return for each panel the head of its column, its answer, and whether that is still to change."""
+        session, panels = self.context.session, self.document.panels_of()
         found = []
-        for panel, short in zip(panels, names, strict=True):
-            shown = session.shown.get(panel.id)
-            title = str(panel.shows) if names.count(short) > 1 else short
-            answer = shown.answer if shown is not None else Answer(label=title)
+        for panel, title in zip(panels, column_names([panel.shows for panel in panels]), strict=True):
+            answer = session.answer(panel.id) or Answer(label=title)
             found.append((title, answer, not session.is_answered(panel.id)))
         return found
 
     def _show_rows(self) -> None:
-        surface = self.context.session.surface
-        if surface is None:
+        loaded = self.context.session.loaded()
+        if loaded is None:
             return
         answers = self.answers()
-        listed = self.context.document[PinsListing]
+        listed = self.document[PinsListing]
         rows = []
         for place in self.places:
-            at = place.position(surface.vertices)
+            at = place.position(loaded.surface.vertices)
             values = [number(x) for x in at] if listed.positions else []
             tips, quiet = [""] * len(values), [False] * len(values)
             for title, answer, is_old in answers:
-                one, other = written(place, answer)
+                one, other = value_and_fraction(place, answer)
                 values.append(other if listed.shares else one)
                 tips.append(f"{answer.label or title}: {one} {answer.unit}{f' ({other})' if other else ''}")
                 quiet.append(is_old)
-            where = place.words
             text = f"{place.name}: {short_words_of(place.at)} at {' '.join(number(x) for x in at)}"
-            colour = PINS[place.pin.colour]
-            rows.append(
-                PinRow(
-                    place.point,
-                    place.number,
-                    colour,
-                    place.pin.name,
-                    where,
-                    text,
-                    tuple(values),
-                    tuple(tips),
-                    tuple(quiet),
-                )
-            )
+            about = place.point, place.number, PINS[place.pin.colour], place.pin.name, place.words, text
+            rows.append(PinRow(*about, tuple(values), tuple(tips), tuple(quiet)))
         titles = [title for title, _, _ in answers]
+        short = column_names([panel.shows for panel in self.document.panels_of()], are_short=True)
         labels = [answer.label or title for title, answer, _ in answers]
         if listed.positions:
-            titles, labels = [*"xyz", *titles], [*["Position"] * 3, *labels]
-        self.table.show_rows(rows, titles, labels)
-
-    def _choose_way(self, word: str) -> None:
-        self.list_otherwise(shares=word == "share")
-
-    @property
-    def has_positions(self) -> bool:
-        """Whether the list has columns of places."""
-        return self.context.document[PinsListing].positions
-
-    def show_positions(self, is_on: bool) -> None:
-        """Show x, y and z in the list, or no longer."""
-        self.list_otherwise(positions=is_on)
+            titles, short, labels = [*"xyz", *titles], [*"xyz", *short], [*["Position"] * 3, *labels]
+        self.table.show_rows(rows, titles, short, labels)
 
     def list_otherwise(self, **changes: Any) -> None:
-        """Fields of the document's `PinsListing`."""
-        self._show(lambda document: document.with_part(replace(document[PinsListing], **changes)))
+        """Change fields of the document's `PinsListing`."""
+        self.context.session.apply(lambda document: document.with_changed(PinsListing, **changes))
 
     def copy_matrix(self) -> None:
-        """The distances among the pins."""
+        """Copy the distances among the pins."""
         matrix = self.distances.matrix()
         if matrix is not None and len(matrix) > 1:
             self.files.copy_matrix(matrix)
@@ -255,18 +205,49 @@ class PinsDock(Instrument):
         if self.places:
             self.files.copy_list([(title, answer) for title, answer, _ in self.answers()])
 
-    # ------------------------------------------------------------------ edits
-    def _show(self, make: Callable[[Document], Document], key: str = "") -> None:
-        """Show what an edit makes of the document, or say why it cannot be."""
-        session = self.context.session
-        try:
-            session.show(make(session.document), key)
-        except ParameterError as error:
-            self.context.fail(error)
+    # ------------------------------------------------------------------ menus
+    def _open_row_menu(self, where: QtCore.QPoint) -> None:
+        """Open the menu of the selected rows at a place of the screen."""
+        empty_menu(self.row_menu)
+        self._add_row_actions(self.row_menu)
+        self.row_menu.popup(where)
 
+    def _fill_menu(self, menu: QtWidgets.QMenu) -> None:
+        has_pins, are_listed = bool(self.places), self.document[PinsListing].positions
+        menu.addAction("Read pins…", lambda: ask_file(self.context, "Read pins", PIN_FILES, self.files.read))
+        add_entry(menu, "Save pins…", self.files.save, can=has_pins)
+        menu.addSeparator()
+        add_entry(menu, "Copy the list", self.copy_list, can=has_pins)
+        add_entry(menu, "Copy the distances", self.copy_matrix, can=len(self.places) > 1)
+        menu.addSeparator()
+        add_entry(menu, "Show positions", lambda: self.list_otherwise(positions=not are_listed), are_listed)
+        if self.table.points:
+            menu.addSeparator()
+            self._add_row_actions(menu)
+        menu.addSeparator()
+        add_entry(menu, "Remove all pins", lambda: self.remove(self.document[Pins].points), can=has_pins)
+
+    def _add_row_actions(self, menu: QtWidgets.QMenu) -> None:
+        points = self.table.points
+        is_one = len(points) == 1
+        add_entry(menu, "Source here", lambda: self._move_source(points), can=is_one)
+        add_entry(menu, "Rename\tF2", self.table.rename, can=is_one)
+        add_colours(menu, self.recolour)
+        add_entry(menu, "Move up\tAlt+Up", lambda: self.table.move(-1), can=is_one)
+        add_entry(menu, "Move down\tAlt+Down", lambda: self.table.move(1), can=is_one)
+        words = "Remove pin\tDel" if is_one else f"Remove {len(points)} pins\tDel"
+        menu.addAction(words, lambda: self.remove(points))
+
+    def _move_source(self, points: tuple[str, ...]) -> None:
+        """Move the source of the active panel to the one pin among these, if it is still there."""
+        for place in self.places:
+            if points == (place.point,):
+                self.context.session.show(move_source(self.document, self.context.grid.active, place.at))
+
+    # ------------------------------------------------------------------ edits
     def _add(self) -> None:
-        """Pins at the vertices, or the places in faces, that are typed."""
-        surface = self.context.session.first_surface
+        """Add pins at the vertices or points in faces that are typed."""
+        surface = self.context.session.mesh().surface
         words = WORD.findall(self.box.text())
         if not words:
             return
@@ -277,16 +258,16 @@ class PinsDock(Instrument):
                 return
         try:
             places = [source_at(source_from_words(word), surface) for word in words]
-            document = self.context.document
+            document = self.document
             pinned = add_pins(document, places, document.surfaces[0].name)
         except (VertexError, ParameterError) as error:
             self._refuse(str(error))
             return
         if pinned == document:
             one = f"Vertex {places[0]}" if isinstance(places[0], int) else "This place"
-            self._refuse(f"{one} has a pin already." if len(set(places)) == 1 else "These have pins already.")
+            self._refuse(f"{one} has a pin already." if len(set(places)) == 1 else "These points have pins already.")
             return
-        self.context.edit(pinned)
+        self.context.session.show(pinned)
         self.box.clear()
 
     def _refuse(self, sentence: str) -> None:
@@ -301,40 +282,32 @@ class PinsDock(Instrument):
 
     def rename(self, point: str, name: str) -> None:
         """Give the pin at a point another name."""
-        self._show(lambda document: change_pin(document, replace(self._pin(point), name=name)))
+        self.context.session.apply(lambda document: change_pin(document, replace(self._pin(point), name=name)))
 
     def recolour(self, colour: int) -> None:
-        """The pins whose rows are selected."""
+        """Give a colour to the pins whose rows are selected."""
 
         def coloured(document: Document) -> Document:
             for point in self.table.points:
                 document = change_pin(document, replace(self._pin(point), colour=colour))
             return document
 
-        self._show(coloured)
+        self.context.session.apply(coloured)
 
     def move_to(self, point: str, place: int) -> None:
         """Put a pin at a place among the others, 0 for the first."""
-        self._show(lambda document: move_pin(document, point, place))
-
-    def move(self, step: int) -> None:
-        """The pin whose row is selected, so many places on."""
-        if len(self.table.points) == 1:
-            points = [place.point for place in self.places]
-            place = points.index(self.table.points[0]) + step
-            if 0 <= place < len(points):
-                self.move_to(self.table.points[0], place)
+        self.context.session.apply(lambda document: move_pin(document, point, place))
 
     def remove(self, points: Sequence[str]) -> None:
         """Remove the pins at these points."""
-        self._show(lambda document: remove_pins(document, points))
+        self.context.session.apply(lambda document: remove_pins(document, points))
 
     def _pin(self, point: str) -> Pin:
         return next(place.pin for place in self.places if place.point == point)
 
 
-def written(place: LocatedPin, answer: Answer) -> tuple[str, str]:
-    """An answer's value at a place, and its fraction of the maximum; "–" where there is none."""
+def value_and_fraction(place: LocatedPin, answer: Answer) -> tuple[str, str]:
+    """Return an answer's value at a pin, and its fraction of the maximum; "–" where there is none."""
     value = np.nan if answer.field is None else place.value(answer.field)
     if np.isnan(value):
         return "–", "–"

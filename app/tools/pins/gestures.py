@@ -1,10 +1,10 @@
-"""What is done to pins on the panels: put, chosen, dragged, removed."""
+"""Clicks, drags and menus that add, choose, move and remove pins."""
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
-from bihdist_core import ParameterError
 from bihdist_core.sources.source import Source
 
 from ...document.edits import move_source, put_point
@@ -32,16 +32,12 @@ class PinGestures(Gesture):
         self.put(panel, click.hit)
 
     def put(self, panel: int, hit: "Hit") -> None:
-        """A pin there; one that is there already stays."""
-        session = self.context.session
-        surface = session.document.panel(panel).surface
-        try:
-            session.show(add_pins(session.document, [self._at(panel, hit)], surface))
-        except ParameterError as error:  # there are too many
-            self.context.fail(error)
+        """Add a pin, unless there is one."""
+        at, surface = self._at(panel, hit), self.document.panel(panel).surface
+        self.context.session.apply(lambda document: add_pins(document, [at], surface))
 
     def offer_always(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit | None", where: QtCore.QPoint) -> None:
-        """What can be done with the drop under the pointer, or with the place."""
+        """Add what can be done with a pin or a place to a menu."""
         view = self._grid.panel(panel).view
         found = view.over.points.standing_at(view.mapFromGlobal(where))
         number = found[1] if found and found[0] == self.tool else 0
@@ -50,44 +46,42 @@ class PinGestures(Gesture):
         if number:
             pin = self._pin(number)
             menu.addAction(f"Source at {_name(pin, number)}", lambda: self._move_source(panel, pin.point))
-            menu.addAction(f"Remove {_name(pin, number)}", lambda: self._remove(pin.point))
+            remove = partial(remove_pins, points=[pin.point])
+            menu.addAction(f"Remove {_name(pin, number)}", lambda: self.context.session.apply(remove))
         elif hit is not None:
             menu.addAction("Pin here\tShift+click", lambda: self.put(panel, hit))
 
     # ------------------------------------------------------------------ what it does
     def _pin(self, number: int) -> Pin:
-        return self.context.document[Pins].pins[number - 1]
+        return self.document[Pins].pins[number - 1]
 
     def _number_at(self, panel: int, at: Source) -> int:
-        """Of the pin at a place, 0 for none."""
-        document = self.context.document
+        """Return the number of the pin at a place, 0 for none."""
+        document = self.document
         surface = document.panel(panel).surface
         points = [document.point(pin.point) for pin in document[Pins].pins]
         return next((k for k, point in enumerate(points, 1) if (point.at, point.surface) == (at, surface)), 0)
 
     def click_mark(self, panel: int, number: int, has_ctrl: bool) -> None:
-        """Where the list of pins is closed, it stands out, until it is clicked again, and is named."""
-        if "pins" in self.context.document.docks:
+        """Highlight a pin, or no longer, and name it; an open list of pins does that itself."""
+        if "pins" in self.document.docks:
             return  # the list does it
-        pin, lit = self._pin(number), set(self._grid.marks.lit(self.tool))
-        chosen = lit ^ {pin.point} if has_ctrl else {pin.point} - lit
-        self._grid.marks.light(self.tool, tuple(chosen))
+        pin, highlighted = self._pin(number), set(self._grid.marks.highlighted(self.tool))
+        chosen = highlighted ^ {pin.point} if has_ctrl else {pin.point} - highlighted
+        self._grid.marks.highlight(self.tool, tuple(chosen))
         if pin.point in chosen:
-            where = self.context.document.point(pin.point).at
-            self.context.tell(f"{_name(pin, number).capitalize()}: {_place(where)}")
+            where = self.document.point(pin.point).at
+            place = f"vertex {where}" if isinstance(where, int) else "in a face"
+            self.context.tell(f"{_name(pin, number).capitalize()}: {place}")
 
     def drag(self, panel: int, number: int, hit: "Hit") -> None:
-        """All the way is one step; a place that another pin has is passed."""
+        """Move a pin as one step of the history, past places that another has."""
         session = self.context.session
         document, at = session.document, self._at(panel, hit)
         pin = self._pin(number)
         point = document.point(pin.point)
         if at != point.at and not self._number_at(panel, at):
             session.show(put_point(document, point.name, at, point.surface), key=f"drag of {point.name}", live=True)
-
-    def _remove(self, point: str) -> None:
-        session = self.context.session
-        session.show(remove_pins(session.document, [point]))
 
     def _move_source(self, panel: int, point: str) -> None:
         session = self.context.session
@@ -99,7 +93,3 @@ class PinGestures(Gesture):
 
 def _name(pin: Pin, number: int) -> str:
     return f"pin {number}{f', {pin.name}' if pin.name else ''}"
-
-
-def _place(at: Source | None) -> str:
-    return f"vertex {at}" if isinstance(at, int) else "in a face"

@@ -1,4 +1,4 @@
-"""The pins of a document on a surface: where they are, what the panels have there, and all of it as text."""
+"""The pins of a document on a surface: where they are, their values in the panels, and both as text."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -19,10 +19,9 @@ from ...session.questions import pieces_at
 
 @dataclass(frozen=True, eq=False)
 class LocatedPin:
-    """A pin on a surface.
+    """A pin on a surface, numbered from 1 in the order of the document.
 
-    number: from 1, in the order of the document.  vertex: the one that it is at, None for any other place; face,
-    corners (3,), weights (3,): of the face that it then is in.
+    It is at a vertex or, if `vertex` is None, in a face with corners (3,) and weights (3,).
     """
 
     number: int
@@ -39,7 +38,7 @@ class LocatedPin:
 
     @property
     def at(self) -> int | SurfacePoint:
-        """Where it is: its vertex, or the place in its face."""
+        """The vertex, or the point in the face."""
         if self.vertex is not None:
             return self.vertex
         first, second, third = self.weights.tolist()
@@ -47,26 +46,26 @@ class LocatedPin:
 
     @property
     def words(self) -> str:
-        """The same, short."""
+        """The vertex or the face, in few characters."""
         return str(self.vertex) if self.vertex is not None else f"f{self.face}"
 
     @property
     def name(self) -> str:
-        """For the user: its number if nobody has named it."""
+        """The name for the user, the number if there is none."""
         return self.pin.name or str(self.number)
 
     def position(self, vertices: FloatArray) -> FloatArray:
-        """(3,) where it is, with the vertices (n, 3) there."""
+        """Return the position (3,) among the vertices (n, 3)."""
         at: FloatArray = vertices[self.vertex] if self.vertex is not None else self.weights @ vertices[self.corners]
         return at
 
     def value(self, field: FloatArray) -> float:
-        """That of a field (n,), linear in the face; NaN where it is undefined."""
+        """Return the value of a field (n,), linear in the face; NaN where it is undefined."""
         return float(weighted(field, self.corners[None], self.weights[None])[0])
 
 
 def located_pins(document: Document, name: str, surface: Surface) -> tuple[LocatedPin, ...]:
-    """Those on the surface of a name, which is there; of a source with several places its first."""
+    """Return the pins on a surface; a source with several places counts at its first."""
     found = []
     for number, pin in enumerate(document[Pins].pins, 1):
         point = document.point(pin.point)
@@ -84,10 +83,9 @@ def located_pins(document: Document, name: str, surface: Surface) -> tuple[Locat
 
 
 def pins_to_write(places: Sequence[LocatedPin], surface: Surface) -> pin_files.Pins:
-    """All of them, for a file, which has vertices only: of a place in a face, the nearest of its corners, and how far
-    that is.  Ids are the numbers that the window shows.
+    """Return the pins for a file, which has vertices only, each at its nearest corner, with how far that is.
 
-    ParameterError if there are none.
+    Ids are the numbers that the window shows. Raises ParameterError if there are none.
     """
     vertices, moved = [], []
     for place in places:
@@ -101,7 +99,7 @@ def pins_to_write(places: Sequence[LocatedPin], surface: Surface) -> pin_files.P
 
 
 def with_pins(document: Document, pins: pin_files.Pins, surface: str = "A") -> Document:
-    """The document with those of a file as well, under their names; one that is there already gets the name."""
+    """Return the document with the pins of a file, under their names."""
     document = add_pins(document, [int(vertex) for vertex in pins.vertices], surface)
     names = dict(zip(pins.vertices.tolist(), pins.names, strict=True))
     for pin in document[Pins].pins:
@@ -113,9 +111,10 @@ def with_pins(document: Document, pins: pin_files.Pins, surface: str = "A") -> D
 
 
 def pins_text(places: Sequence[LocatedPin], surface: Surface, answers: Sequence[tuple[str, Answer]]) -> str:
-    """A table with a tab between columns: number, name, vertex, place, and each answer's value and share.
+    """Return a table of pins with tabs: number, name, vertex, position, and each answer's value and fraction of the
+    maximum.
 
-    answers: with the heads of their columns.  Numbers are written with all their digits.
+    The answers come with the heads of their columns; numbers have all their digits.
     """
     head = ["pin", "name", "vertex", "x", "y", "z"]
     head += [text for title, _ in answers for text in (title, f"{title}, fraction of the maximum")]
@@ -132,7 +131,7 @@ def pins_text(places: Sequence[LocatedPin], surface: Surface, answers: Sequence[
 
 
 def matrix_text(places: Sequence[LocatedPin], matrix: FloatArray) -> str:
-    """The distances (k, k) among k pins, with a tab between columns and the pins' names before rows and columns."""
+    """Return the distances (k, k) among k pins, with tabs between columns and the names before rows and columns."""
     lines = ["\t".join(["", *(place.name for place in places)])]
     for place, row in zip(places, matrix.tolist(), strict=True):
         lines.append("\t".join([place.name, *("" if np.isnan(number) else repr(number) for number in row)]))

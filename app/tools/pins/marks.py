@@ -1,6 +1,6 @@
 """Pins on surfaces."""
 
-from ...marks.glyphs import PIN
+from ...drawing.glyphs import PIN
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import PointMark
 from ...scene.style import PINS
@@ -8,12 +8,12 @@ from .locations import LocatedPin, located_pins
 
 
 def marks(marked: MarkedPanel) -> list[PointMark]:
-    """In the order of their numbers."""
+    """Return the pin markers of a panel, in the order of their numbers."""
     return [pin_mark(pin) for pin in located_pins(marked.document, marked.panel.surface, marked.loaded.surface)]
 
 
 def pin_mark(pin: LocatedPin) -> PointMark:
-    """A pin marker with its number and colour."""
+    """Return a pin marker with its number and colour."""
     colour = PINS[pin.pin.colour]
     if pin.vertex is not None:
         return PointMark(pin.vertex, PIN, colour, number=pin.number, point=pin.point)

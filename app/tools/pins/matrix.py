@@ -7,15 +7,17 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core.arrays import FloatArray
 
+from ...drawing.numbers import number
+from ...drawing.painters.qt import number_width, paint_number
 from ...qt.look.look import LOOK
-from ...qt.look.numbers import number, number_width, paint_number
+from ...qt.look.painting import baseline, smooth_painter
 from ...qt.look.theme import between
-from ...qt.panels.number_badge import paint_badge
+from ...qt.panels.badges import Badge, paint_badge
 
-CELL = 26
-HEAD = 30
-PAD = 7
-GAP = 1
+CELL_HEIGHT_PX = 26
+HEAD_WIDTH_PX = 30
+PAD_PX = 7
+GAP_PX = 1
 
 
 class PinMatrix(QtWidgets.QWidget):
@@ -37,7 +39,7 @@ class PinMatrix(QtWidgets.QWidget):
 
     # ------------------------------------------------------------------ what is shown
     def show_matrix(self, pins: Sequence[tuple[int, str]], matrix: FloatArray | None) -> None:
-        """pins: their numbers and colours; matrix: (k, k), None while it is not known."""
+        """Show the distances (k, k) among pins with these numbers and colours, None while they are not known."""
         self._pins, self._matrix = tuple(pins), matrix
         self._texts = [] if matrix is None else [[number(value) for value in row] for row in matrix.tolist()]
         if max(self.cell) >= len(self._pins):
@@ -45,7 +47,7 @@ class PinMatrix(QtWidgets.QWidget):
         self._fit()
 
     def fit_into(self, width: int) -> None:
-        """Cells fill so much width, or are as wide as they need."""
+        """Fill this width with the cells, or make them as wide as they need."""
         if width != self._room:
             self._room = width
             self._fit()
@@ -53,7 +55,7 @@ class PinMatrix(QtWidgets.QWidget):
     def _fit(self) -> None:
         font = LOOK.font(13)
         texts = [text for row in self._texts for text in row] or ["0.0000"]
-        needed = max(number_width(font, text) for text in texts) + 2 * PAD
+        needed = max(number_width(font, text) for text in texts) + 2 * PAD_PX
         room = (self._room - self._left - 1) / max(len(self._pins), 1)
         self._across = max(needed, min(room, 1.6 * needed))
         self.setFixedSize(round(self._left + self._across * len(self._pins)) + 1, round(self._down(len(self._pins))))
@@ -61,29 +63,27 @@ class PinMatrix(QtWidgets.QWidget):
 
     @property
     def _left(self) -> float:
-        return HEAD * LOOK.scale
+        return HEAD_WIDTH_PX * LOOK.scale
 
     def _down(self, row: int) -> float:
-        return (CELL + row * CELL) * LOOK.scale
+        return (CELL_HEIGHT_PX + row * CELL_HEIGHT_PX) * LOOK.scale
 
     def _rect(self, i: int, j: int) -> QtCore.QRectF:
-        across, high = self._across, CELL * LOOK.scale
-        return QtCore.QRectF(self._left + j * across, self._down(i), across - GAP, high - GAP)
+        across, high = self._across, CELL_HEIGHT_PX * LOOK.scale
+        return QtCore.QRectF(self._left + j * across, self._down(i), across - GAP_PX, high - GAP_PX)
 
     # ------------------------------------------------------------------ painting
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        theme = LOOK.theme
-        painter = QtGui.QPainter(self)
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-        across, high = self._across, CELL * LOOK.scale
+        theme, painter = LOOK.theme, smooth_painter(self)
+        across, high = self._across, CELL_HEIGHT_PX * LOOK.scale
         for k, (label, colour) in enumerate(self._pins):
             top = QtCore.QPointF(self._left + (k + 0.5) * across, high / 2)
-            paint_badge(painter, top, label, colour)
-            paint_badge(painter, QtCore.QPointF(self._left / 2 - 1, self._down(k) + high / 2), label, colour)
+            left = QtCore.QPointF(self._left / 2 - 1, self._down(k) + high / 2)
+            for place in (top, left):
+                paint_badge(painter, place, Badge(str(label), colour))
         if self._matrix is None:
             return
         painter.setFont(LOOK.font(13))
-        metrics = QtGui.QFontMetricsF(painter.font())
         top = float(np.nanmax(self._matrix, initial=0.0))
         for i in range(len(self._pins)):
             for j in range(len(self._pins)):
@@ -95,8 +95,8 @@ class PinMatrix(QtWidgets.QWidget):
                     painter.fillRect(rect, between(theme.cells, value / top))
                 text = "·" if i == j else self._texts[i][j]
                 painter.setPen(QtGui.QColor(theme.quiet if i == j else theme.text))
-                baseline = round(rect.center().y() + (metrics.ascent() - metrics.descent()) / 2)
-                paint_number(painter, rect.right() - PAD - number_width(painter.font(), text), baseline, text)
+                y = round(baseline(painter, rect.center().y()))
+                paint_number(painter, rect.right() - PAD_PX - number_width(painter.font(), text), y, text)
         if self.cell != (-1, -1):
             painter.setPen(QtGui.QPen(QtGui.QColor(theme.accent), 1.5))
             painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
@@ -104,7 +104,7 @@ class PinMatrix(QtWidgets.QWidget):
 
     # ------------------------------------------------------------------ the pointer
     def mouseMoveEvent(self, event: QtGui.QMouseEvent) -> None:
-        across, high = self._across, CELL * LOOK.scale
+        across, high = self._across, CELL_HEIGHT_PX * LOOK.scale
         j, i = (event.x() - self._left) // across, (event.y() - self._down(0)) // high
         is_in = 0 <= i < len(self._pins) and 0 <= j < len(self._pins) and i != j
         self._point(*(int(i), int(j)) if is_in else (-1, -1))

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source, SurfacePoint, checked_source
 from bihdist_core.sources.words import short_words_of, words_of
@@ -17,7 +17,7 @@ from ...document.sources import Sources, sources_from_words
 
 
 def _pins_of(recipe: Recipe) -> dict[str, Any]:
-    """In the colours that they get by themselves."""
+    """Return the option for pins in their usual colours."""
     document, pins = recipe.document, recipe.document[Pins].pins
     points = [document.point(pin.point) for pin in pins]
     if any(point.surface != document.surfaces[0].name for point in points):
@@ -25,10 +25,10 @@ def _pins_of(recipe: Recipe) -> dict[str, Any]:
     if len({point.at for point in points}) < len(points):
         raise NotExpressible("Two pins are at one place.")
     if [pin.colour for pin in pins] != [k % MARK_COLOURS for k in range(len(pins))]:
-        raise NotExpressible("Pins have other colours than usual.")
+        raise NotExpressible("Pins have colours of their own.")
     places = [point.at for point in points if isinstance(point.at, int | SurfacePoint)]
     if len(places) < len(points):
-        raise NotExpressible("A pin is at more than a point.")
+        raise NotExpressible("A pin is not at a single point.")
     return {"pins": [at if isinstance(at, int) else words_of(at) for at in places]} if pins else {}
 
 

@@ -10,11 +10,11 @@ TOOL = Tool(
     key="F",
     tip="Values along a path: the chart of all panels' fields",
     icon="profile",
-    in_bar=True,
     synonyms="measure plot graph along geodesic path curve section",
     dock="dock:ProfileDock",
     commands={"profile": "command"},
     parts=("part:Profile",),
     options="options:ROWS",
     marks="marks:marks",
+    items="part:items",
 )

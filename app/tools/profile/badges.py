@@ -4,18 +4,20 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from ...document.document import Document
 from ...document.shared_parts.pins import Pins
-from ...qt.docks.badges import SOURCE, Badge, paint_badge
 from ...qt.look.look import LOOK
+from ...qt.look.painting import smooth_painter
+from ...qt.panels.badges import SOURCE, Badge, paint_badge
 from ...qt.panels.flat_button import FlatButton
 from ...scene.style import PINS
 
 
 def badge_of(document: Document, point: str) -> Badge:
-    """A pin by its number, another point as a source."""
-    for number, pin in enumerate(document[Pins].pins, 1):
-        if pin.point == point:
-            return Badge(str(number), PINS[pin.colour], f"pin {number} {pin.name}".strip())
-    return Badge("", SOURCE, point)
+    """Return the badge of a point: a pin by its number, another point as a source."""
+    number = document[Pins].number(point)
+    if not number:
+        return Badge("", SOURCE, point)
+    pin = document[Pins].pins[number - 1]
+    return Badge(str(number), PINS[pin.colour], f"pin {number} {pin.name}".strip())
 
 
 class BadgeRow(QtWidgets.QWidget):
@@ -46,8 +48,7 @@ class BadgeRow(QtWidgets.QWidget):
         return QtCore.QSize(self.STEP * min(len(self._badges), self.MOST) + more, 26)
 
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
-        painter, middle = QtGui.QPainter(self), self.height() / 2
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        painter, middle = smooth_painter(self), self.height() / 2
         for k, badge in enumerate(self._badges[: self.MOST]):
             paint_badge(painter, QtCore.QPointF((k + 0.5) * self.STEP, middle), badge)
         painter.setFont(LOOK.font(12))
@@ -62,7 +63,7 @@ class BadgeButton(FlatButton):
     def __init__(self, parent: QtWidgets.QWidget, name: str) -> None:
         super().__init__(parent, has_arrow=False)
         self._name = name
-        self._badge: Badge | None = Badge("", SOURCE, "")
+        self._badge: Badge | None = Badge("", SOURCE)
         self.setMenu(QtWidgets.QMenu(self))
 
     def show_badge(self, badge: Badge | None) -> None:
@@ -81,6 +82,4 @@ class BadgeButton(FlatButton):
     def paintEvent(self, event: QtGui.QPaintEvent) -> None:
         super().paintEvent(event)
         if self._badge is not None:
-            painter = QtGui.QPainter(self)
-            painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-            paint_badge(painter, QtCore.QRectF(self.rect()).center(), self._badge)
+            paint_badge(smooth_painter(self), QtCore.QRectF(self.rect()).center(), self._badge)

@@ -18,12 +18,17 @@ from ...commands.options import (
     repairs_of,
 )
 from ...commands.result import Result, panel_facts
-from ...commands.terminal import judged, progress_line, tell_repairs
+from ...commands.terminal import progress_line, report_answers, tell_repairs
 from ...document.document import COMPARISON
 from .options import ACROSS, WAY
 from .part import Profile
 
-WORDS = "distances along a path through points of a mesh, as numbers and as a chart"
+WORDS = "follow distances along a path, as numbers and as a chart"
+EXAMPLES = (
+    "bihdist profile hand --pins 12,900 -o path.csv",
+    "bihdist profile hand --sources 12 --pins 12,400,900 --chart path.pdf",
+    "bihdist profile hand --pins 12,900 --way section --across 0,0,1 -o path.obj",
+)
 TEXT = ".csv"
 
 
@@ -31,7 +36,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `profile` to its parser."""
     add_mesh(parser)
     add_sources(parser, "the one source where distances start")
-    add_output(parser, "the numbers: a .csv, .npy, .vtp or .json file", required=False)
+    add_output(parser, "the numbers: a .csv, .npy, .vtp or .json file, or the path alone: .obj", required=False)
     parser.add_argument("--chart", metavar="OUT", help="a .png, .pdf, .svg or .eps file")
     add_distance(parser, f"a curve each (default: {','.join(map(str, COMPARISON))})", is_field=True)
     add_areas(parser)
@@ -48,11 +53,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> Result:
     """Write distances along a path as numbers or a chart; the exit status is 1 if one of them failed."""
-    from dataclasses import replace
-
-    from bihdist_core.analysis.profile_output import PROFILE_FORMATS, write_profile
+    from bihdist_core.analysis.surface_paths import PROFILE_FORMATS, write_profile
     from bihdist_core.errors import ParameterError
-    from bihdist_core.whole_file import check_outputs
+    from bihdist_core.file_output import check_outputs
 
     from ...document.document import comparison
     from ...document.page import Recipe
@@ -61,8 +64,7 @@ def run(options: argparse.Namespace) -> Result:
     from ...figures.draw import FIGURE_FORMATS
     from ...figures.export import compute, open_document
     from ...session.array_store import ArrayStore
-    from .figure import save_profile_figure
-    from .figure_curves import profile_fields, profile_figure
+    from .figure import profile_fields, profile_figure, save_profile_figure
     from .part import with_profile, words_in
     from .paths import path_of
 
@@ -85,7 +87,7 @@ def run(options: argparse.Namespace) -> Result:
             document = pin_at(document, pins.sources)
         through = words_in(options.through or "")
         document = with_profile(document, through, options.way or "auto", options.across)
-        document = document.with_part(replace(document[Profile], shares=not options.values))
+        document = document.with_changed(Profile, shares=not options.values)
         _, path = path_of(document, surfaces)
         found = compute(document, surfaces, progress)
     answers = dict(zip((panel.id for panel in document.panels), found, strict=True))
@@ -103,4 +105,4 @@ def run(options: argparse.Namespace) -> Result:
         "path": {"label": path.label, "n_points": len(path.points), "length": path.length},
         "fields": [panel_facts(panel.shows, answers[panel.id]) for panel in document.panels],
     }
-    return Result(facts, judged(found, surface.name))
+    return Result(facts, report_answers(found, surface.name))

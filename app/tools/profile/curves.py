@@ -13,10 +13,10 @@ from ...document.quantities import quantity_name
 
 @dataclass(frozen=True, eq=False)
 class ProfileCurve:
-    """A field along the path.
+    """A field along the path, with values (k,) at its points in `unit`, NaN where it has none, and a colour #rrggbb.
 
-    values: (k,) at its points, NaN where it has none, in `unit`; colour: as #rrggbb.  whole: what a share of 1 is.
-    is_share: the values are percentage points, as a difference's may be.  is_dashed: the colour is another curve's.
+    `whole` is the value that fractions are of. With `is_share` the values are percentage points, as a difference's
+    may be; with `is_dashed` another curve has the same colour.
     """
 
     name: str
@@ -30,16 +30,16 @@ class ProfileCurve:
 
     @property
     def shares(self) -> FloatArray:
-        """(k,) the values as shares of the greatest."""
+        """The values (k,) as fractions of the greatest."""
         return self.values / 100 if self.is_share else self.values / self.whole if self.whole > 0 else 0 * self.values
 
 
 def profile_curve(
     document: Document, panel: int, answer: Answer, values: FloatArray, colours: Sequence[str]
 ) -> ProfileCurve:
-    """values: (k,) of the answer's field at the points of the path.  colours: for the panels, in the document's order.
+    """Return the curve of a panel, by its id, with the values (k,) of its field along the path.
 
-    panel: its id.
+    The colours are those of panels in the document's order.
     """
     place = next(k for k, each in enumerate(document.panels) if each.id == panel)
     shows = document.panels[place].shows
@@ -56,7 +56,7 @@ def profile_curve(
 
 
 def parted(curves: Sequence[ProfileCurve], in_shares: bool) -> list[tuple[str, bool, list[ProfileCurve]]]:
-    """What goes into one chart each: a unit, whether shares are drawn, and the curves."""
+    """Return the curves of each chart, with its unit and whether fractions are drawn."""
     found: dict[tuple[str, bool], list[ProfileCurve]] = {}
     for curve in curves:
         are_shares = in_shares or curve.is_share

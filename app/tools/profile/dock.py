@@ -1,10 +1,9 @@
 """The dock of the profile: the fields of all panels along a path, live, and where the path leads."""
 
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
-from qtpy import QtCore, QtWidgets
+from qtpy import QtCore
 
 from bihdist_core import ParameterError, Surface
 from bihdist_core.analysis.places import Places
@@ -14,15 +13,16 @@ from bihdist_core.arrays import FloatArray
 from ...document.document import Document
 from ...qt.context import Context
 from ...qt.docks.instrument import Instrument
+from ...qt.look.layouts import in_column
 from ...qt.look.look import LOOK
 from ...qt.look.segments import Segments
-from ...qt.panels.flat_button import FlatButton
-from .badges import BadgeButton, BadgeRow, badge_of
-from .charts import ProfileCharts
-from .choices import WAYS, ProfileChoices
+from ...qt.panels.badges import curve_colour
+from .badges import badge_of
+from .chart import ProfileCharts
 from .curves import ProfileCurve, profile_curve
 from .files import ProfileFiles
 from .part import Profile, points_along
+from .path_controls import PathControls
 from .paths import PathWanted, PathWorker, wanted_path
 
 if TYPE_CHECKING:
@@ -30,15 +30,15 @@ if TYPE_CHECKING:
 
 FINDING = "Finding the path…"
 
-NEAR = 14.0
+POINTER_REACH_PX = 14.0
 """Logical pixels from the path within which the pointer on a surface means it."""
 
-DRAWN = 500
+PATH_POINTS = 500
 """Points that the path has on the panels, beside its own."""
 
 
 class ProfileDock(Instrument):
-    word, title, area = "profile", "Profile", "below"
+    word, area = "profile", "below"
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -48,56 +48,39 @@ class ProfileDock(Instrument):
         self._path_surface: Surface | None = None
         self._wanted: PathWanted | None = None
         self.surface = "A"
-        self._echoed: float | None = None  # where the pointer in the chart is, as a length
-        self._worker = PathWorker(context.post, self._found, self._going)
-        self.files = ProfileFiles(self)
-        self.choices = ProfileChoices(self)
-        self.ends = (BadgeButton(self, "From"), BadgeButton(self, "To"))
-        self._between = BadgeRow(self)
-        self._to = QtWidgets.QLabel("to")
-        self._to.setProperty("quiet", True)
-        for k, button in enumerate(self.ends):
-            button.menu().aboutToShow.connect(partial(self.choices.fill_ends, k))
-        self.way = FlatButton(self, quiet=True)
-        self.way.setAccessibleName("Way of the profile")
-        self.way.setSizePolicy(QtWidgets.QSizePolicy.Policy.Preferred, QtWidgets.QSizePolicy.Policy.Fixed)
-        self.way.setMenu(QtWidgets.QMenu(self.way))
-        self.way.menu().aboutToShow.connect(self.choices.fill_ways)
+        self._pointed_arc: float | None = None  # where the pointer in the chart is, as a length
+        self._worker = PathWorker(context.post, self._found, self.note_changed.emit)
+        self.files = ProfileFiles(context, lambda: (self.path, list(self.curves)))
+        self.controls = PathControls(self, context, lambda: self.surface, self.view_direction)
         self.scale = Segments({"Value": "value", "% of max": "share"}, "Profile in")
-        self.scale.chosen.connect(self._choose_scale)
-        self.save = FlatButton(self, "save")
-        self.save.setToolTip("Save or copy the profile")
-        self.save.setAccessibleName("Save or copy the profile")
-        self.save.setMenu(self.files.menu(self.save))
-        column = QtWidgets.QVBoxLayout(self)
-        column.setContentsMargins(0, 4, 0, 0)
-        column.addWidget(self.chart)
+        self.scale.chosen.connect(lambda word: self.controls.edit(self.document, shares=word == "share"))
+        self.beside_title += self.controls.widgets
+        self.head.append(self.scale)
+        menu = {
+            "Save the numbers…": self.files.save_numbers,
+            "Save as a figure…": self.files.save_figure,
+            "Copy the numbers": self.files.copy,
+        }
+        self.save = self.add_head_button("save", "Save or copy the profile", menu)
+        self.save.setEnabled(False)
+        in_column(self.chart, of=self, margins=(0, 4, 0, 0))
         self.setMinimumHeight(124)
         self.chart.pointed.connect(self._point)
         LOOK.follow(self, self._colour)
 
-    def title_widgets(self) -> list[QtWidgets.QWidget]:
-        return [self.ends[0], self._between, self._to, self.ends[1], self.way]
-
-    def head_widgets(self) -> list[QtWidgets.QWidget]:
-        return [self.scale, self.save]
-
     # ------------------------------------------------------------------ what is told
     def show_document(self, document: Document, before: Document | None) -> None:
         self.scale.choose("share" if document[Profile].shares else "value")
-        through = points_along(document)
-        for k, button in enumerate(self.ends):
-            button.show_badge(badge_of(document, through[-k]) if len(through) > 1 else None)
-        self._between.show_badges(tuple(badge_of(document, name) for name in through[1:-1]))
+        self.controls.show_document(document)
         try:
-            wanted = wanted_path(document, self.surface_of, self.seen())
+            wanted = wanted_path(document, self.surface_of, self.view_direction())
         except ParameterError as error:
             self._worker.ask(None)
             self._wanted = None
             self._show_none(str(error))
             return
-        self.surface = document.point(through[0]).surface
-        if not wanted.is_as(self._wanted):
+        self.surface = document.point(points_along(document)[0]).surface
+        if wanted != self._wanted:
             if self._wanted is None or wanted.surface is not self._wanted.surface:
                 self._show_none(FINDING)
             self._wanted = wanted
@@ -110,17 +93,17 @@ class ProfileDock(Instrument):
         if self._path_here is not None:
             self._read(panel)
             self._show_curves()
-            if self._echoed is not None:
-                self._echo(self._path_here, self._echoed)
+            if self._pointed_arc is not None:
+                self._highlight_place(self._path_here, self._pointed_arc)
 
     @property
     def pointed_surface(self) -> str:
         return self.surface
 
     def show_pointed(self, vertex: int | None) -> None:
-        """Near the path on a surface: where that is in the chart."""
+        """Mark the place of the pointer in the chart, if it is near the path on a surface."""
         path = self._path_here
-        if self._echoed is not None or path is None:
+        if self._pointed_arc is not None or path is None:
             return
         surface = self.surface_of(self.surface)
         arc = None if vertex is None else self._arc_near(path, surface.vertices[vertex])
@@ -142,11 +125,6 @@ class ProfileDock(Instrument):
 
     # ------------------------------------------------------------------ the path
     @property
-    def document(self) -> Document:
-        """As it is now: where the camera moves, instruments are told nothing."""
-        return self.context.document
-
-    @property
     def _path_here(self) -> SurfacePath | None:
         """The path, if it is on the surface that is shown now."""
         loaded = self.context.session.loaded(self.surface)
@@ -154,17 +132,17 @@ class ProfileDock(Instrument):
 
     @property
     def _panels(self) -> "list[DistancePanel]":
-        """Those of the path's surface."""
-        panels = self.context.document.panels
+        """The panels of the path's surface."""
+        panels = self.document.panels
         return [self.context.grid.panel(panel.id) for panel in panels if panel.surface == self.surface]
 
     def surface_of(self, name: str) -> Surface:
-        """The surface of a name in the document."""
+        """Return the surface of a name in the document."""
         return self.context.session.mesh(name).surface
 
-    def seen(self) -> tuple[float, float, float]:
-        """(3,) the direction in which the panels are looked at."""
-        seen = self.context.grid.eye_of(self.surface).seen
+    def view_direction(self) -> tuple[float, float, float]:
+        """Return the direction (3,) in which the panels are looked at."""
+        seen = self.context.grid.controller_of(self.surface).seen
         way = np.subtract(seen.focal_point, seen.position)
         x, y, z = (way / np.linalg.norm(way)).tolist()
         return x, y, z
@@ -177,16 +155,13 @@ class ProfileDock(Instrument):
         self.path, self._path_surface = found, wanted.surface
         self._show_path(found)
 
-    def _going(self, text: str) -> None:
-        self.note_changed.emit(text)
-
     def _show_none(self, sentence: str) -> None:
         self.path = None
         self.curves = {}
         self.chart.say(sentence)
         self._show_way()
         self._put_path(None)
-        self.files.allow(False)
+        self.save.setEnabled(False)
 
     def _show_path(self, path: SurfacePath) -> None:
         document = self.document
@@ -196,34 +171,31 @@ class ProfileDock(Instrument):
         knots = [(float(path.arcs[at]), badge_of(document, name)) for at, name in zip(path.knots, names, strict=False)]
         self.chart.show_path(path.arcs, "mesh units", knots)
         self._show_way()
-        between = np.linspace(0, path.length, DRAWN)
+        between = np.linspace(0, path.length, PATH_POINTS)
         self._put_path(path.at(np.union1d(path.arcs, between)))
         self._colour()
-        self.files.allow(True)
+        self.save.setEnabled(True)
 
     def _put_path(self, places: Places | None) -> None:
-        """Over the panels of its surface."""
+        """Draw the path on the panels of its surface."""
         for panel in self.context.grid.panels:
             self.context.show_found(panel.id, Places, places if panel in self._panels else None)
 
     def _show_way(self) -> None:
-        self.way.setText(self.path.label if self.path is not None else WAYS[self.document[Profile].way])
-        self.way.setToolTip(f"How the profile goes from point to point: {self.way.text()}")
-        self.way.updateGeometry()
+        self.controls.show_way("" if self.path is None else self.path.label)
 
     # ------------------------------------------------------------------ the curves
     def _colour(self) -> None:
-        """All curves anew: other panels, another path, other colours."""
+        """Read all curves again, for other panels, another path or other colours."""
         self.curves = {}
         if self.path is not None and not self.isHidden():
-            colours = LOOK.theme.curves
             for place, panel in enumerate(self.document.panels):
                 self._read(panel.id)
-                self.context.grid.panel(panel.id).head.show_dot(colours[place % len(colours)])
+                self.context.grid.panel(panel.id).head.show_dot(curve_colour(place))
             self._show_curves()
 
     def _read(self, id: int) -> None:
-        """The field of a panel along the path."""
+        """Read the field of a panel along the path."""
         shown, document, path = self.context.session.shown.get(id), self.document, self.path
         panel = next((panel for panel in document.panels if panel.id == id), None)
         self.curves.pop(id, None)
@@ -239,11 +211,11 @@ class ProfileDock(Instrument):
 
     # ------------------------------------------------------------------ the pointer
     def _point(self, at: tuple[float, float] | None) -> None:
-        """In the chart: the place on all panels, and its values on their bars."""
+        """Mark the place under the pointer of the chart on all panels, and its values on their colour bars."""
         status, path = self.context.status, self._path_here
         if at is None or path is None:
-            if self._echoed is not None:
-                self._echoed = None
+            if self._pointed_arc is not None:
+                self._pointed_arc = None
                 self._unpoint()
                 status.show_place(None, None)
             self.chart.show_at(None)
@@ -251,18 +223,18 @@ class ProfileDock(Instrument):
         arc = float(np.clip(at[0], 0, path.length))
         place = path.at([arc])
         vertex = int(place.corners[0, int(place.weights[0].argmax())])
-        self._echo(path, arc)
+        self._highlight_place(path, arc)
         surface = self.surface_of(self.surface)
         status.show_place(vertex, place.values(surface.vertices)[0])
         self.chart.show_at(arc, f"vertex {vertex}")
 
-    def _echo(self, path: SurfacePath, arc: float) -> None:
-        """Rings on the panels, and ticks on their bars, at a length along the path."""
-        if self._echoed is None:
+    def _highlight_place(self, path: SurfacePath, arc: float) -> None:
+        """Put rings on the panels, and ticks on their colour bars, at a length along the path."""
+        if self._pointed_arc is None:
             self._unpoint()
-        self._echoed = arc
+        self._pointed_arc = arc
         for panel in self._panels:
-            panel.echo(path.at([arc]))
+            panel.highlight_place(path.at([arc]))
 
     def _unpoint(self) -> None:
         grid = self.context.grid
@@ -273,22 +245,18 @@ class ProfileDock(Instrument):
         self._point(None)
 
     def _arc_near(self, path: SurfacePath, point: FloatArray) -> float | None:
-        """The length up to the place of the path that is nearest to a point (3,) of the surface, if that is seen near
-        it."""
+        """Return the length up to the place of the path nearest to a point (3,), None if the view shows them apart."""
         arc = nearest_arc(path, point)
         if not self._panels:
             return None
         view = self._panels[0].view
         there = view.place_of(path.at([arc]).values(self.surface_of(self.surface).vertices)[0])
         apart = there - view.place_of(point)
-        return arc if np.hypot(apart.x(), apart.y()) <= NEAR else None
-
-    def _choose_scale(self, word: str) -> None:
-        self.choices.show(self.document, shares=word == "share")
+        return arc if np.hypot(apart.x(), apart.y()) <= POINTER_REACH_PX else None
 
 
 def nearest_arc(path: SurfacePath, point: FloatArray) -> float:
-    """The length up to the point of a path that is nearest to a point (3,)."""
+    """Return the length up to the point of a path that is nearest to a point (3,)."""
     a, b = path.points[:-1], path.points[1:]
     side = b - a
     square = np.einsum("ij,ij->i", side, side)

@@ -4,36 +4,45 @@ Values in several units have a plot each, side by side or, on a narrow page, one
 """
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from textwrap import wrap
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from bihdist_core import ParameterError
+from bihdist_core.analysis.surface_paths import SurfacePath
 from bihdist_core.arrays import FloatArray
-from bihdist_core.progress import Progress
+from bihdist_core.distances.answers import Answer
 
-from ...figures.chart_page import USUAL_LOOK, ChartLook, faded, save_chart, style_axes
-from .curves import ProfileCurve, parted
+from ...document.document import Document, free_names
+from ...document.page import Page
+from ...document.shared_parts.pins import Pins
+from ...drawing.chart import Axis, Plot
+from ...drawing.shapes import Box, Pen, Shape, Text, disc, hexadecimal, opaque
+from ...figures.chart_page import RIM, TICK, USUAL_LOOK, ChartLook, faded, save_chart
+from ...figures.size import UNITS_PER_INCH
+from ...scene.style import PINS, Style, curve_colours, style_of
+from .curves import ProfileCurve, parted, profile_curve
+from .part import Profile, points_along
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-    from matplotlib.text import Annotation
-
-LEAST_ACROSS = 2.8
+MIN_PLOT_WIDTH_IN = 2.8
 """Inches that each of several plots side by side has at least; else they stand below each other."""
 
-LOW, HIGH, SLANT = 1.5, 2.2, 0.5
+MIN_PLOT_HEIGHT_IN, MAX_PLOT_HEIGHT_IN, HEIGHT_PER_WIDTH = 1.5, 2.2, 0.5
 """Inches that a plot is high, and how high it would be for each that it is wide."""
 
-LONG = 14
+NAME_WRAP_CHARS = 14
 """Letters from which on a name has several lines."""
 
-LINE = 1.4
-"""Points that a curve is wide."""
+LINE, NAME_GAP = 1.9, 6.7
+"""Units that a curve is wide, and from the plot to the curves' names."""
+
+DISC = 0.62
+"""The radius of a point's disc, in font sizes."""
+
+ROOM = 0.05
+"""Free space above and below curves, as a fraction of their range."""
 
 
 @dataclass(frozen=True)
@@ -49,9 +58,14 @@ class ProfileKnot:
 
 @dataclass(frozen=True, eq=False)
 class ProfileFigure:
-    """arcs: (k,) lengths along the path, in `unit`.
+    """Curves of fields along a path; those of one unit share a plot.
 
-    Curves of one unit share a plot; in_shares: all are drawn as fractions of their maxima, in percent.
+    Attributes
+    ----------
+    arcs
+        The lengths (k,) along the path, in `unit`.
+    in_shares
+        Whether all are drawn as percentages of their maxima.
     """
 
     arcs: FloatArray
@@ -63,127 +77,189 @@ class ProfileFigure:
 
     @property
     def plots(self) -> list[tuple[str, bool, list[ProfileCurve]]]:
-        """See `parted`."""
+        """The plots of the figure, see `parted`."""
         return parted(self.curves, self.in_shares)
 
 
-def save_profile_figure(figure: ProfileFigure, path: str | os.PathLike[str], progress: Progress | None = None) -> None:
-    """See `save_chart`; ParameterError where there are no curves, too."""
+def save_profile_figure(figure: ProfileFigure, path: str | os.PathLike[str]) -> None:
+    """Save the figure of a profile as `save_chart` does; ParameterError if there are no curves, too."""
     if not figure.curves:
         raise ParameterError("There is no field along the path yet; wait until a panel has one.")
-    inches, count = figure.look.inches, len(figure.plots)
-    is_row = inches >= LEAST_ACROSS * count
-    across = inches / count if is_row else inches
-    high = min(max(SLANT * across, LOW), HIGH) * (1 if is_row else count)
-    save_chart(path, figure.look, high, lambda page: _fill(page, figure, is_row), progress)
+    height, shapes = page_shapes(figure)
+    save_chart(path, figure.look, height, shapes)
 
 
-def _fill(page: "Figure", figure: ProfileFigure, is_row: bool) -> None:
-    plots = figure.plots
-    rows = page.subplots(*((1, len(plots)) if is_row else (len(plots), 1)), squeeze=False)
-    named = []
-    for k, (axes, (unit, in_shares, curves)) in enumerate(zip(rows.flat, plots, strict=True)):
-        drawn = [100 * curve.shares if in_shares else curve.values for curve in curves]
-        _draw(axes, figure, curves, drawn)
-        _fit(axes, in_shares, any(not curve.is_share for curve in curves))
-        is_lowest = is_row or k == len(plots) - 1
-        along = f"length along the path ({figure.unit})" if is_lowest else ""
-        style_axes(axes, figure.look, along, "% of the maximum" if in_shares else unit or "value")
-        axes.tick_params(labelbottom=is_lowest)
-        axes.locator_params(axis="y", nbins=5)
-        _mark(axes, figure, is_row or k == 0)
-        named.append(_name(axes, figure, curves, drawn))
-    # How high the plots are is known once all words are there.
-    if (engine := page.get_layout_engine()) is not None:
-        engine.execute(page)
-    for axes, names in zip(rows.flat, named, strict=True):
-        _spread(axes, figure.look.points, page.get_figheight(), names)
+def page_shapes(figure: ProfileFigure) -> tuple[float, list[Shape]]:
+    """Return the height of the figure's page in units, and what is on it."""
+    look, count = figure.look, len(figure.plots)
+    is_row = look.inches >= MIN_PLOT_WIDTH_IN * count
+    wide = look.width / count if is_row else look.width
+    high = min(max(HEIGHT_PER_WIDTH * wide / UNITS_PER_INCH, MIN_PLOT_HEIGHT_IN), MAX_PLOT_HEIGHT_IN) * UNITS_PER_INCH
+    shapes: list[Shape] = []
+    margins = None if is_row else _margins(figure, high)
+    for k, (unit, in_shares, curves) in enumerate(figure.plots):
+        room = Box(k * wide, 0.0, wide, high) if is_row else Box(0.0, k * high, wide, high)
+        along = f"length along the path ({figure.unit})" if is_row or k == count - 1 else ""
+        words = along, "% of the maximum" if in_shares else unit or "value"
+        shapes += _plot(figure, room, curves, in_shares, words, is_row or k == 0, margins)
+    return (high if is_row else count * high), shapes
 
 
-def _draw(axes: "Axes", figure: ProfileFigure, curves: Sequence[ProfileCurve], drawn: Sequence[FloatArray]) -> None:
-    """drawn: (k,) of each curve."""
+def _margins(figure: ProfileFigure, high: float) -> tuple[float, float]:
+    """Return the left and right margins that all of several plots below each other have."""
+    axes = [_axis(*_drawn_values(curves, in_shares), in_shares) for _, in_shares, curves in figure.plots]
+    left = max(figure.look.left(up, high - figure.look.foot, "up") for up in axes)
+    return left, max(_right(figure.look, curves) for _, _, curves in figure.plots)
+
+
+def _drawn_values(curves: Sequence[ProfileCurve], in_shares: bool) -> tuple[list[FloatArray], bool]:
+    """Return the values that are drawn, and whether 100 % is the most that one of the curves can have."""
+    drawn = [100 * curve.shares if in_shares else curve.values for curve in curves]
+    return drawn, any(not curve.is_share for curve in curves)
+
+
+def _name_lines(curve: ProfileCurve) -> list[str]:
+    return wrap(curve.name, NAME_WRAP_CHARS, break_long_words=False)
+
+
+def _right(look: ChartLook, curves: Sequence[ProfileCurve]) -> float:
+    """Return the room of the curves' names at the right of their plot."""
+    lines = [line for curve in curves for line in _name_lines(curve)]
+    return RIM + NAME_GAP + max(look.text_width(line, look.size, True) for line in lines)
+
+
+def _plot(
+    figure: ProfileFigure,
+    room: Box,
+    curves: Sequence[ProfileCurve],
+    in_shares: bool,
+    words: tuple[str, str],
+    has_discs: bool,
+    margins: tuple[float, float] | None,
+) -> list[Shape]:
+    """Return one plot, with the points that the path goes through and the curves' names."""
+    look = figure.look
+    drawn, has_whole = _drawn_values(curves, in_shares)
+    left, right = margins or (None, _right(look, curves))
+    top = RIM + (2 * DISC * look.size if has_discs and figure.knots else 0.6 * look.size)
+    across = Axis(0.0, float(figure.arcs[-1]) or 1.0)
+    area = Box(room.x, room.y + top, room.width - right, room.height - top)
+    plot, shapes = look.plot(area, across, _axis(drawn, has_whole, in_shares), words, left)
+    if not words[0]:
+        shapes = [shape for shape in shapes if not (isinstance(shape, Text) and shape.y > plot.box.bottom + TICK)]
+    knots = _knot_shapes(figure, plot, has_discs)
+    paths = []
     for curve, values in zip(curves, drawn, strict=True):
-        dashes = "--" if curve.is_dashed else "-"
-        line = axes.plot(figure.arcs, values, dashes, color=curve.colour, linewidth=LINE)[0]
-        line.set_gid(f"curve-{figure.curves.index(curve)}")
-    axes.set_xlim(0, figure.arcs[-1] or 1.0)
+        dashes = (3.7, 1.6) if curve.is_dashed else ()
+        pen = Pen(hexadecimal(curve.colour), LINE, dashes, join="round")
+        path = plot.curve(figure.arcs, values, pen, f"curve-{figure.curves.index(curve)}")
+        paths += [path] if path else []
+    return [*knots, *shapes, plot.clipped(paths, LINE), *_name_shapes(look, plot, curves, drawn)]
 
 
-def _fit(axes: "Axes", in_shares: bool, has_whole: bool) -> None:
-    """has_whole: 100% is the most that one of them can have."""
-    if in_shares and min(axes.get_ylim()) > -5 and has_whole:
-        axes.set_ylim(0, max(100.0, axes.get_ylim()[1] if axes.get_ylim()[1] > 106 else 100.0))
-    elif axes.dataLim.ymin >= 0:
-        axes.set_ylim(bottom=0)
+def _axis(drawn: Sequence[FloatArray], has_whole: bool, in_shares: bool) -> Axis:
+    """Return the axis up, to 100 % where that is the most that one of the curves can have."""
+    values = np.concatenate([values[np.isfinite(values)] for values in drawn])
+    low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 1.0)
+    pad = ROOM * ((high - low) or 1.0)
+    if in_shares and low - pad > -5 and has_whole:
+        return Axis(0.0, high + pad if high + pad > 106 else 100.0)
+    return Axis(0.0 if low >= 0 else low - pad, high + pad)
 
 
-def _mark(axes: "Axes", figure: ProfileFigure, has_discs: bool) -> None:
-    """The points that the path goes through, by lines and, over the plot, by discs; never one on another."""
-    style, points = figure.look.style, figure.look.points
-    across = 1.5 * points
-    apart = across / 72 / (0.7 * figure.look.inches) * (figure.arcs[-1] or 1.0)
+def _knot_shapes(figure: ProfileFigure, plot: Plot, has_discs: bool) -> list[Shape]:
+    """Return lines where the path goes through points and, over the plot, discs, none on another: the ends go first."""
+    look, radius = figure.look, DISC * figure.look.size
     taken: list[float] = []
+    shapes: list[Shape] = []
     ends = figure.knots[:1] + figure.knots[-1:]
     for knot in (*ends, *figure.knots[1:-1]):
-        axes.axvline(knot.arc, color=faded(style, 0.4), linewidth=0.5, zorder=0)
-        if not has_discs or not knot.colour or any(abs(knot.arc - other) < apart for other in taken):
+        shapes.append(plot.upright(knot.arc, Pen(faded(look.style, 0.4), 0.67)))
+        x = float(plot.x(knot.arc))
+        if not has_discs or not knot.colour or any(abs(x - other) < 2 * radius for other in taken):
             continue
-        taken.append(knot.arc)
-        disc: dict[str, Any] = {"boxstyle": "circle,pad=0.25", "facecolor": knot.colour, "edgecolor": "none"}
-        if not knot.number:
-            disc |= {"edgecolor": style.mark_edge, "linewidth": 0.8, "boxstyle": "circle,pad=0.1"}
-        axes.annotate(
-            knot.number or " ",
-            (knot.arc, 1.0),
-            xycoords=("data", "axes fraction"),
-            xytext=(0, 0.9 * points),
-            textcoords="offset points",
-            ha="center",
-            va="center",
-            fontsize=0.85 * points,
-            fontweight="bold",
-            color="#FFFFFF",
-            bbox=disc,
-        )
+        taken.append(x)
+        at, colour = (x, plot.box.y - 1.3 * radius), hexadecimal(knot.colour)
+        if knot.number:
+            shapes.append(disc(at, radius, colour))
+            white = 1.0, 1.0, 1.0, 1.0
+            shapes.append(Text(knot.number, *at, 0.85 * look.size, white, True, "centre", "capitals"))
+        else:
+            shapes.append(disc(at, 0.7 * radius, colour, Pen(opaque(look.style.mark_edge), 1.07)))
+    return shapes
 
 
-def _name(
-    axes: "Axes", figure: ProfileFigure, curves: Sequence[ProfileCurve], drawn: Sequence[FloatArray]
-) -> list["Annotation"]:
-    """Each curve's name at its end, from the lowest up."""
+def _name_shapes(
+    look: ChartLook,
+    plot: Plot,
+    curves: Sequence[ProfileCurve],
+    drawn: Sequence[FloatArray],
+) -> list[Shape]:
+    """Return each curve's name at its end, one above the other where they would touch."""
+    step = 1.25 * look.size
     ends = [
-        (float(values[np.isfinite(values)][-1]), curve)
-        for values, curve in zip(drawn, curves, strict=True)
+        (float(plot.y(values[np.isfinite(values)][-1])), curve, _name_lines(curve))
+        for curve, values in zip(curves, drawn, strict=True)
         if np.isfinite(values).any()
     ]
-    return [
-        axes.annotate(
-            "\n".join(wrap(curve.name, LONG, break_long_words=False)),
-            (1.0, end),
-            xycoords=("axes fraction", "data"),
-            xytext=(5, 0),
-            textcoords="offset points",
-            va="center",
-            fontsize=figure.look.points,
-            fontweight="bold",
-            color=curve.colour,
-        )
-        for end, curve in sorted(ends, key=lambda each: each[0])
-    ]
-
-
-def _spread(axes: "Axes", points: float, inches: float, names: Sequence["Annotation"]) -> None:
-    """One above the other where they would touch, on a page so many inches high."""
-    low, high = axes.get_ylim()
-    line = points * 1.25 / 72 / (axes.get_position().height * inches)
-    halves = [line * (1 + name.get_text().count("\n")) / 2 for name in names]
+    ends.sort(key=lambda each: -each[0])
+    halves = [step * len(lines) / 2 for _, _, lines in ends]
     places: list[float] = []
-    for k, name in enumerate(names):
-        at = (name.xy[1] - low) / (high - low)
-        places.append(max(at, places[-1] + halves[k - 1] + halves[k]) if places else at)
-    over = 1 + line / 2
+    for k, (y, _, _) in enumerate(ends):
+        places.append(min(y, places[-1] - halves[k - 1] - halves[k]) if places else y)
+    top = plot.box.y - step / 2
     for k in range(len(places) - 1, -1, -1):
-        places[k] = min(places[k], over - halves[k])
-        over = places[k] - halves[k]
-    for name, at in zip(names, places, strict=True):
-        name.xycoords, name.xy = "axes fraction", (1.0, at)
+        places[k] = max(places[k], top + halves[k])
+        top = places[k] + halves[k]
+    x, shapes = plot.box.right + NAME_GAP, list[Shape]()
+    for (_, curve, lines), y in zip(ends, places, strict=True):
+        for k, words in enumerate(lines):
+            middle = y + (k - (len(lines) - 1) / 2) * step
+            shapes.append(Text(words, x, middle, look.size, hexadecimal(curve.colour), True, level="capitals"))
+    return shapes
+
+
+def profile_figure(document: Document, page: Page, path: SurfacePath, answers: Mapping[int, Answer]) -> ProfileFigure:
+    """Return the figure of the chart, in the style of the page and the colours that go with its background.
+
+    The answers are those of panels on the path's surface, by the panels' ids.
+    """
+    style = style_of(page.style, document.colours)
+    fields = {id: answer.field for id, answer in answers.items() if answer.field is not None}
+    along = {panel.id: path.along(fields[panel.id]) for panel in document.panels if panel.id in fields}
+    curves = tuple(
+        profile_curve(document, id, answers[id], values, curve_colours(style))
+        for id, values in along.items()
+        if np.isfinite(values).any()
+    )
+    names = points_along(document)
+    names = (*names, *names[:1])  # a whole section may come back to the first
+    knots = [_knot(document, name, float(path.arcs[at]), style) for at, name in zip(path.knots, names, strict=False)]
+    return ProfileFigure(
+        path.arcs, curves, document[Profile].shares, "mesh units", tuple(knots), ChartLook.of(page, style)
+    )
+
+
+def profile_fields(document: Document, answers: Mapping[int, Answer]) -> dict[str, FloatArray]:
+    """Return the fields (n,) of panels, by distinct names."""
+    found: dict[str, FloatArray] = {}
+    for panel in document.panels:
+        answer = answers.get(panel.id)
+        if answer is None or answer.field is None:
+            continue
+        base = str(panel.shows)
+        if (point := (*panel.shows.points, "source")[0]) != "source":
+            base = f"{base} from {point}"
+        (name,) = free_names(base, 1, list(found))
+        found[name] = answer.field
+    return found
+
+
+def _knot(document: Document, name: str, arc: float, style: Style) -> ProfileKnot:
+    """Return the mark of a point: a pin by its number, a source without one, another point without a disc."""
+    number = document[Pins].number(name)
+    if number:
+        return ProfileKnot(arc, str(number), PINS[document[Pins].pins[number - 1].colour])
+    is_source = any(name in panel.shows.points for panel in document.panels)
+    colour = "#" + "".join(f"{round(255 * x):02X}" for x in style.source)
+    return ProfileKnot(arc, "", colour if is_source else "")

@@ -1,115 +1,76 @@
-"""What can be saved and copied of a profile.  `dock` is its dock."""
+"""The profile in files and on the clipboard, as numbers and as a figure."""
 
-import os
 from collections.abc import Callable
-from functools import partial
 from typing import TYPE_CHECKING
 
-from qtpy import QtWidgets
-
-from bihdist_core import BihdistError, ParameterError
-from bihdist_core.analysis.profile_output import PROFILE_FORMATS, write_profile
-from bihdist_core.analysis.surface_paths import SurfacePath
+from bihdist_core import ParameterError
+from bihdist_core.analysis.surface_paths import PROFILE_FORMATS, SurfacePath, write_profile
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
-from bihdist_core.whole_file import check_output
 
 from ...document.file_names import file_name
-from ...qt.files.exports import Exports
-from ...qt.files.saving import ask_path
+from ...qt.context import Context
+from ...qt.files.chart_files import save_figure
+from ...qt.files.saving import save
 
 if TYPE_CHECKING:
-    from .dock import ProfileDock
     from .figure import ProfileFigure
-
-FIGURE_FORMATS = (".pdf", ".png", ".svg", ".eps")
 
 
 class ProfileFiles:
-    """The profile as numbers and as a figure: the menu, the dialogs and what they write."""
+    """Saves and copies a profile; `profile()` returns its path and the ids of the panels with a curve."""
 
-    def __init__(self, dock: "ProfileDock") -> None:
-        self._dock = dock
-        self._actions: list[QtWidgets.QAction] = []
+    def __init__(self, context: Context, profile: Callable[[], tuple[SurfacePath | None, list[int]]]) -> None:
+        self._context, self._profile = context, profile
 
-    def menu(self, parent: QtWidgets.QWidget) -> QtWidgets.QMenu:
-        """The menu of what can be saved and copied."""
-        menu = QtWidgets.QMenu(parent)
-        self._actions = [
-            menu.addAction("Save the numbers…", self.choose_numbers),
-            menu.addAction("Save as a figure…", self.choose_figure),
-            menu.addAction("Copy the numbers", self.copy),
-        ]
-        self.allow(False)
-        return menu
+    def save_numbers(self, path: str = "") -> None:
+        """Save the path and the fields along it; ask for a file if none is given."""
 
-    def allow(self, is_there: bool) -> None:
-        """Enable the menu's entries, or disable them."""
-        for action in self._actions:
-            action.setEnabled(is_there)
+        def write(path: str) -> None:
+            write_profile(path, self._path(), self._fields())
 
-    # ------------------------------------------------------------------ by a dialog
-    def choose_numbers(self) -> None:
-        """Ask for a file, and write the numbers."""
-        self._choose("Save the profile's numbers", tuple(PROFILE_FORMATS), self.save_numbers)
+        save(self._context, "Save the profile's numbers", self._name, tuple(PROFILE_FORMATS), write, path)
 
-    def choose_figure(self) -> None:
-        """Ask for a file, and draw the chart."""
-        self._choose("Save the profile as a figure", FIGURE_FORMATS, self.save_figure)
-
-    def _choose(self, title: str, formats: tuple[str, ...], save: Callable[[str], None]) -> None:
-        context = self._dock.context
-        path = ask_path(context, title, file_name([context.session.first_surface.name], "profile"), formats)
-        if path:
-            try:
-                save(path)
-            except BihdistError as error:
-                context.fail(error)
-
-    # ------------------------------------------------------------------ what is written
-    def save_numbers(self, path: str) -> None:
-        """The path, and the fields along it, as the extension says (`PROFILE_FORMATS`)."""
-        if os.path.splitext(path)[1].lower() not in PROFILE_FORMATS:
-            raise ParameterError(f"{path} has to end with one of {', '.join(PROFILE_FORMATS)}.")
-        write_profile(path, self._there(), self._fields())
-        self._dock.context.tell(f"Saved {os.path.basename(path)}")
-
-    def save_figure(self, path: str) -> None:
-        """In the background, as all figures."""
+    def save_figure(self, path: str = "") -> None:
+        """Save the figure in the background; ask for a file if none is given."""
         from .figure import save_profile_figure
 
-        check_output(path, FIGURE_FORMATS)
-        self._dock.context[Exports].start(partial(save_profile_figure, self.figure(), path), path, "Figure")
+        title = "Save the profile as a figure"
+        save_figure(self._context, title, self._name, save_profile_figure, self.figure, path)
 
     def figure(self) -> "ProfileFigure":
-        """What the chart shows, in the style of the page and the colours that go with its ground."""
-        from .figure_curves import profile_figure
+        """Return the figure of the chart, in the style of the page and the colours that go with its background."""
+        from .figure import profile_figure
 
-        context = self._dock.context
-        return profile_figure(context.document, context.page, self._there(), self._answers)
+        context = self._context
+        return profile_figure(context.document, context.page, self._path(), self._answers)
 
     def copy(self) -> None:
-        """A table with tabs, as spreadsheets read it."""
-        if self._dock.path is None:
-            return
-        fields = {name: self._dock.path.along(field) for name, field in self._fields().items()}
+        """Copy a table with tabs, as spreadsheets read it."""
+        path = self._path()
+        fields = {name: path.along(field) for name, field in self._fields().items()}
         rows = ["\t".join(["arc", *fields])]
-        for k, arc in enumerate(self._dock.path.arcs):
+        for k, arc in enumerate(path.arcs):
             rows.append("\t".join(repr(float(x)) for x in (arc, *(column[k] for column in fields.values()))))
-        QtWidgets.QApplication.clipboard().setText("\n".join(rows) + "\n")
-        self._dock.context.tell(f"{len(rows) - 1:,} points of the profile are on the clipboard")
+        self._context.copy("\n".join(rows) + "\n", f"{len(rows) - 1:,} points of the profile are on the clipboard")
 
-    def _there(self) -> SurfacePath:
-        if self._dock.path is None:
+    @property
+    def _name(self) -> str:
+        return file_name([self._context.session.mesh().surface.name], "profile")
+
+    def _path(self) -> SurfacePath:
+        path, _ = self._profile()
+        if path is None:
             raise ParameterError("There is no path yet; wait until it has been found.")
-        return self._dock.path
+        return path
 
     @property
     def _answers(self) -> dict[int, Answer]:
-        """Of the panels that have a curve."""
-        return {id: self._dock.context.session.shown[id].answer for id in self._dock.curves}
+        """The answers of the panels that show a curve."""
+        _, panels = self._profile()
+        return {id: self._context.session.shown[id].answer for id in panels}
 
     def _fields(self) -> dict[str, FloatArray]:
-        from .figure_curves import profile_fields
+        from .figure import profile_fields
 
-        return profile_fields(self._dock.context.document, self._answers)
+        return profile_fields(self._context.document, self._answers)

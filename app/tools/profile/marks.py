@@ -3,7 +3,7 @@
 from bihdist_core import BihdistError
 from bihdist_core.analysis.places import Places
 
-from ...marks.line_looks import PATH
+from ...drawing.line_looks import PATH
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import LineMark, Remark
 from .part import shows_path
@@ -11,7 +11,7 @@ from .paths import path_of
 
 
 def marks(marked: MarkedPanel) -> list[LineMark | Remark]:
-    """On panels of its surface; or a sentence on why there is none."""
+    """Return the path on panels of its surface, or a sentence that says why there is none."""
     try:
         path = marked.find(Places, lambda: _path(marked))
     except BihdistError as error:

@@ -20,13 +20,13 @@ WAY = Option(
 
 
 def direction(text: str) -> tuple[float, ...]:
-    """Three numbers; ParameterError for other text."""
+    """Return three numbers from words; ParameterError for other text."""
     try:
         found = numbers(text)
     except ParameterError:
         found = ()
     if len(found) != 3:
-        raise ParameterError(f"{text!r} is no direction such as 0,0,1")
+        raise ParameterError(f"{text!r} is not a direction such as 0,0,1")
     return found
 
 
@@ -36,7 +36,7 @@ ACROSS = Option(
 
 
 def _path_of(recipe: Recipe) -> dict[str, Any]:
-    """Through which points it goes, and how, if it is drawn."""
+    """Return the points of the path and its way, if it is drawn."""
     document, profile = recipe.document, recipe.document[Profile]
     if not shows_path(document):
         return {}
@@ -55,7 +55,7 @@ def _path_of(recipe: Recipe) -> dict[str, Any]:
 
 def _with_path(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
     if "profile" not in values:
-        raise ParameterError("--way and --across go with --profile, the path that is drawn.")
+        raise ParameterError("--way and --across need --profile.")
     through, way = values["profile"], values.get("way", "auto")
     through = () if through is True else through
     return replace(recipe, document=with_profile(recipe.document, through, way, values.get("across")))
@@ -66,8 +66,8 @@ ROWS = (
         (
             Option(
                 "profile",
-                "the path through points: vertices, places in faces, source, pin:1 (nothing: through the pins in "
-                "order)",
+                "the path through points: vertices, places in faces, source, pin:1 (without points: "
+                "through the pins in order)",
                 False,
                 metavar="V,…",
                 read=words_in,

@@ -1,8 +1,9 @@
-"""The path of a document's profile: what it is led through, and the path itself, computed in the background."""
+"""The path of a document's profile, computed in the background."""
 
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from weakref import WeakKeyDictionary
 
@@ -23,17 +24,17 @@ from ...session.latest_request_worker import LatestRequestWorker
 from ...session.loaded_mesh import LoadedMesh
 from .part import SECTIONS, Profile, points_along
 
-SLOW = 0.5
+SLOW_PATH_S = 0.5
 """Seconds after which a path gives way to the next one, where its places have moved meanwhile."""
 
 FEW = "A profile goes from point to point: pin two points, or choose its ends above."
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class PathWanted:
     """A path through vertices and places in faces of a surface, in one of the document's WAYS.
 
-    across: (3,) in the plane of a section.
+    A section has a direction `across` (3,) in its plane.
     """
 
     surface: Surface
@@ -41,13 +42,8 @@ class PathWanted:
     way: str
     across: tuple[float, float, float] | None = None
 
-    def is_as(self, other: "PathWanted | None") -> bool:
-        """Whether that is the same path."""
-        mine = self.places, self.way, self.across
-        return other is not None and self.surface is other.surface and mine == (other.places, other.way, other.across)
-
     def is_alike(self, other: "PathWanted | None") -> bool:
-        """Whether the two differ in places only, as where one of them is dragged."""
+        """Return whether both differ in their places only, as while one is dragged."""
         mine = self.way, len(self.places)
         return other is not None and self.surface is other.surface and mine == (other.way, len(other.places))
 
@@ -55,10 +51,10 @@ class PathWanted:
 def wanted_path(
     document: Document, surfaces: Callable[[str], Surface], seen: tuple[float, float, float] | None = None
 ) -> PathWanted:
-    """The path that a document's profile asks for.
+    """Return the path that a document's profile asks for.
 
-    surfaces: by their names in the document.  seen: (3,) the direction of a section for which the document has none.
-    ParameterError where there are fewer than two points, or points that are no places, or on several surfaces.
+    `surfaces` returns a surface by its name; `seen` is the direction (3,) of a section that has none. Raises
+    ParameterError for fewer than two points, for sources that are not points, and for points on several surfaces.
     """
     points = [document.point(name) for name in points_along(document)]
     if len(points) < 2:
@@ -69,24 +65,24 @@ def wanted_path(
     profile = document[Profile]
     places = tuple(_place(point.at, point.name) for point in points)
     if SECTIONS.get(profile.way) == "whole" and len(places) > 2:
-        raise ParameterError("The whole section is that through two points; choose them above.")
+        raise ParameterError("A whole section goes through two points; choose them above.")
     surface, words = surfaces(points[0].surface), [point_words(document, point.name) for point in points]
     components = surface.component_of_vertex[Places.of(surface, places).corners[:, 0]].tolist()
     for (before, a, one), (after, b, other) in pairwise(zip(words, places, components, strict=True)):
         if a == b:
-            raise ParameterError(f"From {before} to {after} there is no path: they are at the same place.")
+            raise ParameterError(f"There is no path from {before} to {after}: they are at the same place.")
         if one != other:
             raise ParameterError(
-                f"From {before} to {after} there is no path: they are on components of the mesh that do not meet."
+                f"There is no path from {before} to {after}: they are on different components of the mesh."
             )
     across = (profile.across or seen) if profile.way in SECTIONS else None
     return PathWanted(surface, places, profile.way, across)
 
 
 def path_of(document: Document, surfaces: Mapping[str, LoadedMesh]) -> tuple[str, SurfacePath]:
-    """The path of a document's profile, waited for, and the name of its surface; the last of each surface is kept.
+    """Compute the path of a document's profile; return the name of its surface and the path.
 
-    Raises ParameterError, as `wanted_path` does, and what making the path raises.
+    The last path of each surface is kept. Raises the errors of `wanted_path` and of making the path.
     """
     wanted = wanted_path(document, lambda name: surfaces[name].surface)
     name = document.point(points_along(document)[0]).surface
@@ -95,9 +91,9 @@ def path_of(document: Document, surfaces: Mapping[str, LoadedMesh]) -> tuple[str
 
 
 def point_words(document: Document, name: str) -> str:
-    """How a sentence names a point: a pin by its number, what is neither pin nor source by its place."""
-    number = next((k for k, pin in enumerate(document[Pins].pins, 1) if pin.point == name), None)
-    if number is not None:
+    """Return the name of a point in sentences: a pin's number, or another point's name or place."""
+    number = document[Pins].number(name)
+    if number:
         return f"pin {number}"
     at = document.point(name).at
     shown = {point for panel in document.panels for point in panel.shows.points}
@@ -118,12 +114,12 @@ class PathMaker:
         self._last: tuple[PathWanted, SurfacePath] | None = None
 
     def path(self, wanted: PathWanted, progress: Progress) -> SurfacePath:
-        """The wanted path; the one before is returned again if it is the same."""
-        if self._last is None or not wanted.is_as(self._last[0]):
-            self._last = wanted, self._made(wanted, progress)
+        """Return the path; the one before is returned again if it is the same."""
+        if self._last is None or wanted != self._last[0]:
+            self._last = wanted, self._make(wanted, progress)
         return self._last[1]
 
-    def _made(self, wanted: PathWanted, progress: Progress) -> SurfacePath:
+    def _make(self, wanted: PathWanted, progress: Progress) -> SurfacePath:
         if wanted.way in SECTIONS:
             if wanted.across is None:
                 raise ParameterError("A section needs a direction that lies in its plane; none is given.")
@@ -139,10 +135,10 @@ _makers: WeakKeyDictionary[LoadedMesh, PathMaker] = WeakKeyDictionary()
 class PathWorker:
     """Computes the latest path that was asked for, on a thread of its own.
 
-    found: called by way of `post` with what was wanted and a `SurfacePath`, or a sentence that says why there is none;
-    what is no longer wanted is dropped.  going: called the same way with what a path that takes long is at.
+    `found` is called by `post` with the request and a `SurfacePath`, or a sentence that says why there is none;
+    answers that are no longer wanted are dropped. `going` is called with the step of a slow path.
 
-    Where places move, paths follow them as fast as they are found; one that takes long is given up for the next.
+    While points move, paths follow them as fast as they are found; a slow one is given up for the next.
     """
 
     def __init__(
@@ -154,38 +150,34 @@ class PathWorker:
         self._post, self._found, self._going = post, found, going
         self._wanted: PathWanted | None = None
         self._maker = PathMaker()
-        self._worker: LatestRequestWorker[PathWanted] | None = None
+        self._worker: LatestRequestWorker[PathWanted] = LatestRequestWorker(
+            "profile", self._work, self._report, self._failed
+        )
 
     def ask(self, wanted: PathWanted | None) -> None:
         """Compute this path; None for none."""
         self._wanted = wanted
-        if wanted is not None and self._worker is None:
-            self._worker = LatestRequestWorker("profile", self._work, self._report, self._failed)
-        if self._worker is not None:
-            self._worker.submit(wanted)
+        self._worker.submit(wanted)
 
     def close(self) -> None:
-        """For good; a path on its way is given up."""
+        """Stop for good, and give up a path on its way."""
         self._wanted = None
-        if self._worker is not None:
-            self._worker.end()
+        self._worker.end()
 
     # ------------------------------------------------------------------ on the lane's thread
     def _work(self, wanted: PathWanted, worker: LatestRequestWorker[PathWanted]) -> None:
         begun = time.monotonic()
 
         def is_wanted(latest: PathWanted) -> bool:
-            return latest is wanted or (wanted.is_alike(latest) and time.monotonic() - begun < SLOW)
+            return latest is wanted or (wanted.is_alike(latest) and time.monotonic() - begun < SLOW_PATH_S)
 
-        path = self._maker.path(wanted, worker.progress(is_wanted))
-        self._post(lambda: self._tell(wanted, path))
+        self._post(partial(self._tell, wanted, self._maker.path(wanted, worker.progress(is_wanted))))
 
     def _failed(self, wanted: PathWanted, error: Exception) -> None:
-        reason = failure_in_words(error)
-        self._post(lambda: self._tell(wanted, reason))
+        self._post(partial(self._tell, wanted, failure_in_words(error)))
 
     def _report(self, fraction: float | None, text: str) -> None:
-        self._post(lambda: self._going(text))
+        self._post(partial(self._going, text))
 
     def _tell(self, wanted: PathWanted, found: SurfacePath | str) -> None:
         is_on_its_way = isinstance(found, SurfacePath) and wanted.is_alike(self._wanted)

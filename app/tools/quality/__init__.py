@@ -1,4 +1,4 @@
-"""How good a distance is, and the triangles it is computed on."""
+"""The quality of distances in numbers, and their extrema."""
 
 from ...document.tools import Tool
 
@@ -10,8 +10,9 @@ TOOL = Tool(
     key="Q",
     tip="Extrema, isotropy, kinks and triangles of every panel's distance",
     icon="quality",
-    synonyms="measure check triangles extrema isotropy",
+    synonyms="measure accuracy error check triangles extrema isotropy",
     dock="dock:QualityDock",
     findings="findings:QualityFindings",
     marks="marks:marks",
+    items="marks:items",
 )

@@ -1,64 +1,62 @@
 """The numbers of a field's quality, in words: what each is called, what it means, and how it is written."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sized
 from dataclasses import dataclass
 
 import numpy as np
 
+from bihdist_core.analysis.persistence import OtherExtrema
 from bihdist_core.analysis.quality import FieldQuality
 
-from ...qt.look.numbers import number, share
-from .judgement import Found
+from ...drawing.numbers import number, share
+from .quality_worker import KnownQuality
 
 WAITING, NONE = "…", "–"
 
 
 @dataclass(frozen=True)
 class Measure:
-    """name: in the table; tip: what it means; written: of what has been found, WAITING where it has not yet.
+    """A row of the table: its name, what it means, and functions that write the number and a sentence on it.
 
-    sentence: on one panel's number, or "".  value: the number, where it is not a count.
+    `written` returns WAITING while the number is not known. `value` is the number itself, unless it is a count.
     """
 
     name: str
     tip: str
-    written: Callable[[Found], str]
-    sentence: Callable[[Found], str] = lambda found: ""
+    written: Callable[[KnownQuality], str]
+    sentence: Callable[[KnownQuality], str] = lambda found: ""
     value: Callable[[FieldQuality], float] | None = None
 
-    def with_all_digits(self, found: Found) -> str:
-        """As it is copied."""
+    def with_all_digits(self, found: KnownQuality) -> str:
+        """Return the number with all digits, for the clipboard."""
         exact = None if self.value is None or found.whole is None else float(self.value(found.whole))
         return repr(exact) if exact is not None and np.isfinite(exact) else self.written(found)
 
 
-def _minima(found: Found) -> str:
-    if found.extrema is None:
-        return NONE if found.failure else WAITING
-    return str(len(found.extrema.minima))
+def _count(extrema: Callable[[OtherExtrema], Sized]) -> Callable[[KnownQuality], str]:
+    def written(found: KnownQuality) -> str:
+        if found.extrema is None:
+            return NONE if found.failure else WAITING
+        return str(len(extrema(found.extrema)))
+
+    return written
 
 
-def _minima_sentence(found: Found) -> str:
+def _minima_sentence(found: KnownQuality) -> str:
     if found.extrema is None or not len(found.extrema.minima):
         return ""
     return f"The deepest, at vertex {found.extrema.minima[0]}, by {share(found.extrema.minima_depth[0])} of the maximum"
 
 
-def _maxima(found: Found) -> str:
-    if found.extrema is None:
-        return NONE if found.failure else WAITING
-    return str(len(found.extrema.maxima))
-
-
-def _maxima_sentence(found: Found) -> str:
+def _maxima_sentence(found: KnownQuality) -> str:
     if found.extrema is None or len(found.extrema.maxima) < 2:
         return ""
     second, height = found.extrema.maxima[1], found.extrema.maxima_height[1]
     return f"After the farthest point, that at vertex {second} stands out most, by {share(height)} of the maximum"
 
 
-def _of_whole(value: Callable[[FieldQuality], float]) -> Callable[[Found], str]:
-    def written(found: Found) -> str:
+def _of_whole(value: Callable[[FieldQuality], float]) -> Callable[[KnownQuality], str]:
+    def written(found: KnownQuality) -> str:
         if found.whole is None:
             return NONE if found.failure else WAITING
         # Infinite, too, where the field is 0 beside the source; NaN becomes NONE.
@@ -67,22 +65,22 @@ def _of_whole(value: Callable[[FieldQuality], float]) -> Callable[[Found], str]:
     return written
 
 
-def _isotropy_sentence(found: Found) -> str:
+def _isotropy_sentence(found: KnownQuality) -> str:
     if found.whole is None:
         return found.failure
     if found.whole.circles:
         return ""
-    return "Circles are around a single place that a distance starts from; here is none."
+    return "Isotropy is measured around a single source point."
 
 
-def _kink_sentence(found: Found) -> str:
+def _kink_sentence(found: KnownQuality) -> str:
     if found.whole is None or found.whole.kink_edge[0] < 0:
         return ""
     first, second = found.whole.kink_edge
     return f"Across the edge from vertex {first} to vertex {second}"
 
 
-def _triangles(found: Found) -> str:
+def _triangles(found: KnownQuality) -> str:
     if found.triangles_failure:
         return NONE
     if found.triangles is None:
@@ -92,10 +90,10 @@ def _triangles(found: Found) -> str:
     return share(found.triangles.violations / found.triangles.triples)
 
 
-def _triangles_sentence(found: Found) -> str:
+def _triangles_sentence(found: KnownQuality) -> str:
     sample = found.triangles
     if sample is None:
-        return found.triangles_failure or "It is being measured; exact geodesic distances take their time."
+        return found.triangles_failure or "Being computed; exact geodesic distances take a while."
     so_far = "" if found.is_sampled else f"; so far, among {found.points:,} points"
     sentence = f"{sample.violations:,} of {sample.triples:,} triples break it"
     if sample.violations:
@@ -109,14 +107,14 @@ MEASURES = (
         "Minima away from the source that persist over a thousandth of the range or more: places that look like the "
         "source. White triangles that point down. A distance should have none. Of a difference or a field that starts "
         "nowhere, all minima.",
-        _minima,
+        _count(lambda extrema: extrema.minima),
         _minima_sentence,
     ),
     Measure(
         "Maxima",
         "Maxima that persist over a thousandth of the range or more. White triangles that point up. One at the end of "
         "each limb is the shape's; more are the distance's.",
-        _maxima,
+        _count(lambda extrema: extrema.maxima),
         _maxima_sentence,
     ),
     Measure(

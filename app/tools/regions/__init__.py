@@ -18,4 +18,5 @@ TOOL = Tool(
     parts=("part:DividedPanels",),
     options="options:ROWS",
     marks="marks:marks",
+    items="part:items",
 )

@@ -10,7 +10,12 @@ from ...commands.options import add_areas, add_distance, add_mesh, add_output, a
 from ...commands.result import Result, distance_facts
 from ...commands.terminal import accuracy, progress_line
 
-WORDS = "the part of a mesh that is nearest to each of some vertices, by a distance"
+WORDS = "divide a mesh into the parts nearest to each of some vertices"
+EXAMPLES = (
+    "bihdist regions hand --sources 12,400,900 -o labels.npy",
+    "bihdist regions hand --sources farthest:12 -o labels.csv --boundaries lines.obj",
+    "bihdist regions hand --sources farthest:12 --region-mesh parts.ply",
+)
 TEXT = ".csv"
 
 
@@ -29,14 +34,19 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> Result:
     """Write which of some vertices each vertex is nearest to, and print the areas of the regions."""
     from bihdist_core.analysis.region_boundaries import region_boundaries, write_boundaries
-    from bihdist_core.analysis.region_mesh import region_mesh
-    from bihdist_core.analysis.region_output import LABEL_FORMATS, REGION_MESH_FORMATS, write_labels, write_region_mesh
+    from bihdist_core.analysis.region_mesh import (
+        LABEL_FORMATS,
+        REGION_MESH_FORMATS,
+        region_mesh,
+        write_labels,
+        write_region_mesh,
+    )
     from bihdist_core.analysis.regions import voronoi_regions
     from bihdist_core.distances.answers import Distances
     from bihdist_core.errors import ParameterError
+    from bihdist_core.file_output import check_outputs
     from bihdist_core.formats.curve_output import CURVE_FORMATS
     from bihdist_core.formats.pins import Pins
-    from bihdist_core.whole_file import check_outputs
 
     if not check_outputs(
         (options.output, LABEL_FORMATS),

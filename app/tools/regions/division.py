@@ -7,6 +7,7 @@ costs one.
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -15,7 +16,7 @@ from bihdist_core.analysis.region_boundaries import Boundary, region_boundaries
 from bihdist_core.analysis.regions import Regions, voronoi_regions
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import failure_in_words
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.errors import Cancelled
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
@@ -26,7 +27,7 @@ from ...session.latest_request_worker import LatestRequestWorker
 from ...session.loaded_mesh import LoadedMesh
 from .part import DividedPanels
 
-MEMORY = 512_000_000
+MAX_KEPT_BYTES = 512_000_000
 """Bytes of pins' fields that are kept: 640 of 100,000 vertices."""
 
 
@@ -41,7 +42,7 @@ class RegionsQuestion:
 
     @property
     def about(self) -> Hashable:
-        """All but from where."""
+        """The values that the answer depends on, except the pins."""
         return (self.mesh, self.areas, self.spec)
 
 
@@ -58,7 +59,7 @@ class Divided:
 
 
 def regions_questions(document: Document) -> dict[int, RegionsQuestion]:
-    """By panel, of those that show the regions of the pins on their surface."""
+    """Return the questions of the panels that show the regions of the pins, by panel."""
     found = {}
     for panel in document.panels:
         places = tuple(at for at in pinned(document, panel.surface) if at is not None)
@@ -69,7 +70,10 @@ def regions_questions(document: Document) -> dict[int, RegionsQuestion]:
 
 
 def regions_of(question: RegionsQuestion, loaded: LoadedMesh) -> Regions:
-    """The answer, waited for; of each surface, the last of each distance is kept.  BihdistError where there is none."""
+    """Return the regions, computed if necessary; the last of each distance is kept for each surface.
+
+    Raises BihdistError if there are none.
+    """
     kept = _last.setdefault(loaded, {})
     known = kept.get(question.about)
     if known is None or known[0] != question:
@@ -83,7 +87,7 @@ _last: WeakKeyDictionary[LoadedMesh, dict[Hashable, tuple[RegionsQuestion, Regio
 
 
 def pinned(document: Document, surface: str) -> list[Source | None]:
-    """Where the pins of a surface are, in their order."""
+    """Return the places of the pins of a surface, in their order."""
     points = [document.point(pin.point) for pin in document[Pins].pins]
     return [point.at for point in points if point.surface == surface]
 
@@ -92,46 +96,42 @@ _Request = Mapping[int, tuple[RegionsQuestion, LoadedMesh]]
 
 
 class Dividing:
-    """See the module.  `told(panel)` is called on the view's thread when there are other regions for it, or none."""
+    """Divides surfaces among pins in the background; `told(panel)` is called on the view's thread when regions
+    change."""
 
     def __init__(self, post: Callable[[Callable[[], None]], None], told: Callable[[int], None]) -> None:
         self._post, self._told = post, told
         self._asked: dict[int, RegionsQuestion] = {}
         self._divided: dict[int, Divided] = {}
         self._fields: OrderedDict[Hashable, FloatArray] = OrderedDict()
-        self._worker: LatestRequestWorker[_Request] | None = None
+        self._worker: LatestRequestWorker[_Request] = LatestRequestWorker("regions", self._divide)
 
     def ask(self, asked: Mapping[int, tuple[RegionsQuestion, LoadedMesh]]) -> None:
-        """Of these panels, and no others."""
+        """Ask for the regions of these panels only."""
         before, self._asked = self._asked, {id: question for id, (question, _) in asked.items()}
         for id in [id for id in self._divided if not self._is_about(id, self._divided[id].question)]:
             del self._divided[id]
             self._told(id)
-        if self._asked == before:
-            return
-        if self._worker is None and asked:
-            self._worker = LatestRequestWorker("regions", self._divide, lambda *_: None, _unheard)
-        if self._worker is not None:
+        if self._asked != before:
             self._worker.submit(dict(asked) or None)
 
     def divided(self, panel: int) -> Divided | None:
-        """What is shown of a panel: the answer to its question, or, while that is on its way, to the one before."""
+        """Return the regions of a panel: the answer to its question, or to the one before while that is on its way."""
         return self._divided.get(panel)
 
     def is_answered(self, panel: int) -> bool:
-        """Whether that is the answer to its present question."""
+        """Return whether a panel's regions answer its present question."""
         known = self._divided.get(panel)
         return known is not None and known.question == self._asked.get(panel)
 
     @property
     def is_complete(self) -> bool:
-        """Whether the regions of all panels are known."""
+        """Return whether the regions of all panels are known."""
         return all(self.is_answered(panel) for panel in self._asked)
 
     def close(self) -> None:
-        """Stop, and wait for it."""
-        if self._worker is not None:
-            self._worker.close()
+        """Stop, and wait until the work has ended."""
+        self._worker.close()
 
     def _is_about(self, panel: int, question: RegionsQuestion) -> bool:
         return panel in self._asked and self._asked[panel].about == question.about
@@ -143,8 +143,9 @@ class Dividing:
         for id, (question, loaded) in request.items():
             if question not in known:
                 # A pin that is dragged is elsewhere before this is done; what is late is shown.
-                known[question] = self._answer(question, loaded, _wanted(worker, question.about))
-            self._deliver(id, known[question])
+                progress = worker.progress(partial(_is_asked_about, question.about))
+                known[question] = self._answer(question, loaded, progress)
+            self._post(partial(self._arrived, id, known[question]))
 
     def _answer(self, question: RegionsQuestion, loaded: LoadedMesh, progress: Progress) -> Divided:
         try:
@@ -157,7 +158,7 @@ class Dividing:
             return Divided(question, failure=failure_in_words(error))
 
     def _columns(self, question: RegionsQuestion, loaded: LoadedMesh, progress: Progress) -> FloatArray:
-        """(n, k) the fields from the places."""
+        """Return the fields (n, k) from the places."""
         keys = [(question.about, at) for at in question.places]
         missing = [at for key, at in zip(keys, question.places, strict=True) if key not in self._fields]
         if missing:
@@ -169,13 +170,10 @@ class Dividing:
         for key in keys:
             self._fields.move_to_end(key)
         columns = np.stack([self._fields[key] for key in keys], axis=1)
-        most = max(len(keys), MEMORY // columns[:, 0].nbytes)
+        most = max(len(keys), MAX_KEPT_BYTES // columns[:, 0].nbytes)
         while len(self._fields) > most:
             self._fields.popitem(last=False)
         return columns
-
-    def _deliver(self, panel: int, divided: Divided) -> None:
-        self._post(lambda: self._arrived(panel, divided))
 
     def _arrived(self, panel: int, divided: Divided) -> None:
         if self._is_about(panel, divided.question):
@@ -183,9 +181,5 @@ class Dividing:
             self._told(panel)
 
 
-def _wanted(worker: LatestRequestWorker[_Request], about: Hashable) -> Progress:
-    return worker.progress(lambda latest: any(question.about == about for question, _ in latest.values()))
-
-
-def _unheard(request: _Request, error: Exception) -> None:
-    """What goes wrong is caught where it does, and told."""
+def _is_asked_about(about: Hashable, latest: _Request) -> bool:
+    return any(question.about == about for question, _ in latest.values())

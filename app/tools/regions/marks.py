@@ -2,14 +2,14 @@
 
 from bihdist_core.analysis.region_boundaries import region_boundaries
 
-from ...marks.line_looks import BOUNDARY
+from ...drawing.line_looks import BOUNDARY
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import LineMark
 from .division import Divided, regions_of, regions_questions
 
 
 def marks(marked: MarkedPanel) -> list[LineMark]:
-    """Where the panel shows them."""
+    """Return the boundaries of the regions, if the panel shows them."""
     divided = marked.find(Divided, lambda: _divided(marked))
     curves = () if divided is None else divided.boundaries
     return [LineMark(curve.corners, curve.weights, curve.closed, BOUNDARY) for curve in curves]

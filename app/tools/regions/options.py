@@ -12,7 +12,7 @@ from .part import divide, divided_panels
 
 
 def _panel_numbers(text: str) -> str | tuple[int, ...]:
-    """ "all", or numbers of panels."""
+    """Return "all", or the numbers of panels, from words."""
     try:
         return text if text == "all" else tuple(int(word) for word in text.split(","))
     except ValueError:
@@ -33,7 +33,7 @@ ROWS = (
         (
             Option(
                 "regions",
-                "lines around what is nearest to each pin, on all panels or on some, from 1",
+                "boundaries of the regions nearest to each pin, on all panels or on some, from 1",
                 (),
                 metavar="all|N,…",
                 read=_panel_numbers,

@@ -1,6 +1,7 @@
 """Farthest points: how many, by the active panel's distance from its source; pinned, or saved."""
 
 from collections.abc import Callable
+from functools import partial
 
 from qtpy import QtWidgets
 
@@ -12,11 +13,14 @@ from ...document.document import Panel
 from ...document.file_names import file_name
 from ...document.quantities import quantity_name
 from ...document.shared_parts.pins import add_pins
+from ...drawing.numbers import progress_words
 from ...qt.context import Context
-from ...qt.files.saving import save, written
-from ...session.farthest_points import Sampled, SamplesQuestion, Sampling
+from ...qt.files.saving import save
+from ...qt.look.form import describe, error_label
+from ...qt.look.layouts import heading, in_column, in_row, push_button, quiet_label
+from ...session.farthest_points import SamplesRequest, find_samples
 
-USUAL, MOST = 10, 10_000
+USUAL_POINTS, MAX_POINTS = 10, 10_000
 """Points at first, and at most."""
 
 
@@ -26,43 +30,25 @@ class Sampler(QtWidgets.QWidget):
     def __init__(self, context: Context) -> None:
         super().__init__()
         self._context = context
-        self._then: Callable[[AnyArray], None] = lambda vertices: None
-        self._sampling = Sampling(context.post, self._sampled, self._show_going)
-        self.count = QtWidgets.QSpinBox()
-        self.count.setRange(1, MOST)
-        self.count.setValue(USUAL)
-        self.count.setAccessibleName("How many farthest points")
-        self.count.setToolTip("The source is the first of them")
-        self.pin = QtWidgets.QPushButton("Pin them", autoDefault=False)
-        self.pin.setToolTip("Each point is the farthest from the source and those before it, and becomes a pin")
-        self.pin.clicked.connect(lambda *_: self.pin_them())
-        self.save = QtWidgets.QPushButton("Save…", autoDefault=False)
-        self.save.setToolTip("Their vertex ids as text or an array, or as a file of pins")
-        self.save.clicked.connect(lambda *_: self._save())
-        self.words = QtWidgets.QLabel()
-        self.words.setProperty("quiet", True)
-        self.words.setProperty("small", True)
-        self.words.setWordWrap(True)
-        heading = QtWidgets.QLabel("Farthest points")
-        heading.setProperty("heading", True)
-        row = QtWidgets.QHBoxLayout()
-        row.setSpacing(8)
-        row.addWidget(self.count)
-        row.addWidget(self.pin)
-        row.addWidget(self.save)
-        row.addStretch(1)
-        column = QtWidgets.QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(8)
-        column.addWidget(heading)
-        column.addLayout(row)
-        column.addWidget(self.words)
+        self._then: Callable[[AnyArray], None] | None = None  # what is done with the points that are looked for
+        self._background = context.background("samples", find_samples, self._take, self._refuse, self._show_progress)
+        self.count = QtWidgets.QSpinBox(minimum=1, maximum=MAX_POINTS, value=USUAL_POINTS)
+        describe(self.count, "How many farthest points", "The source is the first of them")
+        tip = "Each point is the farthest from the source and those before it, and becomes a pin"
+        self.pin = push_button("Pin them", self.pin_them, tip)
+        tip = "Their vertex ids as text or an array, or as a file of pins"
+        self.save = push_button("Save…", lambda: self.save_to(), tip)
+        self.words, self.wrong = quiet_label(wraps=True), error_label()
+        for label in (self.words, self.wrong):
+            label.setProperty("small", True)
+        buttons = in_row(self.count, self.pin, self.save, None, spacing=8)
+        in_column(heading("Farthest points"), buttons, self.words, self.wrong, of=self, spacing=8)
         context.grid.activated.connect(lambda *_: self.show_state())
 
     # ------------------------------------------------------------------ what is told
     def show_state(self) -> None:
-        """By which distance they would be."""
-        if self._sampling.is_going:
+        """Show by which distance the farthest points would be."""
+        if self._then is not None:
             return
         panel = self._panel
         for button in (self.pin, self.save):
@@ -73,37 +59,22 @@ class Sampler(QtWidgets.QWidget):
             name = quantity_name(panel.shows)
             self._say(f"By the active panel's distance: {name[0].lower()}{name[1:]}")
 
-    def end(self) -> None:
-        """End the thread."""
-        self._sampling.close()
-
     # ------------------------------------------------------------------ what is done
     def pin_them(self) -> None:
         """Look for farthest points, and put pins there."""
         self._ask(self._pin)
 
-    def save_to(self, path: str) -> None:
-        """Write them to a file once they are found."""
-        surface = self._surface
+    def save_to(self, path: str = "") -> None:
+        """Write them to a file once they are found, which is asked for if none is given."""
+        surface, shown = self._surface, "" if self._panel is None else str(self._panel.shows)
+        name = file_name([surface.name], "samples", shown)
 
         def write(vertices: IntArray) -> None:
-            written(self._context, path, lambda path: write_samples(path, surface, vertices))
+            formats = SAMPLE_FORMATS
+            write_to = partial(write_samples, surface=surface, vertices=vertices)
+            save(self._context, "Save farthest points", name, formats, write_to, path)
 
         self._ask(write)
-
-    def _save(self) -> None:
-        surface, shown = self._surface, "" if self._panel is None else str(self._panel.shows)
-
-        def ask(vertices: IntArray) -> None:
-            save(
-                self._context,
-                "Save farthest points",
-                file_name([surface.name], "samples", shown),
-                SAMPLE_FORMATS,
-                lambda path: write_samples(path, surface, vertices),
-            )
-
-        self._ask(ask)
 
     def _pin(self, vertices: IntArray) -> None:
         session = self._context.session
@@ -121,24 +92,26 @@ class Sampler(QtWidgets.QWidget):
             return
         self._then = then
         spec = panel.shows.specs[0]
-        self._sampling.ask(
-            SamplesQuestion(document.mesh(panel.surface), document.areas, spec, at, self.count.value()), loaded
-        )
+        self._background.ask(SamplesRequest(loaded, document.areas, spec, at, self.count.value()))
 
-    def _sampled(self, sampled: Sampled) -> None:
+    def _take(self, request: SamplesRequest, vertices: IntArray) -> None:
+        then, self._then = self._then, None
         self.show_state()
-        if sampled.vertices is None:
-            self._say(sampled.failure, is_error=True)
-        elif self._name and self._context.document.mesh(self._name) == sampled.question.mesh:
-            self._then(sampled.vertices)
+        if then is not None and self._name and self._context.session.loaded(self._name) is request.loaded:
+            then(vertices)
 
-    def _show_going(self, fraction: float | None, text: str) -> None:
-        if fraction is not None and self._sampling.is_going:
-            self._say(f"{text}, {fraction:.0%}".replace("%", " %"))
+    def _refuse(self, request: SamplesRequest, sentence: str) -> None:
+        self._then = None
+        self.show_state()
+        self._say(sentence, is_error=True)
+
+    def _show_progress(self, going: tuple[float, str] | None) -> None:
+        if going is not None and self._then is not None:
+            self._say(progress_words(*going))
 
     @property
     def _name(self) -> str:
-        """Of the panel's surface in the document; "" where there is no such panel."""
+        """Return the name of the panel's surface in the document, "" without such a panel."""
         return "" if self._panel is None else self._panel.surface
 
     @property
@@ -147,15 +120,12 @@ class Sampler(QtWidgets.QWidget):
 
     @property
     def _panel(self) -> Panel | None:
-        """The active one, or the first of those that show a distance."""
+        """Return the active panel, or the first that shows a distance."""
         document, active = self._context.document, self._context.grid.active
         panels = sorted(document.panels, key=lambda panel: panel.id != active)
         return panels[0] if panels and panels[0].shows.is_distance else None
 
     def _say(self, text: str, is_error: bool = False) -> None:
-        self.words.setText(text)
-        if bool(self.words.property("error")) != is_error:
-            self.words.setProperty("error", is_error)
-            self.words.setProperty("quiet", not is_error)
-            self.words.style().unpolish(self.words)
-            self.words.style().polish(self.words)
+        for label, is_meant in ((self.words, not is_error), (self.wrong, is_error)):
+            label.setText(text)
+            label.setVisible(is_meant)

@@ -10,7 +10,12 @@ from ...commands.options import add_areas, add_distance, add_mesh, add_output, a
 from ...commands.result import Result, distance_facts
 from ...commands.terminal import accuracy, progress_line
 
-WORDS = "vertices spread over a mesh, each the farthest from those before it, or at random"
+WORDS = "spread vertices over a mesh, each farthest from those before it, or at random"
+EXAMPLES = (
+    "bihdist samples hand --sources farthest:100 -o samples.txt",
+    "bihdist samples hand --sources random:100:7 -o samples.npy",
+    "bihdist samples hand --sources farthest:20 --distance geodesic -o pins.json",
+)
 TEXT = ".txt"
 
 
@@ -27,7 +32,7 @@ def run(options: argparse.Namespace) -> Result:
     """Write the vertices that a rule chooses."""
     from bihdist_core.analysis.sampling import SAMPLE_FORMATS, write_samples
     from bihdist_core.distances.answers import Distances
-    from bihdist_core.whole_file import check_output
+    from bihdist_core.file_output import check_output
 
     from ...document.sources import FARTHEST
 

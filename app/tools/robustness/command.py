@@ -27,10 +27,15 @@ if TYPE_CHECKING:
     import numpy as np
 
     from bihdist_core.applications.changes import Runs
-    from bihdist_core.distances.kinds import Spec
+    from bihdist_core.distances.distance_types import Spec
     from bihdist_core.laplacian import Laplacian
 
-WORDS = "a mesh with noise, fewer vertices, holes, or parts grown together, to see what distances withstand"
+WORDS = "change a mesh (noise, holes, fewer vertices, a weld, a handle), and see how distances change"
+EXAMPLES = (
+    "bihdist perturb hand --noise 0.4 -o noisy.ply",
+    "bihdist perturb hand --holes 20 --distance biharmonic,geodesic -o holes.ply",
+    "bihdist perturb hand --simplify 2000 -o small.ply",
+)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -38,18 +43,18 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_mesh(parser)
     add_sources(parser, "with --distance: where its fields start, one after another")
     add_output(parser, "a .off, .obj, .ply or .vtp file")
-    add_distance(parser, "say how much each changes (default: none)")
+    add_distance(parser, "print how much each changes (default: none)")
     add_repairs(parser)
     parser.add_argument("--pose", default="", metavar="FILE", help="another pose, with the same vertices and faces")
-    parser.add_argument("--faces", type=_faces, default=(), metavar="FACES", help="take these out, as in 3+10-20")
-    parser.add_argument("--simplify", type=count, metavar="N", help="leave N vertices, at their places")
+    parser.add_argument("--faces", type=_faces, default=(), metavar="FACES", help="faces to remove, as in 3+10-20")
+    parser.add_argument("--simplify", type=count, metavar="N", help="keep N vertices, where they are")
     parser.add_argument("--noise", type=positive, metavar="S", help="Gaussian, of S mean edge lengths")
     parser.add_argument("--along", choices=("xyz", "normals"), default="xyz", help="for --noise (default: xyz)")
     parser.add_argument("--holes", type=count, metavar="N", help="N round holes at random vertices")
     parser.add_argument(
         "--radius", type=positive, default=0.05, metavar="R", help="of holes, in roots of the area (default: 0.05)"
     )
-    parser.add_argument("--weld", type=pair, metavar="I:J", help="let the surface grow together at two vertices")
+    parser.add_argument("--weld", type=pair, metavar="I:J", help="weld the surface at two vertices")
     parser.add_argument("--handle", type=pair, metavar="I:J", help="a thin tube from one vertex to another")
     parser.add_argument("--seed", type=_seed, default=0, metavar="N", help="of noise and holes (default: 0)")
 
@@ -59,9 +64,9 @@ def run(options: argparse.Namespace) -> Result:
     from bihdist_core.applications.changes import Perturbation
     from bihdist_core.applications.perturbation import perturbed
     from bihdist_core.errors import ParameterError
-    from bihdist_core.formats.mesh_output import MESH_FORMATS, write_mesh
+    from bihdist_core.file_output import check_output
+    from bihdist_core.formats.surface_output import MESH_FORMATS, write_mesh
     from bihdist_core.laplacian import Laplacian
-    from bihdist_core.whole_file import check_output
 
     from ...samples import mesh_path
 
@@ -80,7 +85,7 @@ def run(options: argparse.Namespace) -> Result:
     )
     if change.changes_nothing:
         options_named = "--pose, --faces, --simplify, --noise, --holes, --weld or --handle"
-        raise ParameterError(f"Nothing would change; say {options_named}.")
+        raise ParameterError(f"Nothing would change; give one of {options_named}.")
     chosen = specs(options, list(dict.fromkeys(options.distance or [])))
     with progress_line() as progress:
         repairs = repairs_of(options, options.mesh)
@@ -94,14 +99,15 @@ def run(options: argparse.Namespace) -> Result:
         "n_faces": after.n_faces,
     }  # fmt: skip
     if chosen:
-        facts["fields"] = _say_changes(options, before, Laplacian(after), kept, chosen)
+        facts["fields"] = _print_changes(options, before, Laplacian(after), kept, chosen)
     return Result(facts)
 
 
-def _say_changes(
+def _print_changes(
     options: argparse.Namespace, before: "Laplacian", after: "Laplacian", kept: "np.ndarray", chosen: "list[Spec]"
 ) -> list[Facts]:
-    """How far the fields from each source differ, at the vertices that both meshes have, as fractions of maxima."""
+    """Print how far the fields from each source differ, at the vertices that both meshes have, as fractions of
+    maxima."""
     from bihdist_core.analysis.diagnostics import field_change
     from bihdist_core.applications.perturbation import image_of
     from bihdist_core.distances.answers import Distances, percent, same_on
@@ -134,7 +140,7 @@ def _faces(text: str) -> "Runs":
     try:
         return runs_from_words(text)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is no face or range of faces, such as 3+10-20") from None
+        raise argparse.ArgumentTypeError(f"{text!r} is not a face or a range of faces such as 3+10-20") from None
 
 
 def _seed(text: str) -> int:
@@ -143,5 +149,5 @@ def _seed(text: str) -> int:
     except ValueError:
         seed = -1
     if seed < 0:
-        raise argparse.ArgumentTypeError(f"{text!r} is no seed (a whole number from 0)")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a seed (a whole number from 0)")
     return seed

@@ -1,27 +1,23 @@
-"""What a change of the mesh does to a distance, as what a panel can show."""
+"""The change of a distance on a perturbed mesh, as a quantity of panels."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from bihdist_core.distances.kinds import Spec
+from bihdist_core.distances.distance_types import Spec
 
 from ...document.json_values import record, text
 from ...document.quantities import FromPoint, Quantity, kind_name, read_spec
 
-if TYPE_CHECKING:
-    from ...document.document import Document
-    from .answers import ChangeQuestion
-
 CHANGE = "change of "
-"""What the words of a change begin with."""
+"""The beginning of the words of a change."""
 
 
 @dataclass(frozen=True)
-class ChangeOf(FromPoint):
-    """How a distance differs on a changed surface from what it was before, each as a fraction of its maximum.
+class DistanceChange(FromPoint):
+    """How a distance differs on a perturbed surface from what it was before, each as a fraction of its maximum.
 
-    At the vertices that both have.  point: on the changed surface.
+    It is defined at the vertices that both have; `point` is on the perturbed surface.
     """
 
     spec: Spec
@@ -35,24 +31,18 @@ class ChangeOf(FromPoint):
 
     @property
     def heading(self) -> str:
-        return f"Change of {kind_name(self.spec.kind).lower()}"
+        return f"Change of {kind_name(self.spec.distance_type).lower()}"
 
     @property
     def short_heading(self) -> str:
-        return f"Δ {kind_name(self.spec.kind).lower()}"
+        return f"Δ {kind_name(self.spec.distance_type).lower()}"
 
     @property
     def hint(self) -> str:
-        return "positive where it is larger after the change, negative where it was before"
-
-    def question(self, document: "Document", surface: str) -> "ChangeQuestion":
-        """What has to be answered to show how a distance differs on the changed surface."""
-        from .answers import ChangeQuestion
-
-        return ChangeQuestion(document.mesh(surface), document.areas, self.spec, document.point(self.point).at)
+        return "positive where it is larger after the change, negative where it is smaller"
 
     def to_json(self) -> dict[str, Any]:
-        return {"change": self.spec.in_full, "from": self.point}
+        return {"change": self.spec.canonical, "from": self.point}
 
     @classmethod
     def from_json(cls, data: dict[str, Any], where: str) -> Quantity | None:

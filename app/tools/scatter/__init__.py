@@ -10,8 +10,7 @@ TOOL = Tool(
     key="S",
     tip="One panel's field against another's over all vertices; select in it",
     icon="scatter",
-    in_bar=True,
-    synonyms="compare plot correlation difference select",
+    synonyms="compare plot correlation difference select lasso",
     dock="dock:ScatterDock",
     parts=(
         "part:Scatter",
@@ -19,4 +18,5 @@ TOOL = Tool(
     ),
     options="options:ROWS",
     marks="marks:marks",
+    items="part:items",
 )

@@ -8,12 +8,13 @@ from qtpy import QtCore, QtGui
 from bihdist_core.analysis.field_scatter import FieldScatter
 from bihdist_core.arrays import AnyArray, IntArray
 
-from ...qt.docks.chart import Axis, Chart, paint_dot
+from ...drawing.chart import Axis
+from ...qt.docks.chart import Chart, paint_dot
 from ...qt.look.look import LOOK
 from ...scene.density import cell_size, density_picture
 from ...scene.style import PINS
 
-REACH = 12.0
+POINTER_REACH_PX = 12.0
 """Pixels from the pointer to the point that it means."""
 
 
@@ -47,7 +48,7 @@ class ScatterChart(Chart):
         axes: tuple[Axis, Axis],
         has_diagonal: bool,
     ) -> None:
-        """names: of the field across and of that up, each with the colour of its panel."""
+        """Show a scatter; the names of both fields come with the colours of their panels."""
         self.scatter, self._names, self._has_diagonal, self._largest = scatter, names, has_diagonal, None
         self.sentence = ""
         self.show_axes(*axes)
@@ -58,28 +59,28 @@ class ScatterChart(Chart):
         self.say(sentence)
 
     def mark_largest(self, vertex: int | None) -> None:
-        """Where the fields are farthest apart."""
+        """Mark where the fields are farthest apart."""
         self._largest = vertex
         self.update()
 
     def mark(self, vertex: int | None) -> None:
-        """What is pointed at."""
+        """Mark the vertex that is pointed at."""
         if vertex != self._marked:
             self._marked = vertex
             self.update()
 
     def show_selections(self, selections: Sequence[tuple[AnyArray, int]]) -> None:
-        """Vertices (k,), each with the number of a colour."""
+        """Show selections of vertices (k,), each with the number of a colour."""
         self._selections = selections
         self.redraw()
 
     def show_stroke(self, vertices: IntArray, colour: int) -> None:
-        """Those of a brush that is still down."""
+        """Show the vertices of a brush that is still down."""
         self._stroke, self._stroke_colour = vertices, colour
         self.update()
 
     def point_of(self, vertex: int) -> QtCore.QPointF | None:
-        """Where a vertex' point is, in the widget's pixels."""
+        """Return the place of a vertex in the widget's pixels."""
         if self.scatter is None:
             return None
         place = int(np.searchsorted(self.scatter.ids, vertex))
@@ -89,15 +90,15 @@ class ScatterChart(Chart):
         return QtCore.QPointF(float(x), float(y))
 
     def vertex_at(self, x: float, y: float) -> int | None:
-        """The vertex whose point is nearest to a place in the units of the axes, if it is near on the screen."""
+        """Return the vertex nearest to a place in the units of the axes, None if it is far on the screen."""
         if self.scatter is None:
             return None
         plot = self.plot
         across = (self.scatter.x - x) * (plot.width() / self.across.span)
-        near = np.flatnonzero(np.abs(across) <= REACH)
+        near = np.flatnonzero(np.abs(across) <= POINTER_REACH_PX)
         up = (self.scatter.y[near] - y) * (plot.height() / self.up.span)
         apart = np.hypot(across[near], up)
-        return int(self.scatter.ids[near[apart.argmin()]]) if len(apart) and apart.min() <= REACH else None
+        return int(self.scatter.ids[near[apart.argmin()]]) if len(apart) and apart.min() <= POINTER_REACH_PX else None
 
     # ------------------------------------------------------------------ painting
     def paint_content(self, painter: QtGui.QPainter, plot: QtCore.QRectF) -> None:
@@ -128,7 +129,7 @@ class ScatterChart(Chart):
         painter.restore()
 
     def _picture(self, scatter: FieldScatter, plot: QtCore.QRectF) -> QtGui.QImage:
-        """A cell for each pixel or some: grey by the logarithm of how many are in it, selections in their colours."""
+        """Return the cells as a picture: grey by the logarithm of their counts, selections in their colours."""
         ratio, size = self.devicePixelRatioF(), cell_size(len(scatter.ids))
         columns, rows = (max(round(side * ratio / size), 1) for side in (plot.width(), plot.height()))
         grid = columns, rows, (self.across.low, self.across.high), (self.up.low, self.up.high)

@@ -1,8 +1,9 @@
 """One panel's field against another's over all vertices: how well they agree, and selections by a lasso or a brush."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from qtpy import QtCore, QtWidgets
@@ -10,7 +11,7 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import ParameterError, Surface
 from bihdist_core.analysis.field_scatter import FieldScatter, field_scatter
 from bihdist_core.analysis.field_statistics import Agreement, field_agreement
-from bihdist_core.arrays import AnyArray, FloatArray, IntArray
+from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.formats.field_output import write_array
 from bihdist_core.progress import Progress
@@ -20,18 +21,21 @@ from ...document.file_names import file_name
 from ...document.quantities import quantity_name
 from ...document.runs import ids_of
 from ...document.shared_parts.selections import Selections
+from ...drawing.chart import Axis
+from ...drawing.numbers import number, share
 from ...qt.context import Context
 from ...qt.docks.brushing import Brushing
-from ...qt.docks.chart import Axis
 from ...qt.docks.fact_table import FactTable
 from ...qt.docks.instrument import NO_FIELD, Instrument
 from ...qt.files.chart_files import save_figure
-from ...qt.files.saving import save, written
+from ...qt.files.saving import save
+from ...qt.look.form import describe
 from ...qt.look.icons import put_icon
+from ...qt.look.layouts import heading, in_column, in_row, quiet_label
 from ...qt.look.look import LOOK
-from ...qt.look.numbers import number, share
 from ...qt.look.segments import Segments
-from ...qt.panels.flat_button import FlatButton
+from ...qt.panels.badges import curve_colour
+from ...qt.panels.flat_button import FlatButton, add_entry, icon_button, menu_button
 from ...scene.density import axis_ends
 from ...scene.style import PINS, style_of
 from .chart import ScatterChart
@@ -47,12 +51,10 @@ SIDE = 250
 
 @dataclass(frozen=True, eq=False)
 class _Request:
-    """fields: those of the two answers, (n,) each."""
-
     surface: Surface
     across: Answer
     up: Answer
-    fields: tuple[FloatArray, FloatArray]
+    fields: tuple[FloatArray, FloatArray]  # of the two answers, (n,) each
     shares: bool
 
     @property
@@ -60,7 +62,7 @@ class _Request:
         return self.shares or self.across.unit == self.up.unit
 
 
-def _compared(request: _Request, progress: Progress) -> Iterator[FieldScatter | Agreement]:
+def _compute(request: _Request, progress: Progress) -> Iterator[FieldScatter | Agreement]:
     scatter = field_scatter(request.surface, *request.fields, request.shares)
     scatter.sort()
     yield scatter
@@ -68,7 +70,7 @@ def _compared(request: _Request, progress: Progress) -> Iterator[FieldScatter | 
 
 
 class ScatterDock(Instrument):
-    word, title, area = "scatter", "Scatter", "below"
+    word, area = "scatter", "below"
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -77,89 +79,46 @@ class ScatterDock(Instrument):
         self.chart.pointed.connect(self._point)
         self.facts = FactTable()
         self.list = SelectionList(context)
-        self.list.chosen.connect(self._choose)
-        self._new = FlatButton(self, "add-panel")
-        self._new.setToolTip("Begin a new selection: the brush adds to none that is there")
-        self._new.setAccessibleName("Begin a new selection")
-        self._new.activated.connect(self._begin)
-        self._more = FlatButton(self, "more")
-        self._more.setToolTip("Save, colour, rename or delete the selection")
-        self._more.setAccessibleName("What to do with the selection")
-        self._more.activated.connect(self._open_menu)
-        heading = QtWidgets.QHBoxLayout()
-        self._heading = QtWidgets.QLabel("Selections")
-        self._heading.setProperty("heading", True)
-        heading.addWidget(self._heading, 1)
-        heading.addWidget(self._new)
-        heading.addWidget(self._more)
-        self._hint = QtWidgets.QLabel("Draw around points here, or hold B and drag on a surface.", wordWrap=True)
-        self._hint.setProperty("quiet", True)
-        side = QtWidgets.QWidget()
-        side.setFixedWidth(SIDE)
-        column = QtWidgets.QVBoxLayout(side)
-        column.setContentsMargins(8, 8, 12, 8)
-        column.setSpacing(4)
-        column.addWidget(self.facts)
-        column.addLayout(heading)
+        self.list.chosen.connect(context[Brushing].choose)
+        tip = "Begin a new selection with the next stroke of the brush"
+        self._new = icon_button(self, "add-panel", tip, self._begin, "Begin a new selection")
+        tip = "Save, colour, rename or delete the selection"
+        self._more = icon_button(self, "more", tip, self._open_menu, "More about the selection")
+        self._heading = heading("Selections")
+        self._hint = quiet_label("Draw around points here, or hold B and drag on a surface.", wraps=True)
         self._hint.setAlignment(QtCore.Qt.AlignmentFlag.AlignTop)
         self._below = QtWidgets.QStackedWidget()  # of one size, whichever is shown
         self._below.addWidget(self._hint)
         self._below.addWidget(self.list)
-        column.addWidget(self._below, 1)
-        row = QtWidgets.QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(0)
-        row.addWidget(self.chart, 1)
-        row.addWidget(side)
-        self.across_button, self.up_button = FlatButton(self), FlatButton(self)
-        for button, words, side_word in (
-            (self.across_button, "Across", "across"),
-            (self.up_button, "Up", "up"),
-        ):
-            menu = QtWidgets.QMenu(button)
-            menu.aboutToShow.connect(lambda menu=menu, side_word=side_word: self._fill(menu, side_word))
-            button.setMenu(menu)
-            button.setSizePolicy(QtWidgets.QSizePolicy.Policy.Preferred, QtWidgets.QSizePolicy.Policy.Fixed)
-            button.symbol = words.lower()
-            button.setToolTip(f"{words}: the field of this panel")
+        side = QtWidgets.QWidget()
+        side.setFixedWidth(SIDE)
+        row = in_row((self._heading, 1), self._new, self._more)
+        in_column(self.facts, row, (self._below, 1), of=side, spacing=4, margins=(8, 8, 12, 8))
+        in_row((self.chart, 1), side, of=self, spacing=0)
+        self.across_button, self.up_button = self._panel_button("across"), self._panel_button("up")
         self.shares = Segments({"Value": "value", "%": "shares"}, "Values")
         self.shares.buttons["shares"].setToolTip("Values: fractions of each maximum")
-        self.shares.chosen.connect(self._choose_shares)
-        self.brush = QtWidgets.QToolButton(checkable=True)
+        self.shares.chosen.connect(lambda word: self._change(shares=word == "shares"))
+        brushing = context[Brushing]
+        self.brush = QtWidgets.QToolButton(checkable=True, iconSize=QtCore.QSize(20, 20))
         put_icon(self.brush, "brush")
-        self.brush.setToolTip("Brush: drag on a surface to select (or hold B; Ctrl takes away)")
-        self.brush.setAccessibleName("Brush")
-        self.brush.setIconSize(QtCore.QSize(20, 20))
-        self.brush.clicked.connect(context[Brushing].switch)
-        self.radius = QtWidgets.QSlider(QtCore.Qt.Orientation.Horizontal)
-        self.radius.setRange(4, 28)
-        self.radius.setValue(context[Brushing].radius)
+        describe(self.brush, "Brush", "Brush: drag on a surface to select (or hold B; Ctrl takes away)")
+        self.brush.clicked.connect(brushing.switch)
+        self.radius = brushing.size_slider()
         self.radius.setFixedWidth(64)
         self.radius.hide()
-        self.radius.setToolTip("Size of the brush")
-        self.radius.setAccessibleName("Size of the brush")
-        self.radius.valueChanged.connect(context[Brushing].enlarge)
-        context[Brushing].switched.connect(self.brush.setChecked)
-        context[Brushing].switched.connect(self.radius.setVisible)
-        context[Brushing].stroked.connect(self._show_stroke)
-        self._save = FlatButton(self, "save")
-        self._save.setToolTip("Save the scatter as a figure, or its numbers")
-        self._save.setAccessibleName("What to do with the scatter")
-        menu = QtWidgets.QMenu(self._save)
-        menu.addAction("Save as a figure…", self.save_figure)
-        menu.addAction("Save the numbers…", self.save_numbers)
-        self._save.setMenu(menu)
+        brushing.switched.connect(self.brush.setChecked)
+        brushing.switched.connect(self.radius.setVisible)
+        brushing.stroked.connect(lambda vertices: self.chart.show_stroke(vertices, brushing.colour))
+        self.head += [self.up_button, self.across_button, self.shares, self.brush, self.radius]
+        menu = {"Save as a figure…": self.save_figure, "Save the numbers…": self.save_numbers}
+        self._save = self.add_head_button("save", "Save the scatter as a figure, or its numbers", menu, "Save scatter")
         self._save.setEnabled(False)
         self._found: Agreement | None = None
         self._asked: tuple[object, ...] = ()
         self._request: _Request | None = None
-        self._background = context.background("scatter", _compared)
-        self._background.answered.connect(self._take)
-        self._background.failed.connect(self._refuse)
+        self._background = context.background("scatter", _compute, self._take, self._refuse)
         LOOK.follow(self, self._apply_theme)
-
-    def head_widgets(self) -> list[QtWidgets.QWidget]:
-        return [self.up_button, self.across_button, self.shares, self.brush, self.radius, self._save]
 
     # ------------------------------------------------------------------ what is shown
     def show_document(self, document: Document, before: Document | None) -> None:
@@ -175,7 +134,7 @@ class ScatterDock(Instrument):
         self._compare()
 
     def show_answer(self, panel: int) -> None:
-        if panel in (self._pair(self.context.document) or ()):
+        if panel in (self._pair(self.document) or ()):
             self._compare()
 
     def show_pointed(self, vertex: int | None) -> None:
@@ -191,7 +150,7 @@ class ScatterDock(Instrument):
 
     @staticmethod
     def _pair(document: Document) -> tuple[int, int] | None:
-        """The panels across and up: those that are chosen, or the first that are left; None where there is none."""
+        """Return the panels across and up, chosen or the first that are left; None if there is none."""
         ids = [panel.id for panel in document.panels_of()]
         if not ids:
             return None
@@ -204,13 +163,13 @@ class ScatterDock(Instrument):
 
     @staticmethod
     def _name(document: Document, id: int) -> str:
-        """Of a panel, with its place where others have the same."""
+        """Return the name of a panel, with its place where others have the same name."""
         names = {panel.id: quantity_name(panel.shows) for panel in document.panels}
         place = list(names).index(id) + 1
         return f"{names[id]} ({place})" if list(names.values()).count(names[id]) > 1 else names[id]
 
     def _names(self, document: Document) -> tuple[str, str] | None:
-        """Of the panels across and up."""
+        """Return the names of the panels across and up."""
         pair = self._pair(document)
         return None if pair is None else (self._name(document, pair[0]), self._name(document, pair[1]))
 
@@ -219,7 +178,7 @@ class ScatterDock(Instrument):
         session = self.context.session
         document, shown = session.document, session.shown
         pair = self._pair(document)
-        if session.surface is None or pair is None or not shown.keys() >= set(pair):
+        if session.loaded() is None or pair is None or not shown.keys() >= set(pair):
             return  # on its way
         across, up = (shown[panel].answer for panel in pair)
         key = (id(across.field), id(up.field), document[Scatter].shares, *pair, document.panels)
@@ -231,7 +190,7 @@ class ScatterDock(Instrument):
             self._refuse(None, (across if across.field is None else up).failure or NO_FIELD)
             return
         fields = across.field, up.field
-        self._request = _Request(session.surface, across, up, fields, document[Scatter].shares)
+        self._request = _Request(session.mesh().surface, across, up, fields, document[Scatter].shares)
         self._background.ask(self._request)
 
     def _refuse(self, request: object, sentence: str) -> None:
@@ -247,13 +206,12 @@ class ScatterDock(Instrument):
             self._show_agreement(request, answer)
 
     def _show_scatter(self, request: _Request, scatter: FieldScatter) -> None:
-        document = self.context.document
+        document = self.document
         pair = self._pair(document)
         if pair is None:
             return
         ids = [panel.id for panel in document.panels]
-        curves = LOOK.theme.curves
-        name, other = ((self._name(document, id), curves[ids.index(id) % len(curves)]) for id in pair)
+        name, other = ((self._name(document, id), curve_colour(ids.index(id))) for id in pair)
         across, up = (
             Axis(low, high, "" if request.shares else answer.unit, request.shares)
             for (low, high), answer in zip(
@@ -272,7 +230,7 @@ class ScatterDock(Instrument):
                 field[found.largest_at] / (np.nanmax(np.abs(field)) if request.shares else 1.0)
                 for field in request.fields
             )
-            sign = np.sign(up - across)
+            sign = np.sign(across - up)  # as in a panel of the difference of the two
             written = share if request.shares else number
             lines += [
                 ("mean deviation, by area", written(found.mean)),
@@ -282,36 +240,35 @@ class ScatterDock(Instrument):
         self.facts.show_facts(lines)
         self.chart.mark_largest(found.largest_at if request.has_common_unit else None)
 
-    def _show_stroke(self, vertices: IntArray) -> None:
-        brushing = self.context[Brushing]
-        self.chart.show_stroke(vertices, brushing.colour)
-
     # ------------------------------------------------------------------ what the user does
-    def _fill(self, menu: QtWidgets.QMenu, side: str) -> None:
-        menu.clear()
-        document = self.context.document
-        across, up = self._pair(document) or (-1, -1)
-        chosen = across if side == "across" else up
-        for panel in document.panels_of():
-            action = menu.addAction(self._name(document, panel.id))
-            action.setCheckable(True)
-            action.setChecked(panel.id == chosen)
-            action.triggered.connect(lambda _=False, id=panel.id: self.choose_panel(side, id))
+    def _panel_button(self, side: str) -> FlatButton:
+        """Return the button of a side, "across" or "up", with a menu of the panels."""
+
+        def fill(menu: QtWidgets.QMenu) -> None:
+            document = self.document
+            chosen = dict(zip(("across", "up"), self._pair(document) or (-1, -1), strict=True))[side]
+            for panel in document.panels_of():
+                choose = partial(self.choose_panel, side, panel.id)
+                add_entry(menu, self._name(document, panel.id), choose, panel.id == chosen)
+
+        button = menu_button(self, fill, f"{side.capitalize()}: the field of this panel")
+        button.setSizePolicy(QtWidgets.QSizePolicy.Policy.Preferred, QtWidgets.QSizePolicy.Policy.Fixed)
+        button.symbol = side
+        return button
 
     def choose_panel(self, side: str, id: int) -> None:
-        """side: "across" or "up"; the other panel takes the place of this one where they would be the same."""
-        document = self.context.document
+        """Choose the panel of a side, "across" or "up"; the other panel takes its place if they would be the same."""
+        document = self.document
         across, up = self._pair(document) or (id, id)
         if side == "across":
             across, up = id, across if up == id else up
         else:
             across, up = up if across == id else across, id
-        self.context.edit(document.with_part(replace(document[Scatter], across=across, up=up)))
+        self._change(across=across, up=up)
 
-    def _choose_shares(self, word: str) -> None:
-        session = self.context.session
-        scatter = replace(session.document[Scatter], shares=word == "shares")
-        session.show(session.document.with_part(scatter))
+    def _change(self, **changes: Any) -> None:
+        """Change fields of the document's `Scatter`."""
+        self.context.session.apply(lambda document: document.with_changed(Scatter, **changes))
 
     def _select(self, corners: AnyArray, keys: QtCore.Qt.KeyboardModifier) -> None:
         modifier = QtCore.Qt.KeyboardModifier
@@ -319,19 +276,16 @@ class ScatterDock(Instrument):
         if self.chart.scatter is not None:
             self.context[Brushing].select(self.chart.scatter.inside(corners), way)
 
-    def _choose(self, name: str) -> None:
-        self.context[Brushing].choose(name)
-
     def _begin(self) -> None:
         self.context[Brushing].choose("")
-        self.list.show_selections(self.context.document[Selections].selections, "")
+        self.list.show_selections(self.document[Selections].selections, "")
 
     def _open_menu(self) -> None:
         if self.list.current:
             self.list.menu().popup(self._more.mapToGlobal(QtCore.QPoint(0, self._more.height())))
 
     def _point(self, at: tuple[float, float] | None) -> None:
-        """What is under the pointer in the chart is marked on all panels."""
+        """Mark what is under the pointer of the chart on all panels."""
         vertex = None if at is None else self.chart.vertex_at(*at)
         self.chart.mark(vertex)
         context = self.context
@@ -339,12 +293,12 @@ class ScatterDock(Instrument):
         if panel is None:
             return
         context.grid.pointing.show(panel, vertex)
-        surface = context.session.surface
-        context.status.show_place(vertex, None if vertex is None or surface is None else surface.vertices[vertex])
+        position = None if vertex is None else context.session.mesh(panel).surface.vertices[vertex]
+        context.status.show_place(vertex, position)
 
     # ------------------------------------------------------------------ what is saved
     def figure(self) -> "ScatterFigure":
-        """What the chart shows, in the style of the page; ParameterError while it shows none."""
+        """Return the figure of the chart, in the style of the page; ParameterError if it shows nothing."""
         from ...figures.chart_page import ChartLook
         from ...figures.scatter_figure import INCHES, ScatterAxis, ScatterFigure
 
@@ -352,7 +306,7 @@ class ScatterDock(Instrument):
         document, page, scatter = context.document, context.page, self.chart.scatter
         names = self._names(document)
         if scatter is None or request is None or names is None:
-            raise ParameterError("There is no scatter yet; wait until both panels have a field.")
+            raise ParameterError("There is no scatter plot yet; wait until both panels have a field.")
         across, up = (
             ScatterAxis(name, "% of the maximum" if document[Scatter].shares else axis.unit, axis.low, axis.high)
             for name, axis in zip(names, (self.chart.across, self.chart.up), strict=True)
@@ -374,18 +328,18 @@ class ScatterDock(Instrument):
     def _file_name(self) -> str:
         session = self.context.session
         panels = [session.document.panel(id) for id in self._pair(session.document) or ()]
-        return file_name([session.first_surface.name], "scatter", *(str(panel.shows) for panel in panels))
+        return file_name([session.mesh().surface.name], "scatter", *(str(panel.shows) for panel in panels))
 
-    def save_figure(self, *_: object, path: str = "") -> None:
-        """path: asks for one if it is empty."""
+    def save_figure(self, path: str = "") -> None:
+        """Save the figure; ask for a path if there is none."""
         from ...figures.scatter_figure import save_scatter_figure
 
         save_figure(
             self.context, "Save the scatter as a figure", self._file_name(), save_scatter_figure, self.figure, path
         )
 
-    def save_numbers(self, *_: object, path: str = "") -> None:
-        """The vertices, both fields there, and a column for each selection, 1 at its vertices."""
+    def save_numbers(self, path: str = "") -> None:
+        """Save the vertices, both fields there, and a column for each selection, 1 at its vertices."""
         context, scatter = self.context, self.chart.scatter
         if scatter is None:
             return
@@ -398,7 +352,4 @@ class ScatterDock(Instrument):
         def write(path: str) -> None:
             write_array(path, table, header)
 
-        if path:
-            written(context, path, write)
-        else:
-            save(context, "Save the scatter's numbers", self._file_name(), (".csv",), write)
+        save(context, "Save the scatter's numbers", self._file_name(), (".csv",), write, path)

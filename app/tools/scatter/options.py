@@ -11,12 +11,12 @@ from ...document.lists import file_in
 from ...document.option import NotExpressible, Option, Row, unsaid
 from ...document.page import Recipe
 
-LONGEST = 1000
+MAX_NAMED_IDS = 1000
 """Characters of selected vertices in a line that somebody is to read."""
 
 
 def _selections_of(recipe: Recipe) -> dict[str, Any]:
-    """In the colours that they get by themselves."""
+    """Return the option for selections in their usual colours."""
     from bihdist_core.applications.changes import words_of_runs
 
     from ...document.shared_parts.selections import Selections
@@ -25,9 +25,9 @@ def _selections_of(recipe: Recipe) -> dict[str, Any]:
     if any(each.surface != recipe.document.surfaces[0].name for each in selections):
         raise NotExpressible("Vertices of another mesh are selected.")
     if [each.colour for each in selections] != [k % MARK_COLOURS for k in range(len(selections))]:
-        raise NotExpressible("Selections have other colours than usual.")
+        raise NotExpressible("Selections have colours of their own.")
     words = [words_of_runs(each.runs) for each in selections]
-    if sum(map(len, words)) > LONGEST:
+    if sum(map(len, words)) > MAX_NAMED_IDS:
         raise NotExpressible("More vertices are selected than a line can name.")
     return {"selections": words} if words else {}
 
@@ -41,7 +41,7 @@ def _with_selections(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
 
 
 def _runs(chosen: Any) -> Runs:
-    """Of ids (k,), a file of them, or ids and ranges in words."""
+    """Return ids (k,), those of a file, or ids and ranges in words, as runs."""
     import numpy as np
 
     from bihdist_core.analysis.selecting import is_ids_file, read_ids
@@ -58,7 +58,7 @@ ROWS = (
         (
             Option(
                 "selections",
-                "vertices that stand out together: ids and ranges (12+40-77), or a .txt, .npy or .csv file of ids, "
+                "selected vertices: ids and ranges (12+40-77), or a .txt, .npy or .csv file of ids, "
                 "@FILE; with commas for several selections",
                 (),
                 flag="select",

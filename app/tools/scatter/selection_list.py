@@ -3,8 +3,8 @@
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
-from bihdist_core import BihdistError
 from bihdist_core.analysis.selecting import SELECTION_WAYS, write_selection
+from bihdist_core.applications.changes import count_of
 
 from ...document.document import Document
 from ...document.file_names import file_name
@@ -14,21 +14,10 @@ from ...qt.context import Context
 from ...qt.docks.brushing import Brushing
 from ...qt.files.saving import save
 from ...qt.look.look import LOOK
+from ...qt.panels.badges import add_colours, disc_icon
 from ...scene.style import PINS
 
 WAYS = {"ids": "Save vertex ids…", "field": "Save as a field…", "mesh": "Save the cut-out mesh…"}
-COLOUR_NAMES = (
-    "Green",
-    "Orange",
-    "Violet",
-    "Olive",
-    "Plum",
-    "Slate",
-    "Brown",
-    "Teal",
-    "Indigo",
-    "Ochre",
-)
 
 
 class SelectionList(QtWidgets.QTreeWidget):
@@ -67,10 +56,9 @@ class SelectionList(QtWidgets.QTreeWidget):
             self._shown = selections
             self.clear()
             for each in selections:
-                count = sum(last - first + 1 for first, last in each.runs)
-                item = QtWidgets.QTreeWidgetItem([each.name, f"{count:,}"])
+                item = QtWidgets.QTreeWidgetItem([each.name, f"{count_of(each.runs):,}"])
                 item.setData(0, QtCore.Qt.ItemDataRole.UserRole, each.name)
-                item.setIcon(0, _dot(PINS[each.colour]))
+                item.setIcon(0, disc_icon(PINS[each.colour]))
                 item.setFlags(item.flags() | QtCore.Qt.ItemFlag.ItemIsEditable)
                 right = int(QtCore.Qt.AlignmentFlag.AlignRight | QtCore.Qt.AlignmentFlag.AlignVCenter)
                 item.setData(1, QtCore.Qt.ItemDataRole.TextAlignmentRole, right)
@@ -82,7 +70,7 @@ class SelectionList(QtWidgets.QTreeWidget):
 
     @property
     def current(self) -> str:
-        """The name of the one that is chosen."""
+        """The name of the chosen selection."""
         item = self.currentItem()
         return "" if item is None else item.data(0, QtCore.Qt.ItemDataRole.UserRole)
 
@@ -95,11 +83,9 @@ class SelectionList(QtWidgets.QTreeWidget):
         if self._is_filling:
             return
         old, new = item.data(0, QtCore.Qt.ItemDataRole.UserRole), item.text(0)
-        try:
-            document = change_selection(self._document, old, new_name=new)
-        except BihdistError as error:
-            self._context.fail(error)
-            document = self._document
+        document = self._document
+        with self._context.errors_shown():
+            document = change_selection(document, old, new_name=new)
         self._shown = ()  # what was typed is not what is shown
         # The editor is still closing.
         QtCore.QTimer.singleShot(0, lambda: self._show_renamed(document, new.strip()))
@@ -107,7 +93,7 @@ class SelectionList(QtWidgets.QTreeWidget):
     def _show_renamed(self, document: Document, name: str) -> None:
         is_current = name in [each.name for each in document[Selections].selections]
         self._context[Brushing].choose(name if is_current else "")
-        self._context.edit(document)
+        self._context.session.show(document)
 
     def keyPressEvent(self, event: QtGui.QKeyEvent) -> None:
         if event.key() in (QtCore.Qt.Key.Key_Delete, QtCore.Qt.Key.Key_Backspace) and self.current:
@@ -116,46 +102,40 @@ class SelectionList(QtWidgets.QTreeWidget):
             super().keyPressEvent(event)
 
     def delete(self) -> None:
-        """The one that is chosen."""
+        """Delete the chosen selection."""
         if self.current:
-            self._context.edit(select(self._document, self.current, np.empty(0, np.int64)))
+            self._context.session.show(select(self._document, self.current, np.empty(0, np.int64)))
 
     def recolour(self, colour: int) -> None:
         """Give the selection that the brush changes another colour."""
         if self.current:
-            self._context.edit(change_selection(self._document, self.current, colour=colour))
+            self._context.session.show(change_selection(self._document, self.current, colour=colour))
 
-    def save(self, way: str, path: str | None = None) -> None:
-        """The one that is chosen, as one of SELECTION_WAYS; asks where if no path is given."""
+    def save(self, way: str, path: str = "") -> None:
+        """Save the chosen selection as one of SELECTION_WAYS; ask for a path if there is none."""
         found = [each for each in self._document[Selections].selections if each.name == self.current]
-        surface = self._context.session.surface
-        if not found or surface is None:
+        loaded = self._context.session.loaded()
+        if not found or loaded is None:
             return
         (selection,) = found
 
         def write(path: str) -> None:
-            write_selection(path, surface, ids_of(selection.runs), way, selection.name)
+            write_selection(path, loaded.surface, ids_of(selection.runs), way, selection.name)
 
-        if path is not None:
-            write(path)
-        else:
-            title = WAYS[way].removesuffix("…")
-            name = file_name([surface.name], "selection", selection.name)
-            save(self._context, title, name, SELECTION_WAYS[way], write)
+        name = file_name([loaded.surface.name], "selection", selection.name)
+        save(self._context, WAYS[way].removesuffix("…"), name, SELECTION_WAYS[way], write, path)
 
     @property
     def _document(self) -> Document:
         return self._context.document
 
     def menu(self) -> QtWidgets.QMenu:
-        """What can be done with the one that is chosen."""
+        """Return the menu of the chosen selection."""
         menu = QtWidgets.QMenu(self)
         for way, text in WAYS.items():
             menu.addAction(text, lambda way=way: self.save(way))
         menu.addSeparator()
-        colours = menu.addMenu("Colour")
-        for number, (name, colour) in enumerate(zip(COLOUR_NAMES, PINS, strict=True)):
-            colours.addAction(_dot(colour), name, lambda number=number: self.recolour(number))
+        add_colours(menu, self.recolour)
         menu.addAction("Rename\tF2", lambda: self.editItem(self.currentItem(), 0))
         menu.addAction("Delete\tDel", self.delete)
         menu.aboutToHide.connect(menu.deleteLater)
@@ -165,18 +145,3 @@ class SelectionList(QtWidgets.QTreeWidget):
         if self.itemAt(at) is not None:
             self.setCurrentItem(self.itemAt(at))
             self.menu().popup(self.viewport().mapToGlobal(at))
-
-
-def _dot(colour: str) -> QtGui.QIcon:
-    picture = QtGui.QPixmap(32, 32)
-    picture.setDevicePixelRatio(2)
-    picture.fill(QtCore.Qt.GlobalColor.transparent)
-    painter = QtGui.QPainter(picture)
-    painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-    painter.setPen(QtCore.Qt.PenStyle.NoPen)
-    painter.setBrush(QtGui.QColor(colour))
-    painter.drawEllipse(QtCore.QPointF(8, 8), 5, 5)
-    painter.end()
-    icon = QtGui.QIcon(picture)
-    icon.addPixmap(picture, QtGui.QIcon.Mode.Selected)  # which else is tinted
-    return icon

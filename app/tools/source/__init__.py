@@ -1,4 +1,4 @@
-"""Where the distances of a panel start: what clicks, drags and arrow keys mean where no other tool is on."""
+"""The sources of panels: clicks, drags and arrow keys where no other tool is on."""
 
 from ...document.tools import Tool
 

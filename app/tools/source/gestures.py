@@ -1,4 +1,4 @@
-"""What is done to sources on the panels: places, sets, boundary loops, and curves that are drawn."""
+"""Clicks, drags and keys on sources: points, sets of them, boundary loops, and curves that are drawn."""
 
 from typing import TYPE_CHECKING
 
@@ -24,24 +24,21 @@ from .strokes import source_from_strokes
 if TYPE_CHECKING:
     from ...scene.picking import Hit
 
-NEAR = 24.0
+POINTER_REACH_PX = 24.0
 """Pixels from the pointer to a member of the source, or to a boundary, that a menu means."""
 
-REST_MS = 200
+SETTLE_MS = 200
 """After the last of several steps, until the source has arrived."""
 
-LEAST_TOWARDS = 0.3
+MIN_TOWARDS_COS = 0.3
 """Cosine of the angle between a direction and an edge that still leads there."""
 
-CLOSING = 14.0
+CLOSING_REACH_PX = 14.0
 """Pixels between the ends of what is drawn below which it is closed, if it has been farther away."""
 
 
 class SourceGestures(Gesture):
-    """What is done where no other tool is on.
-
-    is_drawing: whether the left button draws.
-    """
+    """The gestures where no other tool is on; with `is_drawing` the left button draws."""
 
     turn = LAST
     follows = True
@@ -53,7 +50,7 @@ class SourceGestures(Gesture):
         self._moved: tuple[str, Source | None, Member] | None = None  # a point, what it was, and which member moves
         self._strokes: list[list[SurfacePoint]] = []
         self._is_beside = True  # the pointer is not on the surface, or the button was up
-        self._stepped_soon = QtCore.QTimer(self, singleShot=True, interval=REST_MS)
+        self._stepped_soon = QtCore.QTimer(self, singleShot=True, interval=SETTLE_MS)
         self._stepped_soon.timeout.connect(self._stepped)
         self._grid.events.on(Stroke, lambda panel, stroke: self._draw(panel, stroke.hit))
         self._grid.events.on(StrokeEnd, lambda panel, end: self._stroke_ended(panel, end.has_ctrl))
@@ -78,18 +75,18 @@ class SourceGestures(Gesture):
     def follow(self, panel: int, hit: "Hit") -> None:
         self._move(panel, self.at(panel, hit), key="live", live=True)
 
-    def put_down(self) -> bool:
+    def cancel(self) -> bool:
         is_drawing = self.is_drawing
         if is_drawing:
             self.context.actions["draw source"].trigger()
         return is_drawing
 
     def _move(self, panel: int, at: Source, key: str = "", live: bool = False) -> None:
-        self.context.edit(move_source(self.context.document, panel, at), key, live)
+        self.context.session.show(move_source(self.document, panel, at), key, live=live)
 
     # ------------------------------------------------------------------ points
     def drag(self, panel: int, number: int, hit: "Hit") -> None:
-        """One of the marks of a panel's source is over a place."""
+        """Move a member of the source of a panel."""
         session = self.context.session
         if self._moved is None:
             document = session.document
@@ -101,23 +98,23 @@ class SourceGestures(Gesture):
             if number >= len(marked):
                 return
             self._moved = marked[number]
-            self.context[Dragging].set_off()
+            self.context[Dragging].begin()
         name, whole, member = self._moved
         moved = with_moved(session.document, name, whole, member, self.at(panel, hit))
         session.show(moved, key=f"drag in {panel}", live=True)
 
     def release(self) -> None:
         self._moved = None
-        self.context[Dragging].rest()
+        self.context[Dragging].end()
 
     def step(self, right: int, up: int) -> None:
-        """Along the edge that leads most nearly to where a direction of the screen points."""
+        """Move the source along the edge whose direction on the screen is nearest to the key's."""
         session, id = self.context.session, self._grid.active
-        if session.surface is None or id < 0 or not session.document.panel(id).shows.points:
+        if session.loaded() is None or id < 0 or not session.document.panel(id).shows.points:
             return
-        surface = session.surface_in(id)
+        surface = session.mesh(id).surface
         panel = self._grid.panel(id)
-        vertex = panel.source
+        vertex = panel.marks.source
         if vertex is None:
             return
         faces = surface.faces[(surface.faces == vertex).any(axis=1)]
@@ -126,22 +123,22 @@ class SourceGestures(Gesture):
         places = [panel.view.place_of(panel.positions[other]) for other in others]
         ways = np.array([(place.x() - at.x(), at.y() - place.y()) for place in places])
         towards = ways @ (right, up) / np.maximum(np.linalg.norm(ways, axis=1), 1e-9)
-        if towards.max() > LEAST_TOWARDS:
+        if towards.max() > MIN_TOWARDS_COS:
             # Held, the key is a drag: stand-ins will do.
             is_held = self._stepped_soon.isActive()
             self._move(id, int(others[towards.argmax()]), key=f"steps in {id}", live=is_held)
             if is_held:
-                self.context[Dragging].set_off()
+                self.context[Dragging].begin()
             self._stepped_soon.start()
 
     def _stepped(self) -> None:
-        """The last of several steps along edges was taken."""
+        """End a series of steps along edges."""
         self.release()
-        self.context.edit(self.context.document, key=f"steps in {self._grid.active}")
+        self.context.session.show(self.document, key=f"steps in {self._grid.active}")
 
     # ------------------------------------------------------------------ members
     def add_or_remove(self, panel: int, hit: "Hit") -> None:
-        """Ctrl and a click: a place joins the source, a member that is there leaves it."""
+        """Add a place to the source by Ctrl and a click, or remove a member that is there."""
         member, at = self._member_at(panel, hit), self.at(panel, hit)
         if member is None and at in self._members(panel):
             member = at
@@ -151,22 +148,22 @@ class SourceGestures(Gesture):
             self.add(panel, at)
 
     def add(self, panel: int, more: Source) -> None:
-        """Something joins the source that a panel shows."""
+        """Add something to the source of a panel."""
         session = self.context.session
         session.show(with_member(session.document, panel, more))
         self._say(panel)
 
     def remove(self, panel: int, member: Member) -> None:
-        """A member leaves it; the last one stays."""
+        """Remove a member of the source; the last one stays."""
         session = self.context.session
         if len(self._members(panel)) < 2:
-            self.context.tell("The source consists of this alone")
+            self.context.tell("This is the only part of the source")
             return
         session.show(without_member(session.document, panel, member))
         self._say(panel)
 
     def put(self, panel: int, source: Source) -> None:
-        """The source is something else."""
+        """Replace the source."""
         session = self.context.session
         session.show(move_source(session.document, panel, source))
         self._say(panel)
@@ -183,22 +180,22 @@ class SourceGestures(Gesture):
             self.context.tell(f"Source: {short_words_of(at)}", holds)
 
     def _members(self, panel: int) -> tuple[Member, ...]:
-        document = self.context.document
+        document = self.document
         name = source_name(document, panel)
         return members_of(document.point(name).at) if name else ()
 
     def _member_at(self, panel: int, hit: "Hit") -> Member | None:
-        """The member of the source next to a place, if it is near."""
+        """Return the member of the source near a place, None if there is none."""
         members = self._members(panel)
         if not members:
             return None
         nearest = [self._nearest_of(panel, member, hit) for member in members]
         best = int(np.argmin([np.linalg.norm(x - hit.position) for x in nearest]))
-        return members[best] if self._is_near(panel, nearest[best], hit, NEAR / 2) else None
+        return members[best] if self._is_near(panel, nearest[best], hit, POINTER_REACH_PX / 2) else None
 
     def _nearest_of(self, panel: int, member: Member, hit: "Hit") -> AnyArray:
-        """(3,) the point of a member that is nearest to a place."""
-        pieces = pieces_of(member, self.context.session.surface_in(panel))
+        """Return the point (3,) of a member that is nearest to a place."""
+        pieces = pieces_of(member, self.context.session.mesh(panel).surface)
         start, stop = pieces.positions(self._grid.panel(panel).positions)
         way = stop - start
         share = np.einsum("kx,kx->k", hit.position - start, way) / np.maximum(np.einsum("kx,kx->k", way, way), 1e-300)
@@ -213,7 +210,7 @@ class SourceGestures(Gesture):
 
     # ------------------------------------------------------------------ the menu
     def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
-        """What can be done to the source there."""
+        """Add what can be done to the source to a menu."""
         menu.addAction("Source here\tClick", lambda: self._click_by_menu(panel, hit))
         member, members = self._member_at(panel, hit), self._members(panel)
         if member is None:
@@ -233,25 +230,25 @@ class SourceGestures(Gesture):
         self.click(panel, Click(hit))
 
     def _loop_near(self, panel: int, hit: "Hit") -> BoundaryLoop | None:
-        surface, positions = self.context.session.surface_in(panel), self._grid.panel(panel).positions
+        surface, positions = self.context.session.mesh(panel).surface, self._grid.panel(panel).positions
         edges = surface.boundary_edges
         if not len(edges):
             return None
         middles = positions[edges].mean(axis=1)
         nearest = int(np.linalg.norm(middles - hit.position, axis=1).argmin())
         ends = positions[edges[nearest]]
-        if not any(self._is_near(panel, point, hit, NEAR) for point in (*ends, middles[nearest])):
+        if not any(self._is_near(panel, point, hit, POINTER_REACH_PX) for point in (*ends, middles[nearest])):
             return None
         loops = boundary_loops(surface)
         return BoundaryLoop(next(number for number, rows in enumerate(loops) if nearest in rows))
 
     # ------------------------------------------------------------------ drawing
     def set_drawing(self, is_drawing: bool) -> None:
-        """Whether the left button draws a source on the surface."""
+        """Let the left button draw a source, or no longer."""
         self.is_drawing = is_drawing
         self._forget_stroke()
         self._grid.marks.draw_on(is_drawing)
-        self.context.tell("Drag over the surface: a curve as source (with Ctrl it is added); Esc ends" * is_drawing)
+        self.context.tell("Drag over the surface to draw a source; Ctrl adds the curve, Esc ends" * is_drawing)
 
     def _draw(self, panel: int, hit: "Hit | None") -> None:
         if hit is None:
@@ -271,21 +268,21 @@ class SourceGestures(Gesture):
         if not strokes:
             return
         away = np.linalg.norm(ends - ends[0], axis=1)
-        is_closed = len(ends) > 3 and away[-1] < CLOSING and away.max() > 2 * CLOSING
-        drawn = source_from_strokes(strokes, self.context.session.surface_in(panel), bool(is_closed))
+        is_closed = len(ends) > 3 and away[-1] < CLOSING_REACH_PX and away.max() > 2 * CLOSING_REACH_PX
+        drawn = source_from_strokes(strokes, self.context.session.mesh(panel).surface, bool(is_closed))
         (self.add if has_ctrl else self.put)(panel, drawn)
 
     def _on_view(self, panel: int) -> AnyArray:
-        """(k, 2) where what has been drawn is seen."""
-        widget, faces = self._grid.panel(panel), self.context.session.surface_in(panel).faces
+        """Return the places (k, 2) in the view of what has been drawn."""
+        widget, faces = self._grid.panel(panel), self.context.session.mesh(panel).surface.faces
         places = [place for stroke in self._strokes for place in stroke]
         points = [np.array(place.weights) @ widget.positions[faces[place.face]] for place in places]
         seen = [widget.view.place_of(point) for point in points]
         return np.array([(each.x(), each.y()) for each in seen])
 
     def _show_strokes(self, panel: int) -> None:
-        """On all panels of the surface."""
-        surface, name = self.context.session.surface_in(panel), self._grid.panel(panel).surface
+        """Show the strokes on all panels of the surface."""
+        surface, name = self.context.session.mesh(panel).surface, self._grid.panel(panel).surface
         strokes = [
             (surface.faces[[place.face for place in stroke]], np.array([place.weights for place in stroke]))
             for stroke in self._strokes

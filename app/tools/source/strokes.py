@@ -1,4 +1,4 @@
-"""What the pointer has drawn on a surface, as a source: curves, parted where the pointer left the surface."""
+"""Strokes of the pointer on a surface as a source: curves, cut where the pointer left the surface."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -11,18 +11,19 @@ from bihdist_core.sources.source import Curve, Member, Source, SurfacePoint
 
 from ...document.source_edits import place_at, source_from
 
-ROUNDABOUT = 3.0
+MAX_DETOUR = 3.0
 """A way on the surface between two places drawn one after another is at most so many times as long as the straight
 line; otherwise the pointer has come from one part of the surface to another behind it."""
-LEAP, DIRECT = 6.0, 1.2
-"""The same of steps so many times as long as most: the surface is seen from the side there, or there is another behind
-it or in a hole."""
+MAX_LEAP, MAX_LEAP_DETOUR = 6.0, 1.2
+"""Steps so many times as long as most are cut as well: the surface is seen from the side there, or another part of
+it behind."""
 
 
 def source_from_strokes(strokes: Sequence[Sequence[SurfacePoint]], surface: Surface, is_closed: bool = False) -> Source:
-    """The source that strokes on a surface mean, each of one place or more: curves, and places where there is but one.
+    """Return the source of strokes on a surface: curves, and points for strokes of one place.
 
-    Places that no way on the surface joins are parted.  is_closed: the only stroke comes back to where it began.
+    Places that no path on the surface joins are cut apart. With `is_closed` the only stroke returns to where it
+    began.
     """
     joins = _Joins(strokes, surface)
     runs: list[list[SurfacePoint]] = []
@@ -58,7 +59,7 @@ class _Joins:
         corners = self._surface.vertices[self._surface.faces[[face for face, _, _ in way]]]
         steps = np.einsum("kc,kcx->kx", np.array([there - here for _, here, there in way]), corners)
         straight = self._straight(start, stop)
-        most = DIRECT if straight > LEAP * self._usual else ROUNDABOUT
+        most = MAX_LEAP_DETOUR if straight > MAX_LEAP * self._usual else MAX_DETOUR
         return float(np.linalg.norm(steps, axis=1).sum()) <= most * max(straight, 1e-300)
 
     def _straight(self, start: SurfacePoint, stop: SurfacePoint) -> float:

@@ -1,10 +1,10 @@
-"""`bihdist statistics`: a distance in numbers, or how two go together, and their charts."""
+"""`bihdist statistics`: statistics of a distance, or of how two are related, and their charts."""
 
 import argparse
 import os
 from typing import TYPE_CHECKING
 
-from ...commands.field_of import FieldOf, field_of
+from ...commands.field_of import CommandField, field_of
 from ...commands.options import add_areas, add_chart, add_distance, add_mesh, add_sources, chart_page, eigenpair_count
 from ...commands.result import Facts, Result, facts_of
 from ...commands.terminal import progress_line
@@ -12,12 +12,17 @@ from ...commands.terminal import progress_line
 if TYPE_CHECKING:
     from ...figures.chart_page import ChartLook
 
-WORDS = "a distance in numbers, or how two go together, and their charts"
+WORDS = "summarise a distance, or compare two, in numbers and charts"
+EXAMPLES = (
+    "bihdist statistics hand --sources 12",
+    "bihdist statistics hand --sources 12 --histogram hand.pdf",
+    "bihdist statistics hand --sources 12 --distance biharmonic,geodesic --scatter two.png",
+)
 TEXT = ".csv"
 FIGURES, TABLES = (".pdf", ".png", ".svg", ".eps"), (".csv", ".npy")
 BINS = 40
 EIGENPAIRS = 200
-"""Of what the truncated distance loses, unless `--k` says otherwise."""
+"""The eigenpairs of a truncated distance, unless `--k` says otherwise."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -39,7 +44,7 @@ def run(options: argparse.Namespace) -> Result:
     """Print statistics of a field, or of the difference of two."""
     from bihdist_core.analysis.truncation import truncation_loss
     from bihdist_core.errors import ParameterError
-    from bihdist_core.whole_file import check_outputs
+    from bihdist_core.file_output import check_outputs
 
     words = options.distance or ["biharmonic"]
     if len(words) > 2:
@@ -57,13 +62,13 @@ def run(options: argparse.Namespace) -> Result:
     facts: Facts = {
         "mesh": options.mesh,
         "outputs": [file for file in (options.histogram, options.scatter) if file],
-        "fields": [_say(it) for it in fields],
+        "fields": [_print_statistics(it) for it in fields],
     }
     if options.histogram:
         _save_histogram(options, first)
-        print(f"{options.histogram}: histogram of {first.label}")
+        print(f"{options.histogram}: histogram of {first.answer.label}")
     if len(fields) == 2:
-        facts["agreement"] = _compare(options, *fields)
+        facts["agreement"] = _print_agreement(options, *fields)
     if loss is not None:
         print(
             f"biharmonic, the first {loss.counts[0]:,} eigenpairs: mean loss {loss.means[0]:.3%} of the maximum, "
@@ -75,49 +80,50 @@ def run(options: argparse.Namespace) -> Result:
     return Result(facts)
 
 
-def _say(it: FieldOf) -> Facts:
+def _print_statistics(it: CommandField) -> Facts:
     from bihdist_core import field_statistics
 
     found = field_statistics(it.surface, it.field)
-    print(f"{it.label}{f', {it.unit}' if it.unit else ''}{it.estimate}")
-    print(f"  greatest {_written(found.greatest, it)} at vertex {found.greatest_at}")
-    print(f"  least {_written(found.least, it)} at vertex {found.least_at}")
-    print(f"  mean by area {_written(found.mean, it)}, standard deviation {_written(found.deviation, it)}")
-    if it.is_signed:
-        print(f"  mean size by area {_written(found.mean_size, it)}")
-    parts = ", ".join(f"{s:.0%} {_written(q, it)}" for s, q in zip(found.shares, found.quantiles, strict=True))
+    print(f"{it.answer.label}{f', {it.answer.unit}' if it.answer.unit else ''}{it.accuracy}")
+    print(f"  greatest {_format_value(found.greatest, it)} at vertex {found.greatest_at}")
+    print(f"  least {_format_value(found.least, it)} at vertex {found.least_at}")
+    print(f"  mean by area {_format_value(found.mean, it)}, standard deviation {_format_value(found.deviation, it)}")
+    if it.answer.is_signed:
+        print(f"  mean size by area {_format_value(found.mean_size, it)}")
+    parts = ", ".join(f"{s:.0%} {_format_value(q, it)}" for s, q in zip(found.fractions, found.quantiles, strict=True))
     print(f"  quantiles by area: {parts}")
-    names = ("greatest", "greatest_at", "least", "least_at", "mean", "deviation", "mean_size", "shares", "quantiles")
+    names = ("greatest", "greatest_at", "least", "least_at", "mean", "deviation", "mean_size", "fractions", "quantiles")
     return {**it.facts, **facts_of(found, *names)}
 
 
-def _written(value: float, it: FieldOf) -> str:
-    return f"{value:.2f}%" if it.scale == 100 else f"{value:.6g}"
+def _format_value(value: float, it: CommandField) -> str:
+    return f"{value:.2f}%" if it.answer.scale == 100 else f"{value:.6g}"
 
 
-def _compare(options: argparse.Namespace, one: FieldOf, other: FieldOf) -> Facts:
+def _print_agreement(options: argparse.Namespace, one: CommandField, other: CommandField) -> Facts:
     from bihdist_core import field_agreement
     from bihdist_core.errors import ParameterError
 
-    if options.values and one.unit != other.unit:
-        units = f"{one.unit or 'none'} and {other.unit or 'none'}"
+    if options.values and one.answer.unit != other.answer.unit:
+        units = f"{one.answer.unit or 'none'} and {other.answer.unit or 'none'}"
         raise ParameterError(f"Values in different units ({units}) cannot be compared; leave out --values.")
     found = field_agreement(one.surface, one.field, other.field, not options.values)
-    print(f"{other.label} over {one.label}, {found.count:,} vertices")
+    print(f"{other.answer.label} over {one.answer.label}, {found.count:,} vertices")
     print(f"  rank correlation {found.spearman:.6g}, by area {found.by_area:.6g}")
-    scales = (1.0, 1.0) if options.values else (one.top, other.top)
+    scales = (1.0, 1.0) if options.values else (one.answer.maximum, other.answer.maximum)
     at = found.largest_at
-    sign = -1 if other.field[at] / scales[1] < one.field[at] / scales[0] else 1
-    words = "{:.6g}" if options.values else "{:.2%}"
-    mean, largest = words.format(found.mean), words.format(sign * found.largest)
-    print(f"  mean deviation by area {mean}, largest {largest} at vertex {at}")
+    sign = -1 if one.field[at] / scales[0] < other.field[at] / scales[1] else 1
+    kind = ".6g" if options.values else ".2%"
+    print(f"  mean deviation by area {found.mean:{kind}}")
+    labels = f"{one.answer.label} − {other.answer.label}"
+    print(f"  largest difference {sign * found.largest:+{kind}} at vertex {at} ({labels})")
     if options.scatter:
         _save_scatter(options, one, other, found.spearman, at)
         print(f"{options.scatter}: scatter of {found.count:,} vertices")
     return facts_of(found)
 
 
-def _save_histogram(options: argparse.Namespace, it: FieldOf) -> None:
+def _save_histogram(options: argparse.Namespace, it: CommandField) -> None:
     import numpy as np
 
     from bihdist_core import field_statistics
@@ -131,12 +137,17 @@ def _save_histogram(options: argparse.Namespace, it: FieldOf) -> None:
     from ...figures.histogram_figure import HistogramFigure, save_histogram_figure
 
     look = _look(options)
-    shares, colours = found.areas / found.areas.sum(), look.style.bin_colours(found.bins, it.top, it.is_signed)
-    figure = HistogramFigure(found.bins, shares, colours, it.label, it.unit, found.mean, look)
+    shares, colours = (
+        found.areas / found.areas.sum(),
+        look.style.bin_colours(found.bins, it.answer.maximum, it.answer.is_signed),
+    )
+    figure = HistogramFigure(found.bins, shares, colours, it.answer.label, it.answer.unit, found.mean, look)
     save_histogram_figure(figure, options.histogram)
 
 
-def _save_scatter(options: argparse.Namespace, one: FieldOf, other: FieldOf, correlation: float, largest: int) -> None:
+def _save_scatter(
+    options: argparse.Namespace, one: CommandField, other: CommandField, correlation: float, largest: int
+) -> None:
     import numpy as np
 
     from bihdist_core import field_scatter
@@ -148,7 +159,9 @@ def _save_scatter(options: argparse.Namespace, one: FieldOf, other: FieldOf, cor
         return
     from ...figures.scatter_figure import ScatterFigure, axes_of, save_scatter_figure
 
-    axes = axes_of(found, (one.label, other.label), (one.unit, other.unit), not options.values)
+    axes = axes_of(
+        found, (one.answer.label, other.answer.label), (one.answer.unit, other.answer.unit), not options.values
+    )
     figure = ScatterFigure(
         found, *axes, in_shares=not options.values, correlation=correlation, largest=largest, look=_look(options)
     )

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
 from bihdist_core.analysis.field_statistics import FieldStatistics, field_statistics, rank_correlation
@@ -16,18 +15,19 @@ from bihdist_core.formats.field_output import write_array
 from bihdist_core.progress import Progress, part
 
 from ...document.document import Document
-from ...document.field_names import field_names
-from ...document.file_names import file_name
+from ...document.file_names import field_names, file_name
 from ...document.quantities import quantity_name
+from ...drawing.numbers import number, percent, share
 from ...qt.context import Context
 from ...qt.docks.fact_table import FactTable
 from ...qt.docks.instrument import NO_FIELD, Instrument
+from ...qt.docks.plain import fill
 from ...qt.files.chart_files import save_figure
 from ...qt.files.isoline_files import levels_of
-from ...qt.files.saving import save, written
+from ...qt.files.saving import save
+from ...qt.look.form import Form
+from ...qt.look.layouts import heading, in_row, quiet_label
 from ...qt.look.look import LOOK
-from ...qt.look.numbers import number, percent, share
-from ...qt.panels.flat_button import FlatButton
 from ...scene.style import style_of
 from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import DifferenceQuestion, Question
@@ -39,12 +39,13 @@ if TYPE_CHECKING:
     from ...figures.histogram_figure import HistogramFigure
 
 BINS = 40
+UNIT = "fraction of the area"
 SHARES = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 
 @dataclass(frozen=True, eq=False)
 class _Request:
-    """field: (n,) the answer's.  parts: the question of a difference, whose two fields are correlated."""
+    """A field (n,), and the question of a difference, whose two fields are correlated."""
 
     loaded: LoadedMesh
     answer: Answer
@@ -52,12 +53,12 @@ class _Request:
     parts: DifferenceQuestion | None
 
 
-def _numbers(request: _Request, progress: Progress) -> Iterator[FieldStatistics | float]:
+def _compute(request: _Request, progress: Progress) -> Iterator[FieldStatistics | float]:
     surface = request.loaded.surface
     yield field_statistics(surface, request.field, BINS, SHARES)
     if request.parts is not None:
         one, other = (
-            request.loaded.answer(question, part(progress, k / 2, (k + 1) / 2)).field
+            question.answer(request.loaded, part(progress, k / 2, (k + 1) / 2)).field
             for k, question in enumerate((request.parts.minuend, request.parts.subtrahend))
         )
         if one is not None and other is not None:
@@ -66,7 +67,7 @@ def _numbers(request: _Request, progress: Progress) -> Iterator[FieldStatistics 
 
 
 class StatisticsDock(Instrument):
-    word, title, area = "statistics", "Statistics", "right"
+    word = "statistics"
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -75,63 +76,35 @@ class StatisticsDock(Instrument):
         self._request: _Request | None = None
         self.statistics: FieldStatistics | None = None
         self._correlation: float | None = None
-        self.name = QtWidgets.QLabel()
-        self.name.setProperty("heading", True)
-        self._unit = QtWidgets.QLabel()
-        self._unit.setProperty("quiet", True)
+        self.name, self._unit = heading(""), quiet_label()
         self.histogram = Histogram()
-        self.histogram.pointed.connect(self._say_bin)
+        self.histogram.pointed.connect(lambda words: self._unit.setText(words or UNIT))
         self.facts, self.quantiles = FactTable(), FactTable()
         self.truncation, self.levels = TruncationBox(context), LevelBox(context)
-        self.sentence = QtWidgets.QLabel(wordWrap=True)
-        self.sentence.setProperty("quiet", True)
-        sheet = QtWidgets.QWidget()
-        column = QtWidgets.QVBoxLayout(sheet)
-        column.setContentsMargins(12, 10, 12, 12)
-        column.setSpacing(6)
-        top = QtWidgets.QHBoxLayout()
-        top.addWidget(self.name, 1)
-        top.addWidget(self._unit)
-        column.addLayout(top)
-        for widget in (self.sentence, self.histogram, self.facts):
-            column.addWidget(widget)
+        self.sentence = quiet_label(wraps=True)
+        form = Form(spacing=6, margins=(12, 10, 12, 12))
+        form.add(in_row((self.name, 1), self._unit), self.sentence, self.histogram, self.facts)
         for title, widget in (
             ("Quantiles, by area", self.quantiles),
             ("Truncation", self.truncation),
             ("Isolines and regions", self.levels),
         ):
-            heading = QtWidgets.QLabel(title)
-            heading.setProperty("heading", True)
-            column.addSpacing(8)
-            column.addWidget(heading)
-            column.addWidget(widget)
-        column.addStretch(1)
-        scroll = QtWidgets.QScrollArea()
-        scroll.setWidgetResizable(True)
-        scroll.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        scroll.setWidget(sheet)
-        scroll.viewport().setAutoFillBackground(False)
-        sheet.setAutoFillBackground(False)
-        around = QtWidgets.QVBoxLayout(self)
-        around.setContentsMargins(0, 0, 0, 0)
-        around.addWidget(scroll)
+            form.section(title)
+            form.add(widget)
+        form.add(None)
+        fill(self, form)
         self.setMinimumWidth(240)
-        self._save = FlatButton(self, "save")
-        self._save.setToolTip("Save the histogram as a figure, or its numbers")
-        self._save.setAccessibleName("What to do with the histogram")
-        menu = QtWidgets.QMenu(self._save)
-        menu.addAction("Save the histogram as a figure…", self.save_figure)
-        menu.addAction("Save the histogram's numbers…", self.save_numbers)
-        menu.addAction("Copy the statistics", self.copy)
-        self._save.setMenu(menu)
-        self._background = context.background("statistics", _numbers)
-        self._background.answered.connect(self._take)
-        self._background.failed.connect(self._refuse)
-        context.grid.activated.connect(self._follow)
+        menu = {
+            "Save the histogram as a figure…": self.save_figure,
+            "Save the histogram's numbers…": self.save_numbers,
+            "Copy the statistics": self.copy,
+        }
+        self._save = self.add_head_button(
+            "save", "Save the histogram as a figure, or its numbers", menu, "Save histogram"
+        )
+        self._background = context.background("statistics", _compute, self._take, self._refuse)
+        context.grid.activated.connect(lambda *_: self._ask() if self.isVisible() else None)
         LOOK.follow(self, self._show)
-
-    def head_widgets(self) -> list[QtWidgets.QWidget]:
-        return [self._save]
 
     # ------------------------------------------------------------------ what it is about
     def show_document(self, document: Document, before: Document | None) -> None:
@@ -141,28 +114,24 @@ class StatisticsDock(Instrument):
         if panel == self._panel:
             self._ask()
 
-    def _follow(self, panel: int) -> None:
-        if self.isVisible():
-            self._ask()
-
     def _ask(self) -> None:
-        """For the numbers of the active panel, if they are not there."""
+        """Ask for the numbers of the active panel, if they are not there."""
         context = self.context
         session, id = context.session, context.grid.active
-        shown, loaded = session.shown.get(id), session.loaded_in(id)
+        shown, loaded = session.shown.get(id), session.loaded(id)
         self._panel = id
         if loaded is None or shown is None:
             return  # on its way
         names = {panel.id: quantity_name(panel.shows) for panel in session.document.panels}
         self.name.setText(names.get(id, ""))
-        question: Question = shown.asked
+        question: Question = shown.question
         self.truncation.expect(loaded, question)
         scene = context.grid.panel(id).view.scene
-        key = (id, shown.answer.field is not None and shown.answer.field.ctypes.data, shown.answer, loaded.surface)
-        lines = (scene.maximum, scene.isolines.tobytes(), scene.style)
-        if (key[:2], key[3], lines) == self._asked:
+        about = (id, shown.answer.field is not None and shown.answer.field.ctypes.data, loaded.surface)
+        lines = (scene.field_actor.maximum, scene.field_actor.levels.values.tobytes(), scene.style)
+        if (about, lines) == self._asked:
             return
-        if self._asked[:2] != (key[:2], key[3]):
+        if self._asked[:1] != (about,):
             self.statistics = self._correlation = None
             if shown.answer.field is None:
                 self._background.ask(None)
@@ -173,7 +142,7 @@ class StatisticsDock(Instrument):
                 self._background.ask(self._request)
         else:
             self._show()
-        self._asked = (key[:2], key[3], lines)
+        self._asked = (about, lines)
         self.levels.show_levels(levels_of(context, id))
 
     def _refuse(self, request: object, sentence: str) -> None:
@@ -195,32 +164,30 @@ class StatisticsDock(Instrument):
             widget.setVisible(found is not None)
         self._save.setEnabled(found is not None)
         self.sentence.setVisible(found is None and bool(self.sentence.text()))
-        if found is None or self._request is None or self._panel not in self._ids():
+        there = [panel.id for panel in self.context.grid.panels]
+        if found is None or self._request is None or self._panel not in there:
             return
         answer = self._request.answer
         scene = self.context.grid.panel(self._panel).view.scene
-        top, signed = scene.maximum, answer.is_signed
+        top, signed = scene.field_actor.maximum, answer.is_signed
         colours = scene.style.bin_colours(found.bins, top, signed)
         self.histogram.show_bins(found.bins, found.areas, colours, answer.unit, signed)
-        self._unit.setText("fraction of the area")
+        self._unit.setText(UNIT)
         self.facts.show_facts(self._facts(found, self._request))
         self.quantiles.show_facts(self._quantiles(found, answer))
 
-    def _ids(self) -> list[int]:
-        return [panel.id for panel in self.context.grid.panels]
-
     def _quantiles(self, found: FieldStatistics, answer: Answer, exact: bool = False) -> list[tuple[str, ...]]:
         return [
-            (f"{100 * part:g} % of the area up to", *self._written(float(value), answer, exact=exact))
-            for part, value in zip(found.shares, found.quantiles, strict=True)
+            (f"{100 * part:g} % of the area up to", *self._value_and_fraction(float(value), answer, exact=exact))
+            for part, value in zip(found.fractions, found.quantiles, strict=True)
         ]
 
     def _facts(self, found: FieldStatistics, request: _Request, exact: bool = False) -> list[tuple[str, ...]]:
-        """exact: with all digits."""
+        """Return the rows of the table, with all digits if `exact`."""
         answer = request.answer
 
         def written(value: float, with_sign: bool = True) -> tuple[str, ...]:
-            return self._written(value, answer, with_sign, exact)
+            return self._value_and_fraction(value, answer, with_sign, exact)
 
         facts: list[tuple[str, ...]] = []
         if answer.is_signed:
@@ -237,8 +204,10 @@ class StatisticsDock(Instrument):
         return facts
 
     @staticmethod
-    def _written(value: float, answer: Answer, with_sign: bool = True, exact: bool = False) -> tuple[str, ...]:
-        """The value, and its fraction of the maximum, which means nothing of a difference."""
+    def _value_and_fraction(
+        value: float, answer: Answer, with_sign: bool = True, exact: bool = False
+    ) -> tuple[str, ...]:
+        """Return a value and its fraction of the maximum, which a difference does not have."""
         signed = answer.is_signed and with_sign
         top = 0.0 if answer.signs else answer.maximum
         text = repr(float(value)) if exact else number(value, signed) + percent(answer.unit)
@@ -246,25 +215,22 @@ class StatisticsDock(Instrument):
             return (text,)
         return text, repr(float(value / top)) if exact else share(value / top, signed)
 
-    def _say_bin(self, words: str) -> None:
-        self._unit.setText(words or "fraction of the area")
-
     # ------------------------------------------------------------------ what is saved
     def _there(self) -> tuple[_Request, FieldStatistics]:
-        """What was asked for, and its numbers; ParameterError as long as there are none."""
+        """Return the request and its statistics; ParameterError as long as there are none."""
         if self._request is None or self.statistics is None:
             raise ParameterError("There are no statistics yet; wait until the panel has a field.")
         return self._request, self.statistics
 
     def figure(self) -> "HistogramFigure":
-        """The histogram, in the style and the colours of figures."""
+        """Return the histogram in the style and the colours of figures."""
         from ...figures.chart_page import ChartLook
         from ...figures.histogram_figure import HistogramFigure
 
         (request, found), context = self._there(), self.context
         answer, page, document = request.answer, context.page, context.document
         style = style_of(page.style, document.colours)
-        top = context.grid.panel(self._panel).view.scene.maximum
+        top = context.grid.panel(self._panel).view.scene.field_actor.maximum
         return HistogramFigure(
             found.bins,
             found.areas / found.areas.sum(),
@@ -278,31 +244,29 @@ class StatisticsDock(Instrument):
     def _file_name(self) -> str:
         session = self.context.session
         words = field_names(session.document, [session.document.panel(self._panel)])
-        return file_name([session.surface_in(self._panel).name], "histogram", *words)
+        return file_name([session.mesh(self._panel).surface.name], "histogram", *words)
 
-    def save_figure(self, *_: object, path: str = "") -> None:
-        """path: asks for one if it is empty."""
+    def save_figure(self, path: str = "") -> None:
+        """Save the figure; ask for a path if there is none."""
         from ...figures.histogram_figure import save_histogram_figure
 
         save_figure(self.context, "Save the histogram", self._file_name(), save_histogram_figure, self.figure, path)
 
-    def save_numbers(self, *_: object, path: str = "") -> None:
-        """The ends of each bin, and its area."""
-        context = self.context
+    def save_numbers(self, path: str = "") -> None:
+        """Save the ends of each bin, and its area."""
 
         def write(path: str) -> None:
             _, found = self._there()
             table = np.column_stack([found.bins[:-1], found.bins[1:], found.areas])
             write_array(path, table, ["from", "to", "area"])
 
-        if path:
-            written(context, path, write)
-        else:
-            save(context, "Save the histogram's numbers", self._file_name(), (".csv", ".npy"), write)
+        save(self.context, "Save the histogram's numbers", self._file_name(), (".csv", ".npy"), write, path)
 
     def copy(self) -> None:
-        """What the dock says, with tabs and all digits, as spreadsheets read it."""
-        request, found = self._there()
-        facts = [(self.name.text(),), *self._facts(found, request, True), *self._quantiles(found, request.answer, True)]
-        QtWidgets.QApplication.clipboard().setText("".join("\t".join(fact) + "\n" for fact in facts))
-        self.context.tell("The statistics are on the clipboard")
+        """Copy what the dock says, with tabs and all digits, as spreadsheets read it."""
+        with self.context.errors_shown():
+            request, found = self._there()
+            quantiles = self._quantiles(found, request.answer, True)
+            facts = [(self.name.text(),), *self._facts(found, request, True), *quantiles]
+            text = "".join("\t".join(fact) + "\n" for fact in facts)
+            self.context.copy(text, "The statistics are on the clipboard")

@@ -5,12 +5,13 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core.arrays import AnyArray, FloatArray
 
+from ...drawing.numbers import number, percent, share, tick, ticks
+from ...drawing.painters.qt import number_width, paint_number
 from ...qt.look.look import LOOK
-from ...qt.look.numbers import number, number_width, paint_number, percent, share, tick, ticks
 
-HEIGHT = 128
-PAD = 2.0
-LEAST = 1.0
+HEIGHT_PX = 128
+PAD_PX = 2.0
+MIN_BAR_PX = 1.0
 """Pixels of the least area that there is."""
 
 
@@ -27,31 +28,26 @@ class Histogram(QtWidgets.QWidget):
         self._under: int | None = None
         self.setMouseTracking(True)
         self.setAccessibleName("Histogram by area")
-        self.setFixedHeight(HEIGHT)
+        self.setFixedHeight(HEIGHT_PX)
         LOOK.follow(self, self.update)
 
     def show_bins(self, ends: AnyArray, areas: AnyArray, colours: FloatArray, unit: str, is_signed: bool) -> None:
-        """ends: (b + 1,); areas: (b,) of each bin; colours: (b, 3), 0 to 1; unit: of the values."""
+        """Show bins between ends (b + 1,) with areas (b,) and colours (b, 3) from 0 to 1, in the unit of the values."""
         total = areas.sum()
         self._ends, self._shares = ends, areas / total if total > 0 else areas
         self._colours, self._unit, self._is_signed = colours, unit, is_signed
         self._under = None
         self.update()
 
-    def clear(self) -> None:
-        """Show no bars."""
-        self._ends, self._shares = np.empty(0), np.empty(0)
-        self.update()
-
     @property
     def bars(self) -> list[QtCore.QRectF]:
-        """Where the bins stand."""
+        """Return the rectangles of the bins."""
         if not len(self._shares) or not self._shares.max() > 0:
             return []
-        left, width = PAD, (self.width() - 2 * PAD) / len(self._shares)
+        left, width = PAD_PX, (self.width() - 2 * PAD_PX) / len(self._shares)
         bottom = self.height() - 24 * LOOK.scale
         tallest = bottom - 6
-        heights = np.where(self._shares > 0, np.maximum(tallest * self._shares / self._shares.max(), LEAST), 0)
+        heights = np.where(self._shares > 0, np.maximum(tallest * self._shares / self._shares.max(), MIN_BAR_PX), 0)
         return [
             QtCore.QRectF(left + k * width, bottom - height, max(width - 1, 1), height)
             for k, height in enumerate(heights)
@@ -73,13 +69,13 @@ class Histogram(QtWidgets.QWidget):
             painter.setPen(QtGui.QPen(QtGui.QColor(theme.text) if k == self._under else edge, 1))
             painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
             painter.drawRect(bar.adjusted(0.5, 0.5, -0.5, -0.5))
-        painter.fillRect(QtCore.QRectF(PAD, bottom, self.width() - 2 * PAD, 1), QtGui.QColor(theme.border))
+        painter.fillRect(QtCore.QRectF(PAD_PX, bottom, self.width() - 2 * PAD_PX, 1), QtGui.QColor(theme.border))
         painter.setFont(LOOK.font(12))
         metrics = QtGui.QFontMetricsF(painter.font())
         painter.setPen(QtGui.QColor(theme.quiet))
         for value in ticks(low, high, max(int(self.width() / 72), 2)):
             words = self._tick(value)
-            x = PAD + (value - low) / ((high - low) or 1) * (self.width() - 2 * PAD)
+            x = PAD_PX + (value - low) / ((high - low) or 1) * (self.width() - 2 * PAD_PX)
             width = number_width(painter.font(), words)
             x = min(max(x - width / 2, 0), self.width() - width)
             paint_number(painter, x, round(bottom + 5 + metrics.ascent()), words)

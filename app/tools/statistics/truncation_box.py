@@ -1,4 +1,4 @@
-"""What a sum over the first k eigenpairs loses of the biharmonic distance, with k on a slider."""
+"""The loss of a sum over the first k eigenpairs of the biharmonic distance, with k on a slider."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -10,22 +10,28 @@ from bihdist_core.analysis.truncation import TruncationLoss, truncation_loss
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
+from ...drawing.chart import Axis, Plot
+from ...drawing.numbers import progress_words, share
+from ...drawing.painters.qt import box_of, paint, rgba_of
+from ...drawing.shapes import Pen, disc
 from ...qt.context import Context
 from ...qt.docks.fact_table import FactTable
+from ...qt.look.form import describe
+from ...qt.look.layouts import in_column, push_button, quiet_label
 from ...qt.look.look import LOOK
-from ...qt.look.numbers import share
+from ...qt.look.painting import smooth_painter
 from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import DistanceQuestion, Question
 
-MOST = 200
+MAX_EIGENPAIRS = 200
 """Eigenpairs at most."""
 
-FIRST = 50
+USUAL_EIGENPAIRS = 50
 
 MEAN, LARGEST = "accent", "text"
 """The colours of the curves, as fields of `Theme`."""
 
-CURVES = 64
+CURVE_POINTS = 64
 """Height of the curves, in logical pixels."""
 
 
@@ -36,9 +42,9 @@ class _Request:
     source: Source
 
 
-def _lost(request: _Request, progress: Progress) -> Iterator[TruncationLoss]:
+def _compute_loss(request: _Request, progress: Progress) -> Iterator[TruncationLoss]:
     laplacian = request.loaded.distances(request.areas).laplacian
-    yield truncation_loss(laplacian, request.source, MOST, progress=progress)
+    yield truncation_loss(laplacian, request.source, MAX_EIGENPAIRS, progress=progress)
 
 
 class TruncationBox(QtWidgets.QWidget):
@@ -50,36 +56,24 @@ class TruncationBox(QtWidgets.QWidget):
         self._wanted: _Request | None = None
         self._is_on = False
         self.loss: TruncationLoss | None = None
-        self.button = QtWidgets.QPushButton("Compute", autoDefault=False)
-        self.button.clicked.connect(self.compute)
-        self.hint = QtWidgets.QLabel(wordWrap=True)
-        self.hint.setProperty("quiet", True)
-        self.slider = QtWidgets.QSlider(QtCore.Qt.Orientation.Horizontal)
-        self.slider.setRange(1, MOST)
-        self.slider.setValue(FIRST)
-        self.slider.setAccessibleName("How many eigenpairs")
-        self.slider.setToolTip("How many eigenpairs")
+        self.button, self.hint = push_button("Compute", self.compute), quiet_label(wraps=True)
+        self.slider = QtWidgets.QSlider(QtCore.Qt.Orientation.Horizontal, minimum=1, maximum=MAX_EIGENPAIRS)
+        self.slider.setValue(USUAL_EIGENPAIRS)
+        describe(self.slider, "How many eigenpairs", "How many eigenpairs")
         self.slider.valueChanged.connect(self._show)
         self.curves = LossCurves()
         self.facts = FactTable()
-        column = QtWidgets.QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(6)
-        for widget in (self.hint, self.button, self.slider, self.curves, self.facts):
-            column.addWidget(widget)
-        self._background = context.background("truncation", _lost)
-        self._background.answered.connect(self._take)
-        self._background.failed.connect(self._refuse)
-        self._background.progressed.connect(self._report)
+        in_column(self.hint, self.button, self.slider, self.curves, self.facts, of=self, spacing=6)
+        self._background = context.background("truncation", _compute_loss, self._take, self._refuse, self._report)
         self._say("")
 
     def expect(self, loaded: LoadedMesh | None, question: Question | None) -> None:
-        """The question of the panel that it is about."""
+        """Set the question of the panel that the box is about."""
         self._wanted = None
         if loaded is None or not isinstance(question, DistanceQuestion) or question.spec.word != "biharmonic":
-            self._rest("For a panel with the biharmonic distance.")
+            self._rest("Needs a panel with the biharmonic distance.")
         elif question.at is None:
-            self._rest("For a source that is there.")
+            self._rest("Needs a source.")
         else:
             before, wanted = self._request, _Request(loaded, question.areas, question.at)
             same = before == wanted
@@ -87,7 +81,7 @@ class TruncationBox(QtWidgets.QWidget):
             if self._is_on and not same:
                 self.compute()
             elif not self._is_on:
-                self._say(f"How much is lost where only the first k of {MOST:,} eigenpairs are summed.")
+                self._say(f"The loss when only the first k of {MAX_EIGENPAIRS:,} eigenpairs are summed.")
             elif same:
                 self._show()
 
@@ -106,7 +100,7 @@ class TruncationBox(QtWidgets.QWidget):
         self._say(words)
 
     def _say(self, words: str) -> None:
-        """Instead of numbers."""
+        """Show a sentence instead of numbers."""
         self.hint.setText(words)
         has_loss = self.loss is not None and not words
         self.hint.setVisible(bool(words))
@@ -116,7 +110,7 @@ class TruncationBox(QtWidgets.QWidget):
 
     def _report(self, progress: tuple[float, str] | None) -> None:
         if self.loss is None and progress is not None:
-            self.hint.setText(f"{progress[1][:1].upper()}{progress[1][1:]}, {progress[0]:.0%}".replace("%", " %"))
+            self.hint.setText(progress_words(*progress))
 
     def _refuse(self, request: object, sentence: str) -> None:
         self.loss = None
@@ -145,7 +139,7 @@ class TruncationBox(QtWidgets.QWidget):
 
 
 def share_of_loss(value: float) -> str:
-    """With enough digits for little."""
+    """Return a fraction with enough digits for small losses."""
     return share(value) if value >= 0.01 else f"{100 * value:.3g} %"
 
 
@@ -156,7 +150,7 @@ class LossCurves(QtWidgets.QWidget):
         super().__init__()
         self._loss: TruncationLoss | None = None
         self._at = 0
-        self.setFixedHeight(CURVES)
+        self.setFixedHeight(CURVE_POINTS)
         self.setAccessibleName("Loss over the number of eigenpairs")
         self.setToolTip("Largest (above) and mean loss over the number of eigenpairs, on a logarithmic scale")
         LOOK.follow(self, self.update)
@@ -170,18 +164,14 @@ class LossCurves(QtWidgets.QWidget):
         loss = self._loss
         if loss is None or len(loss.counts) < 2:
             return
-        theme, painter = LOOK.theme, QtGui.QPainter(self)
-        painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
+        theme, painter = LOOK.theme, smooth_painter(self)
         logs = [np.log10(np.maximum(each, 1e-16)) for each in (loss.largest, loss.means)]
         low, high = min(each.min() for each in logs), max(each.max() for each in logs)
-        area = QtCore.QRectF(self.rect()).adjusted(5, 5, -5, -5)
-        x = area.left() + (loss.counts - loss.counts[0]) / (loss.counts[-1] - loss.counts[0]) * area.width()
-        painter.fillRect(QtCore.QRectF(round(float(x[self._at])), 0, 1, self.height()), QtGui.QColor(theme.strong))
-        for each, colour in zip(logs, (getattr(theme, LARGEST), getattr(theme, MEAN)), strict=True):
-            y = area.bottom() - (each - low) / ((high - low) or 1) * area.height()
-            line = QtGui.QPolygonF([QtCore.QPointF(*place) for place in zip(x.tolist(), y.tolist(), strict=True)])
-            painter.setPen(QtGui.QPen(QtGui.QColor(colour), 1.5))
-            painter.setBrush(QtCore.Qt.BrushStyle.NoBrush)
-            painter.drawPolyline(line)
-            painter.setBrush(QtGui.QColor(colour))
-            painter.drawEllipse(line[self._at], 3, 3)
+        across, up = Axis(float(loss.counts[0]), float(loss.counts[-1])), Axis(float(low), float(high))
+        plot = Plot(box_of(self.rect().adjusted(5, 5, -5, -5)), across, up)
+        x = float(plot.x(loss.counts[self._at]))
+        painter.fillRect(QtCore.QRectF(round(x), 0, 1, self.height()), QtGui.QColor(theme.strong))
+        for each, field in zip(logs, (LARGEST, MEAN), strict=True):
+            colour = rgba_of(getattr(theme, field))
+            curve = plot.curve(loss.counts, each, Pen(colour, 1.5))
+            paint(painter, [*filter(None, [curve]), disc((x, float(plot.y(each[self._at]))), 3, colour)])

@@ -1,23 +1,33 @@
-/** Source, pins and camera in the part of an address behind "#", read strictly: anybody may have written it. */
+/** Source, pins, camera and panels in the part of an address behind "#", read strictly: anybody may have written it. */
 import { minus, cross } from "./vectors.js";
 
 const NUMBER = /^-?\d{1,17}(\.\d{1,17})?(e[+-]?\d{1,2})?$/, ID = /^\d{1,10}$/;
 const MOST_PINS = 100, LONGEST_NAME = 80;
 
-/** @param {{source: number, pins: {id: number, name: string}[], camera: number[][]}} state camera: position, focal, up */
-export function addressOf({ source, pins, camera }) {
+/**
+ * @param {{source: number, pins: {id: number, name: string}[], camera: number[][], panels?: number[]}} state
+ *   camera: position, focal, up; panels: places among the choices, where they are not the first ones
+ */
+export function addressOf({ source, pins, camera, panels = [] }) {
   const places = pins.map(({ id, name }) => (name ? `${id}:${encodeURIComponent(name)}` : id));
   const numbers = camera.flat().map((x) => String(Number(x.toPrecision(6))));
-  return `#source=${source}${places.length ? `&pins=${places}` : ""}&camera=${numbers}`;
+  const [pinned, shown] = [places.length ? `&pins=${places}` : "", panels.length ? `&panels=${panels}` : ""];
+  return `#source=${source}${pinned}${shown}&camera=${numbers}`;
 }
 
 /**
  * @param {(id: number) => boolean} isVertex
- * @returns {{source?: number, pins?: {id: number, name: string}[], camera?: number[][], ignored: string[]}} what is
- *   valid, and the names of what is not
+ * @param {(panels: number[]) => boolean} isChoice
+ * @returns {{source?: number, pins?: {id: number, name: string}[], camera?: number[][], panels?: number[],
+ *   ignored: string[]}} what is valid, and the names of what is not
  */
-export function readAddress(hash, isVertex) {
-  const read = { source: (text) => vertexOf(text, isVertex), pins: (text) => pinsOf(text, isVertex), camera: cameraOf };
+export function readAddress(hash, isVertex, isChoice) {
+  const read = {
+    source: (text) => vertexOf(text, isVertex),
+    pins: (text) => pinsOf(text, isVertex),
+    panels: (text) => panelsOf(text, isChoice),
+    camera: cameraOf,
+  };
   const found = { ignored: [] };
   for (const part of hash
     .slice(1)
@@ -40,6 +50,11 @@ function pinsOf(text, isVertex) {
     return read === null ? null : { id: read, name: nameOf(name) };
   });
   return pins.length > MOST_PINS || pins.some((pin) => pin === null || pin.name === null) ? null : pins;
+}
+
+function panelsOf(text, isChoice) {
+  const panels = text.split(",");
+  return panels.every((each) => ID.test(each)) && isChoice(panels.map(Number)) ? panels.map(Number) : null;
 }
 
 function nameOf(text) {

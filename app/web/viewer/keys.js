@@ -25,12 +25,14 @@ export const HELP = [
   ["Drag, one finger, arrow keys", "turn"],
   ["Wheel, two fingers, + and −", "zoom"],
   ["Right drag, Ctrl+drag, two fingers", "move"],
+  ["Embedded in a page: Ctrl+wheel, or the wheel after a click", "zoom"],
+  ["Embedded in a page: two fingers", "turn and zoom"],
   ["Home", "the first view"],
   ["Tab", "to the next panel"],
-  ["Shift+arrow keys", "move the cursor, which stands in the middle at first"],
+  ["Shift+arrow keys", "move the cursor, which starts in the middle"],
   ["Enter", "set the source at the cursor"],
   ["P", "pin the vertex at the pointer or cursor"],
-  ["[ and ]", "to the source before, and after"],
+  ["[ and ]", "to the previous and the next source"],
   ["?", "this list"],
 ];
 

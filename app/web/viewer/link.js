@@ -9,10 +9,16 @@ export class Link {
     this.viewer = viewer;
   }
 
+  /** The page's address with what is shown. */
+  get url() {
+    const { mesh, source, pins, sight, chosen, first } = this.viewer;
+    const panels = String(chosen) === first ? [] : chosen;
+    return new URL(addressOf({ source: mesh.ids[source], pins, camera: sight.numbers, panels }), location.href).href;
+  }
+
   write() {
-    const { mesh, source, pins, sight } = this.viewer;
     try {
-      history.replaceState(null, "", addressOf({ source: mesh.ids[source], pins, camera: sight.numbers }));
+      history.replaceState(null, "", this.url);
     } catch {
       // Browsers refuse where the page is part of another, or its address changes too often.
     }
@@ -23,16 +29,19 @@ export class Link {
     if (this.viewer.hasAddress) this.timer = setTimeout(() => this.write(), DELAY);
   }
 
-  /** Show what the address holds. @returns {boolean} whether it had a source */
+  /** Show what the address holds. @returns {boolean} whether distances are computed for that */
   follow() {
-    const { viewer } = this, { vertices, sight } = viewer;
-    const { source, pins, camera, ignored } = readAddress(location.hash, (id) => vertices.has(id));
+    const { viewer } = this, { vertices, sight, chosen, choices } = viewer;
+    const isChoice = (panels) => panels.length === chosen.length && panels.every((each) => each in choices);
+    const { source, pins, camera, panels, ignored } = readAddress(location.hash, (id) => vertices.has(id), isChoice);
     if (camera && !sight.look(camera)) ignored.push("camera");
     if (pins) viewer.setPins(pins);
-    if (source !== undefined) viewer.visit(vertices.get(source));
+    if (panels) viewer.setPanels(panels);
+    const visits = source !== undefined || panels !== undefined;
+    if (visits) viewer.visit(vertices.get(source) ?? viewer.source);
     if (ignored.length) viewer.say(`The link was not understood in part, and left out: ${ignored.join(", ")}.`, true);
     viewer.redraw();
-    return source !== undefined;
+    return visits;
   }
 
   destroy() {

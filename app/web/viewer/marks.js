@@ -1,63 +1,39 @@
-/** Source, pins and the pointer's place, painted over the surface. */
+/** Marks and the pointer's place, painted over the surface; the scene has their shapes. */
 import { written, percentage } from "./numbers.js";
 
-export const PIN_COLOURS = [
-  "#1F7A3D",
-  "#A84A00",
-  "#6B3FC0",
-  "#6B6400",
-  "#8A3A78",
-  "#4A5560",
-  "#7A4B1E",
-  "#00696B",
-  "#3F4FA8",
-  "#99621E",
-];
-const DARK = "#14161A";
+const DARK = "#14161A", DIGITS = [1, 10 / 11, 8 / 11];
 
-function disc(brush, x, y, radius, fill, rim, wide) {
-  brush.beginPath();
-  brush.arc(x, y, radius, 0, 2 * Math.PI);
-  brush.fillStyle = fill;
-  brush.lineWidth = wide;
-  brush.strokeStyle = rim;
-  if (fill) brush.fill();
-  brush.stroke();
-}
-
-export const paintSource = (brush, x, y) => disc(brush, x, y, 6, "#FFDB1A", "#1A1A1F", 1.5);
-
-/** A pin with its tip at the place, and its number. */
-export function paintPin(brush, x, y, number, font) {
-  const head = y - 17;
-  brush.beginPath();
-  brush.arc(x, head, 8.5, 0.8 * Math.PI, 0.2 * Math.PI);
-  brush.lineTo(x, y);
-  brush.closePath();
-  brush.lineJoin = "round";
-  for (const [wide, colour] of [
-    [5, DARK],
-    [3, "#FFFFFF"],
-  ]) {
-    brush.lineWidth = wide;
-    brush.strokeStyle = colour;
-    brush.stroke();
+/**
+ * Paint shapes about a place.
+ * @param {CanvasRenderingContext2D} brush
+ * @param {object[]} shapes paths and texts, as `app/drawing/painters/page.py` writes them
+ * @param {{colour?: string, number?: number, font?: string}} own what stands for "own" colours, and for numbers
+ */
+export function paintShapes(brush, shapes, x, y, { colour = "", number = 0, font = "" } = {}) {
+  const inked = (name) => (name === "own" ? colour : name);
+  brush.save();
+  brush.translate(x, y);
+  for (const { path, text, fill, line, width, dashes, join, cap, ...words } of shapes) {
+    if (text !== undefined) {
+      const digits = String(number), size = words.size * DIGITS[Math.min(digits.length, 3) - 1];
+      brush.font = `${words.weight} ${size}px ${font}`;
+      brush.fillStyle = inked(words.colour);
+      brush.textAlign = words.align;
+      brush.textBaseline = words.level;
+      brush.fillText(digits, words.x, words.y);
+      continue;
+    }
+    const outline = new Path2D(path);
+    if (fill) {
+      brush.fillStyle = inked(fill);
+      brush.fill(outline);
+    }
+    if (!line) continue;
+    brush.setLineDash(dashes);
+    [brush.lineJoin, brush.lineCap, brush.lineWidth, brush.strokeStyle] = [join, cap, width, inked(line)];
+    brush.stroke(outline);
   }
-  brush.fillStyle = PIN_COLOURS[(number - 1) % PIN_COLOURS.length];
-  brush.fill();
-  brush.font = `600 11px ${font}`;
-  brush.fillStyle = "#FFFFFF";
-  brush.textAlign = "center";
-  brush.fillText(String(number), x, head + 4);
-  brush.textAlign = "start";
-}
-
-/** A ring around the vertex at the pointer; isHere: in the panel that the pointer is in. */
-export function paintRing(brush, x, y, isHere) {
-  const radius = isHere ? 8 : 6;
-  disc(brush, x, y, radius, "", DARK, 4.5);
-  disc(brush, x, y, radius, "", "#FFFFFF", 2);
-  if (isHere) disc(brush, x, y, 1, "#FFFFFF", DARK, 1.5);
+  brush.restore();
 }
 
 /** The place that the arrow keys move. */

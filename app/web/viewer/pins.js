@@ -2,7 +2,6 @@
 import { element, iconButton } from "./elements.js";
 import { written, percentage } from "./numbers.js";
 import { reading } from "./fields.js";
-import { PIN_COLOURS } from "./marks.js";
 
 export class PinTable {
   /** @param {import("./viewer.js").Viewer} viewer */
@@ -22,9 +21,10 @@ export class PinTable {
       element("button", { class: "plain", text: "Pin it" }),
       this.wrong,
     );
-    const heads = ["Pin", "Name", ...viewer.scene.panels.map(({ label }) => label), ""];
+    this.head = element("tr");
+    this.relabel(viewer.scene.panels);
     this.body = element("tbody");
-    const head = element("thead", {}, element("tr", {}, ...heads.map((text) => element("th", { scope: "col", text }))));
+    const head = element("thead", {}, this.head);
     this.none = element("p", { class: "quiet", text: "No pins yet: press P at a place, or type a vertex." });
     this.element = element(
       "section",
@@ -33,6 +33,13 @@ export class PinTable {
       this.none,
       element("div", { class: "scrolled" }, element("table", {}, head, this.body)),
     );
+  }
+
+  /** Name the columns after what panels show. */
+  relabel(panels) {
+    const heads = ["Pin", "Name", ...panels.map(({ label }) => label)];
+    const cells = heads.map((text) => element("th", { scope: "col", text }));
+    this.head.replaceChildren(...cells, element("td")); // over the buttons
   }
 
   #add(event, box) {
@@ -52,8 +59,8 @@ export class PinTable {
   }
 
   #row(k, answers) {
-    const colour = PIN_COLOURS[k % PIN_COLOURS.length], badge = element("span", { class: "badge", text: k + 1 });
-    badge.style.background = colour;
+    const { colours } = this.viewer.scene.marks, badge = element("span", { class: "badge", text: k + 1 });
+    badge.style.background = colours[k % colours.length];
     const id = element("button", {
       type: "button",
       class: "link",

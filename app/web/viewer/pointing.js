@@ -23,7 +23,7 @@ export class Pointing {
     if (hit || place?.isCursor) this.timer ??= setTimeout(() => this.#speak(), SPOKEN);
   }
 
-  /** Move the cursor of a panel, which stands in the middle at first. */
+  /** Move the cursor of a panel, which starts in the middle. */
   move(panel, dx, dy) {
     const { width, height } = this.viewer.sight.boxes[panel],
       { x, y } = this.cursor ?? { x: width / 2, y: height / 2 };
@@ -47,8 +47,8 @@ export class Pointing {
 
   #speak() {
     this.timer = null;
-    const { scene, answers, mesh } = this.viewer, vertex = this.place?.vertex;
-    const values = scene.panels.map(({ label }, k) => `${label} ${this.place && valueWords(answers[k], vertex)}`);
+    const { scene, current, mesh } = this.viewer, vertex = this.place?.vertex;
+    const values = scene.panels.map(({ label }, k) => `${label} ${this.place && valueWords(current[k], vertex)}`);
     this.spoken.textContent = this.place ? `Vertex ${mesh.ids[vertex]}: ${values.join("; ")}` : "No surface here.";
   }
 

@@ -1,4 +1,4 @@
-// Distances from a vertex, computed by the kernel in a worker: a column at a time, the latest question first.
+// Distances from a vertex, computed by the kernel in two workers: a column at a time, the latest question first.
 
 /** The worker; its own text is all it knows. */
 function work() {
@@ -82,16 +82,15 @@ function work() {
     for (let v = first; v < end; v++) field[v] = Math.sqrt(field[v]);
   }
 
+  // Each field is posted as soon as it is ready.
   function answer({ number, vertex, names }) {
-    const start = performance.now(), component = componentOf(vertex), fields = {};
+    const start = performance.now(), component = componentOf(vertex);
     for (const name of names) {
-      const field = (fields[name] = new Float64Array(mesh.n).fill(NaN));
+      const field = new Float64Array(mesh.n).fill(NaN);
       if (name in points) fromPoints(points[name], field, vertex, component);
       else part(component).fill(field, name, vertex);
+      postMessage({ number, name, field, took: performance.now() - start }, [field.buffer]);
     }
-    const memory = [...instances.values()].reduce((sum, { kernel }) => sum + kernel.memory.buffer.byteLength, 0);
-    const buffers = Object.values(fields).map((field) => field.buffer);
-    postMessage({ number, source: vertex, fields, took: performance.now() - start, memory }, buffers);
   }
 
   onmessage = ({ data }) => {
@@ -107,37 +106,31 @@ function work() {
   };
 }
 
-/**
- * @typedef {object} Answer
- * @property {number} source
- * @property {Object<string, Float64Array>} fields NaN where undefined
- * @property {number} took milliseconds
- * @property {number} memory bytes of the kernel
- */
+const SLOW = "geodesic";
 
-export class Solver {
-  /** points: by the names that questions have for them; given: fields that are the same from every vertex.
-   * @param {{wasm: Uint8Array, mesh: import("./unpack.js").Mesh, points: object, scene: object,
-   *   given?: Object<string, Float64Array>, onprogress?: (words: string) => void}} given */
-  constructor({ wasm, mesh, points, scene, given = {}, onprogress = () => {} }) {
-    this.given = given;
-    const url = URL.createObjectURL(new Blob([`(${work})()`], { type: "text/javascript" }));
-    this.worker = new Worker(url);
+/** A worker with one question at a time, of those that wait the latest. */
+class Lane {
+  /** @param {() => Worker} start a worker that has been given its mesh @param {(words: string) => void} onprogress */
+  constructor(start, onprogress) {
+    Object.assign(this, { start, onprogress });
     this.running = this.waiting = null;
     this.count = 0;
-    this.worker.onmessage = ({ data }) => (data.words ? onprogress(data.words) : this.receive(data));
-    this.worker.onerror = (event) => this.receive({ number: this.count, error: event.message || "The worker failed." });
-    const { near, corrections, areas } = scene;
-    this.worker.postMessage({ wasm, mesh, points, scene: { near, corrections, areas } });
-    URL.revokeObjectURL(url);
   }
 
-  /** Distances by name from a stored vertex, and given fields; null if a later question has taken its place.
-   * @param {number} vertex @param {string[]} names @returns {Promise<Answer | null>} */
-  field(vertex, names) {
+  /** @returns {Promise<number | null>} milliseconds to the last field; null if a later question has taken its place */
+  ask({ vertex, names, onfield, isFinal }) {
     this.waiting?.resolve(null);
+    this.waiting = null;
+    if (!names.length) return Promise.resolve(0);
     return new Promise((resolve, reject) => {
-      this.waiting = { vertex, names, resolve, reject };
+      const question = { vertex, names, onfield, resolve, reject, left: names.length };
+      if (names[0] === SLOW && this.running?.vertex === vertex) {
+        this.running.resolve(null);
+        this.running = question;
+        return;
+      }
+      this.waiting = question;
+      if (names[0] === SLOW && isFinal && this.running) this.close();
       if (!this.running) this.send();
     });
   }
@@ -146,22 +139,88 @@ export class Solver {
     this.running = this.waiting;
     this.waiting = null;
     if (!this.running) return;
+    if (!this.worker) {
+      this.worker = this.start();
+      this.worker.onmessage = ({ data }) => (data.words ? this.onprogress(data.words) : this.receive(data));
+      const fail = ({ message }) => this.receive({ number: this.count, error: message || "The worker failed." });
+      this.worker.onerror = fail;
+    }
     const { vertex, names } = this.running;
-    const computed = names.filter((name) => !(name in this.given));
-    this.worker.postMessage({ number: ++this.count, vertex, names: computed });
+    this.worker.postMessage({ number: ++this.count, vertex, names });
   }
 
-  receive({ number, error, ...answer }) {
+  receive({ number, error, name, field, took }) {
     if (number !== this.count || !this.running) return;
-    const { resolve, reject } = this.running;
+    const { vertex, onfield, resolve, reject } = this.running;
+    if (!error) onfield({ source: vertex, fields: { [name]: field }, took });
+    if (!error && --this.running.left) return;
     this.send();
     if (error) reject(new Error(error));
-    else resolve({ ...answer, fields: { ...this.given, ...answer.fields } });
+    else resolve(took);
+  }
+
+  /** Give up what is computed. */
+  close() {
+    this.worker?.terminate();
+    this.running?.resolve(null);
+    this.worker = this.running = null;
+  }
+}
+
+/**
+ * @typedef {object} Answer
+ * @property {number} source
+ * @property {Object<string, Float64Array>} fields NaN where undefined
+ * @property {number} took milliseconds
+ */
+
+export class Solver {
+  /** points: by the names that questions have for them; given: fields that are the same from every vertex.
+   * @param {{wasm: Uint8Array, mesh: import("./unpack.js").Mesh, points: object, scene: object,
+   *   given?: Object<string, Float64Array>, onprogress?: (words: string) => void}} given */
+  constructor({ wasm, mesh, points, scene, given = {}, onprogress = () => {} }) {
+    this.given = given;
+    const { near, corrections, areas } = scene;
+    const start = () => {
+      const url = URL.createObjectURL(new Blob([`(${work})()`], { type: "text/javascript" })), worker = new Worker(url);
+      URL.revokeObjectURL(url);
+      worker.postMessage({ wasm, mesh, points, scene: { near, corrections, areas } });
+      return worker;
+    };
+    // Exact geodesic distance takes a hundred times as long as the others, which do not wait for it.
+    [this.quick, this.slow] = [new Lane(start, onprogress), new Lane(start, onprogress)];
+  }
+
+  /**
+   * Compute distances from a stored vertex.
+   * @param {number} vertex
+   * @param {string[]} names of distances and of given fields
+   * @param {(answer: Answer) => void} [onfield] called with each part of the answer as soon as it is ready
+   * @param {boolean} [isFinal] whether the slow distance from an earlier vertex is given up; it is finished otherwise
+   * @returns {Promise<Answer | null>} all of it; null if a later question has taken its place
+   */
+  async field(vertex, names, onfield = () => {}, isFinal = true) {
+    const fields = {};
+    const receive = (answer) => {
+      Object.assign(fields, answer.fields);
+      onfield(answer);
+    };
+    const given = names.filter((name) => name in this.given);
+    if (given.length)
+      receive({ source: vertex, fields: Object.fromEntries(given.map((name) => [name, this.given[name]])), took: 0 });
+    const computed = names.filter((name) => !given.includes(name));
+    const ask = (lane, names) => lane.ask({ vertex, names, onfield: receive, isFinal });
+    const took = await Promise.all([
+      ask(this.quick, computed.filter((name) => name !== SLOW)),
+      ask(this.slow, computed.filter((name) => name === SLOW)),
+    ]);
+    return took.includes(null) ? null : { source: vertex, fields, took: Math.max(...took) };
   }
 
   close() {
-    this.worker.terminate();
-    this.waiting?.resolve(null);
-    this.running?.resolve(null);
+    for (const lane of [this.quick, this.slow]) {
+      lane.waiting?.resolve(null);
+      lane.close();
+    }
   }
 }

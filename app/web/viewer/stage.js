@@ -4,30 +4,50 @@ import { Drawing } from "./drawing.js";
 import { themeOf, coloursOf } from "./theme.js";
 import { reading } from "./fields.js";
 import { paintBar, barWords } from "./colour_bar.js";
-import { paintSource, paintPin, paintRing, paintCursor, paintLabel } from "./marks.js";
+import { paintShapes, paintCursor, paintLabel } from "./marks.js";
 
-const NARROWEST = 280, LOWEST = 320, WITHOUT_VIEW = 100, HEAD = 36, PICTURE_SCALE = 2;
+const NARROWEST = 180, LOWEST = 180, COMFORTABLE = 320, WITHOUT_VIEW = 100, HEAD = 36, PICTURE_SCALE = 2, PALE = 0.6;
 
 export class Stage {
   /** draw() needs `start`, which throws an Error with a sentence where the browser cannot draw. */
-  constructor(root, scene) {
+  constructor(root, scene, choices, choose) {
     this.root = root;
     this.scene = scene;
+    this.choices = choices;
     this.surface = element("canvas", { class: "surface", "aria-hidden": true });
     this.over = element("canvas", { class: "over", "aria-hidden": true });
     this.bars = scene.panels.map(() => element("div", { class: "scale", role: "img" }));
     const role = { class: "view", tabindex: 0, role: "application" };
-    this.views = scene.panels.map(({ label }) =>
-      element("div", { ...role, "aria-label": `${label}: a surface; press ? for the keys` }),
+    this.views = scene.panels.map(() => element("div", role));
+    this.heads = scene.panels.map((_, k) => this.#head(k, choose));
+    this.panels = scene.panels.map((_, k) =>
+      element("section", { class: "panel" }, element("h2", {}, this.heads[k]), this.views[k], this.bars[k]),
     );
-    const panels = scene.panels.map(({ label, note }, k) => {
-      const head = element("h2", { text: label, title: note ? `${label}; ${note}` : label });
-      return element("section", { class: "panel", "aria-label": label }, head, this.views[k], this.bars[k]);
-    });
-    this.grid = element("div", { class: "grid" }, ...panels);
+    for (const k of this.panels.keys()) this.relabel(k);
+    this.grid = element("div", { class: "grid" }, ...this.panels);
     this.sheet = element("div", { class: "sheet" }, this.surface, this.grid, this.over);
     this.element = element("div", { class: "stage" }, this.sheet);
     this.boxes = [];
+  }
+
+  /** The name of what a panel shows, with a list where there is a choice. */
+  #head(k, choose) {
+    if (this.choices.length < 2) return element("span");
+    const options = this.choices.map(({ label }) => element("option", { text: label }));
+    const head = element("select", { "aria-label": `Panel ${k + 1} shows` }, ...options);
+    head.addEventListener("change", () => choose(k, head.selectedIndex));
+    return head;
+  }
+
+  /** Name what a panel shows. */
+  relabel(k) {
+    const { label, note } = this.scene.panels[k], head = this.heads[k];
+    if (head.options) head.selectedIndex = this.choices.findIndex((each) => each.label === label);
+    else head.textContent = label;
+    head.title = note ? `${label}; ${note}` : label;
+    this.panels[k].setAttribute("aria-label", label);
+    this.views[k].setAttribute("aria-label", `${label}: a surface; press ? for the keys`);
+    if (this.theme) this.drawing?.setColours(k, this.mapOf(k));
   }
 
   start(shape) {
@@ -49,10 +69,11 @@ export class Stage {
   /** Rows and columns for the room there is. */
   fit() {
     const { clientWidth: width, clientHeight: height } = this.element, count = this.views.length;
-    const columns = columnsFor(count, width, height), rows = Math.ceil(count / columns);
-    const lowest = columns === 1 && count > 1 ? Math.min(width, 380) + WITHOUT_VIEW : LOWEST;
+    const columns = columnsFor(count, width, height), high = Math.floor(height / Math.ceil(count / columns));
+    // Where not all have room, each row is as high as can be seen at a time.
+    const scrolled = Math.max(Math.min(COMFORTABLE, height), LOWEST);
     this.grid.style.gridTemplateColumns = `repeat(${columns}, minmax(0, 1fr))`;
-    this.grid.style.gridAutoRows = `${Math.max(Math.floor(height / rows), lowest)}px`;
+    this.grid.style.gridAutoRows = `${high >= LOWEST ? high : scrolled}px`;
     this.boxes.splice(0, this.boxes.length, ...this.views.map(boxOf));
     this.barBoxes = this.bars.map(boxOf);
     this.#size(this.drawing?.isSoftware ? 1 : devicePixelRatio);
@@ -83,14 +104,15 @@ export class Stage {
     brush.clearRect(0, 0, this.grid.offsetWidth, this.grid.offsetHeight);
     this.#paintAll(brush, viewer, viewer.pointing.place);
     for (const [k, bar] of this.bars.entries()) {
-      const { left, right } = barWords(this.scene.panels[k], viewer.answers[k], null);
+      const { left, right } = barWords(this.scene.panels[k], viewer.current[k], null);
+      this.panels[k].classList.toggle("computing", viewer.isStale(k));
       bar.setAttribute("aria-label", right ? `Colours: ${left}, ${right}` : "Computing");
     }
   }
 
   #paintAll(brush, viewer, pointed) {
     for (const [k, { x, y, width, height }] of this.boxes.entries()) {
-      const answer = viewer.answers[k], levels = viewer.levels[k]?.values ?? [];
+      const answer = viewer.current[k], levels = viewer.levels[k]?.values ?? [];
       const value = pointed && answer ? reading(answer, pointed.vertex).value : null;
       const look = { map: this.mapOf(k), levels, theme: this.theme };
       paintBar(brush, this.barBoxes[k], this.scene.panels[k], answer, value, look);
@@ -98,26 +120,37 @@ export class Stage {
       brush.beginPath();
       brush.rect(x, y, width, height);
       brush.clip();
+      if (viewer.isStale(k)) this.#pale(brush, this.boxes[k]);
       this.#paintMarks(brush, viewer, k);
       if (pointed) this.#paintPointed(brush, viewer, k, pointed);
       brush.restore();
     }
   }
 
+  #pale(brush, { x, y, width, height }) {
+    brush.globalAlpha = PALE;
+    brush.fillStyle = this.theme.canvas;
+    brush.fillRect(x, y, width, height);
+    brush.globalAlpha = 1;
+  }
+
   #paintMarks(brush, { sight, pins, source }, k) {
+    const { marks } = this.scene;
     const seen = (vertex) => (sight.isSeen(vertex) ? sight.placed(k, vertex) : null);
     for (const [number, { vertex }] of pins.entries()) {
       const at = seen(vertex);
-      if (at) paintPin(brush, ...at, number + 1, this.theme.font);
+      if (!at) continue;
+      const colour = marks.colours[number % marks.colours.length];
+      paintShapes(brush, marks.pin, ...at, { colour, number: number + 1, font: this.theme.font });
     }
     const at = seen(source);
-    if (at) paintSource(brush, ...at);
+    if (at) paintShapes(brush, marks.source, ...at);
   }
 
-  #paintPointed(brush, { sight, answers }, k, { vertex, panel, x, y, isCursor }) {
-    const at = sight.placed(k, vertex), box = this.boxes[k], answer = answers[k];
+  #paintPointed(brush, { sight, current }, k, { vertex, panel, x, y, isCursor }) {
+    const at = sight.placed(k, vertex), box = this.boxes[k], answer = current[k];
     if (!at) return;
-    paintRing(brush, ...at, k === panel);
+    paintShapes(brush, k === panel ? this.scene.marks.ring : this.scene.marks.echo, ...at);
     if (k !== panel) return;
     if (isCursor) paintCursor(brush, box.x + x, box.y + y);
     if (answer) paintLabel(brush, ...at, box, reading(answer, vertex), answer, this.theme);
@@ -147,13 +180,12 @@ export class Stage {
 
 const boxOf = (part) => ({ x: part.offsetLeft, y: part.offsetTop, width: part.offsetWidth, height: part.offsetHeight });
 
-/** As many columns as make the views largest, none of them too narrow. */
-function columnsFor(count, width, height) {
-  let best = 1, largest = 0;
+/** The number of columns that makes the views largest, none of them too narrow. */
+export function columnsFor(count, width, height) {
+  let best = 1, largest = -Infinity;
   for (let columns = 1; columns <= count && (columns === 1 || width / columns >= NARROWEST); columns++) {
-    const side = Math.min(width / columns, Math.max(height / Math.ceil(count / columns), LOWEST) - WITHOUT_VIEW);
-    const fits = height / Math.ceil(count / columns) >= LOWEST ? 1 : 0.5;
-    if (side * fits > largest) [best, largest] = [columns, side * fits];
+    const side = Math.min(width / columns, height / Math.ceil(count / columns) - WITHOUT_VIEW);
+    if (side > largest) [best, largest] = [columns, side];
   }
   return best;
 }

@@ -1,4 +1,4 @@
-// What a page holds, from base64 of raw deflate to arrays; app/web/stored_mesh.py, points.py and stored_field.py pack it.
+// What a page holds, from base64 of raw deflate to arrays; app/web/stored_mesh.py and stored_values.py pack it.
 
 /**
  * What the solver takes of a page or of a widget.

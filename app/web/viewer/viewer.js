@@ -1,5 +1,5 @@
 /** Distances on a surface in linked panels: what is shown, and what becomes of clicks and keys. */
-import { element } from "./elements.js";
+import { element, dialog } from "./elements.js";
 import { Shape } from "./shape.js";
 import { Sight } from "./sight.js";
 import { Stage } from "./stage.js";
@@ -11,22 +11,37 @@ import { addGestures } from "./gestures.js";
 import { addKeys } from "./keys.js";
 import { aboutBox, helpBox } from "./about.js";
 import { Link } from "./link.js";
-import { savePicture, copyLink } from "./saving.js";
+import { savePicture, copied, copyBox } from "./saving.js";
 
-const NOTICED = 150, MOST_VISITED = 200, ROOM_FOR_PINS = 600;
+const NOTICED = 150, MOST_VISITED = 200, ROOM_FOR_PINS = { width: 600, height: 600 };
+
+const HINTED = 1500, CONTROL = /^Mac/.test(navigator.platform) ? "⌘" : "Ctrl";
+const HINTS = {
+  mouse: `${CONTROL} + scroll, or click first, to zoom`,
+  touch: "Two fingers turn and zoom the surface",
+};
+
+const timed = (words, took) => `${words} in ${took.toFixed(took < 10 ? 1 : 0)} ms`;
 
 export class Viewer {
   /**
    * @param {HTMLElement} root of the class "bihdist"; all of the viewer is inside it
-   * @param {{mesh: object, scene: object, solver: {field: Function}, hasAddress?: boolean,
+   * @param {{mesh: object, scene: object, solver: {field: Function}, isEmbedded?: boolean, hasAddress?: boolean,
    *   onsource?: (id: number) => void, onpins?: (pins: {id: number, name: string}[]) => void}} host
-   *   hasAddress: the page's address holds what is shown; onsource, onpins: the user has changed them
+   *   isEmbedded: it is part of a page that scrolls; hasAddress: the page's address holds what is shown; onsource,
+   *   onpins: the user has changed them
    */
-  constructor(root, { mesh, scene, solver, hasAddress = false, onsource = () => {}, onpins = () => {} }) {
-    Object.assign(this, { root, mesh, scene, solver, hasAddress, onsource, onpins });
+  constructor(root, { mesh, scene, solver, isEmbedded = false, hasAddress = false, ...told }) {
+    const { onsource = () => {}, onpins = () => {} } = told;
+    scene = { ...scene, panels: [...scene.panels] };
+    Object.assign(this, { root, mesh, scene, solver, isEmbedded, hasAddress, onsource, onpins });
+    /** What a panel can show: what panels show at first, and what else there is. */
+    this.choices = [...new Map([...scene.panels, ...scene.offered].map((each) => [each.label, each])).values()];
+    this.first = String(this.chosen);
     this.vertices = new Map(Array.from(mesh.ids, (id, vertex) => [id, vertex]));
-    this.names = [...new Set(scene.panels.flatMap(fieldNames))];
+    this.fields = {}; // by name, each with its source
     this.answers = scene.panels.map(() => null);
+    this.isLate = this.hasFailed = false;
     this.levels = scene.panels.map(() => null);
     this.source = this.vertices.get(scene.source) ?? 0;
     this.pins = [];
@@ -35,6 +50,7 @@ export class Viewer {
     this.link = new Link(this);
     this.timers = {};
     this.ended = new AbortController();
+    root.classList.toggle("embedded", isEmbedded);
     root.dataset.lmSuppressShortcuts = ""; // JupyterLab's, of the keys that views take
     const shape = new Shape(mesh, { crease: scene.crease, backs: scene.mesh.backs });
     this.#build();
@@ -45,6 +61,7 @@ export class Viewer {
       root.replaceChildren(this.notice);
       return;
     }
+    /** How panels see the shape; missing where the browser cannot draw. */
     this.sight = new Sight(shape, scene.camera, this.stage.boxes);
     this.#listen();
     this.setPins(scene.pins);
@@ -53,16 +70,22 @@ export class Viewer {
   }
 
   #build() {
-    this.stage = new Stage(this.root, this.scene);
+    const choose = (k, choice) => this.choosePanel(k, choice);
+    this.stage = new Stage(this.root, this.scene, this.choices, choose);
     this.bar = new ToolBar(this);
     this.table = new PinTable(this);
     this.pointing = new Pointing(this);
     this.notice = element("p", { class: "notice", role: "alert", hidden: true });
     this.message = element("span", { role: "status" });
-    this.about = aboutBox(this.scene);
+    this.about = aboutBox(this.scene, this.hasAddress);
     this.help = helpBox();
+    this.hint = element("p", { class: "hint", "aria-hidden": true });
+    this.stage.sheet.append(this.hint);
+    const { credit, version } = this.scene, open = () => this.about.showModal();
+    const made = [credit && `${credit} ·`, `bihdist ${version}`].map((text) => element("span", { text }));
+    const signature = element("button", { type: "button", class: "signature", title: "About", click: open }, ...made);
     const { bar, notice, stage, table, message, pointing, about, help } = this;
-    const footer = element("footer", { class: "status" }, message, pointing.where);
+    const footer = element("footer", { class: "status" }, message, pointing.where, signature);
     this.root.replaceChildren(bar.element, notice, stage.element, table.element, footer, pointing.spoken, about, help);
   }
 
@@ -75,8 +98,11 @@ export class Viewer {
     listen(stage.surface, "webglcontextlost", (event) => event.preventDefault());
     listen(stage.surface, "webglcontextrestored", () => this.#restore());
     if (this.hasAddress) listen(window, "hashchange", () => this.link.follow());
+    // In a page that scrolls, the wheel zooms from a click on until the mouse leaves.
+    listen(stage.element, "pointerdown", ({ pointerType }) => (this.hasWheel = pointerType !== "touch"));
+    listen(this.root, "pointerleave", () => (this.hasWheel = false));
     for (const [k, view] of stage.views.entries()) {
-      addGestures(view, this.#intents(k), signal);
+      addGestures(view, this.#intents(k), signal, this.isEmbedded);
       addKeys(view, k, this, signal);
       listen(view, "focus", () => view.matches(":focus-visible") && pointing.move(k, 0, 0));
       listen(view, "blur", () => pointing.at(null));
@@ -94,7 +120,8 @@ export class Viewer {
   setPins(pins) {
     const known = pins.filter(({ id }) => this.vertices.has(id));
     this.pins = known.map(({ id, name }) => ({ id, name, vertex: this.vertices.get(id) }));
-    if (known.length && this.root.clientWidth > ROOM_FOR_PINS) this.showPins(true);
+    const { clientWidth: width, clientHeight: height } = this.root;
+    if (known.length && width > ROOM_FOR_PINS.width && height > ROOM_FOR_PINS.height) this.showPins(true);
     this.redraw(false);
   }
 
@@ -146,40 +173,97 @@ export class Viewer {
     this.choose(this.visited[this.at]);
   }
 
-  async #compute(vertex, since = performance.now()) {
+  /** isPassing: another source follows at once, as in a drag. */
+  async #compute(vertex, since = performance.now(), isPassing = false) {
     this.source = vertex;
     this.bar.show(this.mesh.ids[vertex], this.at > 0, this.at + 1 < this.visited.length);
     this.redraw(false);
-    const { root, timers, ended } = this;
-    clearTimeout(timers.busy);
-    timers.busy = setTimeout(() => root.classList.add("computing"), NOTICED);
+    const { timers, ended } = this, all = [...new Set(this.scene.panels.flatMap(fieldNames))];
+    const names = all.filter((name) => this.fields[name]?.source !== vertex);
+    timers.late ??= setTimeout(() => this.#setLate(true), NOTICED);
+    const receive = (answer) => ended.signal.aborted || this.#receive(answer, names);
     try {
-      const answer = await this.solver.field(vertex, this.names);
+      const answer = await this.solver.field(vertex, names, receive, !isPassing);
       if (!answer || ended.signal.aborted) return;
       if (this.hasFailed) this.notice.hidden = true;
       this.hasFailed = false;
-      this.#show(answer, since);
+      this.#tell(answer, since);
     } catch (error) {
       this.hasFailed = true;
       this.say(error.message, true);
     }
     if (vertex !== this.source) return;
-    clearTimeout(timers.busy);
-    root.classList.remove("computing");
+    clearTimeout(timers.late);
+    timers.late = null;
+    this.#setLate(this.hasFailed);
   }
 
-  #show({ source, fields, took }, since) {
-    for (const [k, panel] of this.scene.panels.entries()) {
-      this.answers[k] = panelAnswer(panel, fields);
-      this.levels[k] = isolineLevels(panel.isolines ?? this.scene.isolines, this.answers[k]);
-      this.stage.drawing.setAnswer(k, this.answers[k], this.levels[k]);
+  /** Show the panels whose fields are all there with this part of an answer. */
+  #receive({ source, fields, took }, names) {
+    for (const [name, values] of Object.entries(fields)) this.fields[name] = { source, values };
+    for (const [k, panel] of this.scene.panels.entries())
+      if (fieldNames(panel).some((name) => name in fields)) this.#show(k);
+    const done = names.filter((name) => this.fields[name]?.source === source).length;
+    if (source === this.source) this.say(timed(`${done} of ${names.length} fields`, took));
+  }
+
+  /** What panels show, by their places among the choices. */
+  get chosen() {
+    return this.scene.panels.map(({ label }) => this.choices.findIndex((each) => each.label === label));
+  }
+
+  /** Let panels show these of the choices, once the source is visited. */
+  setPanels(chosen) {
+    for (const [k, choice] of chosen.entries()) {
+      if (choice === this.chosen[k]) continue;
+      this.scene.panels[k] = this.choices[choice];
+      this.answers[k] = this.levels[k] = null;
+      this.stage.relabel(k);
+      this.#show(k);
     }
-    const { length } = this.names, id = this.mesh.ids[source];
-    this.say(`${length} ${length === 1 ? "field" : "fields"} in ${took.toFixed(took < 10 ? 1 : 0)} ms`);
-    // The picture is told of, for those who measure: `since` is the time from the click to it.
+    this.table.relabel(this.scene.panels);
+  }
+
+  /** The user chose what a panel shows. */
+  choosePanel(k, choice) {
+    this.setPanels(Object.assign(this.chosen, { [k]: choice }));
+    this.#compute(this.source);
+    this.link.writeSoon();
+  }
+
+  #show(k) {
+    const panel = this.scene.panels[k], found = fieldNames(panel).map((name) => [name, this.fields[name]]);
+    const source = found[0][1]?.source;
+    if (source === undefined || found.some(([, field]) => field?.source !== source)) return;
+    const fields = Object.fromEntries(found.map(([name, { values }]) => [name, values]));
+    this.answers[k] = { source, ...panelAnswer(panel, fields) };
+    this.levels[k] = isolineLevels(panel.isolines ?? this.scene.isolines, this.answers[k]);
+    this.stage.drawing.setAnswer(k, this.answers[k], this.levels[k]);
+    this.redraw();
+  }
+
+  /** The picture of a whole answer is told of, for those who measure: `since` is the time from the click to it. */
+  #tell({ source, fields, took }, since) {
+    const { length } = Object.keys(fields), id = this.mesh.ids[source];
+    if (length) this.say(timed(`${length} ${length === 1 ? "field" : "fields"}`, took));
     const detail = () => ({ source: id, took, since: performance.now() - since });
     this.drawn = () => this.root.dispatchEvent(new CustomEvent("picture", { detail: detail() }));
     this.redraw();
+  }
+
+  #setLate(isLate) {
+    this.isLate = isLate;
+    this.redraw(false);
+  }
+
+  /** Whether a panel has not shown the distances from the source for long enough to be noticed. */
+  isStale(k) {
+    return this.isLate && this.answers[k]?.source !== this.source;
+  }
+
+  /** What panels show, null where that is yet to come. */
+  get current() {
+    return this.answers.map((answer, k) => (this.isStale(k) ? null : answer));
   }
 
   /** Do something with a typed vertex. @returns {string} what is wrong, or "" */
@@ -229,12 +313,21 @@ export class Viewer {
       hover: (x, y) => this.pointing.at({ panel: k, x, y }),
       leave: () => this.pointing.at(null),
       pick: onSurface((vertex, since) => this.choose(vertex, since)),
-      live: onSurface((vertex) => vertex !== this.source && this.#compute(vertex)),
+      live: onSurface((vertex) => vertex !== this.source && this.#compute(vertex, undefined, true)),
       settle: () => this.choose(this.source),
       turn: (...by) => this.move("turn", k, ...by),
       pan: (...by) => this.move("pan", k, ...by),
       zoom: (...by) => this.move("zoom", k, ...by),
+      leavesWheel: () => this.isEmbedded && !this.hasWheel,
+      scrolled: (pointer) => this.#showHint(pointer),
     };
+  }
+
+  #showHint(pointer) {
+    this.hint.textContent = HINTS[pointer] ?? HINTS.touch;
+    this.hint.classList.add("shown");
+    clearTimeout(this.timers.hint);
+    this.timers.hint = setTimeout(() => this.hint.classList.remove("shown"), HINTED);
   }
 
   // ------------------------------------------------------------ what leaves the page
@@ -244,8 +337,13 @@ export class Viewer {
   }
 
   async copyLink() {
+    const { url } = this.link;
     this.link.write();
-    this.say(await copyLink());
+    if (await copied(url)) return this.say("The link to this view is copied.");
+    const box = dialog("Link to this view", copyBox("Link", url));
+    box.addEventListener("close", () => box.remove());
+    this.root.append(box);
+    box.showModal();
   }
 
   // ------------------------------------------------------------ drawing
@@ -263,7 +361,7 @@ export class Viewer {
     if (this.stale) stage.draw(sight.camera);
     this.stale = false;
     stage.paint(this);
-    this.table.show(this.pins, this.answers);
+    this.table.show(this.pins, this.current);
     pointing.show();
     this.drawn?.();
     this.drawn = null;

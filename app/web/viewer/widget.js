@@ -18,6 +18,7 @@ async function render({ model, el }) {
   const changed = (name) => (value) => (model.set(name, value), model.save_changes());
   const viewer = root.viewer = new Viewer(root, {
     mesh: contents.mesh, scene: { ...scene, source: model.get("source"), pins: model.get("pins") }, solver,
+    isEmbedded: true,
     onsource: (id) => (changed("source")(id), model.send({ picked: id })), onpins: changed("pins"),
   });
   const followed = {

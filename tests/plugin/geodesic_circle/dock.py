@@ -11,7 +11,7 @@ from .measures import measured, vertex_in
 
 
 class CircleDock(Instrument):
-    word, title = "circle", "Geodesic circle"
+    word = "circle"
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
@@ -28,6 +28,6 @@ class CircleDock(Instrument):
         for shown in session.document.panels:
             found, vertex = session.shown.get(shown.id), vertex_in(session.document, shown)
             if vertex is not None and found is not None and found.answer.field is not None:
-                circle = measured(session.surface_in(shown.id), found.answer.field, vertex)
+                circle = measured(session.mesh(shown.id).surface, found.answer.field, vertex)
                 lines.append(f"radius {circle.radius:.4g}, length {circle.length:.4g}, area {circle.area:.4g}")
         self.label.setText("\n".join(lines) or "Click on a panel of geodesic distance.")

@@ -25,4 +25,4 @@ class CircleGesture(Gesture):
 
     def _put(self, panel: int, hit: "Hit", live: bool = False) -> None:
         document = self.context.document
-        self.context.edit(with_circle(document, hit.vertex, document.panel(panel).surface), "circle", live)
+        self.context.session.show(with_circle(document, hit.vertex, document.panel(panel).surface), "circle", live=live)

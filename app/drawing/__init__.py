@@ -1,0 +1,1 @@
+"""Drawings in two dimensions beside and over surfaces: described once as shapes, and painted by painters."""

@@ -1,0 +1,74 @@
+"""Words, colour bars and axes beside the pictures of a page, as shapes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bihdist_core.arrays import AnyArray
+
+from ..drawing.axes import LETTER, axes_shapes, middle
+from ..drawing.shapes import Box, Path, Shape, opaque, rectangle
+from .bars import line_spacing, shapes_of_bar
+from .page_layout import ComposedPage, PanelLayout
+from .shots import Shot
+from .words import LINE, TextLines
+
+ARM_WIDTH = 1.1
+"""Pixels of the width of the axes' arms, where letters are LETTER high."""
+
+
+def caption_shapes(page: ComposedPage) -> list[Shape]:
+    """Return the words and the colour bars of a page."""
+    layout, figure = page.layout, page.figure
+    shapes: list[Shape] = []
+    for panel, cell in zip(figure.panels, layout.cells, strict=True):
+        for words in cell.words:
+            shapes += words.shapes(figure.style)
+        if panel.failure:
+            shapes += _failure_shapes(page, panel.failure, cell)
+    # Bars with isolines next to one without would look like another kind of scale.
+    room = min((line_spacing(figure, bar) for bar in layout.bars), default=0.0)
+    for bar in layout.bars:
+        shapes += shapes_of_bar(figure, bar, layout.stroke, room)
+    return shapes
+
+
+def _failure_shapes(page: ComposedPage, failure: str, cell: PanelLayout) -> list[Shape]:
+    """Return the reason for which there is no field, in lines on the shape."""
+    style, lettering = page.figure.style, page.layout.lettering
+    area = Box(cell.views[0].x, cell.views[0].y, cell.views[-1].right - cell.views[0].x, cell.views[0].height)
+    most = max(int(0.9 * area.height / (LINE * page.layout.label) - 1), 1)
+    size, (lines,) = lettering.fitted([failure], page.layout.label, 0.9 * area.width, most)
+    if not lines:
+        return []
+    wide = max(lettering.width(line, size) for line in lines) + size
+    high = (len(lines) - 1) * LINE * size + 1.9 * size
+    x, y = area.middle
+    ground = Path(rectangle(Box(x - wide / 2, y - high / 2, wide, high)), opaque(style.background, 0.88))
+    return [ground, *TextLines(lines, x, y - high / 2 + 1.3 * size, size).shapes(style)]
+
+
+def cross_shapes(page: ComposedPage) -> list[Shape]:
+    """Return the axes x, y and z in a corner of each picture that is not seen as one before it."""
+    seen: list[AnyArray] = []
+    shapes: list[Shape] = []
+    for shot in page.shots:
+        is_new = not any(np.allclose(shot.frame, frame, atol=1e-6) for frame in seen)
+        if page.figure.panels[shot.panel].axes and shot.source is None and is_new:
+            seen.append(shot.frame)
+            shapes += _cross(page, shot)
+    return shapes
+
+
+def _cross(page: ComposedPage, shot: Shot) -> list[Shape]:
+    unit, box = page.layout.label / LETTER, shot.box
+    insets = [inset.box for inset in page.insets_of(shot.panel)]
+    taken = {_corner(inset, box) for inset in insets if box.x <= inset.x < box.right}
+    x, y = middle(box.width / unit, box.height / unit, taken)
+    at = box.x + unit * x, box.y + unit * y
+    return axes_shapes(shot.frame, at, page.layout.label, ARM_WIDTH * unit, page.figure.style.quiet_text)
+
+
+def _corner(inset: Box, box: Box) -> str:
+    (x, y), (across, down) = inset.middle, box.middle
+    return f"{'top' if y < down else 'bottom'} {'left' if x < across else 'right'}"

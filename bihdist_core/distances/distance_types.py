@@ -1,0 +1,422 @@
+"""The table of distances: everything that has to be known of one before it is made.
+
+The command line, the panels' controls, recipes, web pages, charts and the guide's table are made from it.  Importing it
+imports neither numpy nor any distance.
+
+Distances of other packages join through the entry point group `bihdist.distances`: each entry point is named with the
+distance's word and leads to a `DistanceType`.
+"""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cache
+from importlib import import_module
+from importlib.metadata import entry_points
+from typing import TYPE_CHECKING, Any, Literal
+
+from ..errors import ParameterError
+
+if TYPE_CHECKING:
+    from ..laplacian import Laplacian
+    from ..progress import Progress
+    from ..surface import Surface
+    from .distance import Distance
+
+ENTRY_POINTS = "bihdist.distances"
+Value = float | int | str
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One number or word that a distance has.
+
+    Attributes
+    ----------
+    name : str
+        As it is typed.
+    default : float, int or str
+        The value where none is given; a whole number if the parameter takes whole numbers only.
+    meaning : str
+        In words, for help and tips.
+    choices : tuple of str
+        The words it may be; empty for a number.
+    above : float
+        What a number must exceed.
+    shown : tuple of float
+        The range that a control offers.
+    logarithmic : bool
+        Whether the control has equal steps of the logarithm.
+    marks : tuple of float
+        Values that the control should hit.
+    at_most : float
+        The largest number allowed.
+    most : callable or None
+        ``most(surface)`` is `at_most` where that depends on the surface.
+    """
+
+    name: str
+    default: Value
+    meaning: str
+    choices: tuple[str, ...] = ()
+    above: float = 0.0
+    shown: tuple[float, float] = (0.0, 1.0)
+    logarithmic: bool = False
+    marks: tuple[float, ...] = ()
+    at_most: float = math.inf
+    most: "Callable[[Surface], int] | None" = None
+
+    def limited_to(self, surface: "Surface") -> "Parameter":
+        """Return the parameter with the bounds it has on a surface."""
+        if self.most is None:
+            return self
+        most = self.most(surface)
+        return replace(self, at_most=most, shown=(self.shown[0], min(self.shown[1], most)))
+
+    @property
+    def is_whole(self) -> bool:
+        """True if its values are whole numbers."""
+        return isinstance(self.default, int)
+
+    def checked(self, value: object) -> Value:
+        """Return a value in the parameter's type; ParameterError if it is not allowed."""
+        if self.choices:
+            if value not in self.choices:
+                raise ParameterError(f"{self.name} must be one of {', '.join(self.choices)}, not {_shown(value)}.")
+            return str(value)
+        try:
+            number = math.nan if isinstance(value, (bool, str)) else float(value)  # type: ignore[arg-type]
+        except (TypeError, ValueError, OverflowError):
+            number = math.nan
+        if not (self.above < number < math.inf and number <= self.at_most) or (self.is_whole and number != int(number)):
+            kind = "a whole number" if self.is_whole else "a number"
+            most = "" if self.at_most == math.inf else f" and at most {self.at_most:,}"
+            raise ParameterError(f"{self.name} must be {kind} above {self.above:g}{most}, not {_shown(value)}.")
+        return int(number) if self.is_whole else number
+
+    def parsed(self, text: str) -> Value:
+        """Return the value that a text means: a word, 50, 0.25, 1/4; ParameterError if it means none."""
+        if self.choices:
+            return self.checked(text)
+        if self.is_whole and text.isdecimal() and len(text) < 30:
+            return self.checked(int(text))
+        try:
+            number = float(Fraction(text)) if "/" in text else float(text)
+        except (ValueError, ZeroDivisionError, OverflowError):
+            return self.checked(text)
+        return self.checked(number)
+
+    def written(self, value: Value) -> str:
+        """Return the shortest text that means the value: 1/15 rather than its digits."""
+        if isinstance(value, float):
+            under = round(1 / value) if value > 1e-6 else 0
+            if 1 < under <= 1000 and 1 / under == value:
+                return f"1/{under}"
+            return f"{value:g}" if float(f"{value:g}") == value else repr(value)
+        return str(value)
+
+
+@dataclass(frozen=True)
+class DistanceType:
+    """A distance before it is made: its names, its parameters, and what makes it.
+
+    Attributes
+    ----------
+    word : str
+        As it is typed.
+    name : str
+        In menus.
+    hint : str
+        What to look for in its fields.
+    make : str or callable
+        A function or class that is called with a Laplacian, the parameters and ``progress``, or where it is:
+        ``"module:name"``.
+    parameters : tuple of Parameter
+        What can be chosen.
+    quick : callable
+        ``quick(distance)`` is the parameters of a fast stand-in to be shown until the distance is there, or None.
+    squares : str
+        The squared distance as a formula.
+    scaling : str
+        The p of the guide's table: the distance scales like the p-th power of lengths.
+    cost : str
+        In words.
+    short : str
+        The name where there is little room; empty for the whole one.
+    is_complete : bool
+        Whether it is made of all eigenpairs, so that nothing is left out and its accuracy can be told.
+    on_pages : {"", "solved", "eigenpairs"}
+        How web pages compute it: not at all, by their solver, or from eigenpairs that they take along.
+    colour : str
+        Of its curves in charts, as ``"#rrggbb"``; empty for any.
+    """
+
+    word: str
+    name: str
+    hint: str
+    make: str | Callable[..., "Distance"]
+    parameters: tuple[Parameter, ...] = ()
+    quick: Callable[["Distance"], Mapping[str, Value] | None] = field(default=lambda distance: None)
+    squares: str = ""
+    scaling: str = ""
+    cost: str = ""
+    short: str = ""
+    is_complete: bool = False
+    on_pages: Literal["", "solved", "eigenpairs"] = ""
+    colour: str = ""
+
+    def parameter(self, name: str) -> Parameter:
+        """Return the parameter of a name; ParameterError if there is none."""
+        for parameter in self.parameters:
+            if parameter.name == name:
+                return parameter
+        own = ", ".join(p.name for p in self.parameters) or "none"
+        raise ParameterError(f"{self.word} has no parameter {name!r}; it has {own}.")
+
+
+@dataclass(frozen=True)
+class Spec:
+    """A distance's word with its own parameters and no others: equal specs are equal distances.
+
+    Made by `of` or `parse`; as a text it is what `parse` reads: diffusion(t=1/4), biharmonic.
+    """
+
+    word: str
+    values: tuple[tuple[str, Value], ...] = ()
+
+    @staticmethod
+    def of(word: str, **values: object) -> "Spec":
+        """Make a spec; ParameterError for an unknown word or parameter, or a value that is not allowed."""
+        found = distance_type(word)
+        for name in values:
+            found.parameter(name)
+        return Spec(found.word, tuple((p.name, p.checked(values.get(p.name, p.default))) for p in found.parameters))
+
+    @staticmethod
+    def parse(text: str, **defaults: object) -> "Spec":
+        """Read ``word`` or ``word(name=value, ...)``; defaults are values of parameters not named, of any distance."""
+        word, bracket, inside = text.strip().partition("(")
+        found = distance_type(word.strip())
+        values = {name: value for name, value in defaults.items() if name in {p.name for p in found.parameters}}
+        if bracket and not inside.endswith(")"):
+            raise ParameterError(f"{text!r} has no closing bracket; distances are written like diffusion(t=1/4).")
+        for part in inside.removesuffix(")").split(",") if inside.removesuffix(")").strip() else ():
+            name, equals, value = (x.strip() for x in part.partition("="))
+            if not equals or not value:
+                raise ParameterError(f"{part.strip()!r} in {text!r} is not like t=1/4.")
+            values[name] = found.parameter(name).parsed(value)
+        return Spec.of(found.word, **values)
+
+    def __str__(self) -> str:
+        return self._with([name for name, value in self.values if value != self.distance_type.parameter(name).default])
+
+    @property
+    def canonical(self) -> str:
+        """The text with every parameter, which stays true should a default change."""
+        return self._with([name for name, _ in self.values])
+
+    def _with(self, names: Sequence[str]) -> str:
+        found = self.distance_type
+        values = ", ".join(f"{name}={found.parameter(name).written(self[name])}" for name in names)
+        return f"{self.word}({values})" if values else self.word
+
+    def __getitem__(self, name: str) -> Value:
+        return dict(self.values)[self.distance_type.parameter(name).name]
+
+    @property
+    def distance_type(self) -> DistanceType:
+        """The row of the table that the word names."""
+        return distance_type(self.word)
+
+    def changed(self, **values: object) -> "Spec":
+        """Return a copy with other values of some parameters."""
+        return Spec.of(self.word, **{**dict(self.values), **values})
+
+    def limited_to(self, surface: "Surface") -> "Spec":
+        """Return a copy with no value above what a surface allows."""
+        most = {name: self.distance_type.parameter(name).limited_to(surface).at_most for name, _ in self.values}
+        over = {
+            name: int(most[name]) for name, value in self.values if not isinstance(value, str) and value > most[name]
+        }
+        return self.changed(**over) if over else self
+
+    def load(self) -> Callable[..., "Distance"]:
+        """Import what makes the distance, so that `build` need not."""
+        make = self.distance_type.make
+        if isinstance(make, str):
+            module, _, name = make.partition(":")
+            make = getattr(import_module(module), name)
+        return make
+
+    def build(self, laplacian: "Laplacian", progress: "Progress | None" = None) -> "Distance":
+        """Make the distance, which is where the long work is."""
+        distance = self.load()(laplacian, **dict(self.values), progress=progress)
+        distance.identity = self.canonical
+        return distance
+
+    def quick(self, distance: "Distance") -> "Spec | None":
+        """Return a fast stand-in for the distance that this spec has made, or None."""
+        values = self.distance_type.quick(distance)
+        return None if values is None else self.changed(**values)
+
+
+def distance_type(word: str) -> DistanceType:
+    """Return the type of a word, or of another name for it; ParameterError, with all words, if there is none."""
+    if isinstance(word, str) and word in _BY_WORD:
+        return _BY_WORD[word]
+    known = distance_types()
+    if not isinstance(word, str) or word not in known:
+        plain = word.lower().replace("_", "-") if isinstance(word, str) else ""
+        if built_in := _BY_WORD.get(_ALIASES.get(plain, plain)):
+            return built_in
+        meant = f"did you mean geodesic(method={plain})? Otherwise " if plain in _METHODS else ""
+        raise ParameterError(f"There is no distance {word!r}; {meant}choose one of {', '.join(known)}.")
+    point = known[word]
+    found = _loaded(point)
+    if found.word != word:
+        raise ParameterError(f"The distance {word!r} of {point.value} calls itself {found.word!r}.")
+    return found
+
+
+@cache
+def distance_types() -> dict[str, Any]:
+    """Return, by word and the built-in ones first, each DistanceType, or the entry point of one not yet imported.
+
+    The words of built-in distances stand for these alone.
+    """
+    others = {point.name: point for point in sorted(entry_points(group=ENTRY_POINTS), key=lambda point: point.name)}
+    return {**_BY_WORD, **{word: point for word, point in others.items() if word not in _BY_WORD}}
+
+
+@cache
+def _loaded(point: Any) -> DistanceType:
+    try:
+        found = point.load()
+    except Exception as error:
+        raise ParameterError(f"The distance {point.name!r} of {point.value} cannot be loaded: {error}.") from error
+    if not isinstance(found, DistanceType):
+        raise ParameterError(
+            f"The distance {point.name!r} of {point.value} is a {type(found).__name__}, not a DistanceType."
+        )
+    return found
+
+
+def _shown(value: object) -> str:
+    text = repr(value) if not isinstance(value, int) or abs(value) < 10**30 else "a number of many digits"
+    text = text.removesuffix(".0") if isinstance(value, float) else text
+    return text if len(text) <= 40 else f"{text[:37]}..."
+
+
+PAPER_TIMES = (1 / 15, 1 / 8, 1 / 4, 1.0, 4.0)
+_PAIRS = Parameter(
+    "k", 200, "how many eigenpairs", shown=(1, 2000), most=lambda surface: surface.largest_component_size - 1
+)
+
+FRAME_VERTICES = 12_000
+"""Up to so many vertices an exact geodesic field is computed within a frame of a drag, some 60 ms."""
+
+
+def _quick_geodesic(distance: "Distance") -> dict[str, Value] | None:
+    is_slow = getattr(distance, "method", "") == "exact" and len(distance.surface.vertices) > FRAME_VERTICES
+    return {"method": "heat"} if is_slow else None
+
+
+BUILT_IN = (
+    DistanceType(
+        "biharmonic",
+        "Biharmonic",
+        "round near the source, follows the shape far away",
+        "bihdist_core.distances.biharmonic:BiharmonicDistance",
+        squares="Σ (Δφₖ)² / λₖ², all k",
+        scaling="1",
+        cost="one factorization; two solves for each source",
+        short="Biharm.",
+        is_complete=True,
+        on_pages="solved",
+        colour="#1f4fbf",
+    ),
+    DistanceType(
+        "truncated",
+        "Biharmonic, truncated",
+        "the biharmonic distance from its first eigenpairs: blurred at the source",
+        "bihdist_core.distances.spectral:TruncatedBiharmonicDistance",
+        (_PAIRS,),
+        squares="Σ (Δφₖ)² / λₖ², k ≤ K",
+        scaling="1",
+        cost="K eigenpairs once; sources cost next to nothing",
+        short="Trunc.",
+        on_pages="eigenpairs",
+        colour="#4bb4d8",
+    ),
+    DistanceType(
+        "power",
+        "1/λ^α family",
+        "larger α: smoother, less local",
+        "bihdist_core.distances.spectral:PowerDistance",
+        (Parameter("alpha", 1.5, "the power α of 1/λ", above=1.0, shown=(1.05, 8.0)), _PAIRS),
+        squares="Σ (Δφₖ)² / λₖ^α, k ≤ K",
+        scaling="α − 1",
+        cost="K eigenpairs once; sources cost next to nothing",
+    ),
+    DistanceType(
+        "commute-time",
+        "Commute-time",
+        "a spike at the source, almost flat elsewhere",
+        "bihdist_core.distances.commute_time:CommuteTimeDistance",
+        squares="Σ (Δφₖ)² / λₖ, all k",
+        scaling="0",
+        cost="one factorization; one solve",
+        short="Commute",
+        is_complete=True,
+        on_pages="solved",
+        colour="#7d4cb8",
+    ),
+    DistanceType(
+        "diffusion",
+        "Diffusion",
+        "small t: flat far away; large t: stretched near the source",
+        "bihdist_core.distances.diffusion:DiffusionDistance",
+        (
+            Parameter(
+                "t",
+                1.0,
+                "diffusion time",
+                shown=(PAPER_TIMES[0], PAPER_TIMES[-1]),
+                logarithmic=True,
+                marks=PAPER_TIMES,
+            ),
+        ),
+        squares="Σ exp(−t λₖ/λ₁) (Δφₖ)²",
+        scaling="−1",
+        cost="eigenpairs up to a tolerance, more for small t",
+        short="Diffus.",
+        on_pages="eigenpairs",
+    ),
+    DistanceType(
+        "geodesic",
+        "Geodesic",
+        "round near the source, creases where shortest paths meet",
+        "bihdist_core.distances.geodesic:GeodesicDistance",
+        (
+            Parameter(
+                "method",
+                "auto",
+                "how it is computed; auto: exactly where that takes 5 s at most, else by the heat method",
+                choices=("auto", "exact", "heat", "dijkstra"),
+            ),
+        ),
+        quick=_quick_geodesic,
+        squares="length of the shortest path, squared",
+        scaling="1",
+        cost="exact and Dijkstra: a search for each source; heat: two factorizations, two solves",
+        short="Geod.",
+        on_pages="solved",
+        colour="#c2272d",
+    ),
+)
+_BY_WORD = {each.word: each for each in BUILT_IN}
+_ALIASES = {"commute": "commute-time"}
+"""Other words for built-in distances, in lower case."""
+_METHODS = _BY_WORD["geodesic"].parameter("method").choices[1:]
+"""Methods of the geodesic distance that are often taken for distances of their own."""
