@@ -39,7 +39,7 @@ class Surface:
     faces : (m, 3) array_like of int
         Vertex ids; kept as a read-only int64 copy.
     name : str
-        For messages.
+        Name for messages.
     repairs : sequence of str
         What was repaired while a file was read, in words.
     facts : sequence of str
@@ -90,7 +90,7 @@ class Surface:
         faces : (m, 3) array_like of int, optional
             The faces, if `mesh` is vertices.
         name : str, optional
-            For messages.
+            Name for messages.
 
         Returns
         -------

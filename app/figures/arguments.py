@@ -19,13 +19,13 @@ class IsolineOptions(TypedDict, total=False):
     Attributes
     ----------
     count : int
-        About how many in each panel, at round values; 0 for none.
+        About how many isolines in each panel, at round values; 0 for none.
     equal : bool
-        Put them at equal steps from 0 to the maximum instead.
+        Put isolines at equal steps from 0 to the maximum instead.
     spacing : float
-        Put them at multiples of this, in the field's unit.
+        Put isolines at multiples of this, in the field's unit.
     values : sequence of float
-        Put them at these values.
+        Put isolines at these values.
     through : sequence of int
         Vertices that have one isoline more.
     bold : int
@@ -125,7 +125,7 @@ class MarkOptions(TypedDict, total=False):
     anchor_values : bool
         Write the values beside the anchors.
     exponent, smoothness : float
-        Of the anchors' weights in interpolants.
+        Exponent and smoothness of the anchors' weights in interpolants.
     selections : sequence
         Ids (k,) of vertices that stand out together, or words such as ``"12+40-77"``, a colour each.
     regions : "all" or sequence of int
@@ -164,17 +164,17 @@ class LayoutOptions(TypedDict, total=False):
         ``"85mm"``, ``"3.5in"``, ``"1680x640"``, ``"160mm@300dpi"``, ``"column"`` (85 mm, cropped, and distances have
         one colour bar in percent unless `crop` and `clim` say otherwise), ``"double"`` (178 mm), ``"slide"``.
     style : str
-        ``"paper"``, ``"uniform"``, ``"lines"`` or ``"dark"``.
+        Style of the page: ``"paper"``, ``"uniform"``, ``"lines"`` or ``"dark"``.
     columns : int
-        Panels side by side; by default all, or a row for each source.
+        Number of panels side by side; by default all, or a row for each source.
     title : str
         Write names as ``"heading"``, as ``"caption"`` at the colour bars, or ``"none"``.
     hints : bool
         Write under headings what to look for.
     font_family : str
-        Of all text.
+        Font of all text.
     font_size : float
-        Of labels, in points; other text is in proportion.
+        Size of labels in points; other text is in proportion.
     transparent : bool
         Leave the background transparent.
     crop : bool

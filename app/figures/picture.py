@@ -171,17 +171,17 @@ def figure(
 
     Parameters
     ----------
-    mesh : str, path, Surface, mesh of another library or (vertices, faces)
+    mesh : str or MeshLike
         A file, the name of a sample, or the mesh itself.
     distances : sequence of str
-        A panel each, such as ``"diffusion(t=1/4)"`` or ``"biharmonic - geodesic"``.
+        The distances, a panel each, such as ``"diffusion(t=1/4)"`` or ``"biharmonic - geodesic"``.
     source : int, str, Source or sequence of these, optional
-        A vertex, by default the highest, or where else distances start (``"12+40"``); several get a row of panels
-        each, or with a second mesh one mesh each.
+        The vertex where distances start, by default the highest, or another source (``"12+40"``). Several sources get
+        a row of panels each; with a second mesh, one source each mesh.
     fields : mapping of str to (n,) array_like, optional
-        Fields of one's own, NaN where undefined.  Each has a panel, or is named in `distances` like a distance:
+        Your own fields by name, NaN where undefined.  Each has a panel, or is used in `distances` like a distance:
         ``"biharmonic - mine"``.
-    second_mesh : like mesh, optional
+    second_mesh : str or MeshLike, optional
         Another mesh, with panels of its own.
     areas : {"voronoi", "barycentric"}
         Vertex areas.
@@ -193,20 +193,25 @@ def figure(
         A change to the mesh such as ``"noise=0.4,along=normals,seed=1"``: each distance before and after, and the
         difference.
     pairs : (k, 2) array_like of int or str
-        Known vertices of both meshes that correspond, or a file of them.
+        Known pairs of corresponding vertices of both meshes, or a file of them.
     maps : sequence of str
         Draw where each vertex of the first mesh is on the second: ``"pairs"`` for the maps by pairs, or files of maps.
     predict : int, optional
         Draw where this vertex of the first mesh is on the second, by each distance from `pairs`.
     isolines : int or IsolineOptions
-        About how many, at round values, or a dict that says more.
-    look, view, marks, layout : dict, optional
-        Colours and shading, cameras, marks on surfaces, and the page: see `LookOptions`, `ViewOptions`, `MarkOptions`
-        and `LayoutOptions`.
+        About how many isolines, at round values; or which values have one, and how they look.
+    look : LookOptions, optional
+        Colours and shading of surfaces.
+    view : ViewOptions, optional
+        Camera, projection and insets.
+    marks : MarkOptions, optional
+        Marks on surfaces, such as pins, regions and paths.
+    layout : LayoutOptions, optional
+        Size, style and text of the page.
     progress : callable, optional
         Called as ``progress(fraction, text)``.
     **others
-        Not taken; a TypeError says what is probably meant.
+        Any other argument raises a TypeError, which suggests the one that was probably meant.
 
     Returns
     -------

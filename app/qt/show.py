@@ -320,15 +320,15 @@ def show(
 
     Parameters
     ----------
-    mesh : str, path, Surface, mesh of another library or (vertices, faces)
+    mesh : str or MeshLike
         A file, the name of a sample, or the mesh itself.
     distances : sequence of str
-        A panel each, such as ``"diffusion(t=1/4)"`` or ``"biharmonic - geodesic"``.
+        The distances, a panel each, such as ``"diffusion(t=1/4)"`` or ``"biharmonic - geodesic"``.
     fields : mapping of str to (n,) array_like, optional
-        Fields of one's own, NaN where undefined.  Each has a panel, coloured from 0 (from minus its largest absolute
-        value, if it has negative values), or is named in `distances` like a distance: ``"biharmonic - mine"``.
+        Your own fields by name, NaN where undefined.  Each has a panel, coloured from 0 (if it has negative values,
+        from minus its largest absolute value), or is used in `distances` like a distance: ``"biharmonic - mine"``.
     source : int, str or Source, optional
-        A vertex, by default the highest, or where else distances start (``"12+40"``).
+        The vertex where distances start, by default the highest, or another source (``"12+40"``).
     areas : {"voronoi", "barycentric"}
         Vertex areas.
     cut : str or path
@@ -337,13 +337,12 @@ def show(
         Merge vertices that are no farther apart, after `cut`.
     viewup : str
         Axis that points up, ``"z"`` or ``"-z"``; ``"auto"`` for what was chosen for the mesh before, or a guess.
-    second_mesh : like mesh, optional
+    second_mesh : str or MeshLike, optional
         Another mesh, with panels of the same distances from its highest vertex, and a camera of its own.
     on_pick : callable, optional
         Called with a `Pick` for each click on a surface, once the source is there.
     block : bool, optional
-        Wait until the window is closed.  By default in scripts, but not in IPython, notebooks and Python's own prompt,
-        where the window lives while you go on.
+        Wait until the window is closed.  By default, scripts wait; IPython, notebooks and Python's own prompt do not.
 
     Returns
     -------

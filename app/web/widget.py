@@ -47,14 +47,14 @@ def widget(
 
     Parameters
     ----------
-    mesh : str, path, Surface, mesh of another library or (vertices, faces)
+    mesh : str or MeshLike
         A file, the name of a sample, or the mesh itself.
     distances : sequence of str
-        A panel each, such as ``"geodesic"`` or ``"biharmonic - commute-time"``.
+        The distances, a panel each, such as ``"geodesic"`` or ``"biharmonic - commute-time"``.
     source : int, str or Source, optional
         Vertex that distances start from, by default the highest.
     fields : mapping of str to (n,) array_like, optional
-        Fields of one's own, NaN where undefined, which stay as they are whatever the source.
+        Your own fields by name, NaN where undefined, which stay as they are whatever the source.
     on_pick : callable, optional
         Called with the vertex of each click.
     areas : {"voronoi", "barycentric"}
@@ -64,19 +64,24 @@ def widget(
     merge : float, optional
         Merge vertices that are no farther apart.
     isolines : int or IsolineOptions
-        About how many, at round values, or a dict with ``count``, ``equal``, ``spacing``, ``values`` or ``through``.
-    look, view, marks, layout : dict, optional
-        Of the keys that `figure` takes, ``cmap``, ``flip_scalars``, ``bands`` and ``clim``; ``cpos``, ``camera``,
-        ``viewup`` and ``parallel_projection``; ``pins``; and ``style``.
+        About how many isolines, at round values; or ``count``, ``equal``, ``spacing``, ``values`` and ``through``.
+    look : LookOptions, optional
+        Colours: ``cmap``, ``flip_scalars``, ``bands`` and ``clim``.
+    view : ViewOptions, optional
+        The first view: ``cpos``, ``camera``, ``viewup`` and ``parallel_projection``.
+    marks : MarkOptions, optional
+        Marks on surfaces: ``pins``.
+    layout : LayoutOptions, optional
+        The look of the page: ``style``.
     precision : {"24", "float32"}
         Bits of the largest side that coordinates keep, or single precision.
     eigenpairs : int, optional
-        How many may be sent for each truncated or diffusion distance of a panel, and none for those that readers can
-        choose; by default as many as take 1 MB.
+        The most that may be sent for each truncated or diffusion distance of a panel, with none for those that readers
+        can choose; by default as many as take 1 MB.
     progress : callable, optional
         Called as ``progress(fraction, text)``.
     **others
-        Not taken; a TypeError says what is probably meant.
+        Any other argument raises a TypeError, which suggests the one that was probably meant.
 
     Returns
     -------

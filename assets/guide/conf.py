@@ -7,9 +7,13 @@ from importlib.metadata import metadata
 os.environ["MPLBACKEND"] = "Agg"
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
+from bihdist import __all__ as _NAMES
+from numpydoc.xref import DEFAULT_LINKS as _DEFAULT_LINKS
 from pygments.lexers.special import TextLexer as _TextLexer
 
 from app.version import version as _version
+from assets.guide.building.library_pages import describe_union as _describe_union
+from assets.guide.building.topics import RESULTS as _RESULTS
 
 warnings.filterwarnings("ignore", category=DeprecationWarning)  # of what builds the pages
 
@@ -20,9 +24,9 @@ version = release = _version()
 
 extensions = [
     "myst_parser",
+    "numpydoc",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
-    "sphinx.ext.napoleon",
     "sphinx_copybutton",
     "sphinx_design",
     "sphinx_gallery.gen_gallery",
@@ -50,9 +54,14 @@ autodoc_typehints = "none"  # docstrings have them, with shapes
 autodoc_class_signature = "mixed"
 autodoc_preserve_defaults = True
 autosummary_generate = False
-napoleon_google_docstring = False
-napoleon_use_ivar = True  # attributes as a list
-napoleon_use_rtype = False
+numpydoc_show_class_members = False  # autodoc shows them
+numpydoc_xref_param_type = True
+numpydoc_xref_ignore = "all"  # but our own classes, not those of other projects
+numpydoc_xref_aliases = {
+    **{name: name for name in _DEFAULT_LINKS},
+    **{name: f"bihdist.{name}" for name in _NAMES if name[0].isupper()},
+    **{path.rpartition(".")[2]: path for paths in _RESULTS.values() for path in paths},
+}
 add_module_names = False
 toc_object_entries_show_parents = "hide"
 python_use_unqualified_type_names = True
@@ -97,7 +106,7 @@ html_show_sourcelink = False
 _ADDRESSES = dict(row.split(", ", 1) for row in metadata("bihdist").get_all("Project-URL") or ())
 html_context = {"repository": _ADDRESSES.get("Repository", "")}
 html_show_search_summary = False  # pages cannot be fetched by scripts from file://
-html_use_index = True
+html_use_index = False
 html_theme_options = {
     "logo": {"text": "bihdist", "alt_text": "bihdist"},
     "search_bar_text": "Ask in your own words",
@@ -117,7 +126,7 @@ html_theme_options = {
     "pygments_dark_style": "a11y-dark",
     "back_to_top_button": False,
 }
-html_sidebars = {"**": ["guide-nav"], "index": [], "search": [], "genindex": []}
+html_sidebars = {"**": ["guide-nav"], "index": [], "search": []}
 copybutton_prompt_text = r">>> |\.\.\. |\$ "
 copybutton_prompt_is_regexp = True
 copybutton_exclude = ".linenos, .gp, .go"
@@ -125,5 +134,6 @@ copybutton_selector = "div:not(.printed) > div.highlight > pre"
 
 
 def setup(app):
-    """Commands are shown as they are: numbers among their words mean nothing to a shell."""
+    """Show commands as they are, since numbers among their words mean nothing to a shell, and unions in words."""
     app.add_lexer("sh", _TextLexer)
+    app.connect("autodoc-process-docstring", _describe_union)

@@ -31,7 +31,7 @@ class Circle:
     Attributes
     ----------
     radius : float
-        In the mesh's unit.
+        Radius in the mesh's unit.
     angles : tuple of (k,) float64 ndarray
         For each curve of the circle, the angles of its points in the tangent plane of the source, from -pi to pi. There
         is one curve where the radius is small and no boundary is near; a closed one ends with its first point. Where a

@@ -288,7 +288,7 @@ def triangle_violations(distances: npt.ArrayLike, count: int = 1_000_000, seed: 
     count : int
         How many triples.
     seed : int
-        Of the random numbers.
+        Seed of the random numbers.
 
     Returns
     -------

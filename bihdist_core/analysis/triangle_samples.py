@@ -37,7 +37,7 @@ def triangle_sample(
     count : int
         How many triples.
     seed : int
-        Of the random numbers.
+        Seed of the random numbers.
     progress : callable, optional
         Called as ``progress(fraction, text)``.
 
@@ -84,7 +84,7 @@ def triangle_samples(
     count : int
         How many triples.
     seed : int
-        Of the random numbers.
+        Seed of the random numbers.
     progress : callable, optional
         Called as ``progress(fraction, text)``.
 

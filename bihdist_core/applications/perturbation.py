@@ -32,7 +32,7 @@ def noisy(surface: MeshLike, sigma: float, seed: int = 0, along: str = "xyz") ->
     sigma : float
         Standard deviation in mean edge lengths, at least 0.
     seed : int
-        Of the random numbers.
+        Seed of the random numbers.
     along : {"xyz", "normals"}
         On each coordinate, or along the normal of the vertex.
 
@@ -80,7 +80,7 @@ def with_holes(surface: MeshLike, count: int, radius: float = 0.05, seed: int = 
     radius : float
         Along edges, in roots of the surface's area, at most 1.
     seed : int
-        Of the random numbers.
+        Seed of the random numbers.
 
     Returns
     -------

@@ -8,7 +8,7 @@ import pytest
 from app.document.synonyms import COLOUR_MAPS, COMMAND_HINTS, OPTION_ALIASES, OPTION_HINTS
 from app.main import main
 from app.scene.colour_maps import MAPS
-from assets.guide.building.option_pages import commands, options_of
+from assets.guide.building.command_pages import commands
 
 
 def refused(capsys, *words):
@@ -96,7 +96,7 @@ def test_an_option_is_not_given_by_two_names(capsys):
 
 
 def test_each_name_leads_to_one_that_there_is():
-    known = {name.lstrip("-") for parser in commands().values() for name in options_of(parser)}
+    known = {name.lstrip("-") for parser in commands().values() for name in parser._option_string_actions}
     for name, hint in (OPTION_ALIASES | OPTION_HINTS).items():
         assert hint.split()[0] in known, name
     assert not OPTION_ALIASES.keys() & (known | OPTION_HINTS.keys())

@@ -6,18 +6,19 @@ import bihdist
 import pytest
 
 from assets.guide.building import library_pages
-from assets.guide.building.option_pages import commands, option_pages, options_of
+from assets.guide.building.command_pages import command_pages, commands, groups_of
 from assets.guide.building.record_page import record_page
 
 
-def test_every_public_name_has_its_page():
+def test_every_public_name_has_a_page_and_is_in_the_index():
     pages = library_pages.library_pages()
-    documented = re.findall(r"^\.\. auto(?:class|exception|function|data):: (\w+)$", "\n".join(pages.values()), re.M)
+    text = "\n".join(pages.values())
+    documented = re.findall(r"^\.\. auto(?:class|exception|function|data):: (\w+)$", text, re.M)
     assert sorted(documented) == sorted(bihdist.__all__)
-    index = pages["reference/api/index.md"]
-    assert {f"reference/api/{word}.md" for word in re.findall(r"\]\((\w+)\.md\)", index)} == {*pages} - {
-        "reference/api/index.md"
-    }
+    assert sorted(re.findall(r"`~bihdist\.(\w+)`", pages["reference/api/index.md"])) == sorted(bihdist.__all__)
+    assert len({path.lower() for path in pages}) == len(pages)  # some file systems ignore case
+    in_sidebar = "index", *re.findall(r"^\w+ <([\w-]+)>$", text, re.M), *library_pages.TOPICS
+    assert {f"reference/api/{name}.md" for name in in_sidebar} == {*pages}
 
 
 def test_a_name_without_a_topic_stops_the_build(monkeypatch):
@@ -26,29 +27,50 @@ def test_a_name_without_a_topic_stops_the_build(monkeypatch):
         library_pages.library_pages()
 
 
-def test_bases_that_have_no_name_of_their_own_are_shown_with_what_inherits_from_them():
-    page = library_pages.library_pages()["reference/api/distances.md"]
-    of_distance = page.partition(".. autoclass:: Distance\n")[2].partition("```")[0]
-    assert "exclude-members" not in of_distance
-    of_biharmonic = page.partition(".. autoclass:: BiharmonicDistance\n")[2].partition("```")[0]
-    assert "from_sources" in of_biharmonic.partition("exclude-members:")[2]
+def test_members_of_public_bases_are_linked_and_those_of_others_shown():
+    pages = library_pages.library_pages()
+    assert "exclude-members" not in pages["reference/api/Distance.md"]
+    of_biharmonic = pages["reference/api/BiharmonicDistance.md"]
+    assert re.search("exclude-members:.* from_sources,", of_biharmonic)
+    assert "   ~Distance.from_sources\n" in of_biharmonic
+    assert "   ~PowerDistance.beyond\n" in pages["reference/api/TruncatedBiharmonicDistance.md"]
 
 
-def test_every_option_of_every_command_is_there():
-    (page,) = option_pages().values()
+def test_every_option_of_every_command_is_described_once_or_linked():
+    pages = {path.rpartition("/")[2].removesuffix(".md"): text for path, text in command_pages().items()}
+    described = {
+        (name, option)
+        for name, text in pages.items()
+        for line in re.findall(r"^:::\{option\} (.+)\n[^:\n]", text, re.M)
+        for option in re.findall(r"(?:^|, )(-[^\s,]+)", line)
+    }
     for word, parser in commands().items():
-        section = page.partition(f"\n## {word}\n")[2].partition("\n## ")[0]
-        assert parser.description in section
-        for name in options_of(parser):
-            assert re.search(rf"`{name}[ `]", section), (word, name)
-        for line in section.splitlines():
-            assert not line.startswith(": ") or len(line) > 6, (word, line)
-    shared = page.partition("\n## Options that several commands have\n\n")[2]
-    (_, *words), _, *rows = ([cell.strip() for cell in line.split("|")[1:-1]] for line in shared.splitlines())
-    assert len(rows) > 40
-    for name, *dots in rows:
-        having = {word for word, parser in commands().items() if name.strip("`") in options_of(parser)}
-        assert {word for word, dot in zip(words, dots, strict=True) if dot} == having
+        page = pages[word]
+        assert parser.description in page
+        assert re.search(rf"```sh\nbihdist {word} .+\n```\n\n```sh\n(bihdist .+\n){{2,3}}```", page), (
+            "usage and examples"
+        )
+        links = re.findall(r"^- \{option\}`[^`]+ <bihdist (\S+) (\S+)>`: .", page, re.M)
+        homes = {option: home for home, option in links}
+        for title, options in groups_of(parser).items():
+            assert f"\n## {title}\n" in page
+            for name in (each.names[0] for each in options if each.names):
+                assert ((word, name) in described) != (name in homes), (word, name)
+                assert (homes.get(name, word), name) in described, (word, name)
+
+
+def test_the_index_has_every_command_under_the_headings_of_the_help():
+    page = command_pages()["reference/commands/index.md"]
+    assert re.findall(r"^## (.+)$", page, re.M) == [
+        "Look",
+        "Numbers",
+        "Compare",
+        "Many meshes",
+        "More",
+        "Without a command",
+    ]
+    for pattern in (r"^\| \[`(\w+)`\]\(\1\.md\) \| [A-Z].+\. \|$", r"^(\w+) <\1>$"):
+        assert sorted(re.findall(pattern, page, re.M)) == sorted(commands())
 
 
 def test_every_record_of_a_document_is_there_with_its_keys():

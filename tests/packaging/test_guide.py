@@ -12,7 +12,7 @@ GUIDE = ROOT / "assets/guide"
 PAGES = sorted(GUIDE.rglob("*.md"))
 README = ROOT / "README.md"
 PARTS = ("start", "how-to", "gallery", "explanation", "reference", "questions")
-MADE = re.compile(r"/gallery/auto/|/reference/(api/[\w-]+|options|keys|records)\.md$|/search\.html$")
+MADE = re.compile(r"/gallery/auto/|/reference/((api|commands)/[\w-]+|keys|records)\.md$|/search\.html$")
 """Pages that only the build makes, and tests/guide/test_made_pages.py."""
 
 

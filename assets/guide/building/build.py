@@ -47,12 +47,12 @@ def build(source: Path, pages: Path, target: Path) -> int:
 
 def write_sources(source: Path) -> None:
     """A copy of the guide's sources with the pages that are made of the program; what is as before is left alone."""
+    from .command_pages import command_pages
     from .key_page import key_page
     from .library_pages import library_pages
-    from .option_pages import option_pages
     from .record_page import record_page
 
-    made = {**library_pages(), **option_pages(), **key_page(), **record_page()}
+    made = {**library_pages(), **command_pages(), **key_page(), **record_page()}
     wanted = {path: text.encode() for path, text in made.items()}
     for path in GUIDE.rglob("*"):
         name = path.relative_to(GUIDE).as_posix()

@@ -19,7 +19,7 @@ from bihdist_core.applications.changes import Perturbation
 from bihdist_core.distances.distance_types import Spec
 from bihdist_core.sources.source import Source
 
-from .option_pages import markdown
+from .command_pages import markdown
 
 INTRODUCTION = """# Every key of recipes and sessions
 

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from app.document.synonyms import COLOUR_MAPS, OPTION_ALIASES, OPTION_HINTS
 
-LEFT_OUT = {"genindex.html", "search.html"}
 BLOCKS = {"br", "p", "li", "td", "th", "dt", "dd", "pre", "h1", "h2", "h3", "h4", "div", "section", "tr"}
 KEYWORDS = re.compile(r'<meta content="([^"]*)" name="keywords"')
 SYNONYMS = {
@@ -41,7 +40,7 @@ def write_search_index(pages: Path) -> None:
     found = []
     for path in sorted(pages.rglob("*.html")):
         name = path.relative_to(pages).as_posix()
-        if name not in LEFT_OUT and not name.startswith("_"):
+        if name != "search.html" and not name.startswith("_"):
             html = path.read_text(encoding="utf-8")
             keywords = " ".join(KEYWORDS.findall(html))
             found.append({"page": name, "keywords": keywords, "sections": sections_of(html)})

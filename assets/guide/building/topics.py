@@ -69,3 +69,11 @@ TOPICS: dict[str, tuple[str, str, list[str]]] = {
     ),
 }  # fmt: skip
 """By word: title, what the page is about, and its names in order."""
+
+RESULTS = {
+    "figure": ["bihdist.figures.picture.Picture"],
+    "page": ["bihdist.web.export.Page"],
+    "show": [f"bihdist.qt.show.{name}" for name in ("Viewer", "ShownPanel", "Pick")],
+    "widget": ["bihdist.web.distance_widget.DistanceWidget"],
+}
+"""Classes without a public name, on the page of the function that makes them."""
