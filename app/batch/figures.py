@@ -14,7 +14,6 @@ from ..document.camera import Camera, View
 from ..document.document import Document
 from ..document.file import recipe_from_text
 from ..document.page import Recipe
-from ..document.repairs import Repairs
 from ..figures.contact_sheet import as_jpeg, thumbnail
 from ..figures.draw import save_figure
 from ..figures.export import Surfaces, check_drawable, compute, figure_of, open_document
@@ -28,8 +27,7 @@ from .work_order import SIZE, thumbnail_name
 def recipe_for(path: str, mesh: BatchMesh) -> Recipe:
     """Return the recipe with one of the meshes."""
     recipe = recipe_from_text(mesh.wanted.recipe)
-    repairs = Repairs(cut=mesh.wanted.file_for(mesh.wanted.cut, mesh.name), merge=mesh.wanted.merge)
-    surface = replace(recipe.document.surfaces[0], path=path, sha256="", repairs=repairs)
+    surface = replace(recipe.document.surfaces[0], path=path, sha256="", repairs=mesh.wanted.repairs)
     return replace(recipe, document=replace(recipe.document, surfaces=(surface,)))
 
 

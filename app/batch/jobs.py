@@ -23,7 +23,6 @@ from bihdist_core.sources.pieces import Pieces, pieces_of
 from bihdist_core.sources.source import Source
 from bihdist_core.sources.words import short_words_of
 
-from ..document.repairs import Repairs
 from ..document.sources import ALL, FARTHEST
 from ..session.chosen_sources import Chosen, chosen_sources
 from ..session.repaired_surface import kept_ids, repaired
@@ -44,9 +43,8 @@ class BatchMesh:
 
     def __init__(self, path: str, name: str, wanted: WorkOrder) -> None:
         self.name, self.wanted = name, wanted
-        repairs = Repairs(cut=wanted.file_for(wanted.cut, name), merge=wanted.merge)
         in_file = read_surface(path)
-        surface, self.new_ids = repaired(in_file, repairs)
+        surface, self.new_ids = repaired(in_file, wanted.repairs)
         self.surface: Surface = surface
         self._count, self._kept = in_file.n_vertices, kept_ids(self.new_ids, in_file.n_vertices)
         self.extension = mesh_format(path)

@@ -55,7 +55,7 @@ def tasks_for_maps(
 ) -> tuple[list[Task], list[Failure]]:
     """Return a task for each map, and failures of maps that cannot be read."""
     tasks, failures = [], []
-    wanted = replace(wanted, works=("evaluate",), layout="", cut="", merge=None)
+    wanted = replace(wanted, works=("evaluate",), layout="", cut="", merge=None, largest_component=False)
     for each in maps:
         try:
             sums = "+".join(map(checksum, [each.mesh, *each.files.values()]))

@@ -8,6 +8,7 @@ from functools import cached_property
 
 from bihdist_core.errors import ParameterError
 
+from ..document.repairs import Repairs
 from ..document.sources import FARTHEST, HIGHEST, Sources
 
 MAXIMA = "maxima"
@@ -43,7 +44,8 @@ def _kind(
     return WorkKind(word, meaning, frozenset(fields.split()), by_distance, frozenset(options.split()), function)
 
 
-OF_IDS = "areas cut merge sources arrays one_based mask normalise"
+REPAIRS = "cut merge largest_component"
+OF_IDS = f"areas {REPAIRS} sources arrays one_based mask normalise"
 OF_SOURCES = f"{OF_IDS} dtype"
 
 KINDS = {
@@ -52,11 +54,11 @@ KINDS = {
         _kind("fields", "distances of all vertices from the sources", OF_SOURCES, by_distance=True, function="fields"),
         _kind("pairs", "among the sources", f"{OF_SOURCES} labels layout", by_distance=True, function="pairs"),
         _kind("nearest", "their nearest vertices", f"{OF_SOURCES} nearest", by_distance=True, function="neighbours"),
-        _kind("eigen", "eigenpairs", "areas cut merge eigenpairs dtype arrays normalise", function="eigen"),
+        _kind("eigen", "eigenpairs", f"areas eigenpairs dtype arrays normalise {REPAIRS}", function="eigen"),
         _kind("fps", "farthest points", OF_IDS, by_distance=True, function="fps"),
-        _kind("figure", "a picture", "recipe range maxima cut merge", options="sources distance areas clim"),
+        _kind("figure", "a picture", f"recipe range maxima {REPAIRS}", options="sources distance areas clim"),
         _kind("evaluate", "errors of maps", "areas samples arrays", options="maps truth symmetry"),
-        _kind(MAXIMA, "", "recipe cut merge"),
+        _kind(MAXIMA, "", f"recipe {REPAIRS}"),
     )
 }
 
@@ -101,8 +103,8 @@ class WorkOrder:
     """The kinds of work and their options.
 
     `works` are of WORKS, in their order; `distances` specs in words; `nearest` the number of neighbours; `samples`
-    those of a map, 0 for all vertices. `cut` and `merge` are those of `Repairs`. In the paths `labels`, `mask`,
-    `cut` and of the sources' file, {name} stands for the mesh's.
+    those of a map, 0 for all vertices. `cut`, `merge` and `largest_component` are those of `Repairs`. In the
+    paths `labels`, `mask`, `cut` and of the sources' file, {name} stands for the mesh's.
 
     With `one_based`, vertex ids in .mat files count from 1. `layout` is one of LAYOUTS for pairs; `normalise` is
     "area" for distances and eigenpairs of the mesh scaled to area 1. `recipe` is the text of the one that figures
@@ -122,6 +124,7 @@ class WorkOrder:
     samples: int = 0
     cut: str = ""
     merge: float | None = None
+    largest_component: bool = False
     labels: str = ""
     mask: str = ""
     layout: str = ""
@@ -163,6 +166,11 @@ class WorkOrder:
         says = {name: value for name, value in says.items() if name in KINDS[work].fields}
         text = json.dumps([work, distance, checksums, version, says], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
+
+    @property
+    def repairs(self) -> Repairs:
+        """The repairs of each mesh."""
+        return Repairs(self.cut, merge=self.merge, largest_component=self.largest_component)
 
     @property
     def files(self) -> dict[str, str]:

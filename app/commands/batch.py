@@ -284,6 +284,7 @@ def _wanted(options: argparse.Namespace) -> WorkOrder:
         normalise=options.normalise or "",
         cut=os.path.abspath(options.cut) if options.cut else "",
         merge=options.merge,
+        largest_component=bool(options.largest_component),
         labels=os.path.abspath(options.labels) if options.labels else "",
         mask=os.path.abspath(options.mask) if options.mask else "",
         recipe=recipe,
@@ -351,7 +352,9 @@ def _recipe(options: argparse.Namespace, distances: tuple[str, ...]) -> str:
         shows = tuple(Spec.parse(each) for each in distances)
         recipe = Recipe(comparison("mesh", shows, areas=options.areas or "voronoi"))
     if recipe.document.surfaces[0].repairs != NO_REPAIRS:
-        raise ParameterError(f"{options.recipe} cuts or merges its own mesh; batch does what --cut and --merge say.")
+        raise ParameterError(
+            f"{options.recipe} repairs its own mesh; batch does what --cut, --merge and --largest-component say."
+        )
     document, members = recipe.document, options.sources.members if options.sources else ()
     first = members[0] if members else None
     points = tuple(replace(p, at=first) for p in document.points)

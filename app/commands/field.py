@@ -14,7 +14,7 @@ from ..figures.look_options import COLOURS
 from ..figures.options import with_rows
 from .field_of import CommandField, field_of
 from .figure_options import tell_other_colours
-from .mesh import add_meshes, check_array_output, into_each
+from .mesh import add_meshes, check_array_output, into_each, name_output
 from .options import add_areas, add_distance, add_output, add_rows, add_sources, given, positive
 from .result import Facts, Result
 from .terminal import progress_line
@@ -39,7 +39,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_meshes(parser)
     add_sources(parser, "where distances start, a field each")
     files = "a .npy, .csv, .vtp, .func.gii or .shape.gii file, or with colours .ply, .obj or .glb"
-    add_output(parser, f"{files}; {NAME} is that of each mesh")
+    add_output(parser, f"{files}; {NAME} is that of each mesh", usual="-field.npy")
     add_distance(parser, is_field=True)
     add_areas(parser)
     add_rows(parser, *COLOURS_OF_VERTICES)
@@ -53,6 +53,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> Result:
     """Write the distances of all vertices from each source; the exit status is 1 if a mesh failed."""
+    name_output(options)
     return into_each(options, _one)
 
 

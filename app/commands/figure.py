@@ -24,8 +24,7 @@ EXAMPLES = (
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `figure` to its parser."""
-    files = "a .png, .pdf, .svg or .eps file (default: the mesh's name with .png)"
-    add_figure_options(parser, files, needs_output=False)
+    add_figure_options(parser, "a .png, .pdf, .svg or .eps file")
     parser.add_argument("--tex", action="store_true", help="a LaTeX snippet beside it, with a caption")
 
 

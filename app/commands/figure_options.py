@@ -40,12 +40,12 @@ from .options import (
 from .terminal import progress_line, tell
 
 
-def add_figure_options(parser: argparse.ArgumentParser, files: str, needs_output: bool = True) -> None:
+def add_figure_options(parser: argparse.ArgumentParser, files: str, usual: str = ".png") -> None:
     """Add the options that both commands have; the value of one that is not given is None."""
     parser.add_argument("mesh", metavar="MESH", nargs="?", help=MESH)
     parser.add_argument("beside", metavar="BESIDE", nargs="?", help="a second mesh B, to stand beside the first, A")
     add_sources(parser, "where distances start, a row of panels each, or with two meshes one of each")
-    add_output(parser, files, required=needs_output)
+    add_output(parser, files, usual=usual)
     add_distance(parser, PANELS, is_field=True)
     add_recipe(parser, "draw this again; all other options change it")
     add_rows(parser, *rows())

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from bihdist_core.counts import counted
-from bihdist_core.errors import ParameterError
+from bihdist_core.errors import OutputError, ParameterError
 
 from ..document.looks import TWENTY_STEPS, Isolines
 from ..figures.look_options import ISOLINES, isolines_with
@@ -56,6 +56,11 @@ def run(options: argparse.Namespace) -> Result:
         raise ParameterError("There is nothing to do; name a file of isolines with -o, or values with --region.")
     if (options.region_ids or options.region_mesh) and not options.region:
         raise ParameterError("Which region? Name its values with --region, such as 20%:40%.")
+    if (options.output or "").lower().endswith(".svg"):
+        raise OutputError(
+            f"{options.output}: an SVG is a picture; draw it by `bihdist figure {options.mesh} --style lines -o "
+            f"{options.output}`. Coordinates are written as {', '.join(ISOLINE_FORMATS)}."
+        )
     check_outputs(
         (options.output, ISOLINE_FORMATS),
         (options.region_ids, SELECTION_WAYS["ids"]),

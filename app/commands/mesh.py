@@ -81,6 +81,24 @@ def laplacian_of(
     return Laplacian(surface, areas or AREAS[0])
 
 
+def name_output(options: argparse.Namespace) -> None:
+    """Name the output after the mesh, or each of several, if none is named; OutputError if there is such a file."""
+    if options.output:
+        return
+    names = [mesh_name(mesh) for mesh in (options.meshes if "meshes" in options else [options.mesh])]
+    for name in names:
+        usual_output(name, options.usual_output)
+    options.output = (names[0] if len(names) == 1 else NAME) + options.usual_output
+
+
+def usual_output(mesh: str, ending: str) -> str:
+    """Return the name of an output that is not named; OutputError if there is such a file already."""
+    path = f"{mesh_name(mesh)}{ending}"
+    if os.path.exists(path):
+        raise OutputError(f"There is a file {path} already; name another with -o, or this one to replace it.")
+    return path
+
+
 def outputs_of(options: argparse.Namespace) -> list[str]:
     """Return the files that a command with one output has written."""
     ids_file = ids_beside(options)

@@ -6,7 +6,7 @@ import os
 from bihdist_core.errors import ParameterError
 
 from .figure_options import add_figure_options, chosen_recipe
-from .mesh import write_ids_of
+from .mesh import usual_output, write_ids_of
 from .options import add_workers
 from .result import Result, panel_facts
 from .terminal import progress_line, report_answers
@@ -21,7 +21,7 @@ EXAMPLES = (
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `movie` to its parser."""
-    add_figure_options(parser, "a .mp4 or .gif file")
+    add_figure_options(parser, "a .mp4 or .gif file", usual=".gif")
     parser.add_argument(
         "--turn", type=float, metavar="DEGREES", help="how far the shape turns (default: 360, or 0 with --path)"
     )
@@ -42,7 +42,8 @@ def run(options: argparse.Namespace) -> Result:
     from ..figures.movie import Movie, check_movie, write_movie
     from ..figures.raster import check_offscreen
 
-    check_movie(options.output)
+    if options.output:
+        check_movie(options.output)
     check_offscreen()
     for given, name in (
         (options.path and options.sources, "--sources beside --path, whose first vertex is the source"),
@@ -53,7 +54,9 @@ def run(options: argparse.Namespace) -> Result:
         if given:
             raise ParameterError(f"A movie takes no {name.removeprefix('no ')}.")
     turn = options.turn if options.turn is not None else 0.0 if options.path else 360.0
-    movie = Movie(chosen_recipe(options), turn, options.path, options.frames, options.fps)
+    recipe = chosen_recipe(options)
+    options.output = options.output or usual_output(recipe.document.surfaces[0].path, options.usual_output)
+    movie = Movie(recipe, turn, options.path, options.frames, options.fps)
     with progress_line() as progress:
         answers = write_movie(movie, options.output, progress, workers=options.workers)
     print(f"{options.output}: {movie.frames:,} frames, {movie.frames / movie.fps:.3g} s")

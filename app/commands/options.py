@@ -17,7 +17,7 @@ from ..document.quantities import Quantity, quantity
 from ..document.repairs import Repairs
 from ..document.sources import sources_from_words
 from ..figures.options import PAGE_ROWS, VERTEX_AREAS, with_rows
-from ..figures.repair_options import CUT, REPAIRS
+from ..figures.repair_options import CUT, LARGEST, REPAIRS
 
 PANELS = f"a panel each (default: {','.join(str(spec) for spec in COMPARISON)})"
 PLACES = (
@@ -72,9 +72,13 @@ def add_pairs(parser: argparse._ActionsContainer, what: str, required: bool = Fa
     parser.add_argument("--pairs", metavar="I:J,…|@FILE", type=pairs, required=required, help=what)
 
 
-def add_output(parser: argparse.ArgumentParser, files: str, required: bool = True, metavar: str = "OUT") -> None:
-    """Add the option of what is written."""
-    parser.add_argument("-o", "--output", metavar=metavar, required=required, help=files)
+def add_output(
+    parser: argparse.ArgumentParser, files: str, required: bool = True, metavar: str = "OUT", usual: str = ""
+) -> None:
+    """Add the option of what is written; `usual` is what follows the mesh's name in the name that it has by default."""
+    help = f"{files} (default: the mesh's name with {usual})" if usual else files
+    parser.add_argument("-o", "--output", metavar=metavar, required=required and not usual, help=help)
+    parser.set_defaults(usual_output=usual)
 
 
 def add_dtype(parser: argparse.ArgumentParser, of: str) -> None:
@@ -234,13 +238,14 @@ def add_repairs(parser: argparse.ArgumentParser) -> None:
 
 
 def add_cut(parser: argparse.ArgumentParser) -> None:
-    """Add the option of what is cut out of a mesh."""
-    add_rows(parser, CUT)
+    """Add the options of what is cut out of a mesh, whose vertices keep their ids."""
+    add_rows(parser, CUT, LARGEST)
 
 
 def repairs_of(options: argparse.Namespace, mesh: str) -> Repairs:
     """Return the repairs of a mesh that the options name."""
-    return Repairs(cut=options.cut or "", merge=getattr(options, "merge", None)).of(mesh)
+    merge = getattr(options, "merge", None)
+    return Repairs(options.cut or "", merge=merge, largest_component=bool(options.largest_component)).of(mesh)
 
 
 def specs(options: argparse.Namespace, texts: Sequence[str]) -> list[Spec]:

@@ -30,7 +30,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `page` to its parser."""
     parser.add_argument("mesh", metavar="MESH", nargs="?", help=MESH)
     add_sources(parser, "the vertex where distances start at first")
-    add_output(parser, "a .html file (default: the mesh's name with .html)", required=False, metavar="OUT.html")
+    add_output(parser, "a .html file", metavar="OUT.html", usual=".html")
     add_distance(parser, f"a panel each (default: {','.join(USUAL)})", is_field=True)
     add_recipe(parser, "the panels of this recipe or session; all other options change it")
     add_rows(parser, *page_rows())

@@ -10,7 +10,7 @@ from bihdist_core.errors import OutputError, ParameterError
 from ..document.repairs import NAME
 from ..document.sources import ALL, Sources
 from ..version import version
-from .mesh import add_meshes, check_array_output, found_mesh, into_each, read_laplacian
+from .mesh import add_meshes, check_array_output, found_mesh, into_each, name_output, read_laplacian
 from .mesh_sources import sources_of_mesh, sources_on
 from .options import (
     DTYPES,
@@ -49,7 +49,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         parser,
         "these instead of --sources: 1:2,3:4; or a file with a line `i,j` for each, @FILE, or - for standard input",
     )
-    add_output(parser, f"a .npy or .csv file, for --nearest also .npz or .json; {NAME}: each mesh's")
+    files = f"a .npy or .csv file, for --nearest also .npz or .json; {NAME}: each mesh's"
+    add_output(parser, files, usual="-pairs.npy")
     add_distance(parser, "a column each (default: biharmonic)", k=f"of --nearest (default: {NEIGHBOURS})")
     add_areas(parser)
     parser.add_argument(
@@ -74,6 +75,7 @@ def run(options: argparse.Namespace) -> Result:
     if options.pairs is not None and (options.sources is not None or options.nearest):
         other = "--nearest" if options.nearest else "--sources"
         raise ParameterError(f"--pairs and {other} are two ways to say which pairs; leave one out.")
+    name_output(options)
     return into_each(options, _one)
 
 

@@ -179,7 +179,8 @@ def standard_output(options: argparse.Namespace, text: str) -> Iterator[None]:
     """
     output = getattr(options, "output", None)
     if output != "-":
-        with redirect_stdout(io.StringIO()) if options.json or (options.quiet and output) else nullcontext():
+        writes_file = output or getattr(options, "usual_output", "")
+        with redirect_stdout(io.StringIO()) if options.json or (options.quiet and writes_file) else nullcontext():
             yield
         return
     import shutil

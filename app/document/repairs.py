@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bihdist_core.errors import ParameterError
 from bihdist_core.formats.mesh_names import mesh_name
@@ -27,11 +27,14 @@ class Repairs:
         The checksum of that file's bytes; empty as long as any content will do.
     merge
         The distance, in mesh units, up to which vertices become one, after the cut; None for no merging.
+    largest_component
+        Whether only the connected component with most vertices is kept, after cut and merge.
     """
 
     cut: str = ""
     cut_sha256: str = ""
     merge: float | None = None
+    largest_component: bool = False
 
     def __post_init__(self) -> None:
         if self.merge is not None and not (math.isfinite(self.merge) and self.merge >= 0):
@@ -44,7 +47,7 @@ class Repairs:
     @property
     def is_any(self) -> bool:
         """Return whether anything is done."""
-        return bool(self.cut) or self.merge is not None
+        return self != NO_REPAIRS
 
     def is_same(self, there: "Repairs") -> bool:
         """Return whether what has been made by others will do."""
@@ -54,21 +57,21 @@ class Repairs:
 NO_REPAIRS = Repairs()
 
 
-def with_repairs(document: "Document", cut: str | None, merge: float | None, surface: str = "") -> "Document":
+def with_repairs(document: "Document", surface: str = "", **changes: Any) -> "Document":
     """Return the document with other repairs of its meshes, or of one of them with what is made from it.
 
-    None leaves them as they are, and "" takes the cut back.  ParameterError where one mask would be that of two meshes.
+    `changes` are fields of `Repairs`; others stay as they are. ParameterError where two meshes would have one mask.
     """
     meant = _of_the_file(document, surface) if surface else document.surfaces
+    cut = changes.get("cut")
+    if cut is not None:
+        changes["cut_sha256"] = ""
     if cut and NAME not in cut and len({mesh.path for mesh in meant}) > 1:
         raise ParameterError(f"{cut} would cut two meshes; write {NAME} in the path for the name of each.")
-    meshes = []
-    for mesh in document.surfaces:
-        if mesh not in meant:
-            meshes.append(mesh)
-            continue
-        repairs = mesh.repairs if cut is None else replace(mesh.repairs, cut=cut, cut_sha256="").of(mesh.path)
-        meshes.append(replace(mesh, repairs=repairs if merge is None else replace(repairs, merge=merge)))
+    meshes = (
+        replace(mesh, repairs=replace(mesh.repairs, **changes).of(mesh.path)) if mesh in meant else mesh
+        for mesh in document.surfaces
+    )
     return replace(document, surfaces=tuple(meshes))
 
 

@@ -155,6 +155,7 @@ def figure(
     areas: str = "voronoi",
     cut: str = "",
     merge: float | None = None,
+    largest_component: bool = False,
     perturb: str | Perturbation = "",
     pairs: npt.ArrayLike | str = (),
     maps: Sequence[str] = (),
@@ -189,6 +190,8 @@ def figure(
         File with 1 for each vertex that stays and 0 for each that is cut out; ``{name}`` in it is the mesh's name.
     merge : float, optional
         Merge vertices that are no farther apart.
+    largest_component : bool
+        Keep only the connected component with most vertices.
     perturb : str
         A change to the mesh such as ``"noise=0.4,along=normals,seed=1"``: each distance before and after, and the
         difference.
@@ -236,9 +239,10 @@ def figure(
     >>> picture.pixels.shape
     (200, 400, 3)
     """
-    own = {"areas": areas, "cut": cut, "merge": merge, "perturb": perturb, "pairs": pairs, "maps": maps}
+    own = {"areas": areas, "cut": cut, "merge": merge, "largest_component": largest_component}
+    of_tools = {"perturb": perturb, "pairs": pairs, "maps": maps, "predict": predict}
     groups = {"isolines": isolines, "look": look, "view": view, "marks": marks, "layout": layout}
-    values = option_values("figure", rows(), {**own, "predict": predict, **groups, **others})
+    values = option_values("figure", rows(), {**own, **of_tools, **groups, **others})
     several = isinstance(source, Sequence | np.ndarray) and not isinstance(source, str)
     sources = tuple(source) if isinstance(source, Sequence | np.ndarray) and not isinstance(source, str) else (source,)
     if not sources:

@@ -15,11 +15,12 @@ from ..document.repairs import Repairs, with_repairs
 def _get(recipe: Recipe) -> dict[str, Any]:
     repairs = recipe.document.surfaces[0].repairs if recipe.document.surfaces else Repairs()
     values: dict[str, Any] = {"cut": os.path.abspath(repairs.cut)} if repairs.cut else {}
-    return values if repairs.merge is None else {**values, "merge": repairs.merge}
+    values |= {} if repairs.merge is None else {"merge": repairs.merge}
+    return values | ({LARGEST.name: True} if repairs.largest_component else {})
 
 
 def _put(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
-    return replace(recipe, document=with_repairs(recipe.document, values.get("cut"), values.get("merge")))
+    return replace(recipe, document=with_repairs(recipe.document, **values))
 
 
 def _tolerance(text: str) -> float:
@@ -41,6 +42,13 @@ CUT = Option(
     metavar="MASK",
 )
 
+LARGEST = Option(
+    "largest_component",
+    "keep only the connected component with most vertices, after --cut and --merge; vertex ids stay as they are",
+    False,
+    group="",
+)
+
 REPAIRS = Row(
     (
         CUT,
@@ -52,8 +60,9 @@ REPAIRS = Row(
             read=_tolerance,
             write=digits,
         ),
+        LARGEST,
     ),
-    ("Repairs.cut", "Repairs.merge"),
+    ("Repairs.cut", "Repairs.merge", "Repairs.largest_component"),
     _get,
     _put,
 )

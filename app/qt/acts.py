@@ -148,6 +148,11 @@ def _is_repaired(context: Context) -> bool:
     return any(mesh.repairs.is_any for mesh in context.document.surfaces)
 
 
+def _has_components(context: Context) -> bool:
+    found = (context.session.loaded(mesh.name) for mesh in context.document.surfaces)
+    return any(loaded is not None and loaded.surface.n_components > 1 for loaded in found)
+
+
 def _is_merged(context: Context) -> bool:
     return any(mesh.repairs.merge is not None for mesh in context.document.surfaces)
 
@@ -184,11 +189,15 @@ FILE = (
     Action("merge", "Merge vertices…", lambda c: c[MeshRepairs].ask_merge(),
         tip="Merge vertices in one place or within a tolerance, so that distances cross between their faces",
         synonyms="weld join coincident duplicate double vertices seams soup tolerance"),
+    Action("largest", "Keep largest component", lambda c: c[MeshRepairs].keep_largest_component(),
+        tip="Remove the faces of all other components", can_run=_has_components, lack="the mesh has one component",
+        synonyms="part piece island floating disconnected remove small clean"),
     Action("save ids", "Save vertex id table…", lambda c: c[MeshRepairs].save_ids(),
         tip="Save the new id of each vertex of the file", can_run=_is_merged,
         lack="merge vertices first", synonyms="export write merged numbers map"),
     Action("put back", "Restore original mesh", lambda c: c[MeshRepairs].put_back(),
-        tip="Undo cutting out and merging", can_run=_is_repaired, lack="nothing is cut out or merged",
+        tip="Undo cutting out, merging and keeping one component", can_run=_is_repaired,
+        lack="nothing is cut out or merged",
         synonyms="mask whole again fill unmerge original"),
     Action("save", "&Save session", lambda c: c[SessionFile].save_or_say(), ("Ctrl+S",), icon="save",
         synonyms="store keep project"),

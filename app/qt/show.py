@@ -311,6 +311,7 @@ def show(
     areas: str = "voronoi",
     cut: str | os.PathLike[str] = "",
     merge: float | None = None,
+    largest_component: bool = False,
     viewup: str = "auto",
     second_mesh: Mesh | None = None,
     on_pick: Callable[[Pick], object] | None = None,
@@ -335,6 +336,8 @@ def show(
         File with 1 for each vertex that stays and 0 for each that is cut out; ``{name}`` in it is the mesh's name.
     merge : float, optional
         Merge vertices that are no farther apart, after `cut`.
+    largest_component : bool
+        Keep only the connected component with most vertices.
     viewup : str
         Axis that points up, ``"z"`` or ``"-z"``; ``"auto"`` for what was chosen for the mesh before, or a guess.
     second_mesh : str or MeshLike, optional
@@ -375,7 +378,7 @@ def show(
     document = replace(document, up=viewup)
     if second_mesh is not None:
         document = with_second_mesh(document, given, second_mesh)
-    document = with_repairs(document, os.fspath(cut) or None, merge)
+    document = with_repairs(document, cut=os.fspath(cut), merge=merge, largest_component=largest_component)
     for each in document.surfaces:
         checked_path(each)
     check_screen()

@@ -293,8 +293,8 @@ def open_mesh(
 
 
 def unmerged(mesh: MeshFile, given: ArrayStore) -> Surface:
-    """Return the surface of a mesh before vertices are merged; the errors of `open_mesh`."""
-    return open_mesh(replace(mesh, repairs=replace(mesh.repairs, merge=None)), given).surface
+    """Return the surface of a mesh before vertices are merged, with all components; the errors of `open_mesh`."""
+    return open_mesh(replace(mesh, repairs=replace(mesh.repairs, merge=None, largest_component=False)), given).surface
 
 
 def _read(mesh: MeshFile, remedy: str) -> tuple[Surface, str]:

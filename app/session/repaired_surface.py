@@ -29,7 +29,10 @@ def repaired(surface: Surface, repairs: Repairs, remedy: str = "") -> tuple[Surf
             surface = surface.without(~checked_mask(surface, mask))
         except (ParameterError, MeshError) as error:
             raise type(error)(f"{repairs.cut}: {error}") from None
-    return (surface, None) if repairs.merge is None else surface.merged(repairs.merge)
+    surface, ids = (surface, None) if repairs.merge is None else surface.merged(repairs.merge)
+    if repairs.largest_component and surface.n_components > 1:
+        surface = surface.without(surface.component_of_vertex > 0)
+    return surface, ids
 
 
 def read_repaired(path: str, repairs: Repairs) -> Surface:

@@ -29,6 +29,7 @@ def page(
     areas: str = "voronoi",
     cut: str = "",
     merge: float | None = None,
+    largest_component: bool = False,
     isolines: int | IsolineOptions = 20,
     look: LookOptions | None = None,
     view: ViewOptions | None = None,
@@ -60,6 +61,8 @@ def page(
         File with 1 for each vertex that stays and 0 for each that is cut out; ``{name}`` in it is the mesh's name.
     merge : float, optional
         Merge vertices that are no farther apart.
+    largest_component : bool
+        Keep only the connected component with most vertices.
     isolines : int or IsolineOptions
         About how many isolines, at round values; or ``count``, ``equal``, ``spacing``, ``values`` and ``through``.
     look : LookOptions, optional
@@ -103,7 +106,7 @@ def page(
     >>> max(page.differs.values()) < 1e-6
     True
     """
-    own = {"areas": areas, "cut": cut, "merge": merge, "isolines": isolines}
+    own = {"areas": areas, "cut": cut, "merge": merge, "largest_component": largest_component, "isolines": isolines}
     groups = {"look": look, "view": view, "marks": marks, "layout": layout}
     recipe, given = recipe_of("page", mesh, distances, source, fields, {**own, **groups, **others}, progress)
     page, _ = write_page(recipe, path, given, precision, eigenpairs, progress, credit)

@@ -33,6 +33,7 @@ def widget(
     areas: str = "voronoi",
     cut: str = "",
     merge: float | None = None,
+    largest_component: bool = False,
     isolines: int | IsolineOptions = 20,
     look: LookOptions | None = None,
     view: ViewOptions | None = None,
@@ -63,6 +64,8 @@ def widget(
         File with 1 for each vertex that stays and 0 for each that is cut out; ``{name}`` in it is the mesh's name.
     merge : float, optional
         Merge vertices that are no farther apart.
+    largest_component : bool
+        Keep only the connected component with most vertices.
     isolines : int or IsolineOptions
         About how many isolines, at round values; or ``count``, ``equal``, ``spacing``, ``values`` and ``through``.
     look : LookOptions, optional
@@ -107,7 +110,7 @@ def widget(
         from .distance_widget import DistanceWidget
     except ImportError:
         raise ParameterError(f"Widgets need the package anywidget: {install_command('anywidget')}") from None
-    own = {"areas": areas, "cut": cut, "merge": merge, "isolines": isolines}
+    own = {"areas": areas, "cut": cut, "merge": merge, "largest_component": largest_component, "isolines": isolines}
     groups = {"look": look, "view": view, "marks": marks, "layout": layout}
     recipe, given = recipe_of("widget", mesh, distances, source, fields, {**own, **groups, **others}, progress)
     made = DistanceWidget.of(page_of(recipe, given, precision, eigenpairs, progress))

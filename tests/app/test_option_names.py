@@ -71,7 +71,7 @@ def test_an_unknown_option_is_a_sentence_with_what_is_meant(capsys, words, said)
         (["profile", "hand", "hare", "beast"], "unrecognized arguments: hare beast."),
         (["figure", "hand", "--isolines", "0.1,0.2"], "--isolines: '0.1,0.2' is not a number of isolines; for lines"),
         (["figure", "hand", "--isolines", "0.1,0.2"], "write --isoline-values 0.1,0.2."),
-        (["field", "hand"], "the following arguments are required: -o/--output."),
+        (["samples", "hand"], "the following arguments are required: --sources."),
     ],
 )
 def test_words_that_are_left_over_and_bad_values_are_a_sentence(capsys, words, said):
@@ -157,4 +157,4 @@ def test_commands_are_under_headings_with_examples_that_parse(capsys):
 
 
 def test_the_usage_names_what_is_required_only():
-    assert commands()["field"].usage == "bihdist field -o OUT MESH [MESH ...] [options]"
+    assert commands()["samples"].usage == "bihdist samples --sources SOURCES MESH [options]"

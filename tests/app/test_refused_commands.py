@@ -98,7 +98,6 @@ def test_bad_input_gets_a_sentence_and_leaves_no_file(mesh, mesh_file, tmp_path,
 @pytest.mark.parametrize(
     "arguments",
     [
-        ["field", "figure"],
         ["field", "figure", "--sources", "a", "-o", "x.npy"],
         ["pairs", "figure", "--pairs", "1", "-o", "x.npy"],
         ["pairs", "figure", "--pairs", "1,2", "-o", "x.npy"],
@@ -113,6 +112,33 @@ def test_words_that_make_no_sense_exit_with_2(arguments, capsys):
     assert told.startswith("bihdist: ")
     assert " --help`.\n" in told
     assert told.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [
+        ("field a.off b.off --sources 3", "a-field.npy b-field.npy"),
+        ("pairs a.off --sources 3,9", "a-pairs.npy"),
+        ("samples a.off --sources farthest:4", "a-samples.txt"),
+        ("interpolate a.off --anchors 3=1,9=2", "a-interpolated.npy"),
+        ("perturb a.off --noise 0.1", "a-perturbed.ply"),
+        ("correspond a.off b.off --pairs 3:3,9:9", "a-map.txt"),
+        ("movie a.off --frames 2 --size 80x80 --distance biharmonic", "a.gif"),
+    ],
+)
+def test_an_output_is_named_after_its_mesh_and_replaces_nothing(words, names, mesh_file, capsys, monkeypatch):
+    folder = Path(mesh_file(bumpy(80), "a.off")).parent
+    mesh_file(bumpy(80), "b.off")
+    monkeypatch.chdir(folder)
+    there = set(os.listdir(folder))
+    assert main([*words.split(), "--quiet"]) == 0
+    assert set(os.listdir(folder)) - there == set(names.split())
+    assert capsys.readouterr().out == ""
+    first = names.split()[0]
+    before = Path(first).read_bytes()
+    assert f"There is a file {first} already; name another with -o" in refused(capsys, *words.split())
+    assert Path(first).read_bytes() == before
+    assert main([*words.split(), "-o", "{name}.npy" if "field" in words else f"other{Path(first).suffix}"]) == 0
 
 
 def test_an_old_file_survives_a_failure(mesh, tmp_path, capsys, monkeypatch):

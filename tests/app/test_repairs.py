@@ -1,4 +1,4 @@
-"""`--cut` and `--merge` of the commands, and in documents: what is cut out and merged before anything is measured."""
+"""`--cut`, `--merge` and `--largest-component`, of commands and in documents: repairs before anything is measured."""
 
 import json
 
@@ -13,7 +13,7 @@ from app.main import main
 from app.session.array_store import ArrayStore
 from app.session.loaded_mesh import open_mesh
 from app.session.recipe_file import recipe_written
-from bihdist_core import BiharmonicDistance, ParameterError, farthest_points, voronoi_regions
+from bihdist_core import BiharmonicDistance, ParameterError, Surface, VertexError, farthest_points, voronoi_regions
 from bihdist_core.formats.surface_output import write_mesh
 from tests.core.mesh_samples import gifti, gifti_array
 from tests.core.test_cutting import by_hand
@@ -169,6 +169,38 @@ def test_what_is_cut_is_cut_by_the_ids_of_the_file(tmp_path):
     np.testing.assert_allclose(np.load(tmp_path / "f.npy"), expected.from_sources([0, 5]), rtol=1e-9)
 
 
+def test_the_largest_component_is_that_of_the_merged_surface(tmp_path):
+    whole = torn(bumpy(60))  # in pieces, until they are merged
+    away = bumpy(20, seed=1)
+    both = Surface(
+        np.vstack([away.vertices + 9, whole.vertices]), np.vstack([away.faces, whole.faces + away.n_vertices])
+    )
+    write_mesh(tmp_path / "both.ply", both)
+    words = ("field", tmp_path / "both.ply", "--merge", "0", "--largest-component", "-o", tmp_path / "f.npy")
+    merged = both.merged()[0]
+    first = int(np.flatnonzero(merged.component_of_vertex == 0)[0])
+    assert run(*words, "--sources", first) == 0
+    found = np.load(tmp_path / "f.npy").ravel()
+    np.testing.assert_allclose(found, BiharmonicDistance(merged).from_source(first), rtol=1e-9, atol=1e-12)
+    assert np.isnan(found).sum() == away.n_vertices
+    with pytest.raises(VertexError):
+        BiharmonicDistance(merged.without(merged.component_of_vertex > 0)).from_source(0)
+    assert run(*words, "--sources", 0) == 2
+
+
+def test_the_largest_component_is_drawn_alone(tmp_path, capsys):
+    one, away = bumpy(60), bumpy(20, seed=1)
+    both = Surface(np.vstack([one.vertices, away.vertices + 9]), np.vstack([one.faces, away.faces + 60]))
+    write_mesh(tmp_path / "both.ply", both)
+    words = ("figure", tmp_path / "both.ply", "--distance", "biharmonic", "--size", "200x200")
+    assert run(*words, "--largest-component", "-o", tmp_path / "x.png") == 0
+    recipe = read_recipe(tmp_path / "x.json")
+    assert recipe.document.surfaces[0].repairs == Repairs(largest_component=True)
+    np.testing.assert_array_equal(open_mesh(recipe.document.surfaces[0]).surface.faces, one.faces)
+    assert run("figure", "--recipe", tmp_path / "x.json", "--no-largest-component", "-o", tmp_path / "y.png") == 0
+    assert not read_recipe(tmp_path / "y.json").document.surfaces[0].repairs.is_any
+
+
 @pytest.mark.parametrize("word", ["-1", "inf", "nan", "far"])
 def test_a_tolerance_is_a_length(capsys, word):
     with pytest.raises(SystemExit):
@@ -185,7 +217,7 @@ def test_a_table_has_no_place_beside_standard_output(tmp_path, capsys):
 # ---------------------------------------------------------------------- documents
 def test_a_document_opens_its_mesh_cut_and_reopens_it(mesh, tmp_path):
     folder, surface, keeps = mesh
-    document = with_repairs(comparison(str(folder / "mesh.ply")), str(folder / "{name}.mask.npy"), None)
+    document = with_repairs(comparison(str(folder / "mesh.ply")), cut=str(folder / "{name}.mask.npy"))
     loaded = open_mesh(document.surfaces[0])
     assert loaded.surface.n_faces == surface.without(~keeps).n_faces
     document = loaded.resolve_points(document)
@@ -207,13 +239,13 @@ def test_a_document_opens_its_mesh_cut_and_reopens_it(mesh, tmp_path):
 def test_other_repairs_are_another_surface(mesh):
     folder, *_ = mesh
     plain = comparison(str(folder / "mesh.ply"))
-    cut = with_repairs(plain, str(folder / "mask.txt"), None)
-    merged = with_repairs(cut, None, 0.5)
+    cut = with_repairs(plain, cut=str(folder / "mask.txt"))
+    merged = with_repairs(cut, merge=0.5)
     assert merged.surfaces[0].repairs == Repairs(str(folder / "mask.txt"), merge=0.5)
     loaded = [open_mesh(document.surfaces[0]) for document in (plain, cut, merged)]
     for k, document in enumerate((plain, cut, merged)):
         assert [each.is_of(document.surfaces[0]) for each in loaded] == [j == k for j in range(3)]
-    assert with_repairs(cut, "", None) == plain
+    assert with_repairs(cut, cut="") == plain
     with pytest.raises(ParameterError, match="not -1"):
         Repairs(merge=-1.0)
 

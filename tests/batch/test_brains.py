@@ -207,7 +207,7 @@ def test_fields_come_back_as_gifti(tmp_path, capsys):
 def test_a_recipe_with_a_cut_of_its_own_is_refused(tmp_path, capsys):
     hemispheres(tmp_path)
     mesh, cut = tmp_path / "lh.pial.surf.gii", tmp_path / "lh.pial.cortex.shape.gii"
-    recipe = with_repairs(comparison(str(mesh)), str(cut), None)
+    recipe = with_repairs(comparison(str(mesh)), cut=str(cut))
     (tmp_path / "r.json").write_text(recipe_text(Recipe(recipe), "1"))
     assert batch(mesh, tmp_path / "out", "--do", "figure", "--recipe", tmp_path / "r.json") == 2
-    assert "batch does what --cut and --merge say" in capsys.readouterr().err
+    assert "batch does what --cut, --merge and --largest-component say" in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""A mesh of which a file cuts something out, in the window: shown, undone, saved, put back; and two with masks."""
+"""A mesh of which something is cut out, in the window: shown, undone, saved, put back; and two with masks."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from app.document.file import read_recipe
 from app.document.shared_parts.pins import Pins, add_pins
 from app.qt.files.mesh_repairs import MeshRepairs
 from app.qt.files.session_actions import SessionFile
-from bihdist_core import BiharmonicDistance
+from bihdist_core import BiharmonicDistance, Surface
 from bihdist_core.distances.distance_types import Spec
 from bihdist_core.sources.source import Curve, SourceSet, SurfacePoint
 from tests.shapes import bumpy
@@ -51,6 +51,22 @@ def test_a_mask_cuts_and_what_it_cuts_comes_back(s, tmp_path, monkeypatch):
     s.until(lambda: not s.document.surfaces[0].repairs.cut and s.session.is_complete)
     assert s.session.mesh().surface.n_faces == BALL.n_faces
     assert not s.window.actions_by_word["put back"].isEnabled()
+
+
+def test_the_largest_component_is_kept_and_the_others_come_back(shared_screen):
+    small = bumpy(20, seed=1)
+    both = Surface(np.vstack([small.vertices + 9, BALL.vertices]), np.vstack([small.faces, BALL.faces + 20]))
+    s = shared_screen(both, ONE, 3)
+    action = s.window.actions_by_word["largest"]
+    assert action.isEnabled()
+    action.trigger()
+    s.until(lambda: s.document.surfaces[0].repairs.largest_component and s.session.is_complete)
+    np.testing.assert_array_equal(s.session.mesh().surface.faces, BALL.faces + 20)
+    assert s.document.sources[0] >= 20  # it was on the other
+    assert not action.isEnabled()
+    s.window.actions_by_word["put back"].trigger()
+    s.until(lambda: not s.document.surfaces[0].repairs.is_any and s.session.is_complete)
+    assert s.session.mesh().surface.n_components == 2
 
 
 def test_a_source_that_goes_starts_anew(s, tmp_path, monkeypatch):

@@ -104,7 +104,7 @@ class Menus:
         )
         self._of_meshes = (panels, tools)
         self._fill(file, ["open", self.recent, self.samples, "close mesh", None, "open beside", "close beside", None])
-        self._fill(file, ["cut", "merge", "save ids", "put back", None])
+        self._fill(file, ["cut", "merge", "save ids", "largest", "put back", None])
         self._fill(file, ["save", "save as", None])
         self._fill(file, ["save fields", "figure", "movie", "page", "screenshot", None, "quit"])
         self._fill(edit, ["undo", "redo", None, "copy picture", "copy command", "copy python", None])

@@ -49,7 +49,7 @@ class MeshRepairs(QtCore.QObject):
     def cut(self, path: str) -> None:
         """Cut the mesh by a mask, or tell why that is not possible."""
         surface = self._mesh.name
-        self._context.session.apply(lambda document: with_repairs(document, path, None, surface))
+        self._context.session.apply(lambda document: with_repairs(document, surface, cut=path))
 
     # ------------------------------------------------------------------ merging
     def ask_merge(self) -> None:
@@ -76,7 +76,7 @@ class MeshRepairs(QtCore.QObject):
 
     def merge(self, surface: str, tolerance: float) -> None:
         """Merge the vertices of a surface within a tolerance."""
-        self._context.session.apply(lambda document: with_repairs(document, None, tolerance, surface))
+        self._context.session.apply(lambda document: with_repairs(document, surface, merge=tolerance))
 
     def save_ids(self, path: str = "") -> None:
         """Write the new id of each vertex of the file; asks for a path if none is given."""
@@ -119,9 +119,15 @@ class MeshRepairs(QtCore.QObject):
                 words = f"{gone} merged, {left:,} left; File > Save vertex id table… saves the old and new ids"
                 context.tell(words, _same(mesh, context))
 
+    # ------------------------------------------------------------------ components
+    def keep_largest_component(self) -> None:
+        """Keep only the component with most vertices."""
+        surface = self._mesh.name
+        self._context.session.apply(lambda document: with_repairs(document, surface, largest_component=True))
+
     # ------------------------------------------------------------------ putting back
     def put_back(self) -> None:
-        """Restore the mesh of the file, neither cut nor merged."""
+        """Restore the mesh of the file, without repairs."""
         mesh = self._mesh
         if not mesh.repairs.is_any:
             self._context.tell("This mesh has not been cut or merged.")

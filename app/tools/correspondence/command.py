@@ -4,7 +4,7 @@ import argparse
 
 from bihdist_core.counts import counted
 
-from ...commands.mesh import ids_beside, laplacian_of
+from ...commands.mesh import ids_beside, laplacian_of, name_output
 from ...commands.options import add_areas, add_distance, add_output, add_pairs, add_two_meshes, repairs_of, specs
 from ...commands.result import Facts, Result, distance_facts
 from ...commands.terminal import accuracy, progress_line
@@ -22,7 +22,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `correspond` to its parser."""
     add_two_meshes(parser)
     add_pairs(parser, PAIRS_MEANING, required=True)
-    add_output(parser, "a .npy or .txt file: for each vertex of A one of B, -1 where none can be compared")
+    files = "a .npy or .txt file: for each vertex of A one of B, -1 where none can be compared"
+    add_output(parser, files, usual="-map.txt")
     add_distance(parser)
     add_areas(parser)
     parser.add_argument("--truth", metavar="MAP", help="what is right, to say the errors: `identity`, or a map's file")
@@ -39,6 +40,7 @@ def run(options: argparse.Namespace) -> Result:
 
     from .evaluate_command import curve_facts, described_errors
 
+    name_output(options)
     check_output(options.output, MAP_FORMATS)
     (chosen,) = specs(options, [options.distance])
     pairs = read_pairs(options.pairs) if isinstance(options.pairs, str) else np.array(options.pairs)

@@ -69,7 +69,8 @@ def run(options: argparse.Namespace) -> Result:
     maps = {path: read_map(path, one.surface, two.surface) for path in dict.fromkeys(options.maps)}
     partners = read_map(options.symmetry, two.surface, two.surface) if options.symmetry else None
     # What is cut out of A has no right place; where B has none, no error is known.
-    left = np.flatnonzero(one.surface.component_of_vertex >= 0) if options.cut else np.arange(len(truth))
+    is_cut = repairs_of(options, options.mesh).is_any
+    left = np.flatnonzero(one.surface.component_of_vertex >= 0) if is_cut else np.arange(len(truth))
     ids = left[sampled_vertices(len(left), options.samples)]
     curves, facts = {}, []
     columns = np.stack([found[ids] for found in maps.values()], axis=1)

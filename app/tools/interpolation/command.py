@@ -4,7 +4,7 @@ import argparse
 
 from bihdist_core.counts import counted
 
-from ...commands.mesh import outputs_of, read_laplacian
+from ...commands.mesh import name_output, outputs_of, read_laplacian
 from ...commands.options import add_areas, add_distance, add_mesh, add_output, as_argument, positive, share, specs
 from ...commands.result import Result, distance_facts
 from ...commands.terminal import accuracy, progress_line, tell_moved
@@ -31,7 +31,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="vertices with values (12=0,40=1); or in a file, @FILE, or - for standard input: a .csv with a line "
         "`vertex,value` and one for each, .json, or MeshLab's .pp named by values",
     )
-    add_output(parser, "a .npy, .csv, .ply or .vtp file")
+    add_output(parser, "a .npy, .csv, .ply or .vtp file", usual="-interpolated.npy")
     add_distance(parser, "a field each (default: biharmonic)")
     add_areas(parser)
     parser.add_argument("--exponent", type=positive, default=1.0, metavar="P", help="of the weights (default: 1)")
@@ -56,6 +56,7 @@ def run(options: argparse.Namespace) -> Result:
     from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
     from bihdist_core.sources.source import SourceSet
 
+    name_output(options)
     check_output(options.output, FIELD_FORMATS)
     chosen = specs(options, list(dict.fromkeys(options.distance or ["biharmonic"])))
     fields, lines, facts = {}, [], []

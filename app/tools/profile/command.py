@@ -1,6 +1,7 @@
 """`bihdist profile`: distances along a path on a mesh, as numbers and as a chart."""
 
 import argparse
+from dataclasses import asdict
 
 from ...commands.mesh import check_mesh, write_ids_of
 from ...commands.mesh_sources import first_spec, one_source, sources_of_document, sources_of_mesh
@@ -76,7 +77,7 @@ def run(options: argparse.Namespace) -> Result:
     with progress_line() as progress:
         repairs = repairs_of(options, options.mesh)
         source = one_source(sources_of_document(options.sources, options.mesh, shows, areas, repairs, progress))
-        document = with_repairs(comparison(options.mesh, shows, (source,), areas), repairs.cut, repairs.merge)
+        document = with_repairs(comparison(options.mesh, shows, (source,), areas), **asdict(repairs))
         document, surfaces = open_document(Recipe(document, page), ArrayStore())
         surface = surfaces[document.surfaces[0].name].surface
         tell_repairs(surface)

@@ -4,7 +4,7 @@ import argparse
 
 from bihdist_core.counts import counted
 
-from ...commands.mesh import outputs_of, read_laplacian
+from ...commands.mesh import name_output, outputs_of, read_laplacian
 from ...commands.mesh_sources import sources_on
 from ...commands.options import add_areas, add_distance, add_mesh, add_output, add_sources, specs
 from ...commands.result import Result, distance_facts
@@ -23,7 +23,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `samples` to its parser."""
     add_mesh(parser)
     add_sources(parser, "what is written", default="", required=True, are_vertices=True)
-    add_output(parser, "a .txt file, an id on each line, a .npy file, or pins as .csv, .json or MeshLab's .pp")
+    files = "a .txt file, an id on each line, a .npy file, or pins as .csv, .json or MeshLab's .pp"
+    add_output(parser, files, usual="-samples.txt")
     add_distance(parser)
     add_areas(parser)
 
@@ -36,6 +37,7 @@ def run(options: argparse.Namespace) -> Result:
 
     from ...document.sources import FARTHEST
 
+    name_output(options)
     check_output(options.output, SAMPLE_FORMATS)
     (chosen,) = specs(options, [options.distance])
     with progress_line() as progress:

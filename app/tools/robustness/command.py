@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from bihdist_core.counts import counted
 
-from ...commands.mesh import ids_beside, laplacian_of, outputs_of
+from ...commands.mesh import ids_beside, laplacian_of, name_output, outputs_of
 from ...commands.mesh_sources import sources_on
 from ...commands.options import (
     add_distance,
@@ -42,7 +42,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `perturb` to its parser."""
     add_mesh(parser)
     add_sources(parser, "with --distance: where its fields start, one after another")
-    add_output(parser, "a .off, .obj, .ply or .vtp file")
+    add_output(parser, "a .off, .obj, .ply or .vtp file", usual="-perturbed.ply")
     add_distance(parser, "print how much each changes (default: none)")
     add_repairs(parser)
     parser.add_argument("--pose", default="", metavar="FILE", help="another pose, with the same vertices and faces")
@@ -70,6 +70,7 @@ def run(options: argparse.Namespace) -> Result:
 
     from ...samples import mesh_path
 
+    name_output(options)
     check_output(options.output, MESH_FORMATS)
     change = Perturbation(
         pose=mesh_path(options.pose) if options.pose else "",
