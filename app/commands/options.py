@@ -168,7 +168,7 @@ def chart_page(options: argparse.Namespace) -> Page:
 
 SECTIONS = {
     "look": "colours and shading", "isolines": "isolines", "view": "view", "layout": "page", "marks": "marks",
-    "areas": "mesh", "cut": "mesh", "merge": "mesh",
+    "areas": "mesh", "cut": "mesh", "merge": "mesh", "largest_component": "mesh",
     **dict.fromkeys(("maps", "predict", "pairs", "perturb"), "two meshes"),
 }  # fmt: skip
 """The sections of the help, by options and by their groups."""

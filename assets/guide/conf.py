@@ -60,6 +60,7 @@ numpydoc_xref_ignore = "all"  # but our own classes, not those of other projects
 numpydoc_xref_aliases = {
     **{name: name for name in _DEFAULT_LINKS},
     **{name: f"bihdist.{name}" for name in _NAMES if name[0].isupper()},
+    "Source": ":doc:`Source </reference/api/sources>`",
     **{path.rpartition(".")[2]: path for paths in _RESULTS.values() for path in paths},
 }
 add_module_names = False

@@ -2,8 +2,10 @@
 
 import argparse
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, groupby
+from operator import attrgetter
 
 from app.main import HEADINGS, parser_of_all
 
@@ -14,8 +16,9 @@ SHARED, UNTITLED = "shared-options", ("Arguments", "Options")
 
 @dataclass(frozen=True)
 class Option:
-    """An option or an argument of a command, as its help has it."""
+    """An option or an argument of a command, as its help has it under a title."""
 
+    title: str
     names: tuple[str, ...]
     value: str
     text: str
@@ -26,23 +29,26 @@ class Option:
         names = ", ".join(f"{name} {self.value}".strip() for name in self.names or [""])
         return f":::{{option}} {names}\n{markdown(self.text)}\n:::"
 
-    def link(self, program: str) -> str:
-        """An item of a list: a link to where it is described, and the first clause of that."""
+    def link(self, page: str) -> str:
+        """An item of a list: a link to the page that describes it, and the first clause of that."""
         shown, clause = f"{self.names[0]} {self.value}".strip(), re.sub(r" \([^)]*\)|[;:] .*", "", self.text)
-        return f"- {{option}}`{shown} <bihdist {program} {self.names[0]}>`: {markdown(clause)}"
-
-
-Groups = dict[str, list[Option]]
-"""The options of a command, by the headings of its help."""
+        return f"- {{option}}`{shown} <bihdist {page} {self.names[0]}>`: {markdown(clause)}"
 
 
 def command_pages() -> dict[str, str]:
     """Return the text of each page, by its path in the guide."""
     parsers = commands()
-    groups = {word: groups_of(parser) for word, parser in parsers.items()}
-    homes = _homes(groups)
-    pages = {word: _page(word, parsers[word], groups[word], homes) for word in parsers}
-    pages |= {SHARED: _shared_page(groups, homes), "index": _index(parsers)}
+    options = {word: options_of(parser) for word, parser in parsers.items()}
+    homes = _homes(options)
+    pages = {"index": _index(parsers)}
+    for word, parser in parsers.items():
+        usage = parser.format_usage().removeprefix("usage: ")
+        examples = "".join(f"{line.strip()}\n" for line in (parser.epilog or "").splitlines()[1:])
+        head = f"# bihdist {word}\n\n{parser.description}\n\n```sh\n{usage}```\n\n```sh\n{examples}```\n\n"
+        pages[word] = head + _sections(word, options[word], homes)
+    shared = sorted((each for each in homes if homes[each] == SHARED), key=attrgetter("title"), reverse=True)
+    head = "# Shared options\n\nOptions that mean the same in most commands.\n\n"
+    pages[SHARED] = head + _sections(SHARED, shared, homes)
     return {f"reference/commands/{name}.md": text for name, text in pages.items()}
 
 
@@ -52,17 +58,16 @@ def commands() -> dict[str, argparse.ArgumentParser]:
     return dict(action.choices)
 
 
-def groups_of(parser: argparse.ArgumentParser) -> Groups:
-    """Return the options of a parser, by the headings of its help."""
-    groups, formatter = Groups(), parser._get_formatter()
+def options_of(parser: argparse.ArgumentParser) -> list[Option]:
+    """Return the options of a parser in the order of its help."""
+    found, formatter = [], parser._get_formatter()
     for group in parser._action_groups:
         title = "Arguments" if group.title == "positional arguments" else (group.title or "").capitalize()
         for each in group._group_actions:
             if each.dest not in ("help", "command"):
                 value = formatter._format_args(each, each.dest.upper()) if each.option_strings else str(each.metavar)
-                text = formatter._expand_help(each)
-                groups.setdefault(title, []).append(Option(tuple(each.option_strings), value, text))
-    return groups
+                found.append(Option(title, tuple(each.option_strings), value, formatter._expand_help(each)))
+    return found
 
 
 def markdown(words: str) -> str:
@@ -72,23 +77,31 @@ def markdown(words: str) -> str:
     return "`".join(piece if odd % 2 else re.sub(r"[\\*_$<|\[\]{}]", r"\\\g<0>", piece) for odd, piece in pieces)
 
 
-def _homes(groups: dict[str, Groups]) -> dict[Option, str]:
+def _homes(options: dict[str, list[Option]]) -> dict[Option, str]:
     """Return the pages of the options that are described on one page only.
 
-    What several commands have under a heading of its own is described by `figure`, or by the first that has it.
+    What several commands have under a title of its own is described by `figure`, or by the first that has it.
     """
     holders: dict[Option, list[str]] = {}
-    titled = set()
-    for word, found in groups.items():
-        for title, options in found.items():
-            titled |= {*options} if title not in UNTITLED else set()
-            for option in options:
-                holders.setdefault(option, []).append(word)
-    homes = {each: "figure" if "figure" in words else words[0] for each, words in holders.items() if each in titled}
+    for word, found in options.items():
+        for each in found:
+            holders.setdefault(each, []).append(word)
+    homes = {each: "figure" if "figure" in words else words[0] for each, words in holders.items()}
+    homes = {each: home for each, home in homes.items() if each.title not in UNTITLED}
     return homes | {each: SHARED for each, words in holders.items() if each.names and len(words) >= MANY}
 
 
-# ---------------------------------------------------------------------- pages
+def _sections(page: str, options: Iterable[Option], homes: dict[Option, str]) -> str:
+    """Describe options under their titles, or link to the pages that do."""
+    parts = [f"```{{program}} bihdist {page}\n```"]
+    for title, group in groupby(options, attrgetter("title")):
+        found = [(each, homes.get(each, page)) for each in group]
+        links = [each.link(home) for each, home in found if home != page]
+        parts += [f"## {title}", *(each.described for each, home in found if home == page)]
+        parts += ["Shared with other commands:", "\n".join(links)] if links else []
+    return "\n\n".join(parts) + "\n"
+
+
 def _index(parsers: dict[str, argparse.ArgumentParser]) -> str:
     groups = {**HEADINGS, "more": [word for word in parsers if word not in chain(*HEADINGS.values())]}
     parts = [
@@ -99,32 +112,7 @@ def _index(parsers: dict[str, argparse.ArgumentParser]) -> str:
     for title, words in groups.items():
         rows = [f"| [`{word}`]({word}.md) | {parsers[word].description} |" for word in words]
         parts += [f"## {title.capitalize()}", "\n".join(["| Command | What it does |", "| --- | --- |", *rows])]
-    own = [each.described for each in groups_of(parser_of_all())["Options"]]
+    parts += ["## Without a command", "```{program} bihdist\n```"]
+    parts += [each.described for each in options_of(parser_of_all())]
     tree = "\n".join(f"{word} <{word}>" for word in chain(*groups.values()))
-    parts += ["## Without a command", "```{program} bihdist\n```", *own]
     return "\n\n".join([*parts, f"```{{toctree}}\n:hidden:\n\n{SHARED}\n{tree}\n```\n"])
-
-
-def _page(word: str, parser: argparse.ArgumentParser, groups: Groups, homes: dict[Option, str]) -> str:
-    usage = parser.format_usage().removeprefix("usage: ")
-    examples = "".join(f"{line.strip()}\n" for line in (parser.epilog or "").splitlines()[1:])
-    parts = [f"# bihdist {word}", parser.description or "", f"```sh\n{usage}```", f"```sh\n{examples}```"]
-    parts += [f"```{{program}} bihdist {word}\n```"]
-    for title, options in groups.items():
-        parts += [f"## {title}", *(each.described for each in options if homes.get(each, word) == word)]
-        links = [each.link(home) for each in options if (home := homes.get(each, word)) != word]
-        parts += ["Shared with other commands:", "\n".join(links)] if links else []
-    return "\n\n".join(parts) + "\n"
-
-
-def _shared_page(groups: dict[str, Groups], homes: dict[Option, str]) -> str:
-    parts = [
-        "# Shared options",
-        "Options that mean the same in most commands.",
-        f"```{{program}} bihdist {SHARED}\n```",
-    ]
-    for title in dict.fromkeys(chain(*groups.values())):
-        options = dict.fromkeys(chain(*(found.get(title, ()) for found in groups.values())))
-        shown = [each.described for each in options if homes.get(each) == SHARED]
-        parts += [f"## {title}", *shown] if shown else []
-    return "\n\n".join(parts) + "\n"

@@ -14,18 +14,18 @@ TOPICS: dict[str, tuple[str, str, list[str]]] = {
     ),
     "distances": (
         "Distances",
-        "What all distances answer, and each of them.",
+        "The methods that all distances have, and each distance.",
         ["Distance", *DISTANCES, "difference", "Embedding"],
     ),
     "sources": (
         "Sources",
-        "What a distance may start from besides a vertex.",
+        "A distance starts from a vertex, given by its id, or from one of these.",
         ["SurfacePoint", "BoundaryLoop", "Curve", "SourceSet", "source_from_words"],
     ),
-    "operators": ("Operators and eigenpairs", "What distances are made of.", ["Laplacian", "Spectrum", "eigenpairs"]),
+    "operators": ("Operators and eigenpairs", "The operators and eigenpairs that distances are made of.", ["Laplacian", "Spectrum", "eigenpairs"]),
     "fields": (
         "Isolines, statistics and extrema",
-        "What one field, or two beside each other, have in them.",
+        "Measurements of one field, or of two.",
         ["isolines", "Isoline", "write_isolines", "band", "Band", "field_statistics", "FieldStatistics",
          "field_agreement", "Agreement", "rank_correlation", "field_scatter", "FieldScatter", "field_change",
          "FieldChange", "extrema", "Extrema", "gradient_jumps", "GradientJumps"],
@@ -51,7 +51,7 @@ TOPICS: dict[str, tuple[str, str, list[str]]] = {
     ),
     "applications": (
         "Interpolation, correspondence, robustness",
-        "What is done with distances, and how they stand changes of the mesh.",
+        "Applications of distances, and changes to a mesh that test them.",
         ["ShepardInterpolant", "correspondence_prediction", "Correspondence", "map_errors", "error_curve", "ErrorCurve",
          "noisy", "with_holes", "with_handle", "welded", "simplified"],
     ),
@@ -63,7 +63,7 @@ TOPICS: dict[str, tuple[str, str, list[str]]] = {
     ),
     "errors": (
         "Errors",
-        "All that the library raises on purpose.",
+        "The exceptions that the library raises.",
         ["BihdistError", "MeshError", "MissingFileError", "MissingInputError", "VertexError", "ParameterError",
          "SolverError", "OutputError", "NotEnoughMemory", "Cancelled"],
     ),
