@@ -2,8 +2,8 @@
 
 INTRODUCTION = """# Commands and keys of the window
 
-Every command of the menus, with its keys. {kbd}`F1` in the window finds each of them by its name. [The viewer](viewer.md#mouse)
-describes what the mouse does.
+Every command of the menus, with its keys. {kbd}`F1` in the window finds each of them by its name. [The
+viewer](viewer.md#mouse) describes what the mouse does.
 
 """
 

@@ -22,7 +22,11 @@ TOPICS: dict[str, tuple[str, str, list[str]]] = {
         "A distance starts from a vertex, given by its id, or from one of these.",
         ["SurfacePoint", "BoundaryLoop", "Curve", "SourceSet", "source_from_words"],
     ),
-    "operators": ("Operators and eigenpairs", "The operators and eigenpairs that distances are made of.", ["Laplacian", "Spectrum", "eigenpairs"]),
+    "operators": (
+        "Operators and eigenpairs",
+        "The operators and eigenpairs that distances are made of.",
+        ["Laplacian", "Spectrum", "eigenpairs"],
+    ),
     "fields": (
         "Isolines, statistics and extrema",
         "Measurements of one field, or of two.",
