@@ -11,7 +11,7 @@ import pytest
 
 from app.guide_pages import GUIDE
 from assets.guide.building.build import write_sources
-from assets.guide.building.search_index import synonyms, write_search_index
+from assets.guide.building.search_index import sections_of, synonyms, write_search_index
 from tests.browser.chromium import Chromium
 
 SEARCH = Path(__file__).parents[2] / "assets/guide/look/search.js"
@@ -91,6 +91,12 @@ def ranked(tmp_path_factory):
 @pytest.mark.parametrize("asked", QUESTIONS, ids=lambda asked: asked["question"])
 def test_a_page_that_answers_is_among_the_first_three(ranked, asked):
     assert {*asked["pages"]} & {*ranked[asked["question"]][:3]}, ranked[asked["question"]][:5]
+
+
+def test_options_are_sections_of_their_pages():
+    option = '<dl><dt class="sig std" id="there">--cmap NAME<a class="headerlink">#</a></dt><dd>colour map</dd></dl>'
+    page = f'<article><section id="top"><h1>Figure</h1><section id="look"><h2>Look</h2>{option}</section></section>'
+    assert sections_of(page) == [("", "Figure", ""), ("look", "Look", ""), ("there", "--cmap NAME", "colour map")]
 
 
 def found(browser, page, question):

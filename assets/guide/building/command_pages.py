@@ -12,6 +12,7 @@ from app.main import HEADINGS, parser_of_all
 MANY = 10
 """An option that so many commands have is described on the page of shared options."""
 SHARED, UNTITLED = "shared-options", ("Arguments", "Options")
+KEYWORDS = "---\nmyst:\n  html_meta:\n    keywords: options\n---\n\n"
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ def command_pages() -> dict[str, str]:
     for word, parser in parsers.items():
         usage = parser.format_usage().removeprefix("usage: ")
         examples = "".join(f"{line.strip()}\n" for line in (parser.epilog or "").splitlines()[1:])
-        head = f"# bihdist {word}\n\n{parser.description}\n\n```sh\n{usage}```\n\n```sh\n{examples}```\n\n"
+        head = f"{KEYWORDS}# bihdist {word}\n\n{parser.description}\n\n```sh\n{usage}```\n\n```sh\n{examples}```\n\n"
         pages[word] = head + _sections(word, options[word], homes)
     shared = sorted((each for each in homes if homes[each] == SHARED), key=attrgetter("title"), reverse=True)
     head = "# Shared options\n\nOptions that mean the same in most commands.\n\n"

@@ -70,11 +70,11 @@ class _Article(HTMLParser):
         super().__init__()
         self.sections: list[list[str]] = []
         self._anchors: list[str] = []
-        self._tags: list[tuple[str, bool]] = []  # those that are open, and whether their text is left out
+        self._tags: list[tuple[str, bool, bool]] = []  # those that are open: are they headings, or left out
         self._is_inside = False
 
     def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
-        """Begin a section at each heading."""
+        """Begin a section at each heading, and at each option of a command."""
         named = dict(attributes)
         self._is_inside |= tag == "article"
         if tag in BLOCKS:
@@ -82,11 +82,14 @@ class _Article(HTMLParser):
         if tag in ("img", "br", "input", "hr", "meta", "link", "path", "wbr"):
             return
         classes = (named.get("class") or "").split()
-        self._tags.append((tag, bool({"headerlink", "sphx-glr-footer", "sphx-glr-timing"} & {*classes})))
+        is_option = tag == "dt" and "std" in classes
+        is_heading = tag in ("h1", "h2", "h3") or is_option
+        self._tags.append((tag, is_heading, bool({"headerlink", "sphx-glr-footer", "sphx-glr-timing"} & {*classes})))
         if tag == "section":
             self._anchors.append(named.get("id") or "")
-        if self._is_inside and tag in ("h1", "h2", "h3"):
-            self.sections.append([self._anchors[-1] if tag != "h1" and self._anchors else "", "", ""])
+        if self._is_inside and is_heading:
+            anchor = self._anchors[-1] if tag != "h1" and self._anchors else ""
+            self.sections.append([named.get("id") or "" if is_option else anchor, "", ""])
 
     def handle_endtag(self, tag: str) -> None:
         """Forget the tag, and the section that ends with it."""
@@ -98,6 +101,6 @@ class _Article(HTMLParser):
 
     def handle_data(self, data: str) -> None:
         """To the heading, or to the text under it."""
-        if self._is_inside and self.sections and not any(is_left_out for _, is_left_out in self._tags):
-            is_heading = any(tag in ("h1", "h2", "h3") for tag, _ in self._tags)
+        if self._is_inside and self.sections and not any(is_left_out for *_, is_left_out in self._tags):
+            is_heading = any(is_heading for _, is_heading, _ in self._tags)
             self.sections[-1][1 if is_heading else 2] += data
