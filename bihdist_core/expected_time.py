@@ -11,9 +11,11 @@ SECONDS = {
     "plain factor": 6e-10,
     "eigenpairs": 1e-10,
     "windows": 1.6e-7,
+    "virtual sources": 5e-7,
 }
 """Of an idle core for a unit of each kind of work: vertices to be ordered, multiplications of a factor and of
-eigenpairs, windows of exact geodesics.  A beginning: how fast this machine is and how busy is found out on the way."""
+eigenpairs, windows of exact geodesics and vertices of approximate ones.  A beginning: how fast this machine is and how
+busy is found out on the way."""
 
 LONG_S = 10.0
 """Shorter work is not spoken of."""

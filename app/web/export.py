@@ -13,7 +13,7 @@ from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.distance import Distance
 from bihdist_core.distances.distance_types import BUILT_IN, Spec
 from bihdist_core.distances.spectral import SpectralDistance
-from bihdist_core.distances.unfolding_mesh import UnfoldingMesh
+from bihdist_core.distances.unfolding_mesh import unfolding_mesh
 from bihdist_core.file_output import atomic_write, check_output
 from bihdist_core.formats.vertex_count import announced_vertices
 from bihdist_core.progress import Progress, part
@@ -234,7 +234,7 @@ def _offered(contents: Contents, distances: Distances, room: int) -> list[tuple[
                 if _stored_bytes(points) > room:
                     continue
                 room -= _stored_bytes(points)
-            elif spec.word == "geodesic" and UnfoldingMesh(distances.laplacian.surface).has_degenerate_faces:
+            elif spec.word == "geodesic" and unfolding_mesh(distances.laplacian.surface).has_degenerate_faces:
                 continue
             found.append((spec, distances.get(spec), points))
         except BihdistError:
@@ -261,7 +261,7 @@ def _check_eigenpairs(contents: Contents, loaded: LoadedMesh, allowed: int | Non
 def _check_geodesic(contents: Contents, mesh: StoredMesh) -> None:
     """Raise ParameterError if a page would have to measure geodesic distance over faces without height."""
     is_geodesic = any(spec.word == "geodesic" for spec in contents.fields.values())
-    if is_geodesic and UnfoldingMesh(mesh.surface).has_degenerate_faces:
+    if is_geodesic and unfolding_mesh(mesh.surface).has_degenerate_faces:
         raise ParameterError(
             f"{mesh.surface.name} has faces without height, over which a page cannot measure geodesic distance; leave "
             "that out, remesh, or draw it with bihdist figure."

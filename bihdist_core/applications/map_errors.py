@@ -35,14 +35,14 @@ def error_distance(
 ) -> GeodesicDistance:
     """Return the geodesic distance that measures the errors of a map to a surface, from so many right answers.
 
-    `method` is one of `GeodesicDistance`; "auto" is exact where that takes minutes at most, else heat.
+    `method` is one of `GeodesicDistance`; "auto" is exact where that takes minutes at most, else approximate.
     """
     return GeodesicDistance(laplacian, error_method(laplacian.surface, count) if method == "auto" else method, progress)
 
 
 def error_method(surface: Surface, count: int) -> str:
     """Return the method that "auto" stands for."""
-    return "exact" if count * len(surface.vertices) <= EXACT_WORK else "heat"
+    return "exact" if count * len(surface.vertices) <= EXACT_WORK else "virtual-sources"
 
 
 def sampled_vertices(count: int, samples: int | None) -> IntArray:

@@ -256,6 +256,8 @@ class Distances:
                 field, label = distance.from_pieces(pieces, part(progress, 0.9, 1)), distance.label_from(pieces)
             field.flags.writeable = False
             answer = Answer(label=label, unit=distance.unit, field=field, is_distance=True)
+            if pieces is None and distance.is_measured_for_each_source:
+                pieces = pieces_of(source, self.laplacian.surface)
             starts = [] if pieces is None else [pieces]
             if at_once is not None and not all(distance.has_error_estimate(index, starts) for index in components):
                 if at_once(answer) is True:

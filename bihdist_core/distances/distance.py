@@ -132,6 +132,18 @@ class Distance(PairQuestions):
         """
         return False
 
+    @property
+    def is_measured_for_each_source(self) -> bool:
+        """Whether the error of each field is measured, so that `error_estimate` has to be told what it starts from.
+
+        Examples
+        --------
+        >>> import bihdist, pyvista
+        >>> bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=2)).is_measured_for_each_source
+        False
+        """
+        return False
+
     def error_estimate(
         self,
         components: Sequence[int] | None = None,

@@ -319,7 +319,7 @@ FRAME_VERTICES = 12_000
 
 def _quick_geodesic(distance: "Distance") -> dict[str, Value] | None:
     is_slow = getattr(distance, "method", "") == "exact" and len(distance.surface.vertices) > FRAME_VERTICES
-    return {"method": "heat"} if is_slow else None
+    return {"method": "virtual-sources"} if is_slow else None
 
 
 BUILT_IN = (
@@ -402,14 +402,14 @@ BUILT_IN = (
             Parameter(
                 "method",
                 "auto",
-                "how it is computed; auto: exactly where that takes 5 s at most, else by the heat method",
-                choices=("auto", "exact", "heat", "dijkstra"),
+                "how it is computed; auto: exactly where that takes 5 s at most, else by virtual sources",
+                choices=("auto", "exact", "virtual-sources", "heat", "dijkstra"),
             ),
         ),
         quick=_quick_geodesic,
         squares="length of the shortest path, squared",
         scaling="1",
-        cost="exact and Dijkstra: a search for each source; heat: two factorizations, two solves",
+        cost="a search for each source; heat: two factorizations, two solves",
         short="Geod.",
         on_pages="solved",
         colour="#c2272d",

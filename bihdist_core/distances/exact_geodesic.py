@@ -4,26 +4,21 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from queue import Empty, SimpleQueue
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
-from ..expected_time import Expected
 from ..kernel import library as kernel
 from ..progress import Progress, part
-from ..scalars import real_number
-from ..solver.worker_threads import WORKERS, Job
 from ..sources.pieces import Pieces
 from ..surface import Surface
+from .geodesic_fronts import GeodesicFront
 from .path_search import PathSearch
-from .place_pairs import by_start
 from .unfolding_mesh import Places, UnfoldingMesh
 
 MOST_WINDOWS_PER_VERTEX, MOST_WINDOWS_AT_LEAST = 2_000, 200_000
@@ -32,8 +27,9 @@ MOST_WINDOWS_PER_VERTEX, MOST_WINDOWS_AT_LEAST = 2_000, 200_000
 USUAL_WINDOWS_PER_VERTEX = 40
 """Windows for a vertex that progress expects before the first run."""
 
-FEW_TARGETS = 20
-"""Targets of a source up to which windows go only as far as these; more of them cost more than the whole field."""
+QUICK_WINDOWS = 30_000_000
+"""Windows for a source up to which the exact method is not slow: some 4 s, as smooth surfaces of 120,000 vertices and
+scanned ones of 300,000 and more take."""
 
 FIRST_WINDOWS = 4_096
 """Windows for which there is room at first; it doubles when they are more."""
@@ -84,9 +80,11 @@ class GeodesicField:
     unit; NaN where no way leads, inf beyond the radius. `windows` counts the windows that were taken up.
     """
 
-    def __init__(self, mesh: UnfoldingMesh, run: kernel.Run, kept: _Kept, distances: FloatArray) -> None:
+    def __init__(
+        self, surface: Surface, mesh: UnfoldingMesh, run: kernel.Run, kept: _Kept, distances: FloatArray
+    ) -> None:
         n = len(mesh.number)
-        self._mesh, self._run, self._kept = mesh, run, kept
+        self._surface, self._mesh, self._run, self._kept = surface, mesh, run, kept
         self.windows = run.taken
         self.distances, self.at_places = distances[:n], distances[n:]
 
@@ -95,7 +93,7 @@ class GeodesicField:
 
         Raises VertexError for a bad vertex, ParameterError where the source does not reach.
         """
-        vertex = self._mesh.surface.check_vertex(vertex)
+        vertex = self._surface.check_vertex(vertex)
         return self._path(int(self._mesh.number[vertex]), f"vertex {vertex}")
 
     def path_to_place(self, number: int) -> FacePath:
@@ -113,12 +111,12 @@ class GeodesicField:
                 break
             room *= 4
         if count == kernel.OUTSIDE:
-            raise ParameterError(f"No path from the source to {words} of {self._mesh.surface.name} is known.")
+            raise ParameterError(f"No path from the source to {words} of {self._surface.name} is known.")
         found = None if count < 0 else (faces[:count], begins[:count], ends[:count])
         if found is None or not self._is_as_long(target, *found):
             found = self._searched(target)
         if found is None:
-            raise SolverError(f"The path to {words} of {self._mesh.surface.name} was lost.")
+            raise SolverError(f"The path to {words} of {self._surface.name} was lost.")
         return FacePath(*self._mesh.outside(*found))
 
     @cached_property
@@ -159,99 +157,21 @@ class GeodesicField:
         return found if self._is_as_long(target, *found) else None
 
 
-class ExactGeodesic:
+class ExactGeodesic(GeodesicFront[GeodesicField]):
     """Exact geodesic distances on one surface of any kind; paths lead through vertices and edges that faces share.
 
     Made once and used by any number of threads.  It takes some 0.3 kB a vertex, and a run 0.3 kB more.  Edges and
     heights shorter than 2e-13 of the longest edge of their face count as 0.  Held to a reference in 70 digits: right to
     rounding, and to 1e-12 of the maximum where there are such faces.
 
-    Raises SolverError without the compiled kernel.
+    Questions raise SolverError where more windows than 2,000 a vertex and 200,000 would be needed.
     """
 
+    name, work, work_per_vertex = "exact geodesic", "windows", USUAL_WINDOWS_PER_VERTEX
+
     def __init__(self, surface: Surface) -> None:
-        if kernel.library() is None:
-            why = kernel.why_plain()
-            words = f"needs the compiled kernel{f' ({why})' if why else ''}; use the heat method."
-            raise SolverError(f"Exact geodesic distance {words}")
-        self.surface = surface
-        self._mesh = UnfoldingMesh(surface)
+        super().__init__(surface)
         self._free: SimpleQueue[_Workspace] = SimpleQueue()
-        self.expected: float | None = None
-        """Windows of a whole field: as many as the last one took, or as a trial has it."""
-
-    def distances(
-        self,
-        sources: npt.ArrayLike | Pieces,
-        progress: Progress | None = None,
-        *,
-        radius: float = np.inf,
-        offsets: npt.ArrayLike | None = None,
-    ) -> FloatArray:
-        """Return (n,) distances from a vertex, the nearest of several (k,), or of pieces of faces, in the mesh's length
-        unit.
-
-        NaN where no way leads, inf beyond the radius; see `field` for the rest.
-        """
-        return self.field(sources, None, progress, radius=radius, offsets=offsets).distances
-
-    def places(
-        self,
-        sources: npt.ArrayLike | Pieces,
-        places: Pieces,
-        progress: Progress | None = None,
-        *,
-        radius: float = np.inf,
-        offsets: npt.ArrayLike | None = None,
-    ) -> FloatArray:
-        """Return (k,) distances of places in faces; see `field`."""
-        return self.field(sources, places, progress, radius=radius, offsets=offsets).at_places
-
-    def between(self, u: Pieces, v: Pieces, progress: Progress | None = None, *, radius: float = np.inf) -> FloatArray:
-        """Return (k,) distances of k pairs of points, several sources at a time; NaN where no way leads.
-
-        Beyond the radius they are inf.  Raises ParameterError for a radius that is no length; Cancelled if the progress
-        raises it, within 0.1 s.
-        """
-        check_radius(radius)
-        rows = [list(by_start(each)) for each in (u, v)]
-        here, there = (u, v) if len(rows[0]) <= len(rows[1]) else (v, u)
-        groups = rows[here is v]
-        found = np.empty(len(u))
-
-        def one(number: int, watch: kernel.Watch) -> None:
-            start, mine = groups[number]
-            goals = self._mesh.at_pieces(there.select(mine))
-            found[mine] = self._field(
-                self._mesh.at_pieces(start), goals, watch, radius=radius, targets_only=True
-            ).at_places
-
-        self._in_workers(one, len(groups), progress)
-        return found
-
-    def of_pairs(
-        self, sources: IntArray, targets: IntArray, progress: Progress | None = None, *, radius: float = np.inf
-    ) -> FloatArray:
-        """Return (k,) distances from vertices (k,) to vertices (k,), NaN where no way leads, inf beyond the radius;
-        several sources at a time.
-
-        Windows go only as far as the targets of a source, where these are few: near ones take little time.
-        """
-        among, place = np.unique(sources, return_inverse=True)
-        groups = np.split(np.argsort(place, kind="stable"), np.cumsum(np.bincount(place))[:-1])
-        found = np.empty(len(sources))
-
-        def one(number: int, watch: kernel.Watch) -> None:
-            start = self._mesh.at_vertices(among[number : number + 1])
-            there = targets[groups[number]]
-            if len(there) > FEW_TARGETS:
-                found[groups[number]] = self._field(start, None, watch, radius=radius).distances[there]
-            else:
-                goals = self._mesh.at_vertices(there)
-                found[groups[number]] = self._field(start, goals, watch, radius=radius, targets_only=True).at_places
-
-        self._in_workers(one, len(among), progress)
-        return found
 
     def path(self, start: Pieces, stop: Pieces, progress: Progress | None = None) -> FacePath:
         """Return the shortest path between two points, one piece each; see `field` for errors."""
@@ -263,94 +183,6 @@ class ExactGeodesic:
 
         self._in_workers(one, 1, progress)
         return fields[0].path_to_place(0)
-
-    def columns(
-        self, vertices: npt.ArrayLike, progress: Progress | None = None, *, radius: float = np.inf
-    ) -> FloatArray:
-        """Return (n, k) distances from each of k vertices, several at a time; see `field` for the radius and errors."""
-        check_radius(radius)
-        ids = self.surface.check_vertices(vertices)
-        found = np.empty((len(self.surface.vertices), len(ids)))
-
-        def one(column: int, watch: kernel.Watch) -> None:
-            start = self._mesh.at_vertices(ids[column : column + 1])
-            found[:, column] = self._field(start, None, watch, radius=radius).distances
-
-        self._in_workers(one, len(ids), progress, radius == np.inf)
-        return found
-
-    def field(
-        self,
-        sources: npt.ArrayLike | Pieces,
-        places: Pieces | None = None,
-        progress: Progress | None = None,
-        *,
-        radius: float = np.inf,
-        offsets: npt.ArrayLike | None = None,
-        everything: bool = False,
-    ) -> GeodesicField:
-        """Return distances from vertices or pieces of faces, also at places in faces, and the paths to all of them.
-
-        Parameters
-        ----------
-        sources : int, (k,) array_like or Pieces
-            Vertices, or pieces of faces. The distance is that from the nearest, exact also from all along a piece.
-        places : Pieces, optional
-            Points whose distances are wanted, too.
-        progress : callable, optional
-            Called as ``progress(fraction, text)``.
-        radius : float
-            How far to go, in the mesh's length unit.
-        offsets : (k,) array_like, optional
-            The distance at each source, 0 by default.
-        everything : bool
-            Leave nothing out that cannot be shorter: slow, for tests on small meshes.
-
-        Returns
-        -------
-        GeodesicField
-            The distances and the paths.
-
-        Raises
-        ------
-        VertexError
-            For a bad id.
-        ParameterError
-            For a radius or offsets that are no numbers.
-        SolverError
-            If more windows than 2,000 a vertex and 200,000 would be needed.
-        Cancelled
-            If the progress raises it, within 0.1 s.
-        """
-        check_radius(radius)
-        if isinstance(sources, Pieces):
-            count, starts = len(sources), self._mesh.at_pieces(sources)
-        else:
-            ids = self.surface.check_vertices(sources)
-            count, starts = len(ids), self._mesh.at_vertices(ids)
-        shifts = np.zeros(count) if offsets is None else np.asarray(offsets, np.float64)
-        if shifts.shape != (count,) or not np.isfinite(shifts).all():
-            raise ParameterError(f"Offsets are {count} finite numbers, one for each source.")
-        shifts = shifts[starts.rows]
-        goals = None if places is None else self._mesh.at_pieces(places)
-        fields: list[GeodesicField] = []
-
-        def one(_: int, watch: kernel.Watch) -> None:
-            fields.append(self._field(starts, goals, watch, shifts, radius, everything))
-
-        self._in_workers(one, 1, progress, radius == np.inf and not everything)
-        return fields[0]
-
-    def _in_workers(
-        self, one: Callable[[int, kernel.Watch], None], count: int, progress: Progress | None, is_whole: bool = False
-    ) -> None:
-        """Run the work in the workers; with `is_whole` each item is a whole field, whose duration is known."""
-        windows = count * (self.expected or USUAL_WINDOWS_PER_VERTEX * len(self.surface.vertices))
-        with Expected("windows", windows, min(count, WORKERS), progress) as it:
-            job = Job(it.progress if is_whole else progress, "exact geodesic", windows)
-            job.run(lambda number: one(number, job.watch), range(count))
-            job.finish()
-            it.done = job.watch.done if is_whole else 0  # of less, most is beginnings and ends
 
     def _field(
         self,
@@ -388,12 +220,8 @@ class ExactGeodesic:
             self._free.put(work)
         if radius == np.inf and not targets_only:
             self.expected = max(float(run.taken), 1.0)
-        lengths = reached["distance"]
-        found = np.concatenate([lengths[mesh.number], lengths[mesh.vertices :]])
-        found[found > run.radius] = np.inf
-        if radius == np.inf:
-            found[np.isinf(found)] = np.nan
-        return GeodesicField(mesh, run, _Kept(starts, goals, shifts, reached, rest), found * unit)
+        found = self._lengths(reached["distance"], radius)
+        return GeodesicField(self.surface, mesh, run, _Kept(starts, goals, shifts, reached, rest), found)
 
 
 class _Workspace:
@@ -437,15 +265,9 @@ class _Workspace:
         kernel.check_stopped(status)
         if status == kernel.TOO_MUCH:
             raise SolverError(
-                f"Exact geodesic distance on {name} was given up after {run.taken:,} windows; use the heat method."
+                f"Exact geodesic distance on {name} was given up after {run.taken:,} windows; use virtual sources."
             )
         return crossing
-
-
-def check_radius(radius: float) -> None:
-    """Raises ParameterError for a radius that is no length, 0 or more, in any unit."""
-    if not real_number(radius, "A radius") >= 0:
-        raise ParameterError(f"A radius is a length of at least 0, not {radius}.")
 
 
 def _lists(faces: AnyArray, count: int) -> tuple[AnyArray, AnyArray]:

@@ -2,12 +2,14 @@
 
 import ctypes
 from typing import NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import SolverError
 from ..kernel import library as kernel
+from ..memo import Memo
 from ..sources.pieces import Pieces
 from ..surface import Surface
 from .proper_faces import ProperFaces
@@ -36,6 +38,8 @@ class UnfoldingMesh:
     ----------
     vertices, faces : int
         Their numbers, with those that stand for degenerate faces.
+    points : (vertices, 3) ndarray
+        Where the kernel's vertices are, in units of `unit`.
     number : (n,) ndarray
         The kernel's number of each vertex of the surface, or of the one that stands for it.
     unit : float
@@ -45,7 +49,6 @@ class UnfoldingMesh:
     def __init__(self, surface: Surface) -> None:
         if len(surface.faces) > MOST_FACES // 2:
             raise SolverError(f"{surface.name} has more than {MOST_FACES // 2:,} faces; use the heat method.")
-        self.surface = surface
         x = surface.vertices
         low, high = x.min(axis=0), x.max(axis=0)
         self.unit = 2.0 ** np.floor(np.log2(max(np.abs(low).max(), np.abs(high).max()) or 1.0))
@@ -71,7 +74,7 @@ class UnfoldingMesh:
     def _build(self, points: FloatArray, corners: AnyArray, labels: AnyArray | None = None) -> int:
         """Returns how many faces are degenerate."""
         n, m = len(points), len(corners)
-        self.vertices, self.faces = n, m
+        self.vertices, self.faces, self.points = n, m, points
         side = np.empty(3 * m, kernel.SIDE)
         first, corner, kind = np.empty(n + 1, np.int32), np.empty(3 * m, np.int32), np.empty(n, np.uint8)
         self.arrays = side, first, corner, kind
@@ -122,6 +125,18 @@ class UnfoldingMesh:
         if self._proper is not None:
             faces, begins, ends = self._proper.outside(faces, begins, ends)
         return self._face_order[faces], begins, ends
+
+
+_known: WeakKeyDictionary[Surface, UnfoldingMesh] = WeakKeyDictionary()
+_turn: Memo[None, None] = Memo()
+
+
+def unfolding_mesh(surface: Surface) -> UnfoldingMesh:
+    """Return the mesh of a surface, made when first asked for; SolverError for too many faces."""
+    with _turn.lock:
+        if surface not in _known:
+            _known[surface] = UnfoldingMesh(surface)
+        return _known[surface]
 
 
 def _order(surface: Surface) -> tuple[IntArray, IntArray]:

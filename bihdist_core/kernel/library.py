@@ -175,6 +175,27 @@ class Run(Structure):
     targets_only: int
 
 
+SEEN = 48
+"""Bytes of what a vertex sees, in `Spread`."""
+
+
+class Spread(Structure):
+    """A front that carries virtual sources over a mesh."""
+
+    _fields_ = (
+        ("mesh", POINTER(Mesh)),
+        ("points", c_void_p),
+        ("source", Places),
+        ("target", Places),
+        *((name, c_void_p) for name in ("offset", "seen", "heap", "at_target")),
+        ("radius", c_double),
+        ("waiting", c_int64),
+    )
+
+    source: Places
+    target: Places
+
+
 _START: Any = ctypes.c_char * 0
 """The address of an array."""
 
@@ -226,6 +247,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "geodesic_cells": (c_int32, (_P, _I, _I, _I)),
     "geodesic_begin": (c_int32, (_P,)),
     "geodesic_run": (c_int32, (_P, _P)),
+    "virtual_sources": (c_int32, (_P, _P)),
     "geodesic_path": (c_int64, (_P, _I, _I, _A, _A, _A)),
     "read_lists": (c_int32, (_P, _I, _I, _I, c_int32)),
     "read_obj": (c_int32, (_P, _A, _I)),

@@ -322,14 +322,14 @@ def test_in_a_drag_what_gets_stuck_gives_way_to_the_next(desk, mesh_file, monkey
     assert d.sources_shown == [5]
 
 
-def test_in_a_drag_geodesic_panels_show_the_heat_method_until_release(desk, mesh_file, monkeypatch):
+def test_in_a_drag_geodesic_panels_are_approximate_until_release(desk, mesh_file, monkeypatch):
     monkeypatch.setattr(distance_types, "FRAME_VERTICES", 0)  # as on a large mesh
     d = desk([Spec.of("geodesic", method="exact")])
     session = d.loaded(mesh_file(bumpy(200)), source=0)
     for vertex in (5, 6, 7):
         d.click(vertex, key="drag", live=True)
         d.until(lambda vertex=vertex: d.sources_shown == [vertex])
-        assert d.answers[0].label == "geodesic, heat method"
+        assert d.answers[0].label == "geodesic, approximate"
         assert session.shown[0].is_preview
     session.show(session.document)
     d.complete()

@@ -113,7 +113,7 @@ def test_only_exact_geodesics_on_large_meshes_have_a_preview(monkeypatch):
     distances = Distances(Laplacian(bumpy(60)))
     assert distances.preview(EXACT) is None
     monkeypatch.setattr(distance_types, "FRAME_VERTICES", 59)
-    assert distances.preview(EXACT) == Spec.of("geodesic", method="heat")
+    assert distances.preview(EXACT) == Spec.of("geodesic", method="virtual-sources")
     assert distances.preview(BIHARMONIC) is None
 
 

@@ -65,7 +65,7 @@ def test_values_beside_a_word_hold_where_it_does_not_say_otherwise():
         ("truncated(k=2.5)", "k must be a whole number above 0, not 2.5"),
         ("truncated(k=1e400)", "k must be a whole number above 0"),
         ("power(alpha=1)", "alpha must be a number above 1"),
-        ("geodesic(method=fast)", "method must be one of auto, exact, heat, dijkstra, not 'fast'"),
+        ("geodesic(method=fast)", "method must be one of auto, exact, virtual-sources, heat, dijkstra, not 'fast'"),
     ],
 )
 def test_what_cannot_be_is_refused_in_a_sentence(text, words):
@@ -106,7 +106,7 @@ def test_on_a_surface_k_is_bounded_by_the_eigenpairs_there_are():
 def test_a_stand_in_is_asked_of_the_distance_itself(monkeypatch):
     monkeypatch.setattr("bihdist_core.distances.distance_types.FRAME_VERTICES", 99)
     laplacian, auto = Laplacian(bumpy(100)), Spec.of("geodesic")
-    assert auto.quick(auto.build(laplacian)) == Spec.of("geodesic", method="heat")
+    assert auto.quick(auto.build(laplacian)) == Spec.of("geodesic", method="virtual-sources")
     heat = Spec.of("geodesic", method="heat")
     assert heat.quick(heat.build(laplacian)) is None
 

@@ -5,7 +5,8 @@ import pytest
 
 from bihdist_core import Cancelled, GeodesicDistance, Surface
 from bihdist_core.distances import geodesic_solvers
-from bihdist_core.distances.exact_geodesic import FEW_TARGETS, TRIAL_VERTICES, ExactGeodesic, expected_windows
+from bihdist_core.distances.exact_geodesic import TRIAL_VERTICES, ExactGeodesic, expected_windows
+from bihdist_core.distances.geodesic_fronts import FEW_TARGETS
 from bihdist_core.kernel.library import library
 from tests.shapes import sphere, two_pieces
 
@@ -35,11 +36,11 @@ def test_work_is_expected_from_a_part_of_the_surface(smooth, rough):
 
 def test_auto_is_exact_where_the_surface_is_rough(smooth, rough, monkeypatch):
     limit = np.sqrt(expected_windows(ExactGeodesic(smooth)) * expected_windows(ExactGeodesic(rough)))
-    monkeypatch.setattr(geodesic_solvers, "MOST_WINDOWS", limit)
+    monkeypatch.setattr(geodesic_solvers, "QUICK_WINDOWS", limit)
     assert GeodesicDistance(rough).label == "geodesic, exact"
     assert not GeodesicDistance(rough).is_slow()
-    heat = GeodesicDistance(smooth)
-    assert (heat.label, heat.is_slow()) == ("geodesic, heat method", False)
+    other = GeodesicDistance(smooth)
+    assert (other.label, other.is_slow()) == ("geodesic, approximate", False)
     assert GeodesicDistance(smooth, "exact").is_slow()
 
 

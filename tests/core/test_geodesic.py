@@ -47,8 +47,8 @@ MESHES = Path(__file__).parents[2].parent / "shared" / "meshes"
 def test_auto_is_exact_up_to_some_work_on_any_surface(monkeypatch):
     for surface in (bumpy(100), fin(), two_pieces()):
         assert GeodesicDistance(surface).label == "geodesic, exact"
-    monkeypatch.setattr(geodesic_solvers, "MOST_WINDOWS", 99**1.5)
-    assert GeodesicDistance(bumpy(100)).label == "geodesic, heat method"
+    monkeypatch.setattr(geodesic_solvers, "QUICK_WINDOWS", 99**1.5)
+    assert GeodesicDistance(bumpy(100)).label == "geodesic, approximate"
 
 
 def test_without_the_compiled_kernel_auto_is_heat_and_exact_says_why_not(monkeypatch):
@@ -81,9 +81,9 @@ def test_a_radius_ends_what_the_exact_method_does(monkeypatch):
     check(near.pairwise(places), full)
     assert np.isinf(GeodesicDistance(surface, radius=1e-3).pairwise(places[1:3])[0, 1])
     monkeypatch.setattr(geodesic_solvers, "is_slow", lambda *_: True)
-    assert GeodesicDistance(surface).method == "heat"
+    assert GeodesicDistance(surface).method == "virtual-sources"
     assert GeodesicDistance(surface, radius=1.0).method == "exact"
-    for method in ("heat", "dijkstra"):
+    for method in ("virtual-sources", "heat", "dijkstra"):
         with pytest.raises(ParameterError, match=f"Only the exact method has a radius, not {method}"):
             GeodesicDistance(surface, method, radius=1.0)
     for radius in (-1, np.nan):
@@ -194,33 +194,33 @@ def test_heat_holds_on_real_slivers(mesh, sources):
 
 
 @needs_kernel
-def test_auto_changes_to_heat_where_the_exact_method_gives_up(monkeypatch):
+def test_auto_is_approximate_where_the_exact_method_gives_up(monkeypatch):
     monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_WINDOWS_AT_LEAST", 0)
     monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_WINDOWS_PER_VERTEX", 0)
     surface = bumpy(300)
-    auto, heat = GeodesicDistance(surface), GeodesicDistance(surface, "heat")
+    auto, other = GeodesicDistance(surface), GeodesicDistance(surface, "virtual-sources")
     assert auto.label == "geodesic, exact"
-    assert np.array_equal(auto.from_source(5), heat.from_source(5))
-    assert (auto.method, auto.label, auto.is_symmetric) == ("heat", heat.label, False)
+    assert np.array_equal(auto.from_source(5), other.from_source(5))
+    assert (auto.method, auto.label, auto.is_symmetric) == ("virtual-sources", other.label, False)
     assert auto.error_estimate().text
     with pytest.raises(SolverError, match="was given up after"):
         GeodesicDistance(surface, "exact").from_source(5)
 
 
-def test_auto_asks_the_heat_method_once_where_that_fails(monkeypatch):
+def test_auto_asks_once_where_the_other_method_fails(monkeypatch):
     auto, asked = GeodesicDistance(bumpy(300)), []
 
-    def fails(*_):
+    def fails(*_, **__):
         asked.append(1)
-        raise SolverError("the heat method fails")
+        raise SolverError("it fails")
 
     monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_WINDOWS_AT_LEAST", 0)
     monkeypatch.setattr("bihdist_core.distances.exact_geodesic.MOST_WINDOWS_PER_VERTEX", 0)
-    monkeypatch.setattr("bihdist_core.distances.heat_times.HeatTimes.distances", fails)
+    monkeypatch.setattr("bihdist_core.distances.virtual_sources.VirtualSources._field", fails)
     for times in (1, 2):
-        with pytest.raises(SolverError, match="the heat method fails"):
+        with pytest.raises(SolverError, match="it fails"):
             auto.from_source(5)
-        assert (auto.method, len(asked)) == ("heat", times)
+        assert (auto.method, len(asked)) == ("virtual-sources", times)
 
 
 # ---------------------------------------------------------------------- geodesic on a line

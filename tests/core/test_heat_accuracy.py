@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from bihdist_core import BiharmonicDistance, Cancelled, GeodesicDistance, Laplacian, Surface
-from bihdist_core.distances import heat_accuracy
+from bihdist_core import BiharmonicDistance, Cancelled, GeodesicDistance, Laplacian, SolverError, Surface
+from bihdist_core.distances import geodesic_accuracy
 from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.distance_types import Spec
-from bihdist_core.distances.heat_accuracy import below_straight_line
+from bihdist_core.distances.geodesic_accuracy import below_straight_line
 from bihdist_core.kernel.library import library
 from bihdist_core.sources.pieces import pieces_of
 from bihdist_core.sources.source import BoundaryLoop
@@ -71,13 +71,16 @@ def test_errors_from_a_boundary_loop_are_those_from_that_loop(surface):
     assert answer.label == f"geodesic, heat method, up to {100 * off.max():.2g} % off"
     both = heat.error_estimate(pieces=[pieces_of(3, surface), loop])
     assert both.share == pytest.approx(off.max())
-    assert heat.error_estimate(pieces=[pieces_of(3, surface)]).share == from_vertices
 
 
 def test_errors_from_a_loop_are_what_is_typical_where_exact_distances_take_long(monkeypatch):
     surface = grid(20, 20)
     heat = GeodesicDistance(surface, "heat")
-    monkeypatch.setattr(GeodesicDistance, "is_slow", lambda *_: True)
+
+    def gives_up(*_):
+        raise SolverError("too many windows")
+
+    monkeypatch.setattr("bihdist_core.distances.exact_geodesic.ExactGeodesic._field", gives_up)
     estimate = heat.error_estimate(pieces=[pieces_of(BoundaryLoop(0), surface)])
     assert "10 % of the maximum typically from curves and boundary loops" in estimate.text
     assert estimate.is_poor
@@ -111,7 +114,7 @@ def test_an_answer_is_there_before_its_accuracy_whose_measuring_can_be_cancelled
 
     def stop(share, text):
         told.append(share)
-        if there and len(told) > there[0] + 3:
+        if there and len(told) > there[0] + 1:
             raise Cancelled
 
     with pytest.raises(Cancelled):
@@ -137,9 +140,9 @@ def test_what_falls_below_the_straight_line_is_said(laplacian):
 
 def test_a_large_mesh_has_fewer_sources_and_a_larger_one_what_is_typical(laplacian, monkeypatch):
     count = len(laplacian.surface.vertices)
-    monkeypatch.setattr(heat_accuracy, "MOST_WINDOWS", count**1.5)
+    monkeypatch.setattr(geodesic_accuracy, "QUICK_WINDOWS", count**1.5)
     assert "at the worst from 1 vertex;" in GeodesicDistance(laplacian, "heat").error_estimate().text
-    monkeypatch.setattr(heat_accuracy, "MOST_WINDOWS", count**1.5 - 1)
+    monkeypatch.setattr(geodesic_accuracy, "QUICK_WINDOWS", count**1.5 - 1)
     assert "typically" in GeodesicDistance(laplacian, "heat").error_estimate().text
 
 
@@ -161,5 +164,5 @@ def test_answers_say_it_unless_nobody_waits(laplacian):
     assert [each.label for each in first] == [rough.label]
     assert answer.is_final
     assert answer.label.startswith("geodesic, heat method, ")
-    assert answer.label.endswith(" % off in the mean")
+    assert answer.label.endswith(" % off")
     assert distances.answer(Spec.of("geodesic", method="exact"), 3).label == "geodesic, exact"

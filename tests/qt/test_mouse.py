@@ -87,14 +87,14 @@ def test_dragging_the_mark_moves_the_source_and_not_the_view(loaded, monkeypatch
         heads[s.panels[1].answer.label] = s.panels[1].head.controls[0].text()
 
     s.window.answer_changed = note
-    drag(x0 + point.x(), y0 + point.y(), 70, lambda: s.until(lambda: "geodesic, heat method" in labels))
+    drag(x0 + point.x(), y0 + point.y(), 70, lambda: s.until(lambda: "geodesic, approximate" in labels))
     s.until(lambda: s.session.is_complete and s.source != front)
     assert panel.view.camera.GetPosition() == camera
     there = s.point_of(panel, s.source)
     assert abs(there.x() - point.x() - 70) < 25
     assert abs(there.y() - point.y() - 8) < 25
     assert labels[-1] == "geodesic, exact"
-    assert heads == {"geodesic, heat method": "auto: heat method", "geodesic, exact": "auto: exact"}
+    assert heads == {"geodesic, approximate": "auto: approximate", "geodesic, exact": "auto: exact"}
     s.session.undo()
     assert s.source == front
 

@@ -306,16 +306,16 @@ def test_a_first_mesh_that_fails_leaves_the_page_to_start_from_which_says_why(sc
 
 
 def test_the_head_says_which_method_auto_has_taken(screen, mesh_file, monkeypatch):
-    monkeypatch.setattr("bihdist_core.distances.geodesic_solvers.MOST_WINDOWS", 500**1.5)
+    monkeypatch.setattr("bihdist_core.distances.geodesic_solvers.QUICK_WINDOWS", 500**1.5)
     s = screen((Spec.of("geodesic"), Spec.of("biharmonic")))
-    for count, said in ((300, "auto: exact"), (800, "auto: heat method")):
+    for count, said in ((300, "auto: exact"), (800, "auto: approximate")):
         s.open(mesh_file(bumpy(count), f"{count}.off"), 5)
         s.until(lambda: s.session.is_complete)
         s.settle()
         assert [control.text() for control in s.panels[0].head.controls] == [said]
 
 
-def test_the_head_says_that_auto_has_changed_to_the_heat_method(shared_screen, monkeypatch):
+def test_the_head_says_that_auto_has_become_approximate(shared_screen, monkeypatch):
     s = shared_screen(bumpy(300), (Spec.of("geodesic"), Spec.of("biharmonic")))
     head = s.panels[0].head
     assert head.controls[0].text() == "auto: exact"
@@ -323,8 +323,8 @@ def test_the_head_says_that_auto_has_changed_to_the_heat_method(shared_screen, m
         monkeypatch.setattr(f"bihdist_core.distances.exact_geodesic.{most}", 0)
     s.session.show(move_source(s.document, 0, 77))
     s.until(lambda: s.session.is_complete)
-    assert head.controls[0].text() == "auto: heat method"
-    assert s.answers[0].label.startswith("geodesic, heat method")
+    assert head.controls[0].text() == "auto: approximate"
+    assert s.answers[0].label.startswith("geodesic, approximate")
     assert head.warning.isVisible()
 
 

@@ -262,7 +262,7 @@ def test_what_was_stopped_says_what_is_shown(screen, mesh_file, gate):
 
 def test_a_quick_look_stays_when_the_exact_answer_is_stopped(screen, mesh_file, monkeypatch):
     monkeypatch.setattr(distance_types, "FRAME_VERTICES", 0)  # as on a large mesh
-    monkeypatch.setattr(geodesic_solvers, "MOST_WINDOWS", 0)
+    monkeypatch.setattr(geodesic_solvers, "QUICK_WINDOWS", 0)
     gate, answer = threading.Event(), DistanceQuestion.answer
 
     def held(question, loaded, progress=None, at_once=None):
@@ -277,9 +277,9 @@ def test_a_quick_look_stays_when_the_exact_answer_is_stopped(screen, mesh_file, 
     s.session.show(move_source(s.document, 0, 9))
     s.until(lambda: s.session.is_preview(0) and panel.waiting.isVisible())
     (method,) = panel.head.controls
-    assert method.text() == "exact, now heat method"
+    assert method.text() == "exact, now approximate"
     panel.waiting.stop.click()
-    s.until(lambda: panel.stopped.is_saying("Stopped. Shown: geodesic, heat method, from vertex 9."))
+    s.until(lambda: panel.stopped.is_saying("Stopped. Shown: geodesic, approximate, from vertex 9."))
     assert (panel.view._is_dimmed, "no values" in panel.bar.accessibleDescription()) == (False, False)
     gate.set()
     panel.stopped.button.click()

@@ -24,7 +24,7 @@ EXAMPLES = (
     "bihdist evaluate figure figure_pose2 map.npy --truth identity --samples 400 -o curve.pdf",
 )
 TEXT = ".csv"
-METHODS = ("auto", "exact", "heat", "dijkstra")
+METHODS = ("auto", "exact", "virtual-sources", "heat", "dijkstra")
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
