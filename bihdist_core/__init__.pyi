@@ -40,6 +40,7 @@ from .distances.commute_time import CommuteTimeDistance
 from .distances.difference import difference
 from .distances.diffusion import DiffusionDistance
 from .distances.distance import Distance
+from .distances.distance_types import DistanceType, Parameter
 from .distances.embedding import Embedding
 from .distances.geodesic import GeodesicDistance
 from .distances.spectral import PowerDistance, TruncatedBiharmonicDistance
@@ -82,6 +83,7 @@ __all__ = [
     "Curve",
     "DiffusionDistance",
     "Distance",
+    "DistanceType",
     "Embedding",
     "ErrorCurve",
     "Extrema",
@@ -101,6 +103,7 @@ __all__ = [
     "NotEnoughMemory",
     "OtherExtrema",
     "OutputError",
+    "Parameter",
     "ParameterError",
     "Parcels",
     "Pins",

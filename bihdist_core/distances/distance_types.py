@@ -9,7 +9,7 @@ distance's word and leads to a `DistanceType`.
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
 from importlib import import_module
@@ -54,6 +54,12 @@ class Parameter:
         The largest number allowed.
     most : callable or None
         ``most(surface)`` is `at_most` where that depends on the surface.
+
+    Examples
+    --------
+    >>> import bihdist
+    >>> bihdist.Parameter("t", 1.0, "the time").parsed("1/4")
+    0.25
     """
 
     name: str
@@ -68,7 +74,18 @@ class Parameter:
     most: "Callable[[Surface], int] | None" = None
 
     def limited_to(self, surface: "Surface") -> "Parameter":
-        """Return the parameter with the bounds it has on a surface."""
+        """Return the parameter with the bounds it has on a surface.
+
+        Parameters
+        ----------
+        surface : Surface
+            For which the distance is made.
+
+        Returns
+        -------
+        Parameter
+            This one if its bounds are the same on all surfaces.
+        """
         if self.most is None:
             return self
         most = self.most(surface)
@@ -80,7 +97,23 @@ class Parameter:
         return isinstance(self.default, int)
 
     def checked(self, value: object) -> Value:
-        """Return a value in the parameter's type; ParameterError if it is not allowed."""
+        """Return a value in the parameter's type.
+
+        Parameters
+        ----------
+        value : object
+            A number, or one of the choices.
+
+        Returns
+        -------
+        float, int or str
+            The value.
+
+        Raises
+        ------
+        ParameterError
+            If the value is not allowed.
+        """
         if self.choices:
             if value not in self.choices:
                 raise ParameterError(f"{self.name} must be one of {', '.join(self.choices)}, not {_shown(value)}.")
@@ -96,7 +129,23 @@ class Parameter:
         return int(number) if self.is_whole else number
 
     def parsed(self, text: str) -> Value:
-        """Return the value that a text means: a word, 50, 0.25, 1/4; ParameterError if it means none."""
+        """Return the value that a text means.
+
+        Parameters
+        ----------
+        text : str
+            One of the choices, or a number such as 50, 0.25 or 1/4.
+
+        Returns
+        -------
+        float, int or str
+            The value.
+
+        Raises
+        ------
+        ParameterError
+            If the text has no meaning, or a value that is not allowed.
+        """
         if self.choices:
             return self.checked(text)
         if self.is_whole and text.isdecimal() and len(text) < 30:
@@ -108,7 +157,18 @@ class Parameter:
         return self.checked(number)
 
     def written(self, value: Value) -> str:
-        """Return the shortest text that means the value: 1/15 rather than its digits."""
+        """Return the shortest text that means a value.
+
+        Parameters
+        ----------
+        value : float, int or str
+            A value of the parameter.
+
+        Returns
+        -------
+        str
+            1/15 rather than its digits.
+        """
         if isinstance(value, float):
             under = round(1 / value) if value > 1e-6 else 0
             if 1 < under <= 1000 and 1 / under == value:
@@ -134,7 +194,7 @@ class DistanceType:
         ``"module:name"``.
     parameters : tuple of Parameter
         What can be chosen.
-    quick : callable
+    quick : callable or None
         ``quick(distance)`` is the parameters of a fast stand-in to be shown until the distance is there, or None.
     squares : str
         The squared distance as a formula.
@@ -150,6 +210,14 @@ class DistanceType:
         How web pages compute it: not at all, by their solver, or from eigenpairs that they take along.
     colour : str
         Of its curves in charts, as ``"#rrggbb"``; empty for any.
+
+    Examples
+    --------
+    >>> import bihdist
+    >>> heat = bihdist.Parameter("t", 1.0, "the time", shown=(0.0, 4.0))
+    >>> kind = bihdist.DistanceType("warm", "Warmth", "even", "warmth:Warmth", (heat,))
+    >>> kind.parameter("t").default
+    1.0
     """
 
     word: str
@@ -157,7 +225,7 @@ class DistanceType:
     hint: str
     make: str | Callable[..., "Distance"]
     parameters: tuple[Parameter, ...] = ()
-    quick: Callable[["Distance"], Mapping[str, Value] | None] = field(default=lambda distance: None)
+    quick: Callable[["Distance"], Mapping[str, Value] | None] | None = None
     squares: str = ""
     scaling: str = ""
     cost: str = ""
@@ -167,7 +235,23 @@ class DistanceType:
     colour: str = ""
 
     def parameter(self, name: str) -> Parameter:
-        """Return the parameter of a name; ParameterError if there is none."""
+        """Return the parameter of a name.
+
+        Parameters
+        ----------
+        name : str
+            As it is typed.
+
+        Returns
+        -------
+        Parameter
+            The one with this name.
+
+        Raises
+        ------
+        ParameterError
+            If there is none.
+        """
         for parameter in self.parameters:
             if parameter.name == name:
                 return parameter
@@ -257,7 +341,7 @@ class Spec:
 
     def quick(self, distance: "Distance") -> "Spec | None":
         """Return a fast stand-in for the distance that this spec has made, or None."""
-        values = self.distance_type.quick(distance)
+        values = quick(distance) if (quick := self.distance_type.quick) else None
         return None if values is None else self.changed(**values)
 
 

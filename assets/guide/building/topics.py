@@ -15,7 +15,7 @@ TOPICS: dict[str, tuple[str, str, list[str]]] = {
     "distances": (
         "Distances",
         "The methods that all distances have, and each distance.",
-        ["Distance", *DISTANCES, "difference", "Embedding"],
+        ["Distance", *DISTANCES, "difference", "Embedding", "DistanceType", "Parameter"],
     ),
     "sources": (
         "Sources",
