@@ -85,8 +85,8 @@ ROWS = (
             Option(
                 "maps",
                 "instead of distances, show in colours where each vertex of A is on B: a .npy or .txt file with the "
-                f"vertex of B for each of A; or `{PAIRS}`, for the maps by each --distance from --pairs; with commas for "
-                "several",
+                f"vertex of B for each of A; or `{PAIRS}`, for the maps by each --distance from --pairs; with commas "
+                "for several",
                 (),
                 flag="map",
                 group="",
