@@ -77,7 +77,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         type=lambda text: tuple(word.strip() for word in text.split(",") if word.strip()),
         help=f"some of {', '.join(WORKS)}, with commas: {'; '.join(KINDS[word].meaning for word in WORKS)}",
     )
-    add_sources(parser, "where distances start on each mesh, whose name stands for {name} in @FILE")
+    add_sources(parser, "where distances start on each mesh; {name} in @FILE is the mesh's name")
     add_output(parser, "a folder, or an address that fsspec knows, such as s3://...", metavar="DIR")
     add_distance(
         parser,
@@ -85,16 +85,18 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         k=f"the neighbours of nearest (default: {NEIGHBOURS}), the eigenpairs of eigen (default: {EIGENPAIRS})",
     )
     add_areas(parser)
-    add_dtype(parser, "of arrays")
-    parser.add_argument("--format", choices=ARRAYS, help="of arrays (default: npy); func.gii is of fields")
+    add_dtype(parser, "number format of arrays")
+    parser.add_argument("--format", choices=ARRAYS, help="format of arrays (default: npy); func.gii for fields only")
     one_based = "with --format mat: vertex ids in files count from 1, as MATLAB's do, and files say so"
     parser.add_argument("--one-based", action="store_true", default=None, help=one_based)
-    parser.add_argument("--normalise", choices=("area",), help="distances and eigenpairs of each mesh scaled to area 1")
+    parser.add_argument(
+        "--normalise", choices=("area",), help="compute distances and eigenpairs of each mesh scaled to area 1"
+    )
     kinds = ".npy, .txt, .gii, .annot, .label or another file of FreeSurfer's; {name} is the mesh's name"
     parser.add_argument(
         "--mask",
         metavar="FILE",
-        help=f"0 or 1 for each vertex: which count in results, while distances still cross the others: a {kinds}",
+        help=f"1 for each vertex that counts in results and 0 for others, which distances still cross: a {kinds}",
     )
     of_parcels = "for pairs: means between parcels; a number for each vertex, below 0 for none"
     parser.add_argument("--labels", metavar="FILE", help=f"{of_parcels}: a {kinds}")
@@ -105,7 +107,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "that divide by nothing and want --normalise area; geodist for GeomFmaps, DUO-FM and AttentiveFMaps",
     )
     parser.add_argument(
-        "--recipe", metavar="FILE.json", help="for figure: what is drawn of each mesh, from its highest vertex"
+        "--recipe", metavar="FILE.json", help="for figure: the recipe to draw for each mesh, from its highest vertex"
     )
     parser.add_argument(
         "--clim",
@@ -115,15 +117,17 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--maps", metavar="DIR", help="for evaluate: maps called cat-dog.npy, from cat to dog")
     parser.add_argument(
-        "--truth", metavar="MAP", help="for evaluate: `identity`, or a folder of maps of the same names"
+        "--truth",
+        metavar="MAP",
+        help="for evaluate: the correct maps, `identity` or a folder of maps with the same names",
     )
     parser.add_argument(
         "--symmetry",
         metavar="MAP",
-        help="for evaluate: symmetric partners, which also count as right; {name} stands for the mesh",
+        help="for evaluate: symmetric partners, which also count as correct; {name} is the mesh's name",
     )
     parser.add_argument("--samples", type=count, metavar="N", help="for evaluate: errors of N vertices (default: all)")
-    verified = "check the results that are there against the checksums in their JSON"
+    verified = "check existing results against the checksums in their JSON"
     parser.add_argument("--verify", action="store_true", help=verified)
     add_workers(parser)
     parser.add_argument("--dask", metavar="WHERE", help="a Dask cluster: tcp://HOST:PORT or its scheduler's FILE.json")

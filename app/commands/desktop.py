@@ -44,7 +44,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `desktop` to its parser."""
     either = parser.add_mutually_exclusive_group(required=True)
     either.add_argument("--install", action="store_true", help="add a menu entry, its icon and the types of mesh files")
-    either.add_argument("--remove", action="store_true", help="remove them")
+    either.add_argument("--remove", action="store_true", help="remove the menu entry, its icon and these types")
 
 
 def run(options: argparse.Namespace) -> Result:

@@ -47,7 +47,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--clim",
         type=positive,
         metavar="END",
-        help="where the colours end: a value, of a difference a fraction (default: the maximum)",
+        help="the value at which the colours end, for a difference a fraction (default: the maximum)",
     )
 
 

@@ -25,7 +25,7 @@ EXAMPLES = (
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `figure` to its parser."""
     add_figure_options(parser, "a .png, .pdf, .svg or .eps file")
-    parser.add_argument("--tex", action="store_true", help="a LaTeX snippet beside it, with a caption")
+    parser.add_argument("--tex", action="store_true", help="write a LaTeX snippet next to it, with a caption")
 
 
 def _usual_output(mesh: str) -> str:

@@ -43,11 +43,11 @@ from .terminal import progress_line, tell
 def add_figure_options(parser: argparse.ArgumentParser, files: str, usual: str = ".png") -> None:
     """Add the options that both commands have; the value of one that is not given is None."""
     parser.add_argument("mesh", metavar="MESH", nargs="?", help=MESH)
-    parser.add_argument("beside", metavar="BESIDE", nargs="?", help="a second mesh B, to stand beside the first, A")
+    parser.add_argument("beside", metavar="BESIDE", nargs="?", help="a second mesh B, shown next to the first, A")
     add_sources(parser, "where distances start, a row of panels each, or with two meshes one of each")
     add_output(parser, files, usual=usual)
     add_distance(parser, PANELS, is_field=True)
-    add_recipe(parser, "draw this again; all other options change it")
+    add_recipe(parser, "draw this recipe again; all other options change it")
     add_rows(parser, *rows())
 
 
@@ -55,7 +55,10 @@ def add_recipe(parser: argparse.ArgumentParser, what: str) -> None:
     """Add the options of a recipe, or a session, that is taken instead of a mesh."""
     parser.add_argument("--recipe", metavar="FILE.json", help=what)
     parser.add_argument(
-        "--mesh", dest="other_mesh", metavar="MESH", help="with --recipe: the same of another mesh with these vertices"
+        "--mesh",
+        dest="other_mesh",
+        metavar="MESH",
+        help="with --recipe: another mesh instead, with the same vertex ids",
     )
 
 

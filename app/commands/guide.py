@@ -14,7 +14,7 @@ EXAMPLES = (
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `guide` to its parser."""
-    parser.add_argument("--where", action="store_true", help="print where its first page is, and open nothing")
+    parser.add_argument("--where", action="store_true", help="print the path of the first page, and open nothing")
 
 
 def run(options: argparse.Namespace) -> Result:

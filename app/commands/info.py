@@ -42,9 +42,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `info` to its parser."""
     parser.add_argument("meshes", nargs="*", metavar="MESH", help="mesh files, or the names of samples")
     parser.add_argument(
-        "--accuracy", action="store_true", help="how accurate its exact distances are; factors the mesh"
+        "--accuracy", action="store_true", help="report how accurate exact distances are; factors the mesh"
     )
-    parser.add_argument("--solver", action="store_true", help="whether the solver runs compiled; needs no mesh")
+    parser.add_argument("--solver", action="store_true", help="report whether the solver runs compiled; needs no mesh")
     add_areas(parser)
 
 

@@ -31,14 +31,16 @@ TEXT = ".csv"
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `isolines` to its parser."""
     add_mesh(parser)
-    add_sources(parser, "the one source where the distance starts")
+    add_sources(parser, "the source where the distance starts")
     add_output(parser, "the isolines: a .csv, .obj, .vtp or .json file", required=False)
-    parser.add_argument("--region-ids", metavar="OUT", help="vertices of --region: a .txt, .npy or .csv file")
-    parser.add_argument("--region-mesh", metavar="OUT", help="--region cut out along its isolines: a .ply or .vtp file")
+    parser.add_argument("--region-ids", metavar="OUT", help="write the vertices of --region: a .txt, .npy or .csv file")
+    parser.add_argument(
+        "--region-mesh", metavar="OUT", help="write --region, cut out along its isolines: a .ply or .vtp file"
+    )
     add_distance(parser, is_field=True)
     add_areas(parser)
     parser.add_argument(
-        "--region", metavar="LOW:HIGH", help="between two values, or fractions of the maximum: 20%%:40%%"
+        "--region", metavar="LOW:HIGH", help="the region between two values, or two fractions of the maximum: 20%%:40%%"
     )
     add_rows(parser, ISOLINES)
 

@@ -23,14 +23,17 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `movie` to its parser."""
     add_figure_options(parser, "a .mp4 or .gif file", usual=".gif")
     parser.add_argument(
-        "--turn", type=float, metavar="DEGREES", help="how far the shape turns (default: 360, or 0 with --path)"
+        "--turn",
+        type=float,
+        metavar="DEGREES",
+        help="how far the shape turns, in degrees (default: 360, or 0 with --path)",
     )
     parser.add_argument(
         "--path",
         type=_path,
         default=(),
         metavar="V,…",
-        help="the source moves through these, instead of --sources",
+        help="move the source through these vertices, instead of --sources",
     )
     parser.add_argument("--frames", type=int, default=120, metavar="N", help="number of frames (default: 120)")
     parser.add_argument("--fps", type=float, default=25.0, metavar="N", help="frames per second (default: 25)")

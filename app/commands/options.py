@@ -63,7 +63,7 @@ def add_sources(
 
 def add_pins(parser: argparse.ArgumentParser) -> None:
     """Add `--pins`, whose value is a `Sources`, or None."""
-    text = "points with numbers, as --sources names them: 12,40, or those in a file, @FILE, or - for standard input"
+    text = "numbered points, chosen as by --sources: 12,40, or those in a file, @FILE, or - for standard input"
     parser.add_argument("--pins", metavar="V,…|@FILE", type=sources, help=text)
 
 
@@ -154,10 +154,10 @@ def add_chart(parser: argparse.ArgumentParser) -> None:
     add_rows(
         parser,
         *PAGE_ROWS,
-        size="of a chart: such as 85mm; or column (85 mm), double (178 mm)",
-        style="of a chart: paper, uniform, lines or dark (default: paper)",
-        font_family="of all text of a chart (default: DejaVu Sans)",
-        font_size="of the text of a chart (default: 8)",
+        size="size of the chart: such as 85mm; or column (85 mm), double (178 mm)",
+        style="style of the chart: paper, uniform, lines or dark (default: paper)",
+        font_family="font of the chart (default: DejaVu Sans)",
+        font_size="font size of the chart, in points (default: 8)",
     )
 
 

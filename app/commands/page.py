@@ -40,7 +40,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--bits",
         choices=("24", "float32"),
         default="24",
-        help="how exactly coordinates are kept: 24 bits of the largest side, or single precision (default: 24)",
+        help="precision of coordinates: 24 bits of the largest side, or single precision (default: 24)",
     )
     parser.add_argument(
         "--eigenpairs",

@@ -43,27 +43,27 @@ TEXT = ".csv"
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `pairs` to its parser."""
     add_meshes(parser)
-    what = "vertices, all pairs among which are written"
+    what = "vertices; all pairs among them are written"
     add_sources(parser, what, default="(default for --nearest: all)", are_vertices=True)
     add_pairs(
         parser,
-        "these instead of --sources: 1:2,3:4; or a file with a line `i,j` for each, @FILE, or - for standard input",
+        "pairs, instead of --sources: 1:2,3:4; or a file with a line `i,j` for each, @FILE, or - for standard input",
     )
     files = f"a .npy or .csv file, for --nearest also .npz or .json; {NAME}: each mesh's"
     add_output(parser, files, usual="-pairs.npy")
-    add_distance(parser, "a column each (default: biharmonic)", k=f"of --nearest (default: {NEIGHBOURS})")
+    add_distance(parser, "a column each (default: biharmonic)", k=f"neighbours of --nearest (default: {NEIGHBOURS})")
     add_areas(parser)
     parser.add_argument(
         "--nearest",
         action="store_true",
-        help="the --k vertices nearest to each of --sources: `i,j,distance`, nearest first",
+        help="write the --k vertices nearest to each source, as rows `i,j,distance`, nearest first",
     )
-    add_dtype(parser, "of a matrix, which a .npy of all pairs among sources is")
+    add_dtype(parser, "number format of a .npy matrix of all pairs among the sources")
     parser.add_argument("--memory", type=positive, metavar="MB", help="for --sources all (default: 500)")
     parser.add_argument(
         "--fresh",
         action="store_true",
-        help="for --sources all: start again, and discard the hidden .part file beside the output from which an "
+        help="for --sources all: start again, and discard the hidden .part file next to the output from which an "
         "interrupted run resumes",
     )
 

@@ -20,12 +20,12 @@ EXAMPLES = (
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `paper` to its parser."""
     add_output(parser, "a folder for index.html, pictures and numbers", metavar="DIR")
-    parser.add_argument("--only", metavar="ID,…", default="", help="some of them only, such as fig4,table2")
+    parser.add_argument("--only", metavar="ID,…", default="", help="only these figures and tables, such as fig4,table2")
     parser.add_argument(
         "--mesh", metavar="MESH", help="your own mesh, or a folder of meshes (claims and a picture each)"
     )
     add_rows(parser, UP, viewup=up_meaning("y on the bundled meshes, guessed for yours"))
-    parser.add_argument("--quick", action="store_true", help="smaller meshes and fewer samples, for a first look")
+    parser.add_argument("--quick", action="store_true", help="use smaller meshes and fewer samples, for a first look")
 
 
 def run(options: argparse.Namespace) -> Result:

@@ -31,14 +31,16 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `view` to its parser."""
     what = "mesh file, the name of a sample, or a session or recipe (default: choose in the window)"
     parser.add_argument("mesh", metavar="MESH", nargs="?", help=what)
-    parser.add_argument("beside", metavar="BESIDE", nargs="?", help="a second mesh, to stand beside the first")
-    add_sources(parser, "the one source where distances start, or with two meshes one of each")
+    parser.add_argument("beside", metavar="BESIDE", nargs="?", help="a second mesh, shown next to the first")
+    add_sources(parser, "the source where distances start, or with two meshes one of each")
     parser.add_argument("--screenshot", metavar="OUT.png", help="save the window's picture once complete, and exit")
     parser.add_argument("--save-session", metavar="OUT.json", help="save the session once the window is complete")
     add_distance(parser, PANELS, is_field=True)
-    parser.add_argument("--theme", choices=("light", "dark", "desktop"), default="", help="of the window, this time")
+    parser.add_argument(
+        "--theme", choices=("light", "dark", "desktop"), default="", help="the window's theme, this time only"
+    )
     viewup = up_meaning("as it was chosen for this mesh before, or guessed")
-    add_rows(parser, *_rows(), viewup=viewup, merge=f"{MERGE}; File > Save vertex id table… writes their new ids")
+    add_rows(parser, *_rows(), viewup=viewup, merge=f"{MERGE}; File > Save vertex id table… writes the new ids")
 
 
 def _rows() -> list[Row]:

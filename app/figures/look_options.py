@@ -100,13 +100,16 @@ ISOLINES = Row(
         _isoline_option(
             "isolines",
             "count",
-            "about so many, at round values; 0 for none (default: 20)",
+            "about this many isolines, at round values; 0 for none (default: 20)",
             20,
             metavar="N",
             read=_count,
         ),
         _isoline_option(
-            "equal_isolines", "equal", "as many equal steps from 0 to the maximum, instead of round values", False
+            "equal_isolines",
+            "equal",
+            "draw as many, at equal steps from 0 to the maximum instead of round values",
+            False,
         ),
         _isoline_option(
             "isoline_spacing",
@@ -121,7 +124,7 @@ ISOLINES = Row(
         _isoline_option(
             "isoline_through",
             "through",
-            "one more through each of these vertices",
+            "one more isoline through each of these vertices",
             (),
             metavar="V,…",
             read=vertex,
@@ -282,20 +285,20 @@ SHADING = Row(
     (
         Option(
             "smooth_shading",
-            "a normal at each vertex; without, one for each face (default: yes)",
+            "use a normal at each vertex, or one for each face (default: yes)",
             True,
             group="look",
             is_flag=True,
         ),
         Option(
             "split_sharp_edges",
-            "a normal on each side of a sharp edge (default: on surfaces that have some)",
+            "use a normal on each side of a sharp edge (default: on surfaces that have some)",
             group="look",
             is_flag=True,
         ),
         Option(
             "feature_angle",
-            "where faces meet at more is a sharp edge (default: 40)",
+            "an edge is sharp where faces meet at more than this (default: 40)",
             group="look",
             metavar="DEGREES",
             read=float,

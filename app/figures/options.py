@@ -35,8 +35,13 @@ def _layout(name: str, meaning: str, metavar: str | None = None, **how: Any) -> 
 
 
 PAGE_ROWS = (
-    _layout("font_family", "of all text (default: DejaVu Sans)", "FAMILY"),
-    _layout("font_size", "of labels in points, other text in proportion (default: by the size)", "POINTS", read=float),
+    _layout("font_family", "font of all text (default: DejaVu Sans)", "FAMILY"),
+    _layout(
+        "font_size",
+        "font size of labels in points, other text in proportion (default: by the size)",
+        "POINTS",
+        read=float,
+    ),
     _layout(
         "size",
         "such as 85mm, 3.5in, 1680x640, 160mm@300dpi; or column (85 mm, cropped), double (178 mm), slide, A0",
@@ -75,7 +80,7 @@ def _with_column(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
 
 
 CROP = Row(
-    (Option("crop", "without the empty margins (default: in one column)", group="layout", is_flag=True),),
+    (Option("crop", "crop the empty margins (default: in one column)", group="layout", is_flag=True),),
     ("Page.crop",),
     lambda recipe: {} if recipe.page.crop == is_column(recipe.page.size) else {"crop": recipe.page.crop},
     lambda recipe, values: with_attribute(recipe, "page.crop", values["crop"]),
@@ -88,7 +93,7 @@ ROWS = (
     ISOLINES,
     attribute(
         "document.isolines.bold",
-        "every n-th isoline is bold (without a number: 5)",
+        "draw every n-th isoline bold (without a number: 5)",
         "N",
         name="bold_isolines",
         group="isolines",
@@ -105,7 +110,7 @@ ROWS = (
         (
             Option(
                 "columns",
-                "panels side by side (default: all, or one row a source)",
+                "number of panels side by side (default: all, or one row for each source)",
                 group="layout",
                 metavar="N",
                 read=int,
@@ -116,10 +121,12 @@ ROWS = (
         lambda recipe, values: with_attribute(recipe, "page.columns", values["columns"]),
     ),
     INSETS,
-    attribute("document.extrema", "triangles at maxima and at minima away from the source (default: no)", group="look"),
+    attribute(
+        "document.extrema", "mark maxima, and minima away from the source, by triangles (default: no)", group="look"
+    ),
     attribute(
         "document.warp_factor",
-        "a flat mesh becomes a height field, its highest point at this fraction of its extent (without a number: 0.35)",
+        "show a flat mesh as a height field, its highest point at this fraction of its extent (without a number: 0.35)",
         "FRACTION",
         group="look",
         read=float,
@@ -127,10 +134,10 @@ ROWS = (
     ),
     *COLOURS,
     RANGE,
-    _layout("hints", "what to look for, under the headings (default: no)"),
-    _layout("title", "names as heading (default), as caption at the bars, or none", "WHERE"),
+    _layout("hints", "say under each heading what to look for (default: no)"),
+    _layout("title", "show names as heading (default), as caption at the bars, or none", "WHERE"),
     *PAGE_ROWS,
-    _layout("transparent", "no background"),
+    _layout("transparent", "draw no background"),
     CROP,
     SHADING,
     SHOW_EDGES.row,

@@ -54,7 +54,7 @@ REPAIRS = Row(
         CUT,
         Option(
             "merge",
-            f"{MERGE}; OUT.ids.csv beside the output has their new ids",
+            f"{MERGE}; OUT.ids.csv next to the output lists the new ids",
             group="",
             metavar="TOLERANCE",
             read=_tolerance,

@@ -60,7 +60,7 @@ VIEWS = Row(
         ),
         Option(
             "camera",
-            "position, focal point, up, extent: 11 numbers",
+            "camera position, focal point, up direction and extent: 11 numbers",
             group="view",
             metavar="X,Y,…",
             read=_camera_numbers,
@@ -75,7 +75,7 @@ VIEWS = Row(
 
 def up_meaning(default: str) -> str:
     """Return the help of `--viewup`, with what is up without it in words."""
-    return f"which axis points up: {', '.join(UPS)} (default: {default}); write --viewup=-z for those with a sign"
+    return f"the axis that points up: {', '.join(UPS)} (default: {default}); write --viewup=-z for those with a sign"
 
 
 UP = replace(

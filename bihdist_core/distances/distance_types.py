@@ -402,7 +402,7 @@ BUILT_IN = (
             Parameter(
                 "method",
                 "auto",
-                "how it is computed; auto: exactly where that takes 5 s at most, else by virtual sources",
+                "how it is computed; auto is exact where that takes 5 s at most, else uses virtual sources",
                 choices=("auto", "exact", "virtual-sources", "heat", "dijkstra"),
             ),
         ),

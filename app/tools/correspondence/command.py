@@ -22,11 +22,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `correspond` to its parser."""
     add_two_meshes(parser)
     add_pairs(parser, PAIRS_MEANING, required=True)
-    files = "a .npy or .txt file: for each vertex of A one of B, -1 where none can be compared"
+    files = "a .npy or .txt file: the vertex of B for each vertex of A, -1 where none can be compared"
     add_output(parser, files, usual="-map.txt")
     add_distance(parser)
     add_areas(parser)
-    parser.add_argument("--truth", metavar="MAP", help="what is right, to say the errors: `identity`, or a map's file")
+    parser.add_argument("--truth", metavar="MAP", help="the correct map, to report errors: `identity`, or a file")
 
 
 def run(options: argparse.Namespace) -> Result:

@@ -31,15 +31,18 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `evaluate` to its parser."""
     add_two_meshes(parser)
     parser.add_argument(
-        "maps", metavar="MAP", nargs="+", help="for each vertex of A one of B, from 0: a .npy or .txt file"
+        "maps",
+        metavar="MAP",
+        nargs="+",
+        help="maps: the vertex of B for each vertex of A, counted from 0; a .npy or .txt file",
     )
-    add_output(parser, "the curves: a .csv, .png, .pdf, .svg or .eps file", required=False)
+    add_output(parser, "write the error curves: a .csv, .png, .pdf, .svg or .eps file", required=False)
     add_cut(parser)
-    parser.add_argument("--truth", metavar="MAP", required=True, help="what is right: `identity`, or such a file")
+    parser.add_argument("--truth", metavar="MAP", required=True, help="the correct map: `identity`, or such a file")
     parser.add_argument(
         "--symmetry",
         metavar="MAP",
-        help="for each vertex of B its symmetric partner, which also counts as right; both errors are printed",
+        help="the symmetric partner of each vertex of B, which also counts as correct; both errors are printed",
     )
     parser.add_argument(
         "--samples", type=count, metavar="N", help="errors of N vertices of A, spaced evenly by id (default: all)"

@@ -19,7 +19,7 @@ PAIRS = "pairs"
 """The word that stands for the maps by pairs, in the place of a map's file."""
 
 PAIRS_MEANING = (
-    "known pairs, vertex I of A and J of B: 1:2,3:4; or of a file with a line `i,j` for each, @FILE, or - for standard "
+    "known pairs, vertex I of A and J of B: 1:2,3:4; or a file with a line `i,j` for each, @FILE, or - for standard "
     "input"
 )
 
@@ -84,8 +84,9 @@ ROWS = (
         (
             Option(
                 "maps",
-                "instead of distances where each vertex of A is on B, in colours: a .npy or .txt file with one of B "
-                f"for each of A; or `{PAIRS}`, for the maps by each --distance from --pairs; with commas for several",
+                "instead of distances, show in colours where each vertex of A is on B: a .npy or .txt file with the "
+                f"vertex of B for each of A; or `{PAIRS}`, for the maps by each --distance from --pairs; with commas "
+                "for several",
                 (),
                 flag="map",
                 group="",
@@ -95,8 +96,8 @@ ROWS = (
             ),
             Option(
                 "predict",
-                "instead of distances how badly each vertex of B fits vertex V of A, by each --distance from --pairs, "
-                "and which fits best",
+                "instead of distances, show how badly each vertex of B fits vertex V of A, by each --distance from "
+                "--pairs, and which fits best",
                 group="",
                 metavar="V",
                 read=int,

@@ -34,7 +34,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_output(parser, "a .npy, .csv, .ply or .vtp file", usual="-interpolated.npy")
     add_distance(parser, "a field each (default: biharmonic)")
     add_areas(parser)
-    parser.add_argument("--exponent", type=positive, default=1.0, metavar="P", help="of the weights (default: 1)")
+    parser.add_argument(
+        "--exponent", type=positive, default=1.0, metavar="P", help="the exponent of the weights (default: 1)"
+    )
     parser.add_argument(
         "--smoothness",
         type=share,

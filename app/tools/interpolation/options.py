@@ -76,10 +76,16 @@ ROWS = (
         _anchors_of,
         _with_anchors,
     ),
-    attribute("page.anchor_values", "numbers beside the anchors that have a value (default: no)"),
+    attribute("page.anchor_values", "write the values of anchors next to them (default: no)"),
     Row(
         (
-            Option("exponent", "of anchors' weights in interpolants (default: 1)", 1.0, metavar="P", read=float),
+            Option(
+                "exponent",
+                "the exponent of anchors' weights in interpolants (default: 1)",
+                1.0,
+                metavar="P",
+                read=float,
+            ),
             Option(
                 "smoothness",
                 "how far anchors' cones are rounded in interpolants, 0 to 1 (default: 0)",

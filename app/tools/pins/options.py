@@ -58,7 +58,7 @@ ROWS = (
         (
             Option(
                 "pins",
-                "pins with numbers, in their order, at vertices or places in faces (12,f311:0.2,0.5); or as --sources: "
+                "numbered pins at vertices or places in faces (12,f311:0.2,0.5), or chosen as by --sources: "
                 "farthest:5, or those in a file, @FILE, or - for standard input",
                 (),
                 metavar="V,…|@FILE",

@@ -36,8 +36,8 @@ TEXT = ".csv"
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `profile` to its parser."""
     add_mesh(parser)
-    add_sources(parser, "the one source where distances start")
-    add_output(parser, "the numbers: a .csv, .npy, .vtp or .json file, or the path alone: .obj", required=False)
+    add_sources(parser, "the source where distances start")
+    add_output(parser, "write the numbers: a .csv, .npy, .vtp or .json file; or the path alone: .obj", required=False)
     parser.add_argument("--chart", metavar="OUT", help="a .png, .pdf, .svg or .eps file")
     add_distance(parser, f"a curve each (default: {','.join(map(str, COMPARISON))})", is_field=True)
     add_areas(parser)
@@ -48,7 +48,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="vertices, places in faces, source, pin:1 (default: all pins in their order; of one, from the source)",
     )
     add_rows(parser, WAY, ACROSS)
-    parser.add_argument("--values", action="store_true", help="a chart of values, not of fractions of each maximum")
+    parser.add_argument("--values", action="store_true", help="chart values, not fractions of each maximum")
     add_chart(parser)
 
 

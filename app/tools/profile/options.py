@@ -30,9 +30,7 @@ def direction(text: str) -> tuple[float, ...]:
     return found
 
 
-ACROSS = Option(
-    "across", "a direction that lies in a section's plane", metavar="X,Y,Z", read=direction, write=with_commas
-)
+ACROSS = Option("across", "for a section: a direction in its plane", metavar="X,Y,Z", read=direction, write=with_commas)
 
 
 def _path_of(recipe: Recipe) -> dict[str, Any]:
@@ -66,8 +64,8 @@ ROWS = (
         (
             Option(
                 "profile",
-                "the path through points: vertices, places in faces, source, pin:1 (without points: "
-                "through the pins in order)",
+                "draw the path through points: vertices, places in faces, source, pin:1 (without points: through the "
+                "pins in order)",
                 False,
                 metavar="V,…",
                 read=words_in,

@@ -22,11 +22,15 @@ TEXT = ".csv"
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `regions` to its parser."""
     add_mesh(parser)
-    what = "vertices with a region each, numbered from 1 or by the ids of pins"
+    what = "vertices that get a region each, numbered from 1 or by the ids of pins"
     add_sources(parser, what, default="", required=True, are_vertices=True)
-    add_output(parser, "for each vertex the number of its region: a .npy, .csv, .ply or .vtp file", required=False)
-    parser.add_argument("--boundaries", metavar="OUT", help="of the regions: a .csv, .obj, .vtp or .json file")
-    parser.add_argument("--region-mesh", metavar="OUT", help="the mesh cut along the boundaries: a .ply or .vtp file")
+    add_output(parser, "write the number of each vertex's region: a .npy, .csv, .ply or .vtp file", required=False)
+    parser.add_argument(
+        "--boundaries", metavar="OUT", help="write the boundaries of the regions: a .csv, .obj, .vtp or .json file"
+    )
+    parser.add_argument(
+        "--region-mesh", metavar="OUT", help="write the mesh cut along the boundaries: a .ply or .vtp file"
+    )
     add_distance(parser)
     add_areas(parser)
 

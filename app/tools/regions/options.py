@@ -33,7 +33,7 @@ ROWS = (
         (
             Option(
                 "regions",
-                "boundaries of the regions nearest to each pin, on all panels or on some, from 1",
+                "draw the boundaries of the regions nearest to each pin, on all panels or on some, counted from 1",
                 (),
                 metavar="all|N,…",
                 read=_panel_numbers,

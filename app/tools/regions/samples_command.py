@@ -22,7 +22,7 @@ TEXT = ".txt"
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `samples` to its parser."""
     add_mesh(parser)
-    add_sources(parser, "what is written", default="", required=True, are_vertices=True)
+    add_sources(parser, "the vertices to write", default="", required=True, are_vertices=True)
     files = "a .txt file, an id on each line, a .npy file, or pins as .csv, .json or MeshLab's .pp"
     add_output(parser, files, usual="-samples.txt")
     add_distance(parser)

@@ -41,22 +41,35 @@ EXAMPLES = (
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `perturb` to its parser."""
     add_mesh(parser)
-    add_sources(parser, "with --distance: where its fields start, one after another")
+    add_sources(parser, "with --distance: where the fields start, one after another")
     add_output(parser, "a .off, .obj, .ply or .vtp file", usual="-perturbed.ply")
     add_distance(parser, "print how much each changes (default: none)")
     add_repairs(parser)
-    parser.add_argument("--pose", default="", metavar="FILE", help="another pose, with the same vertices and faces")
-    parser.add_argument("--faces", type=_faces, default=(), metavar="FACES", help="faces to remove, as in 3+10-20")
-    parser.add_argument("--simplify", type=count, metavar="N", help="keep N vertices, where they are")
-    parser.add_argument("--noise", type=positive, metavar="S", help="Gaussian, of S mean edge lengths")
-    parser.add_argument("--along", choices=("xyz", "normals"), default="xyz", help="for --noise (default: xyz)")
-    parser.add_argument("--holes", type=count, metavar="N", help="N round holes at random vertices")
     parser.add_argument(
-        "--radius", type=positive, default=0.05, metavar="R", help="of holes, in roots of the area (default: 0.05)"
+        "--pose",
+        default="",
+        metavar="FILE",
+        help="move the vertices to another pose: a mesh with the same vertices and faces",
+    )
+    parser.add_argument("--faces", type=_faces, default=(), metavar="FACES", help="faces to remove, as in 3+10-20")
+    parser.add_argument("--simplify", type=count, metavar="N", help="reduce the mesh to N of its vertices")
+    parser.add_argument("--noise", type=positive, metavar="S", help="add Gaussian noise of S mean edge lengths")
+    parser.add_argument(
+        "--along", choices=("xyz", "normals"), default="xyz", help="the direction of --noise (default: xyz)"
+    )
+    parser.add_argument("--holes", type=count, metavar="N", help="cut N round holes at random vertices")
+    parser.add_argument(
+        "--radius",
+        type=positive,
+        default=0.05,
+        metavar="R",
+        help="the radius of holes, in square roots of the area (default: 0.05)",
     )
     parser.add_argument("--weld", type=pair, metavar="I:J", help="weld the surface at two vertices")
-    parser.add_argument("--handle", type=pair, metavar="I:J", help="a thin tube from one vertex to another")
-    parser.add_argument("--seed", type=_seed, default=0, metavar="N", help="of noise and holes (default: 0)")
+    parser.add_argument("--handle", type=pair, metavar="I:J", help="add a thin tube from one vertex to another")
+    parser.add_argument(
+        "--seed", type=_seed, default=0, metavar="N", help="the random seed of noise and holes (default: 0)"
+    )
 
 
 def run(options: argparse.Namespace) -> Result:

@@ -31,7 +31,7 @@ ROWS = (
         (
             Option(
                 "perturb",
-                "each distance before and after a change to the mesh, and the difference: pose=FILE, cut=FACES, "
+                "show each distance before and after a change to the mesh, and the difference: pose=FILE, cut=FACES, "
                 "simplify=N, noise=S, along=normals, holes=N, radius=R, weld=I:J, handle=I:J, seed=K, with commas "
                 "between them",
                 "",

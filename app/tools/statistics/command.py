@@ -28,12 +28,25 @@ EIGENPAIRS = 200
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `statistics` to its parser."""
     add_mesh(parser)
-    add_sources(parser, "the one source where distances start")
-    parser.add_argument("--histogram", metavar="OUT", help="of the first, by area: a figure, or a .csv or .npy of bins")
-    parser.add_argument("--scatter", metavar="OUT", help="of the second over the first: a figure, or a .csv or .npy")
-    add_distance(parser, "one, or two to compare them (default: biharmonic)", k="of --truncation", is_field=True)
+    add_sources(parser, "the source where distances start")
+    parser.add_argument(
+        "--histogram",
+        metavar="OUT",
+        help="histogram of the first distance, by area: a figure, or a .csv or .npy of bins",
+    )
+    parser.add_argument(
+        "--scatter",
+        metavar="OUT",
+        help="scatter plot of the second distance over the first: a figure, or a .csv or .npy",
+    )
+    add_distance(
+        parser,
+        "one, or two to compare them (default: biharmonic)",
+        k="the number of eigenpairs, for --truncation",
+        is_field=True,
+    )
     add_areas(parser)
-    parser.add_argument("--values", action="store_true", help="compare values, and not fractions of the maxima")
+    parser.add_argument("--values", action="store_true", help="compare values, not fractions of the maxima")
     parser.add_argument(
         "--truncation", action="store_true", help="what a sum over --k eigenpairs loses of the biharmonic distance"
     )

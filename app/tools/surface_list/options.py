@@ -46,8 +46,8 @@ ROWS = (
         (
             Option(
                 "hide",
-                "what on the surface is not drawn: source, pins, selections, borders, anchors, extrema, path, "
-                "isolines, or one of several, pins:2",
+                "do not draw these marks on the surface: source, pins, selections, borders, anchors, extrema, path, "
+                "isolines, or one of several, such as pins:2",
                 (),
                 metavar="NAME,…",
                 is_list=True,
