@@ -132,6 +132,8 @@ class _Renderer:
         if directive == "grid-item-card":
             link = self._link(options["link"], title)
             return f"<h3>{link}</h3>{self.render(content)}" if link.startswith("<a") else ""
+        if directive == "tab-item":
+            return f"<h3>{html.escape(title)}</h3>{self.render(content)}"
         return self.render(content)
 
     def _myst_role(self, tokens: Sequence[Any], index: int, *_: Any) -> str:

@@ -72,6 +72,8 @@ def test_the_text_reads_well(cache, opened):
     text = "".join(path.read_text(encoding="utf-8") for path in cache.rglob("*.html"))
     assert "bihdist figure animal" in text
     assert "<kbd>G</kbd>" in text
+    assert "<h3>Command line</h3>" in text
+    assert "Try it" not in text  # of a page that is not there
     assert r"\frac{1}{A_i}" in text
     assert not re.search(r"\{(shell|python|toctree|kbd|doc|py:\w+)\}|:hide-|:link|:::", text)
 

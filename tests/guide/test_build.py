@@ -25,10 +25,22 @@ Image.new("RGB", (40, 30), "red").save("red.png")
 print("twice", 2 * 21)
 ```
 
+::::{tab-set}
+:sync-group: way
+
+:::{tab-item} Python
+:sync: python
+```{python}
+print("in a tab", 3 * 21)
+```
+:::
+::::
+
 ```{python}
 :hide-code:
 :live: pages/live.html
 :alt: A still picture
+:caption: Click [it](#a-page).
 from pathlib import Path
 
 Image.new("RGB", (40, 30), "green").save("still.png")
@@ -97,6 +109,9 @@ def test_a_small_guide(source):
     guide = source.with_name("guide")
     page = (guide / "index.html").read_text(encoding="utf-8")
     assert "twice 42" in page
+    assert "in a tab 63" in page
+    assert 'data-sync-group="way"' in page
+    assert "<em>Click <a" in page
     assert "ids.txt" in page
     assert "<msubsup>" in page
     assert "info --solver" not in page

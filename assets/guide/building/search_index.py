@@ -7,7 +7,7 @@ from pathlib import Path
 
 from app.document.synonyms import COLOUR_MAPS, OPTION_ALIASES, OPTION_HINTS
 
-BLOCKS = {"br", "p", "li", "td", "th", "dt", "dd", "pre", "h1", "h2", "h3", "h4", "div", "section", "tr"}
+BLOCKS = {"br", "p", "li", "td", "th", "dt", "dd", "pre", "h1", "h2", "h3", "h4", "div", "label", "section", "tr"}
 KEYWORDS = re.compile(r'<meta content="([^"]*)" name="keywords"')
 SYNONYMS = {
     "animation": "movie",

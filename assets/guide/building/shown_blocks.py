@@ -42,6 +42,7 @@ class ShownBlock(SphinxDirective):
         "hide-text": directives.flag,  # what is printed, not the pictures
         "hide-code": directives.flag,
         "alt": directives.unchanged,
+        "caption": directives.unchanged,  # under the pictures, and left out with them where no block runs
         "live": directives.unchanged,  # pages/NAME.html, which the block wrote: embedded over its picture
         "status": directives.nonnegative_int,
     }
@@ -65,7 +66,9 @@ class ShownBlock(SphinxDirective):
             src = relpath(source / folder / page, Path(self.env.doc2path(self.env.docname)).parent)
             live = nodes.raw("", LIVE_PAGE.format(src=Path(src).as_posix(), title=alt), format="html")
             pictures = [nodes.container("", *pictures, live, classes=["live-page"])]
-        return self._placed([*shown, *pictures])
+        caption, _ = self.state.inline_text(self.options.get("caption", ""), self.lineno)
+        below = [nodes.paragraph("", "", nodes.emphasis("", "", *caption))] if caption else []
+        return self._placed([*shown, *pictures, *below])
 
     def _code(self, code: str) -> nodes.Node:
         literal = nodes.literal_block(code, code, language=LANGUAGES[self.name])
