@@ -1,4 +1,4 @@
-"""Row 27: exact geodesic distances and paths, against pygeodesic's and the heat method of potpourri3d."""
+"""Row 27: exact and approximate geodesic distances, and paths, against pygeodesic's and potpourri3d's heat method."""
 
 import time
 from collections.abc import Iterator
@@ -52,6 +52,7 @@ def exact_geodesics(size: Size) -> Iterator[Line]:
         bound=1.0,
         note="peer: potpourri3d, heat solver constructed and one heat solve",
     )
+    yield from _approximate(rough, size)
     yield from _growth(size)
     yield _path(middle, size)
 
@@ -75,6 +76,27 @@ def _many(mesh: Arrays, size: Size) -> Line:
         error=difference(result.answer[:, :SOME], np.stack(result.peer_answer, 1)),
         tolerance=EXACT,
         note=f"peer: as many times what pygeodesic takes for each of {SOME}",
+    )
+
+
+def _approximate(mesh: Arrays, size: Size) -> Iterator[Line]:
+    """One field without a set-up, and its error."""
+    result = alternate(
+        lambda: GeodesicDistance(Surface(*mesh), "virtual-sources").from_source(0),
+        lambda: peers.heat_solver(*mesh).compute_distance(0),
+        size.rounds,
+    )
+    name = f"approximate geodesic, set-up and one source, as scanned, {len(mesh[0]):,}"
+    note = "peer: potpourri3d, heat solver constructed and one heat solve"
+    yield compared(ROW, name, result, bound=0.2, note=note)
+    exact = _ours(mesh)
+    heat, virtual = (np.abs(each - exact)[1:] / exact[1:] for each in (result.peer_answer, result.answer))
+    yield Line(
+        ROW,
+        f"approximate geodesic: off in the mean, in %, as scanned, {len(mesh[0]):,}",
+        value=100 * float(virtual.mean()),
+        bound=0.5,
+        note=f"the heat method of potpourri3d {heat.mean():.1%}",
     )
 
 

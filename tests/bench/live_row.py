@@ -28,7 +28,7 @@ MESSAGES = 0.004
 but at 4,000 a solve takes one thousandth."""
 
 LIVE = Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion")
-"""What a window opens with; the geodesic distance is by the heat method as long as the source moves."""
+"""What a window opens with; the geodesic distance is approximate as long as the source moves."""
 
 
 def live(size: Size) -> Iterator[Line]:
@@ -62,8 +62,8 @@ def _live(count: int, in_faces: bool, wanted: float) -> tuple[int, float, float]
         while session.loaded() is None or not session.shown.keys() >= {0, 2}:
             view.posted.get(timeout=PATIENCE)()
     session.show(move_source(session.document, 0, 7), live=True)
-    while 1 not in session.shown or (count > FRAME_VERTICES and "heat" not in session.shown[1].answer.label):
-        view.posted.get(timeout=PATIENCE)()  # the heat method is made ready
+    while 1 not in session.shown or (count > FRAME_VERTICES and "approximate" not in session.shown[1].answer.label):
+        view.posted.get(timeout=PATIENCE)()  # the approximate one is made ready
     shown: list[int] = []
     view.answer_changed = shown.append  # type: ignore[method-assign]
     begun, move = time.perf_counter(), 0

@@ -22,6 +22,7 @@ WORDS = "measure how far maps between meshes are from the truth"
 EXAMPLES = (
     "bihdist evaluate figure figure_pose2 map.npy --truth identity",
     "bihdist evaluate figure figure_pose2 map.npy --truth identity --samples 400 -o curve.pdf",
+    "bihdist evaluate figure figure_pose2 ours.npy theirs.npy --truth identity -o curves.csv",
 )
 TEXT = ".csv"
 METHODS = ("auto", "exact", "virtual-sources", "heat", "dijkstra")
