@@ -109,7 +109,7 @@ html_context = {"repository": _ADDRESSES.get("Repository", "")}
 html_show_search_summary = False  # pages cannot be fetched by scripts from file://
 html_use_index = False
 html_theme_options = {
-    "logo": {"text": "bihdist", "alt_text": "bihdist"},
+    "logo": {"text": "bihdist"},
     "search_bar_text": "Ask in your own words",
     "navbar_align": "left",
     "navbar_end": ["theme-switcher"],

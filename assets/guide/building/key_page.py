@@ -21,7 +21,7 @@ def key_page() -> dict[str, str]:
     parts = []
     for title, group in groups.items():
         rows = [f"| {_plain(act.text)} | {_keys(act.keys)} | {_plain(act.tip)} |" for act in group]
-        parts.append(f"## {title}\n\n| Command | Keys | |\n| --- | --- | --- |\n{chr(10).join(rows)}\n")
+        parts.append(f"## {title}\n\n| Command | Keys | Effect |\n| --- | --- | --- |\n{chr(10).join(rows)}\n")
     return {"reference/keys.md": INTRODUCTION + "\n".join(parts)}
 
 

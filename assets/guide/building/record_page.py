@@ -54,7 +54,7 @@ def _table(kind: type) -> str:
         for each in fields(kind)
         if not (kind is Document and each.name == "parts")
     ]
-    return "\n".join(["| Key | Type | If left out | |", "| --- | --- | --- | --- |", *rows, ""])
+    return "\n".join(["| Key | Type | If left out | Meaning |", "| --- | --- | --- | --- |", *rows, ""])
 
 
 def _meanings(kind: type) -> dict[str, str]:
