@@ -2,13 +2,15 @@
 
 import hashlib
 import json
-import subprocess
-import sys
-from concurrent.futures import ThreadPoolExecutor
+import shutil
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict
 from importlib.util import find_spec
+from multiprocessing import get_all_start_methods, get_context
 from pathlib import Path
+from typing import Any
 
-from .blocks import Outcome, blocks_of, imported_modules
+from .blocks import BlockError, Outcome, blocks_of, imported_modules, run_page
 
 ROOT = Path(__file__).parents[3]
 PROCESSES = 2
@@ -32,8 +34,17 @@ def run_pages(source: Path) -> list[str]:
         key = hashlib.sha256(repr((program, blocks)).encode()).hexdigest()
         if blocks and _key(folder_of(page, source)) != key:
             pages.append((page, source, key))
-    with ThreadPoolExecutor(PROCESSES) as pool:
-        return [told for told in pool.map(lambda each: _run(*each), pages) if told]
+    with ProcessPoolExecutor(PROCESSES, _context(), max_tasks_per_child=1) as pool:
+        return [told for told in pool.map(_run, pages) if told]
+
+
+def _context() -> Any:
+    """How processes are started: where they can be forked, with what most pages import, which takes two seconds."""
+    if "forkserver" not in get_all_start_methods():
+        return get_context("spawn")
+    context = get_context("forkserver")
+    context.set_forkserver_preload(["assets.guide.building.page_imports"])
+    return context
 
 
 def outcomes_of(page: Path, source: Path) -> list[Outcome]:
@@ -42,13 +53,26 @@ def outcomes_of(page: Path, source: Path) -> list[Outcome]:
     return [Outcome(each["printed"], tuple(each["pictures"])) for each in stored["outcomes"]]
 
 
-def _run(page: Path, source: Path, key: str) -> str:
-    """A process for each page: none minds what another has left behind."""
-    command = [sys.executable, "-m", "assets.guide.building", str(page)]
-    more = ["--folder", str(folder_of(page, source).parent), "--key", key]
-    done = subprocess.run([*command, *more], cwd=ROOT, capture_output=True, text=True)
-    print(f"{page.relative_to(source)}: {'its blocks have run' if done.returncode == 0 else 'a block FAILED'}")
-    return "" if done.returncode == 0 else done.stderr.strip()
+def run_and_store(page: Path, folder: Path, key: str = "") -> list[Outcome]:
+    """Run the blocks of a page in an empty folder, and keep their outcomes there; BlockError where one fails."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    outcomes = run_page(page.resolve(), folder)
+    stored = {"key": key, "outcomes": [asdict(outcome) for outcome in outcomes]}
+    (folder / "outcomes.json").write_text(json.dumps(stored, indent=1), encoding="utf-8")
+    return outcomes
+
+
+def _run(each: tuple[Path, Path, str]) -> str:
+    """Run a page in a process of its own, where nothing of another is left; what failed, in words."""
+    page, source, key = each
+    try:
+        run_and_store(page, folder_of(page, source), key)
+    except BlockError as error:
+        print(f"{page.relative_to(source)}: a block FAILED", flush=True)
+        return str(error)
+    print(f"{page.relative_to(source)}: its blocks have run", flush=True)
+    return ""
 
 
 def _key(folder: Path) -> str:
