@@ -30,6 +30,7 @@ extensions = [
     "sphinx_copybutton",
     "sphinx_design",
     "sphinx_gallery.gen_gallery",
+    "assets.guide.building.dark_figures",
     "assets.guide.building.gallery",
     "assets.guide.building.mathml",
     "assets.guide.building.navigation",

@@ -17,8 +17,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .dark_figures import dark_name, draw_dark
+
 if TYPE_CHECKING:
     from PIL.Image import Image
+
+    from app.figures.picture import Picture
 
 PICTURES = (".png", ".gif")
 PAGE = ".html"
@@ -32,6 +36,12 @@ DRAWN = "800x660"
 PAGES = "pages"
 """The folder of web pages beside an example's page, which Sphinx knows nothing of."""
 
+IMAGE = """
+.. image:: /{path}
+    :alt: {title}
+    :class: sphx-glr-single-img
+"""
+
 IFRAME = """
 .. raw:: html
 
@@ -42,8 +52,6 @@ IFRAME = """
 # ---------------------------------------------------------------------- what sphinx-gallery calls
 def saved_files(block: tuple[Any, ...], variables: dict[str, Any], conf: Mapping[str, Any], **_: Any) -> str:
     """What a block has saved, as reStructuredText; a scraper of sphinx-gallery."""
-    from sphinx_gallery.scrapers import figure_rst
-
     source, page = Path(variables["src_file"]), Path(variables["target_file"]).parent
     seen = variables.setdefault("saved_files", set())
     new = sorted((path for path in own_files(source) if path not in seen), key=lambda path: path.stat().st_mtime_ns)
@@ -51,7 +59,7 @@ def saved_files(block: tuple[Any, ...], variables: dict[str, Any], conf: Mapping
     shown, text = [], ""
     for path in new:
         if path.suffix in PICTURES:
-            shown.append(str(Path(next(variables["image_path_iterator"])).with_suffix(path.suffix)))
+            shown.append(Path(next(variables["image_path_iterator"])).with_suffix(path.suffix))
             shutil.copy(path, shown[-1])
         elif path.suffix == PAGE:
             (page / PAGES).mkdir(exist_ok=True)
@@ -60,7 +68,9 @@ def saved_files(block: tuple[Any, ...], variables: dict[str, Any], conf: Mapping
         elif path.suffix in OTHERS:
             shutil.copy(path, page)
     downloads = ", ".join(f":download:`{path.name}`" for path in new if path.suffix in OTHERS)
-    pictures = figure_rst(shown, conf["src_dir"]) if shown else ""
+    title = source.stem.replace("_", " ")
+    places = [Path(path).relative_to(conf["src_dir"]).as_posix() for path in shown]
+    pictures = "\n".join(IMAGE.format(path=place, title=title) for place in places)
     return f"{pictures}\n{text}\n{f'Files: {downloads}' if downloads else ''}\n"
 
 
@@ -75,9 +85,9 @@ def own_files(source: Path) -> list[Path]:
 
 
 # ---------------------------------------------------------------------- thumbnails
-def draw_thumbnails(recipe: Path, targets: Mapping[str, Path]) -> None:
+def draw_thumbnails(recipe: Path, targets: Mapping[str, Path]) -> Picture:
     """Draw the first and the last panel of a recipe's figure without text, in the styles that `targets` has files for;
-    "" is its own style.
+    "" is its own style. Returns the figure.
     """
     from app.document.file import read_recipe
     from app.figures.picture import Picture, figure_again
@@ -92,6 +102,7 @@ def draw_thumbnails(recipe: Path, targets: Mapping[str, Path]) -> None:
         fewer = replace(read, document=document, page=page)
         picture = Picture(fewer, drawn._surfaces, drawn._given, drawn.answers[ends])
         thumbnail_of(picture.pixels).save(target)
+    return drawn
 
 
 def thumbnail_of(pixels: np.ndarray[Any, np.dtype[np.uint8]]) -> Image:
@@ -116,7 +127,6 @@ def thumbnail_of(pixels: np.ndarray[Any, np.dtype[np.uint8]]) -> Image:
 def setup(app: Any) -> dict[str, Any]:
     """Have thumbnails drawn once examples have run, and pages copied at the end; an extension of Sphinx."""
     app.connect("builder-inited", _make_thumbnails, priority=900)
-    app.connect("doctree-read", _add_dark_thumbnails, priority=100)  # before images are collected
     app.connect("build-finished", _copy_pages)
     return {"parallel_read_safe": True}
 
@@ -126,27 +136,16 @@ def _make_thumbnails(app: Any) -> None:
     for thumbnail in (source / "gallery/auto").rglob("thumb/sphx_glr_*_thumb.png"):
         name = thumbnail.name.removeprefix("sphx_glr_").removesuffix("_thumb.png")
         section = thumbnail.parents[2].relative_to(source / "gallery/auto")
-        recipes = [path for path in own_files(source / "gallery" / section / f"{name}.py") if path.suffix == ".json"]
-        dark = _dark(thumbnail)
-        first = min(recipes, key=lambda path: path.stat().st_mtime_ns, default=None)
-        if first and not (dark.exists() and dark.stat().st_mtime_ns > first.stat().st_mtime_ns):
-            draw_thumbnails(first, {"": thumbnail, "dark": dark})
-
-
-def _dark(thumbnail: Path) -> Path:
-    return thumbnail.with_name(thumbnail.name.replace("_thumb.png", "_dark.png"))
-
-
-def _add_dark_thumbnails(app: Any, document: Any) -> None:
-    from docutils import nodes
-
-    for image in [*document.findall(nodes.image)]:
-        dark = _dark(Path(image["uri"]))
-        if image["uri"].endswith("_thumb.png") and Path(f"{app.srcdir}/{dark}").exists():
-            copy = image.deepcopy()
-            image["classes"].append("only-light")
-            copy["uri"], copy["classes"] = dark.as_posix(), [*copy["classes"], "only-dark"]
-            image.parent.insert(image.parent.index(image) + 1, copy)
+        files = own_files(source / "gallery" / section / f"{name}.py")
+        files.sort(key=lambda path: path.stat().st_mtime_ns)
+        dark = dark_name(thumbnail)
+        first = next((path for path in files if path.suffix == ".json"), None)
+        if first is None or (dark.exists() and dark.stat().st_mtime_ns > first.stat().st_mtime_ns):
+            continue
+        drawn = draw_thumbnails(first, {"": thumbnail, "dark": dark})
+        for number, path in enumerate((path for path in files if path.suffix in PICTURES), 1):
+            shown = thumbnail.parents[1] / f"sphx_glr_{name}_{number:03}.png"
+            draw_dark(path, dark_name(shown), drawn if path.stem == first.stem else None)
 
 
 def _copy_pages(app: Any, failure: Exception | None) -> None:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from .blocks import BlockError, Outcome, blocks_of, imported_modules, run_page
+from .dark_figures import dark_name, draw_dark
 
 ROOT = Path(__file__).parents[3]
 PROCESSES = 2
@@ -58,6 +59,8 @@ def run_and_store(page: Path, folder: Path, key: str = "") -> list[Outcome]:
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     outcomes = run_page(page.resolve(), folder)
+    for picture in {folder / name for outcome in outcomes for name in outcome.pictures}:
+        draw_dark(picture, dark_name(picture))
     stored = {"key": key, "outcomes": [asdict(outcome) for outcome in outcomes]}
     (folder / "outcomes.json").write_text(json.dumps(stored, indent=1), encoding="utf-8")
     return outcomes
