@@ -40,7 +40,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--theme", choices=("light", "dark", "desktop"), default="", help="the window's theme, this time only"
     )
     viewup = up_meaning("as it was chosen for this mesh before, or guessed")
-    add_rows(parser, *_rows(), viewup=viewup, merge=f"{MERGE}; File > Save vertex id table… writes the new ids")
+    add_rows(
+        parser, *_rows(), viewup=viewup, merge=f"{MERGE}; File > Repair mesh > Save vertex id table… writes the new ids"
+    )
 
 
 def _rows() -> list[Row]:

@@ -73,24 +73,6 @@ class Parameter:
     at_most: float = math.inf
     most: "Callable[[Surface], int] | None" = None
 
-    def limited_to(self, surface: "Surface") -> "Parameter":
-        """Return the parameter with the bounds it has on a surface.
-
-        Parameters
-        ----------
-        surface : Surface
-            For which the distance is made.
-
-        Returns
-        -------
-        Parameter
-            This one if its bounds are the same on all surfaces.
-        """
-        if self.most is None:
-            return self
-        most = self.most(surface)
-        return replace(self, at_most=most, shown=(self.shown[0], min(self.shown[1], most)))
-
     @property
     def is_whole(self) -> bool:
         """True if its values are whole numbers."""
@@ -175,6 +157,14 @@ class Parameter:
                 return f"1/{under}"
             return f"{value:g}" if float(f"{value:g}") == value else repr(value)
         return str(value)
+
+
+def limited(parameter: Parameter, surface: "Surface") -> Parameter:
+    """Return a parameter with the bounds it has on a surface; the same if these are the same on all surfaces."""
+    if parameter.most is None:
+        return parameter
+    most = parameter.most(surface)
+    return replace(parameter, at_most=most, shown=(parameter.shown[0], min(parameter.shown[1], most)))
 
 
 @dataclass(frozen=True)
@@ -319,7 +309,7 @@ class Spec:
 
     def limited_to(self, surface: "Surface") -> "Spec":
         """Return a copy with no value above what a surface allows."""
-        most = {name: self.distance_type.parameter(name).limited_to(surface).at_most for name, _ in self.values}
+        most = {name: limited(self.distance_type.parameter(name), surface).at_most for name, _ in self.values}
         over = {
             name: int(most[name]) for name, value in self.values if not isinstance(value, str) and value > most[name]
         }

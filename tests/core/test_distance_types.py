@@ -5,7 +5,7 @@ import pickle
 import pytest
 
 from bihdist_core import Laplacian, ParameterError
-from bihdist_core.distances.distance_types import BUILT_IN, Spec, distance_type, distance_types
+from bihdist_core.distances.distance_types import BUILT_IN, Spec, distance_type, distance_types, limited
 from tests.programs import ROOT, run_python
 from tests.shapes import bumpy, needs_kernel, two_pieces
 
@@ -90,16 +90,16 @@ def test_values_of_the_wrong_kind_are_refused(value):
 
 def test_on_a_surface_k_is_bounded_by_the_eigenpairs_there_are():
     surface, k = two_pieces(), distance_type("truncated").parameter("k")
-    bounded = k.limited_to(surface)
+    bounded = limited(k, surface)
     assert (bounded.at_most, bounded.shown) == (59, (1, 59))
     assert bounded.checked(59) == 59
     with pytest.raises(ParameterError, match="k must be a whole number above 0 and at most 59, not 60"):
         bounded.checked(60)
-    assert k.limited_to(bumpy(3000)).shown == k.shown
+    assert limited(k, bumpy(3000)).shown == k.shown
     assert Spec.of("power", alpha=3).limited_to(surface) == Spec.of("power", alpha=3, k=59)
     assert Spec.of("power", k=5).limited_to(surface) == Spec.of("power", k=5)
     alpha = distance_type("power").parameter("alpha")
-    assert alpha.limited_to(surface) is alpha
+    assert limited(alpha, surface) is alpha
 
 
 @needs_kernel

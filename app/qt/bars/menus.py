@@ -81,8 +81,8 @@ class Menus:
         self.shading = self._choices_of(SHADING)
         self._fill(self.shading, [None, "feature angle", None, *switches_in("shading")])
         self.theme = self._choices_of(THEME)
-        titles = ("&Views", "&Source", "&Tools", "Turn and move by &keys", "&Standard views")
-        self.views, self.source, self.tools, keys, standard = (
+        titles = ("&Views", "&Source", "&Tools", "Turn and move by &keys", "&Standard views", "Repair mesh")
+        self.views, self.source, self.tools, keys, standard, self.repairs = (
             QtWidgets.QMenu(title, context.widget) for title in titles
         )
         named, at_pointer = [f"view {name}" for name in VIEWS], ["centre", "zoom to"]
@@ -104,7 +104,8 @@ class Menus:
         )
         self._of_meshes = (panels, tools)
         self._fill(file, ["open", self.recent, self.samples, "close mesh", None, "open beside", "close beside", None])
-        self._fill(file, ["cut", "merge", "save ids", "largest", "put back", None])
+        self._fill(self.repairs, ["cut", "merge", "largest", None, "save ids", None, "put back"])
+        self._fill(file, [self.repairs, None])
         self._fill(file, ["save", "save as", None])
         self._fill(file, ["save fields", "figure", "movie", "page", "screenshot", None, "quit"])
         self._fill(edit, ["undo", "redo", None, "copy picture", "copy command", "copy python", None])
@@ -124,7 +125,7 @@ class Menus:
         """How fields are shown can be chosen while there are some; menus without any use are not there before."""
         for menu in self._of_meshes:
             menu.menuAction().setVisible(has_mesh)
-        for menu in (self.isolines, self.colours, self.range, self.shading, self.up):
+        for menu in (self.isolines, self.colours, self.range, self.shading, self.up, self.repairs):
             menu.menuAction().setEnabled(has_mesh)
 
     def _fill(self, menu: QtWidgets.QMenu, entries: Sequence[object]) -> None:

@@ -1,4 +1,4 @@
-"""The dialog of File > Merge vertices: a tolerance, and how many vertices it merges."""
+"""The dialog of File > Repair mesh > Merge vertices: a tolerance, and how many vertices it merges."""
 
 import math
 from collections.abc import Callable, Iterator

@@ -116,8 +116,8 @@ class MeshRepairs(QtCore.QObject):
             if ids is not None:
                 left = int(ids.max()) + 1
                 gone = counted(len(ids) - left, "vertex", "vertices")
-                words = f"{gone} merged, {left:,} left; File > Save vertex id table… saves the old and new ids"
-                context.tell(words, _same(mesh, context))
+                where = "File > Repair mesh > Save vertex id table… saves the old and new ids"
+                context.tell(f"{gone} merged, {left:,} left; {where}", _same(mesh, context))
 
     # ------------------------------------------------------------------ components
     def keep_largest_component(self) -> None:

@@ -8,7 +8,15 @@ from functools import partial
 from qtpy import QtWidgets
 
 from bihdist_core import ParameterError, Surface
-from bihdist_core.distances.distance_types import DistanceType, Parameter, Spec, Value, distance_type, distance_types
+from bihdist_core.distances.distance_types import (
+    DistanceType,
+    Parameter,
+    Spec,
+    Value,
+    distance_type,
+    distance_types,
+    limited,
+)
 
 from ...document.quantities import (
     Difference,
@@ -51,7 +59,7 @@ class Choices:
 
     def bounded(self, parameter: Parameter) -> Parameter:
         """Return a parameter with the values that it can have on the surface."""
-        return parameter if self.surface is None else parameter.limited_to(self.surface)
+        return parameter if self.surface is None else limited(parameter, self.surface)
 
     def with_part(self, shows: Quantity, place: int, chosen: str | OwnField | Spec) -> Quantity:
         """Return the quantity with another distance, by its word or with parameters, or another field at a place."""
