@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bihdist_core.counts import counted
+from bihdist_core.distances.distance_types import distance_type
 
 from ...commands.mesh import laplacian_of
 from ...commands.options import add_cut, add_output, add_two_meshes, count, repairs_of
@@ -25,7 +26,7 @@ EXAMPLES = (
     "bihdist evaluate figure figure_pose2 ours.npy theirs.npy --truth identity -o curves.csv",
 )
 TEXT = ".csv"
-METHODS = ("auto", "exact", "virtual-sources", "heat", "dijkstra")
+METHODS = distance_type("geodesic").parameter("method").choices
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
