@@ -15,6 +15,7 @@ from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
 from ..progress import Progress, part
+from ..solver.worker_threads import WORKERS, is_alone, side_by_side
 from ..sources.pieces import Pieces
 from ..surface import Surface
 from .geodesic_fronts import GeodesicFront
@@ -33,6 +34,13 @@ scanned ones of 300,000 and more take."""
 
 FIRST_WINDOWS = 4_096
 """Windows for which there is room at first; it doubles when they are more."""
+
+DIVIDED_FROM, PART, ONE_PART, BAND = 50_000, 11, 31, 2.0
+"""Faces from which a mesh is divided into parts; the binary logarithm of the faces of a part, and of all faces there may
+be; and how far a round goes, in mean edge lengths.
+
+The windows of a part stay in a core's cache. In a longer round more of them are taken up that others beat later.
+"""
 
 LENGTH_TOLERANCE = 1e-12
 """Of the largest distance: a path is as long as its distance up to this."""
@@ -81,11 +89,11 @@ class GeodesicField:
     """
 
     def __init__(
-        self, surface: Surface, mesh: UnfoldingMesh, run: kernel.Run, kept: _Kept, distances: FloatArray
+        self, surface: Surface, mesh: UnfoldingMesh, run: kernel.Run, kept: _Kept, distances: FloatArray, windows: int
     ) -> None:
         n = len(mesh.number)
         self._surface, self._mesh, self._run, self._kept = surface, mesh, run, kept
-        self.windows = run.taken
+        self.windows = windows
         self.distances, self.at_places = distances[:n], distances[n:]
 
     def path(self, vertex: int) -> FacePath:
@@ -215,59 +223,104 @@ class ExactGeodesic(GeodesicFront[GeodesicField]):
         except Empty:
             work = _Workspace(mesh)
         try:
-            rest.append(work.complete(run, watch, self.surface.name))
+            taken, crossing = work.complete(run, watch, self.surface.name)
+            rest.append(crossing)
         finally:
             self._free.put(work)
         if radius == np.inf and not targets_only:
-            self.expected = max(float(run.taken), 1.0)
+            self.expected = max(float(taken), 1.0)
         found = self._lengths(reached["distance"], radius)
-        return GeodesicField(self.surface, mesh, run, _Kept(starts, goals, shifts, reached, rest), found)
+        return GeodesicField(self.surface, mesh, run, _Kept(starts, goals, shifts, reached, rest), found, taken)
 
 
 class _Workspace:
     """Arrays that one run after another writes on."""
 
     def __init__(self, mesh: UnfoldingMesh) -> None:
+        is_divided = mesh.faces >= DIVIDED_FROM and mesh.has_two_faces_at_edges
+        shift = PART if is_divided else ONE_PART
+        parts = -(-mesh.faces >> shift)
         self._queue = np.empty((3 * mesh.faces, kernel.QUEUE), np.uint8)
-        self._heap = np.empty((3 * mesh.faces + mesh.vertices, kernel.WAITING), np.uint8)
-        self._resize(FIRST_WINDOWS)
+        self._heap = np.empty((6 * mesh.faces, kernel.WAITING), np.uint8)
+        self._part, self._busy = np.empty((parts, kernel.PART), np.uint8), np.empty(parts, np.int32)
+        self._round = kernel.Round(*map(kernel.at, (self._part, self._busy)), parts=parts, shift=shift)
+        self._step = BAND * float(mesh.sides["length"].mean())
+        self._message = np.empty((0, kernel.MESSAGE), np.uint8)
+        self._window = np.empty((FIRST_WINDOWS, kernel.WINDOW), np.uint8)
+        self._orders: list[AnyArray] = []
 
-    def _resize(self, room: int) -> None:
-        if room >= 2**31:
-            raise SolverError(f"{room:,} windows at a time are more than exact geodesic distance can hold.")
-        self._window = np.empty((room, kernel.WINDOW), np.uint8)
-        self._order, self._spare = np.empty((2, room), np.int32)
+    def complete(self, run: kernel.Run, watch: kernel.Watch, name: str) -> tuple[int, AnyArray]:
+        """Let a run reach all there is.
 
-    def complete(self, run: kernel.Run, watch: kernel.Watch, name: str) -> AnyArray:
-        """Let a run reach all there is; returns its crossings of edges with three or more faces, which paths need."""
-        lib, crossing = kernel.library(), np.empty((0, kernel.CROSSING), np.uint8)
-        has_begun = False
-        run.queue, run.heap = kernel.at(self._queue), kernel.at(self._heap)
-        while True:
-            run.window, run.windows = kernel.at(self._window), len(self._window)
-            run.order, run.spare = kernel.at(self._order), kernel.at(self._spare)
-            run.crossing, run.crossings = kernel.at(crossing), len(crossing)
-            status = lib.bih_geodesic_begin(ctypes.byref(run)) if not has_begun else kernel.DONE
-            if status == kernel.DONE:
-                has_begun = True
-                status = lib.bih_geodesic_run(ctypes.byref(run), ctypes.byref(watch))
-            if status != kernel.NO_ROOM:
+        Returns the windows that were taken up, and the crossings of edges with three or more faces, which paths need.
+        """
+        lib, shared = kernel.library(), self._round
+        self._crossing = np.empty((0, kernel.CROSSING), np.uint8)
+        run.queue, run.heap, run.round = kernel.at(self._queue), kernel.at(self._heap), ctypes.pointer(shared)
+        shared.band = self._step if shared.parts > 1 or run.targets_only else np.inf
+        runs = [run]
+        self._assign(runs)
+        while lib.bih_geodesic_begin(ctypes.byref(run)) == kernel.NO_ROOM:
+            self._make_room(runs)
+        for _ in range(0 if shared.parts == 1 or is_alone() else WORKERS - 1):
+            other = kernel.Run.from_buffer_copy(run)
+            other.free, other.unused = kernel.NONE, 0
+            runs.append(other)
+        self._assign(runs)
+
+        def work(one: kernel.Run) -> int:
+            return int(lib.bih_geodesic_round(ctypes.byref(one), ctypes.byref(watch)))
+
+        while (status := lib.bih_geodesic_next(ctypes.byref(run))) == kernel.MORE:
+            while kernel.NO_ROOM in (found := side_by_side(work, runs)):
+                self._make_room(runs)
+            if any(found):
+                status = min(found)
                 break
-            if run.needed > run.windows - run.live:
-                before = self._window
-                self._resize(max(2 * len(before), run.live + run.needed))
-                self._window[: len(before)] = before
-            if run.crossings_needed > run.crossings - run.crossings_used:
-                more = np.empty((2 * (run.crossings_used + run.crossings_needed), kernel.CROSSING), np.uint8)
-                more[: len(crossing)] = crossing
-                crossing = more
-        run.window = run.order = run.spare = run.queue = run.heap = None
+        taken, crossing = shared.taken, self._crossing
+        del self._crossing
+        run.window = run.order = run.spare = run.queue = run.heap = run.round = None
         kernel.check_stopped(status)
         if status == kernel.TOO_MUCH:
             raise SolverError(
-                f"Exact geodesic distance on {name} was given up after {run.taken:,} windows; use virtual sources."
+                f"Exact geodesic distance on {name} was given up after {taken:,} windows; use virtual sources."
             )
-        return crossing
+        return taken, crossing
+
+    def _make_room(self, runs: list[kernel.Run]) -> None:
+        """Make the room that some thread of a round needs to go on."""
+        self._round.next = 0
+        if needed := sum(run.needed for run in runs):
+            room = max(2 * len(self._window), len(self._window) + needed)
+            if room >= 2**31:
+                raise SolverError(f"{room:,} windows at a time are more than exact geodesic distance can hold.")
+            self._window = _longer(self._window, room)
+        if needed := sum(run.messages_needed for run in runs):
+            self._message = _longer(self._message, 2 * (len(self._message) + needed))
+        first = runs[0]  # alone where there are crossings
+        if first.crossings_needed > first.crossings - first.crossings_used:
+            self._crossing = _longer(self._crossing, 2 * (first.crossings_used + first.crossings_needed))
+        self._assign(runs)
+
+    def _assign(self, runs: list[kernel.Run]) -> None:
+        """Tell the threads of a run where the arrays are."""
+        room = len(self._window)
+        self._round.message, self._round.messages = kernel.at(self._message), len(self._message)
+        if not self._orders or self._orders[0].shape[1] < room:
+            self._orders = []
+        for number, run in enumerate(runs):
+            if number == len(self._orders):
+                self._orders.append(np.empty((2, room), np.int32))
+            run.window, run.windows = kernel.at(self._window), room
+            run.order, run.spare = map(kernel.at, self._orders[number])
+            run.crossing, run.crossings = kernel.at(self._crossing), len(self._crossing)
+
+
+def _longer(array: AnyArray, room: int) -> AnyArray:
+    """Return a copy (room, k) of an array (n, k), with any values at its end."""
+    more = np.empty((room, array.shape[1]), array.dtype)
+    more[: len(array)] = array
+    return more
 
 
 def _lists(faces: AnyArray, count: int) -> tuple[AnyArray, AnyArray]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from contextlib import nullcontext
 from typing import ClassVar, Generic, Protocol, TypeVar
 
 import numpy as np
@@ -15,7 +16,7 @@ from ..expected_time import Expected
 from ..kernel import library as kernel
 from ..progress import Progress
 from ..scalars import real_number
-from ..solver.worker_threads import WORKERS, Job
+from ..solver.worker_threads import WORKERS, Job, without_workers
 from ..sources.pieces import Pieces
 from ..surface import Surface
 from .place_pairs import by_start
@@ -158,7 +159,12 @@ class GeodesicFront(ABC, Generic[Field]):
         expected = count * (self.expected or self.work_per_vertex * len(self.surface.vertices))
         with Expected(self.work, expected, min(count, WORKERS), progress) as it:
             job = Job(it.progress if is_whole else progress, self.name, expected)
-            job.run(lambda number: one(number, job.watch), range(count))
+
+            def by_itself(number: int) -> None:
+                with nullcontext() if count == 1 else without_workers():
+                    one(number, job.watch)
+
+            job.run(by_itself, range(count))
             job.finish()
             it.done = job.watch.done if is_whole else 0  # of less, most is beginnings and ends
 

@@ -1,6 +1,7 @@
 """A surface as exact geodesic distance needs it: near in memory what is near in space, and no edge without a face."""
 
 import ctypes
+from functools import cached_property
 from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
@@ -70,6 +71,12 @@ class UnfoldingMesh:
     def has_degenerate_faces(self) -> bool:
         """True if the surface has faces that others stand for."""
         return self._proper is not None
+
+    @cached_property
+    def has_two_faces_at_edges(self) -> bool:
+        """True if no edge has three faces or more."""
+        across = self.sides["twin"] >> 1
+        return bool((across[across] == np.arange(len(across)))[across >= 0].all())
 
     def _build(self, points: FloatArray, corners: AnyArray, labels: AnyArray | None = None) -> int:
         """Returns how many faces are degenerate."""

@@ -11,10 +11,11 @@
 #define BIHDIST_GEODESIC_H
 #include "kernel.h"
 
-/* Besides those of kernel.h: more windows than allowed, and a path that does not come back to its source. */
-enum { TOO_MUCH = -6, LOST = -7 };
+/* Besides those of kernel.h: more windows than allowed, a path that does not come back to its source, another round. */
+enum { TOO_MUCH = -6, LOST = -7, MORE = 1 };
 
 #define NONE (-1)
+#define EVERYWHERE (-1)
 #define EQUAL 1e-12 /* ratio: distances nearer to each other than this count as equal, and nothing is dropped */
 #define NO_HEIGHT 2e-13 /* of a face's longest edge: with less, and with a shorter edge, a face is degenerate */
 #define CRACK 1e-9  /* of an edge: a point this near beside a window is seen by it, so that none falls between two */
@@ -58,6 +59,7 @@ typedef struct {
 
 typedef struct {
   i32 head, at; /* the first window waiting at a side; the side's place in the heap */
+  double known; /* the distance of the vertex at its beginning, as far as the side's part knows */
 } Queue;
 
 typedef struct {
@@ -76,25 +78,56 @@ typedef struct {
   const double *begin, *end; /* (count, 3) each */
 } Places;
 
+/* What has left a part: a window that waits at a side, or how a vertex was reached. */
+typedef struct {
+  Reached reached;        /* of a window its least distance alone */
+  i32 to, window, before; /* a side, or the number of sides + a vertex; the message that its part sent before */
+} Message;
+
+/* 2^shift faces that follow each other in number, and thus lie near each other: in a round one thread works on them, and
+ * they stay in its cache. */
+typedef struct {
+  Waiting *heap; /* six for each face: its sides, and vertices whose first corner is in it */
+  i64 waiting;
+  i32 sent;      /* the last message */
+  i64 apart[5];  /* threads do not share a line of the cache */
+} Part;
+
+/* What the threads of a run share.  In each round they work on all parts where something waits within the bound; what
+ * leaves a part is handed on between rounds, so that no number depends on which thread was faster. */
+typedef struct {
+  Part *part;            /* (parts,) */
+  i32 *busy;             /* (parts,) those that are worked on in a round */
+  Message *message;      /* (messages,) */
+  i64 parts, messages, shift;
+  i64 count, next;       /* of busy parts, and how many are taken up */
+  i64 used, sent, taken; /* windows and messages that threads have; windows taken up */
+  double band, bound;    /* how far a round goes; up to which distance */
+} Round;
+
+/* A run as one of its threads has it. */
 typedef struct {
   const Mesh *mesh;
+  Round *round;
   Places source, target;
   const double *offset;     /* (sources,) the distance at each source */
   const i32 *first_target;  /* (faces,) of the lists of targets in each face; unused without targets */
   const i32 *next_target;   /* (targets,) */
   Reached *reached;         /* (vertices + targets,) */
   Queue *queue;             /* (3 faces,) */
-  Waiting *heap;            /* (3 faces + vertices,) */
+  Waiting *heap;            /* (6 faces,) */
   Window *window;           /* (windows,) */
   i32 *order, *spare;       /* (windows,) each */
   Crossing *crossing;       /* (crossings,) */
-  i64 windows, crossings;   /* room */
-  i64 live, used, waiting, crossings_used; /* windows that there are, and that there were; of the heap; of crossings */
-  i64 needed, crossings_needed;            /* NO_ROOM: how many more must there be room for */
-  i64 taken, most_taken; /* windows taken up at sides, again where they stay there, and how many may be */
+  i64 windows, crossings, crossings_used;          /* room */
+  i64 needed, messages_needed, crossings_needed;   /* NO_ROOM: how many more must there be room for */
+  i64 taken, most_taken;     /* windows taken up at sides, again where they stay there, and how many may be */
+  i64 unused;                /* how many windows this thread has that are free */
+  i64 message, messages_end; /* the messages that it may send */
   double radius;
-  i32 free, everything; /* the first window of those that are free again; what is not left out */
-  i32 targets_only;     /* whether to end once the targets are reached */
+  i32 free, part;    /* the first of its free windows; the part it works on, or EVERYWHERE while there is one thread */
+  i32 everything;    /* what is not left out */
+  i32 targets_only;  /* whether to end once the targets are reached */
 } Run;
 
 static inline i32 next_side(i32 h) { return h % 3 == 2 ? h - 2 : h + 1; }
@@ -133,8 +166,14 @@ static inline i32 turn_over(const Mesh *mesh, i32 vertex, i32 h, i32 *corner) {
   return *corner = next_side(twin);
 }
 
+static inline i32 first_corner(const Mesh *mesh, i64 vertex) { return mesh->corner[mesh->first[vertex]]; }
+
+/* The part of a side, and whether it is the one at hand. */
+static inline i64 part_of(const Run *run, i32 h) { return (h / 3) >> run->round->shift; }
+static inline int is_here(const Run *run, i32 h) { return run->part == EVERYWHERE || part_of(run, h) == run->part; }
+
 /* geodesic_run.c, geodesic_windows.c, geodesic_bends.c */
-void lower(Run *run, i32 id, double distance);
+void wait_at(Run *run, i32 h, i32 window, double distance);
 void reach(Run *run, i64 id, double distance, i32 from, double px, double py, i32 root, i32 over);
 void leave(Run *run, i32 h, Window w);
 void cross_all(Run *run, i32 h);
@@ -147,5 +186,6 @@ API i64 bih_geodesic_mesh(const Mesh *mesh, const double *X, const i32 *faces, c
 
 /* geodesic_run.c */
 API i32 bih_geodesic_begin(Run *run);
-API i32 bih_geodesic_run(Run *run, Watch *watch);
+API i32 bih_geodesic_next(Run *run);
+API i32 bih_geodesic_round(Run *run, Watch *watch);
 #endif

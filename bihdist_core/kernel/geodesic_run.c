@@ -1,50 +1,103 @@
-/* A run: from sources outwards, what is nearest first. */
+/* A run: from sources outwards, what is nearest first, in rounds of parts. */
 #include "geodesic.h"
 
 #define CORNER 1e-12 /* barycentric: a source this near to a corner is that vertex */
 
-/* ------------------------------------------------------------------ the heap of what waits, four children to a node */
+/* ------------------------------------------------------------------ the heaps of what waits, four children to a node */
 
 static i32 *place_of(Run *run, i32 id) {
   i64 sides = 3 * run->mesh->faces;
   return id < sides ? &run->queue[id].at : &run->reached[id - sides].at;
 }
 
-static void put(Run *run, i64 i, Waiting item) { run->heap[i] = item, *place_of(run, item.id) = (i32)i; }
+static void put(Run *run, Part *part, i64 i, Waiting item) { part->heap[i] = item, *place_of(run, item.id) = (i32)i; }
 
 /* A side or vertex waits with this distance, or with a lesser one if it has that. */
-void lower(Run *run, i32 id, double distance) {
-  i64 i = *place_of(run, id);
-  if (i < 0) i = run->waiting++;
-  else if (distance >= run->heap[i].distance) return;
-  for (; i > 0 && run->heap[(i - 1) >> 2].distance > distance; i = (i - 1) >> 2) put(run, i, run->heap[(i - 1) >> 2]);
-  put(run, i, (Waiting){distance, id});
+static void lower(Run *run, i32 id, double distance) {
+  i64 i = *place_of(run, id), sides = 3 * run->mesh->faces;
+  Part *part = &run->round->part[part_of(run, id < sides ? id : first_corner(run->mesh, id - sides))];
+  Waiting *heap = part->heap;
+  if (i < 0) i = part->waiting++;
+  else if (distance >= heap[i].distance) return;
+  for (; i > 0 && heap[(i - 1) >> 2].distance > distance; i = (i - 1) >> 2) put(run, part, i, heap[(i - 1) >> 2]);
+  put(run, part, i, (Waiting){distance, id});
 }
 
-static Waiting pop(Run *run) {
-  Waiting top = run->heap[0], last = run->heap[--run->waiting];
+static Waiting pop(Run *run, Part *part) {
+  Waiting *heap = part->heap, top = heap[0], last = heap[--part->waiting];
   i64 i = 0, child, best;
-  for (; (child = 4 * i + 1) < run->waiting; i = best) {
-    i64 end = least(child + 4, run->waiting);
+  for (; (child = 4 * i + 1) < part->waiting; i = best) {
+    i64 end = least(child + 4, part->waiting);
     for (best = child++; child < end; child++)
-      if (run->heap[child].distance < run->heap[best].distance) best = child;
-    if (run->heap[best].distance >= last.distance) break;
-    put(run, i, run->heap[best]);
+      if (heap[child].distance < heap[best].distance) best = child;
+    if (heap[best].distance >= last.distance) break;
+    put(run, part, i, heap[best]);
   }
-  put(run, i, last);
+  put(run, part, i, last);
   *place_of(run, top.id) = NONE;
   return top;
 }
 
-/* ------------------------------------------------------------------ what is reached */
+/* ------------------------------------------------------------------ what is reached, and what is sent to other parts */
+
+static void send(Run *run, i64 to, i32 window, Reached reached) {
+  Part *part = &run->round->part[run->part];
+  run->round->message[run->message] = (Message){reached, (i32)to, window, part->sent};
+  part->sent = (i32)run->message++;
+}
+
+/* A window waits at side h, with this least distance. */
+void wait_at(Run *run, i32 h, i32 window, double distance) {
+  if (!is_here(run, h)) {
+    send(run, h, window, (Reached){.distance = distance});
+    return;
+  }
+  run->window[window].next = run->queue[h].head, run->queue[h].head = window;
+  lower(run, h, distance);
+}
+
+/* A vertex is reached, as far as its corners are here; returns whether all of them are. */
+static int reach_here(Run *run, i32 vertex, Reached found) {
+  const Mesh *mesh = run->mesh;
+  Reached *r = &run->reached[vertex];
+  int all = 1;
+  for (i32 i = mesh->first[vertex]; i < mesh->first[vertex + 1]; i++) {
+    Queue *corner = &run->queue[mesh->corner[i]];
+    if (!is_here(run, mesh->corner[i])) all = 0;
+    else if (found.distance < corner->known) corner->known = found.distance;
+  }
+  if (!is_here(run, first_corner(mesh, vertex)) || !(found.distance < r->distance)) return all;
+  found.at = r->at, *r = found;
+  if (mesh->kind[vertex] || found.from < 0 || run->everything & ALL_DIRECTIONS)
+    lower(run, (i32)(3 * mesh->faces + vertex), found.distance);
+  return all;
+}
 
 void reach(Run *run, i64 id, double distance, i32 from, double px, double py, i32 root, i32 over) {
-  Reached *r = &run->reached[id];
-  if (!(distance < r->distance)) return;
-  *r = (Reached){distance, px, py, from, root, over, r->at};
-  if (id < run->mesh->vertices && (run->mesh->kind[id] || run->everything & ALL_DIRECTIONS))
-    lower(run, (i32)(3 * run->mesh->faces + id), distance);
+  Reached found = {distance, px, py, from, root, over, NONE};
+  i32 corner = previous_side(from);
+  if (id >= run->mesh->vertices) {
+    if (distance < run->reached[id].distance) run->reached[id] = found;
+  } else if (is_here(run, corner) && !(distance < run->queue[corner].known)) return;
+  else if (!reach_here(run, (i32)id, found)) send(run, 3 * run->mesh->faces + id, NONE, found);
 }
+
+/* What parts have sent arrives. */
+static void hand_on(Run *run) {
+  Round *round = run->round;
+  i64 sides = 3 * run->mesh->faces;
+  for (i64 k = 0; k < round->count; k++) {
+    Part *part = &round->part[round->busy[k]];
+    for (; part->sent >= 0; part->sent = round->message[part->sent].before) {
+      const Message *sent = &round->message[part->sent];
+      if (sent->to < sides) wait_at(run, sent->to, sent->window, sent->reached.distance);
+      else reach_here(run, (i32)(sent->to - sides), sent->reached);
+    }
+  }
+  round->sent = 0;
+}
+
+/* ------------------------------------------------------------------ room */
 
 /* How many windows a window becomes that leaves over side h. */
 static i64 sides_beyond(const Mesh *mesh, i32 h) {
@@ -60,10 +113,31 @@ static void add_room(const Mesh *mesh, i32 h, i64 count, i64 *windows, i64 *cros
   if (beyond > 1) *crossings += count;
 }
 
+/* Take so many of what all threads share, some of it at a time; returns where they begin, NONE if there are no more. */
+static i64 take(i64 *used, i64 count, i64 room) {
+  i64 first = __atomic_fetch_add(used, count, __ATOMIC_RELAXED);
+  if (first + count <= room) return first;
+  __atomic_fetch_sub(used, count, __ATOMIC_RELAXED);
+  return NONE;
+}
+
 /* Whether there is room for so many more; else it is noted how many. */
-static int has_room(Run *run, i64 windows, i64 crossings) {
-  run->needed = windows, run->crossings_needed = crossings;
-  return windows <= run->windows - run->live && crossings <= run->crossings - run->crossings_used;
+static int has_room(Run *run, i64 windows, i64 crossings, i64 messages) {
+  enum { AT_ONCE = 256 };
+  Round *round = run->round;
+  run->needed = run->messages_needed = 0, run->crossings_needed = crossings;
+  if (run->unused < windows) {
+    i64 count = most(windows, AT_ONCE), first = take(&round->used, count, run->windows);
+    if (first < 0) run->needed = count;
+    else
+      for (i64 i = first + count; i-- > first; run->unused++) run->window[i].next = run->free, run->free = (i32)i;
+  }
+  if (run->messages_end - run->message < messages) {
+    i64 count = most(messages, AT_ONCE), first = take(&round->sent, count, round->messages);
+    if (first < 0) run->messages_needed = count;
+    else run->message = first, run->messages_end = first + count;
+  }
+  return !run->needed && !run->messages_needed && crossings <= run->crossings - run->crossings_used;
 }
 
 static int has_room_for(Run *run, i32 id) {
@@ -74,9 +148,10 @@ static int has_room_for(Run *run, i32 id) {
     add_room(mesh, next_side(id), count, &windows, &crossings);
     add_room(mesh, previous_side(id), count, &windows, &crossings);
   } else
-    for (i32 i = mesh->first[id - sides]; i < mesh->first[id - sides + 1]; i++)
+    for (i32 i = mesh->first[id - sides]; i < mesh->first[id - sides + 1]; i++, count++)
       add_room(mesh, next_side(mesh->corner[i]), 1, &windows, &crossings);
-  return has_room(run, windows, crossings);
+  /* Of each window two and the apex, of each corner a window and two vertices. */
+  return has_room(run, windows, crossings, run->part == EVERYWHERE ? 0 : 3 * count);
 }
 
 /* ------------------------------------------------------------------ sources */
@@ -97,10 +172,7 @@ static i32 vertex_at(const Mesh *mesh, i32 face, const double *weight) {
 }
 
 static void start_at_vertex(Run *run, i32 vertex, double offset) {
-  Reached *r = &run->reached[vertex];
-  if (!(offset < r->distance)) return;
-  r->distance = offset, r->from = r->root = NONE;
-  lower(run, (i32)(3 * run->mesh->faces + vertex), offset);
+  reach_here(run, vertex, (Reached){offset, 0, 0, NONE, NONE, NONE, NONE});
 }
 
 /* Rays from one point of a face, over all its sides. */
@@ -168,14 +240,17 @@ static void start(Run *run, i32 source) {
 /* Clear a run and send from its sources; NO_ROOM, and how much is needed, if the windows do not fit. */
 API i32 bih_geodesic_begin(Run *run) {
   const Mesh *mesh = run->mesh;
+  Round *round = run->round;
   i64 windows = 0, crossings = 0;
-  run->live = run->used = run->waiting = run->crossings_used = run->taken = 0, run->free = NONE;
+  round->count = round->used = round->sent = round->taken = 0;
+  run->crossings_used = run->taken = run->unused = 0, run->free = NONE, run->part = EVERYWHERE;
   for (i64 i = 0; i < run->source.count; i++)
     for (i32 h = 3 * run->source.face[i], k = 0; k < 3; k++) add_room(mesh, h + k, 3, &windows, &crossings);
-  if (!has_room(run, windows, crossings)) return NO_ROOM;
+  if (!has_room(run, windows, crossings, 0)) return NO_ROOM;
+  for (i64 p = 0; p < round->parts; p++) round->part[p] = (Part){run->heap + 6 * (p << round->shift), 0, NONE, {0}};
   for (i64 i = 0; i < mesh->vertices + run->target.count; i++)
     run->reached[i] = (Reached){__builtin_inf(), 0, 0, NONE, NONE, NONE, NONE};
-  for (i64 h = 0; h < 3 * mesh->faces; h++) run->queue[h] = (Queue){NONE, NONE};
+  for (i64 h = 0; h < 3 * mesh->faces; h++) run->queue[h] = (Queue){NONE, NONE, __builtin_inf()};
   for (i64 i = 0; i < run->source.count; i++) start(run, (i32)i);
   return DONE;
 }
@@ -197,24 +272,54 @@ static double reach_from_corners(Run *run) {
   return largest;
 }
 
-/* Go on until all within the radius is reached: DONE, STOPPED, TOO_MUCH, or NO_ROOM, after which it can go on.  The
- * watch counts windows. */
-API i32 bih_geodesic_run(Run *run, Watch *watch) {
-  i64 sides = 3 * run->mesh->faces, told = run->taken;
+/* Get the next round ready: MORE, or DONE if all within the radius is reached, or TOO_MUCH. */
+API i32 bih_geodesic_next(Run *run) {
+  Round *round = run->round;
+  double nearest = __builtin_inf();
+  run->part = EVERYWHERE;
+  hand_on(run);
+  round->count = round->next = 0;
+  for (i64 p = 0; p < round->parts; p++)
+    if (round->part[p].waiting && round->part[p].heap[0].distance < nearest) nearest = round->part[p].heap[0].distance;
+  if (round->taken > run->most_taken) return TOO_MUCH;
+  double farthest = reach_from_corners(run);
+  if (nearest == __builtin_inf() || nearest > run->radius || (run->targets_only && farthest <= nearest)) return DONE;
+  round->bound = nearest + round->band < run->radius ? nearest + round->band : run->radius;
+  for (i64 p = 0; p < round->parts; p++)
+    if (round->part[p].waiting && round->part[p].heap[0].distance <= round->bound) round->busy[round->count++] = (i32)p;
+  return MORE;
+}
+
+/* Work on one part: DONE, STOPPED, TOO_MUCH, or NO_ROOM, after which it can go on. */
+static i32 work_on(Run *run, Part *part, Watch *watch) {
   enum { OFTEN = 1024 };
-  while (run->waiting && run->heap[0].distance <= run->radius) {
-    i32 id = run->heap[0].id;
+  while (part->waiting && part->heap[0].distance <= run->round->bound) {
+    i32 id = part->heap[0].id;
     if (!has_room_for(run, id)) return NO_ROOM;
-    if (run->taken - told >= OFTEN) {
-      advance(watch, run->taken - told), told = run->taken;
-      if (run->targets_only && reach_from_corners(run) <= run->heap[0].distance) break;
+    if (run->taken >= OFTEN) {
+      i64 taken = __atomic_add_fetch(&run->round->taken, run->taken, __ATOMIC_RELAXED);
+      advance(watch, run->taken), run->taken = 0;
+      if (taken > run->most_taken) return TOO_MUCH;
     }
     if (stopped(watch)) return STOPPED;
-    if (run->taken > run->most_taken) return TOO_MUCH;
-    pop(run);
-    if (id < sides) cross_all(run, id);
-    else bend(run, (i32)(id - sides));
+    pop(run, part);
+    if (id < 3 * run->mesh->faces) cross_all(run, id);
+    else bend(run, (i32)(id - 3 * run->mesh->faces));
   }
-  reach_from_corners(run);
   return DONE;
+}
+
+/* One thread's share of a round, each by a Run of its own: DONE, STOPPED, TOO_MUCH, or NO_ROOM, after which the round can
+ * go on, from its first part.  The watch counts windows. */
+API i32 bih_geodesic_round(Run *run, Watch *watch) {
+  Round *round = run->round;
+  i32 status = DONE;
+  run->message = run->messages_end = 0;
+  for (i64 k; status == DONE && (k = __atomic_fetch_add(&round->next, 1, __ATOMIC_RELAXED)) < round->count;) {
+    run->part = round->parts > 1 ? round->busy[k] : EVERYWHERE;
+    status = work_on(run, &round->part[round->busy[k]], watch);
+  }
+  __atomic_fetch_add(&round->taken, run->taken, __ATOMIC_RELAXED);
+  advance(watch, run->taken), run->taken = 0;
+  return status;
 }

@@ -40,8 +40,8 @@ void leave(Run *run, i32 h, Window w) {
   if (side->twin < 0 || !(w.b1 > w.b0)) return;
   if (!(w.py > 0)) w.py = 0;
   double d0 = distance_at(&w, w.b0), d1 = distance_at(&w, w.b1), l = side->length;
-  if (!(run->everything & ALL_WINDOWS)) {
-    double begin = run->reached[side->vertex].distance, end = run->reached[mesh->side[next_side(h)].vertex].distance;
+  if (!(run->everything & ALL_WINDOWS) && is_here(run, h)) {
+    double begin = run->queue[h].known, end = run->queue[next_side(h)].known;
     if (begin + w.b1 < d1 * (1 - EQUAL) || end + l - w.b0 < d0 * (1 - EQUAL)) return;
   }
   double nearest = w.parallel ? (d0 < d1 ? d0 : d1) : w.px < w.b0 ? d0 : w.px > w.b1 ? d1 : w.s + w.py;
@@ -57,12 +57,9 @@ void leave(Run *run, i32 h, Window w) {
   for (i32 from = h; (t = mesh->side[from].twin >> 1) != h; from = t) {
     turned ^= !(mesh->side[from].twin & 1);
     i32 i = run->free;
-    if (i >= 0) run->free = run->window[i].next;
-    else i = (i32)run->used++;
-    run->live++;
+    run->free = run->window[i].next, run->unused--;
     run->window[i] = turned ? mirrored : w;
-    run->window[i].next = run->queue[t].head, run->queue[t].head = i;
-    lower(run, t, nearest);
+    wait_at(run, t, i, nearest);
   }
 }
 
@@ -159,7 +156,7 @@ static void cross(Run *run, i32 h, const Window *entering) {
   if (seen) reach_by(run, apex, d, h, clamp(across, w->b0, w->b1), w);
   else if (!(run->everything & ALL_WINDOWS)) { /* beside the beam: is the apex nearer to all that lies ahead? */
     double b = left && !right ? w->b0 : w->b1;
-    if (run->reached[apex].distance + length_of(side->x - b, side->y) < distance_at(w, b) * (1 - EQUAL)) return;
+    if (run->queue[previous_side(h)].known + length_of(side->x - b, side->y) < distance_at(w, b) * (1 - EQUAL)) return;
   }
   if (left) leave_left(run, h, w, all, right);
   if (right) leave_right(run, h, w, all, left);
@@ -277,6 +274,6 @@ void cross_all(Run *run, i32 h) {
     Window *w = &run->window[i];
     next = w->next;
     if (keep && w->crossed == 2) w->crossed = 1, w->next = run->queue[h].head, run->queue[h].head = i;
-    else w->next = run->free, run->free = i, run->live--;
+    else w->next = run->free, run->free = i, run->unused++;
   }
 }

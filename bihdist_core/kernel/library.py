@@ -19,8 +19,11 @@ import numpy as np
 from ..arrays import AnyArray
 from ..errors import Cancelled, PlainSolverWarning
 
-DONE, STOPPED, NOT_POSITIVE, OUTSIDE, ASYMMETRIC, NO_ROOM, TOO_MUCH, LOST = 0, -1, -2, -3, -4, -5, -6, -7
+DONE, STOPPED, NOT_POSITIVE, OUTSIDE, ASYMMETRIC, NO_ROOM, TOO_MUCH, LOST, MORE = 0, -1, -2, -3, -4, -5, -6, -7, 1
 """Status codes of the functions, as in `kernel.h` and `geodesic.h`."""
+
+NONE = -1
+"""No window, side or vertex."""
 
 FOLDER = Path(__file__).parent
 SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
@@ -133,7 +136,7 @@ RUN_ARRAYS = (
 )  # fmt: skip
 """The arrays of `Run`, in their order."""
 
-QUEUE, WAITING, WINDOW, CROSSING = 8, 16, 56, 8
+QUEUE, WAITING, WINDOW, CROSSING, PART, MESSAGE = 16, 16, 56, 8, 64, 56
 """Bytes of its structures."""
 
 SIDE = np.dtype([*((name, float) for name in ("length", "x", "y")), *((name, np.int32) for name in ("vertex", "twin"))])
@@ -143,33 +146,51 @@ REACHED = np.dtype([*((name, float) for name in ("distance", "px", "py")), ("res
 """The way in which a vertex or a place was reached."""
 
 
+class Round(Structure):
+    """What the threads of a run share."""
+
+    _fields_ = (
+        *((name, c_void_p) for name in ("part", "busy", "message")),
+        *((name, c_int64) for name in ("parts", "messages", "shift", "count", "next", "used", "sent", "taken")),
+        *((name, c_double) for name in ("band", "bound")),
+    )
+
+    parts: int
+    messages: int
+    shift: int
+    count: int
+    next: int
+    taken: int
+    band: float
+
+
 class Run(Structure):
-    """A run of windows from sources over a mesh."""
+    """A run of windows from sources over a mesh, as one of its threads has it."""
 
     _fields_ = (
         ("mesh", POINTER(Mesh)),
+        ("round", POINTER(Round)),
         ("source", Places),
         ("target", Places),
         *((name, c_void_p) for name in RUN_ARRAYS),
-        *((name, c_int64) for name in ("windows", "crossings", "live", "used", "waiting", "crossings_used")),
-        *((name, c_int64) for name in ("needed", "crossings_needed", "taken", "most_taken")),
+        *((name, c_int64) for name in ("windows", "crossings", "crossings_used")),
+        *((name, c_int64) for name in ("needed", "messages_needed", "crossings_needed", "taken", "most_taken")),
+        *((name, c_int64) for name in ("unused", "message", "messages_end")),
         ("radius", c_double),
-        ("free", c_int32),
-        ("everything", c_int32),
-        ("targets_only", c_int32),
+        *((name, c_int32) for name in ("free", "part", "everything", "targets_only")),
     )
 
     source: Places
     target: Places
     windows: int
     crossings: int
-    live: int
-    used: int
     crossings_used: int
     needed: int
+    messages_needed: int
     crossings_needed: int
-    taken: int
     most_taken: int
+    unused: int
+    free: int
     radius: float
     everything: int
     targets_only: int
@@ -246,7 +267,8 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "geodesic_mesh": (c_int64, (_P, _A, _A, _P, _A, _A, _A)),
     "geodesic_cells": (c_int32, (_P, _I, _I, _I)),
     "geodesic_begin": (c_int32, (_P,)),
-    "geodesic_run": (c_int32, (_P, _P)),
+    "geodesic_next": (c_int32, (_P,)),
+    "geodesic_round": (c_int32, (_P, _P)),
     "virtual_sources": (c_int32, (_P, _P)),
     "geodesic_path": (c_int64, (_P, _I, _I, _A, _A, _A)),
     "read_lists": (c_int32, (_P, _I, _I, _I, c_int32)),

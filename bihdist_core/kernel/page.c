@@ -30,6 +30,7 @@ static Tree tree;
 static Factor factor;
 static Mesh mesh;
 static Run run;
+static Round whole; /* of one part, all in one round */
 
 /* So many bytes, in whole registers; a page that gets no more memory ends here. */
 static void *take(i64 bytes) {
@@ -194,15 +195,16 @@ EXPORT(page_unfold) i32 page_unfold(void) {
   unsigned char *before = end;
   i64 degenerate = bih_geodesic_mesh(&mesh, points, faces, NULL, take_ints(3 * m), take_ints(3 * m), take_ints(n + 1));
   end = before;
-  run = (Run){.mesh = &mesh, .reached = take(n * (i64)sizeof(Reached)), .queue = take(3 * m * (i64)sizeof(Queue)),
+  run = (Run){.mesh = &mesh, .round = &whole, .reached = take(n * (i64)sizeof(Reached)), .queue = take(3 * m * (i64)sizeof(Queue)),
               .heap = take((3 * m + n) * (i64)sizeof(Waiting)), .radius = __builtin_inf()};
+  whole = (Round){.part = take(sizeof(Part)), .busy = take_ints(1), .parts = 1, .shift = 31, .band = __builtin_inf()};
   return (i32)degenerate;
 }
 
 /* Room for the windows that a run needs, and a copy of those that there are. */
 static void make_room(void) {
-  if (run.needed > run.windows - run.live) {
-    i64 room = most(2 * run.windows, run.live + run.needed);
+  if (run.needed) {
+    i64 room = most(2 * run.windows, run.windows + run.needed);
     Window *windows = take(room * (i64)sizeof(Window));
     copy(windows, run.window, run.windows * (i64)sizeof(Window));
     run.window = windows, run.order = take_ints(room), run.spare = take_ints(room), run.windows = room;
@@ -225,7 +227,8 @@ EXPORT(page_geodesic) i32 page_geodesic(i32 source, double most_windows) {
   run.source = (Places){1, &face, weight, weight};
   run.offset = &offset, run.most_taken = (i64)most_windows;
   while ((status = bih_geodesic_begin(&run)) == NO_ROOM) make_room();
-  while ((status = bih_geodesic_run(&run, &watch)) == NO_ROOM) make_room();
+  while ((status = bih_geodesic_next(&run)) == MORE)
+    while ((status = bih_geodesic_round(&run, &watch)) == NO_ROOM) whole.next = 0, make_room();
   for (i64 v = 0; v < n; v++) field[2][v] = run.reached[v].distance;
   return status;
 }
