@@ -9,6 +9,7 @@ import numpy as np
 from bihdist_core import GeodesicDistance, Surface
 from bihdist_core.analysis.geodesic_paths import GeodesicPaths
 from bihdist_core.distances.exact_geodesic import ExactGeodesic
+from bihdist_core.solver.worker_threads import WORKERS, without_workers
 
 from . import peers
 from .case import difference
@@ -54,6 +55,7 @@ def exact_geodesics(size: Size) -> Iterator[Line]:
     )
     yield from _approximate(rough, size)
     yield from _growth(size)
+    yield _threads(_rough(size.geodesic_growth[-1]))
     yield _path(middle, size)
 
 
@@ -117,6 +119,26 @@ def _growth(size: Size) -> Iterator[Line]:
             value=bytes_each[-1] / 1e3,
             bound=1.0,
         )
+
+
+def _threads(mesh: Arrays) -> Line:
+    """One source on all cores, against one thread."""
+    solver = ExactGeodesic(Surface(*mesh))
+
+    def alone() -> np.ndarray:
+        with without_workers():
+            return solver.distances(0)
+
+    result = alternate(lambda: solver.distances(0), alone, 1)
+    return compared(
+        ROW,
+        f"exact geodesic, one source on {WORKERS} threads, as scanned, {len(mesh[0]):,}",
+        result,
+        bound=0.6,
+        error=difference(result.answer, result.peer_answer),
+        tolerance=0,
+        note="peer: our own on one thread",
+    )
 
 
 def _grow(make, count: int) -> tuple[float, float]:

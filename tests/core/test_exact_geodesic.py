@@ -319,6 +319,25 @@ def test_many_threads_get_the_same():
     assert all(np.array_equal(field, solver.distances(v)) for v, field in found.items())
 
 
+@pytest.mark.parametrize("make", [lambda: bumpy(3_000), lambda: grid(40, 30), lambda: damaged(5)[0]])
+def test_parts_on_any_number_of_threads_get_the_same(make, monkeypatch):
+    surface = make()
+    whole = ExactGeodesic(surface).field(0)
+    monkeypatch.setattr(exact_geodesic, "DIVIDED_FROM", 0)
+    monkeypatch.setattr(exact_geodesic, "PART", 4)
+    monkeypatch.setattr(exact_geodesic, "FIRST_WINDOWS", 16)
+    found = []
+    for threads in (1, 3):
+        monkeypatch.setattr(exact_geodesic, "WORKERS", threads)
+        found.append(ExactGeodesic(surface).field(0))
+    assert np.array_equal(found[0].distances, found[1].distances, equal_nan=True)
+    top = np.nanmax(whole.distances)
+    np.testing.assert_allclose(found[0].distances, whole.distances, rtol=0, atol=ROUNDING * top)
+    for target in np.flatnonzero(np.isfinite(whole.distances))[1::500].tolist():
+        assert length_of(surface, found[1].path(target)) == pytest.approx(whole.distances[target], abs=1e-11 * top)
+        assert length_of(surface, found[1].path(target)) == length_of(surface, found[0].path(target))
+
+
 def test_it_stops_and_goes_on():
     def stop(fraction, text):
         assert text.partition(":")[0] == "exact geodesic"  # on a slow machine with how long it will take
