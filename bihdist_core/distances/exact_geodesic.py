@@ -35,7 +35,7 @@ scanned ones of 300,000 and more take."""
 FIRST_WINDOWS = 4_096
 """Windows for which there is room at first; it doubles when they are more."""
 
-DIVIDED_FROM, PART, ONE_PART, BAND = 50_000, 11, 31, 2.0
+DIVIDED_FROM, PART, ONE_PART, BAND = 50_000, 11, 31, 4.0
 """Faces from which a mesh is divided into parts; the binary logarithm of the faces of a part, and of all faces there may
 be; and how far a round goes, in mean edge lengths.
 
@@ -262,9 +262,10 @@ class _Workspace:
         self._assign(runs)
         while lib.bih_geodesic_begin(ctypes.byref(run)) == kernel.NO_ROOM:
             self._make_room(runs)
-        for _ in range(0 if shared.parts == 1 or is_alone() else WORKERS - 1):
+        shared.threads = 1 if shared.parts == 1 or is_alone() else WORKERS
+        for thread in range(1, shared.threads):
             other = kernel.Run.from_buffer_copy(run)
-            other.free, other.unused = kernel.NONE, 0
+            other.thread, other.free, other.unused = thread, kernel.NONE, 0
             runs.append(other)
         self._assign(runs)
 
@@ -289,7 +290,6 @@ class _Workspace:
 
     def _make_room(self, runs: list[kernel.Run]) -> None:
         """Make the room that some thread of a round needs to go on."""
-        self._round.next = 0
         if needed := sum(run.needed for run in runs):
             room = max(2 * len(self._window), len(self._window) + needed)
             if room >= 2**31:

@@ -89,8 +89,8 @@ typedef struct {
 typedef struct {
   Waiting *heap; /* six for each face: its sides, and vertices whose first corner is in it */
   i64 waiting;
-  i32 sent;      /* the last message */
-  i64 apart[5];  /* threads do not share a line of the cache */
+  i32 sent, is_taken; /* the last message; whether a thread works on it, or has done so in this round */
+  i64 apart[5];  /* see Run */
 } Part;
 
 /* What the threads of a run share.  In each round they work on all parts where something waits within the bound; what
@@ -99,8 +99,8 @@ typedef struct {
   Part *part;            /* (parts,) */
   i32 *busy;             /* (parts,) those that are worked on in a round */
   Message *message;      /* (messages,) */
-  i64 parts, messages, shift;
-  i64 count, next;       /* of busy parts, and how many are taken up */
+  i64 parts, messages, shift, threads;
+  i64 count;             /* of busy parts */
   i64 used, sent, taken; /* windows and messages that threads have; windows taken up */
   double band, bound;    /* how far a round goes; up to which distance */
 } Round;
@@ -125,9 +125,11 @@ typedef struct {
   i64 unused;                /* how many windows this thread has that are free */
   i64 message, messages_end; /* the messages that it may send */
   double radius;
+  i32 thread;        /* its number */
   i32 free, part;    /* the first of its free windows; the part it works on, or EVERYWHERE while there is one thread */
   i32 everything;    /* what is not left out */
   i32 targets_only;  /* whether to end once the targets are reached */
+  i64 apart[16];     /* threads do not share a line of the cache */
 } Run;
 
 static inline i32 next_side(i32 h) { return h % 3 == 2 ? h - 2 : h + 1; }

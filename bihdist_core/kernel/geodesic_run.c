@@ -247,7 +247,7 @@ API i32 bih_geodesic_begin(Run *run) {
   for (i64 i = 0; i < run->source.count; i++)
     for (i32 h = 3 * run->source.face[i], k = 0; k < 3; k++) add_room(mesh, h + k, 3, &windows, &crossings);
   if (!has_room(run, windows, crossings, 0)) return NO_ROOM;
-  for (i64 p = 0; p < round->parts; p++) round->part[p] = (Part){run->heap + 6 * (p << round->shift), 0, NONE, {0}};
+  for (i64 p = 0; p < round->parts; p++) round->part[p] = (Part){run->heap + 6 * (p << round->shift), 0, NONE, 0, {0}};
   for (i64 i = 0; i < mesh->vertices + run->target.count; i++)
     run->reached[i] = (Reached){__builtin_inf(), 0, 0, NONE, NONE, NONE, NONE};
   for (i64 h = 0; h < 3 * mesh->faces; h++) run->queue[h] = (Queue){NONE, NONE, __builtin_inf()};
@@ -278,7 +278,7 @@ API i32 bih_geodesic_next(Run *run) {
   double nearest = __builtin_inf();
   run->part = EVERYWHERE;
   hand_on(run);
-  round->count = round->next = 0;
+  round->count = 0;
   for (i64 p = 0; p < round->parts; p++)
     if (round->part[p].waiting && round->part[p].heap[0].distance < nearest) nearest = round->part[p].heap[0].distance;
   if (round->taken > run->most_taken) return TOO_MUCH;
@@ -286,7 +286,8 @@ API i32 bih_geodesic_next(Run *run) {
   if (nearest == __builtin_inf() || nearest > run->radius || (run->targets_only && farthest <= nearest)) return DONE;
   round->bound = nearest + round->band < run->radius ? nearest + round->band : run->radius;
   for (i64 p = 0; p < round->parts; p++)
-    if (round->part[p].waiting && round->part[p].heap[0].distance <= round->bound) round->busy[round->count++] = (i32)p;
+    if (round->part[p].waiting && round->part[p].heap[0].distance <= round->bound)
+      round->busy[round->count++] = (i32)p, round->part[p].is_taken = 0;
   return MORE;
 }
 
@@ -310,14 +311,19 @@ static i32 work_on(Run *run, Part *part, Watch *watch) {
 }
 
 /* One thread's share of a round, each by a Run of its own: DONE, STOPPED, TOO_MUCH, or NO_ROOM, after which the round can
- * go on, from its first part.  The watch counts windows. */
+ * go on.  Threads begin far apart, so that each mostly has the parts that it had before.  The watch counts windows. */
 API i32 bih_geodesic_round(Run *run, Watch *watch) {
   Round *round = run->round;
+  i64 first = run->thread * round->count / round->threads;
   i32 status = DONE;
   run->message = run->messages_end = 0;
-  for (i64 k; status == DONE && (k = __atomic_fetch_add(&round->next, 1, __ATOMIC_RELAXED)) < round->count;) {
-    run->part = round->parts > 1 ? round->busy[k] : EVERYWHERE;
-    status = work_on(run, &round->part[round->busy[k]], watch);
+  for (i64 k = 0; k < round->count && status == DONE; k++) {
+    i32 number = round->busy[(first + k) % round->count];
+    Part *part = &round->part[number];
+    if (__atomic_exchange_n(&part->is_taken, 1, __ATOMIC_ACQUIRE)) continue;
+    run->part = round->parts > 1 ? number : EVERYWHERE;
+    status = work_on(run, part, watch);
+    if (status == NO_ROOM) __atomic_store_n(&part->is_taken, 0, __ATOMIC_RELEASE);
   }
   __atomic_fetch_add(&round->taken, run->taken, __ATOMIC_RELAXED);
   advance(watch, run->taken), run->taken = 0;

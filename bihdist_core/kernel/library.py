@@ -151,15 +151,14 @@ class Round(Structure):
 
     _fields_ = (
         *((name, c_void_p) for name in ("part", "busy", "message")),
-        *((name, c_int64) for name in ("parts", "messages", "shift", "count", "next", "used", "sent", "taken")),
+        *((name, c_int64) for name in ("parts", "messages", "shift", "threads", "count", "used", "sent", "taken")),
         *((name, c_double) for name in ("band", "bound")),
     )
 
     parts: int
     messages: int
     shift: int
-    count: int
-    next: int
+    threads: int
     taken: int
     band: float
 
@@ -177,7 +176,8 @@ class Run(Structure):
         *((name, c_int64) for name in ("needed", "messages_needed", "crossings_needed", "taken", "most_taken")),
         *((name, c_int64) for name in ("unused", "message", "messages_end")),
         ("radius", c_double),
-        *((name, c_int32) for name in ("free", "part", "everything", "targets_only")),
+        *((name, c_int32) for name in ("thread", "free", "part", "everything", "targets_only")),
+        ("apart", c_int64 * 16),
     )
 
     source: Places
@@ -190,6 +190,7 @@ class Run(Structure):
     crossings_needed: int
     most_taken: int
     unused: int
+    thread: int
     free: int
     radius: float
     everything: int

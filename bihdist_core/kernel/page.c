@@ -197,7 +197,7 @@ EXPORT(page_unfold) i32 page_unfold(void) {
   end = before;
   run = (Run){.mesh = &mesh, .round = &whole, .reached = take(n * (i64)sizeof(Reached)), .queue = take(3 * m * (i64)sizeof(Queue)),
               .heap = take((3 * m + n) * (i64)sizeof(Waiting)), .radius = __builtin_inf()};
-  whole = (Round){.part = take(sizeof(Part)), .busy = take_ints(1), .parts = 1, .shift = 31, .band = __builtin_inf()};
+  whole = (Round){.part = take(sizeof(Part)), .busy = take_ints(1), .parts = 1, .shift = 31, .threads = 1, .band = __builtin_inf()};
   return (i32)degenerate;
 }
 
@@ -228,7 +228,7 @@ EXPORT(page_geodesic) i32 page_geodesic(i32 source, double most_windows) {
   run.offset = &offset, run.most_taken = (i64)most_windows;
   while ((status = bih_geodesic_begin(&run)) == NO_ROOM) make_room();
   while ((status = bih_geodesic_next(&run)) == MORE)
-    while ((status = bih_geodesic_round(&run, &watch)) == NO_ROOM) whole.next = 0, make_room();
+    while ((status = bih_geodesic_round(&run, &watch)) == NO_ROOM) make_room();
   for (i64 v = 0; v < n; v++) field[2][v] = run.reached[v].distance;
   return status;
 }
