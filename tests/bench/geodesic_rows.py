@@ -55,7 +55,7 @@ def exact_geodesics(size: Size) -> Iterator[Line]:
     )
     yield from _approximate(rough, size)
     yield from _growth(size)
-    yield _threads(_rough(size.geodesic_growth[-1]))
+    yield _threads(_smooth(size.geodesic_growth[-1]))
     yield _path(middle, size)
 
 
@@ -132,7 +132,7 @@ def _threads(mesh: Arrays) -> Line:
     result = alternate(lambda: solver.distances(0), alone, 1)
     return compared(
         ROW,
-        f"exact geodesic, one source on {WORKERS} threads, as scanned, {len(mesh[0]):,}",
+        f"exact geodesic, one source on {WORKERS} threads, {len(mesh[0]):,}",
         result,
         bound=0.6,
         error=difference(result.answer, result.peer_answer),
