@@ -36,7 +36,7 @@ FIRST_WINDOWS = 4_096
 """Windows for which there is room at first; it doubles when they are more."""
 
 DIVIDED_FROM, PART, ONE_PART, BAND = 50_000, 11, 31, 4.0
-"""Faces from which a mesh is divided into parts; the binary logarithm of the faces of a part, and of all faces there may
+"""Faces from which a mesh is divided into parts; the binary logarithm of the faces of a part, and of all that there may
 be; and how far a round goes, in mean edge lengths.
 
 The windows of a part stay in a core's cache. In a longer round more of them are taken up that others beat later.
