@@ -1,4 +1,4 @@
-"""The engines that run tasks: processes on this computer, or a Dask cluster."""
+"""The engines that run tasks: processes on this computer, or a Dask cluster, which also computes rows of all pairs."""
 
 import concurrent.futures
 import logging
@@ -10,20 +10,31 @@ import threading
 import time
 import warnings
 from collections import Counter, deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 from types import ModuleType
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-from bihdist_core.errors import ParameterError, PlainSolverWarning
+import numpy as np
+
+from bihdist_core.analysis.all_pairs import Rows, fill_rows
+from bihdist_core.arrays import AnyArray, IntArray
+from bihdist_core.distances.distance import Distance
+from bihdist_core.errors import BihdistError, ParameterError, PlainSolverWarning, SolverError
 from bihdist_core.machine_memory import available
+from bihdist_core.solver.blas import one_blas_thread
+from bihdist_core.solver.worker_threads import without_workers
 
 from ..version import install_command, version
 from .execution import run_task
 from .memory import share
 from .task import Report, Task, failed_report, refused_report
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
 
 USABLE_MEMORY = 0.9
 """The fraction of the memory free at the beginning that tasks may take."""
@@ -196,39 +207,47 @@ def _wait_for(file: str, say: Callable[[str], None]) -> None:
         time.sleep(0.2)
 
 
+def _connected(where: str, say: Callable[[str], None]) -> "Client":
+    """Connect to a Dask cluster's address (tcp://…) or its scheduler's file (….json), which is waited for after a
+    sentence by `say`.
+
+    Raises ParameterError if it cannot be reached or has another version, and if Dask is missing.
+    """
+    try:
+        from distributed import Client
+    except ImportError:
+        raise ParameterError(f"--dask needs the package distributed: {install_command('distributed')}") from None
+    # It would print where it was for each connection that is closed.
+    logging.getLogger("distributed.batched").setLevel(logging.WARNING)
+    if where.endswith(".json"):
+        _wait_for(where, say)
+    try:
+        options: dict[str, Any] = {"scheduler_file": where} if where.endswith(".json") else {"address": where}
+        client = Client(**options, timeout="20s", set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise ParameterError(f"There is no Dask scheduler at {where}: {error}") from None
+    try:
+        there = client.run_on_scheduler(version)
+    except Exception:  # whatever it cannot unpickle
+        there = ""
+    if there != version():
+        client.close()
+        has = f"has version {there}" if there else "cannot import it"
+        raise ParameterError(
+            f"Scheduler and workers need the same version of bihdist as this one, {version()}; the scheduler at "
+            f"{where} {has}."
+        )
+    return client
+
+
 class Cluster:
     """A Dask cluster that `distributed.Client` reaches; scheduling, retries and memory are Dask's."""
 
     def __init__(self, where: str, say: Callable[[str], None]) -> None:
-        """Connect to an address (tcp://…) or a scheduler's file (….json), which is waited for after a sentence by
-        `say`.
+        """Connect as `_connected` does."""
+        self._client = _connected(where, say)
+        from distributed import as_completed
 
-        Raises ParameterError if it cannot be reached or has another version, and if Dask is missing.
-        """
-        try:
-            from distributed import Client, as_completed
-        except ImportError:
-            raise ParameterError(f"--dask needs the package distributed: {install_command('distributed')}") from None
-        # It would print where it was for each connection that is closed.
-        logging.getLogger("distributed.batched").setLevel(logging.WARNING)
-        if where.endswith(".json"):
-            _wait_for(where, say)
-        try:
-            options: dict[str, Any] = {"scheduler_file": where} if where.endswith(".json") else {"address": where}
-            self._client = Client(**options, timeout="20s", set_as_default=False)
-        except (OSError, ValueError, TimeoutError) as error:
-            raise ParameterError(f"There is no Dask scheduler at {where}: {error}") from None
-        try:
-            there = self._client.run_on_scheduler(version)
-        except Exception:  # whatever it cannot unpickle
-            there = ""
-        if there != version():
-            self._client.close()
-            has = f"has version {there}" if there else "cannot import it"
-            raise ParameterError(
-                f"Scheduler and workers need the same version of bihdist as this one, {version()}; the scheduler at "
-                f"{where} {has}."
-            )
         self._ended = as_completed(loop=self._client.loop)
         self._under_way: dict[str, Task] = {}
         self._tries: Counter[Task] = Counter()
@@ -247,9 +266,7 @@ class Cluster:
                 self._lose(error)
 
     def _begin(self, task: Task, key: str) -> None:
-        # While it seeks a scheduler that is gone, the client takes tasks and says nothing more of them.
-        if self._client.status != "running":
-            raise ConnectionError("the scheduler has stopped")
+        _check_running(self._client)
         large = [address for address, limit in self._limits().items() if limit >= task.needs] if task.needs else None
         # Where none of those workers is left, others take it and send it back.
         future = self._client.submit(
@@ -296,11 +313,7 @@ class Cluster:
         return report
 
     def _lose(self, error: Exception) -> None:
-        # Of a task that is cancelled only the reason, which all of them have.
-        reason = getattr(error, "reason", "") or _in_words(error)
-        self._lost = f"The connection to the cluster was lost: {reason}. Run the same command to resume."
-        # It would print where it was when it is closed while it seeks its scheduler.
-        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
+        self._lost = f"The connection to the cluster was lost: {_reason(error)}. Run the same command to resume."
 
     def _limits(self) -> dict[str, int]:
         """Return the memory of each worker; without a limit it is more than anything needs."""
@@ -315,3 +328,70 @@ class Cluster:
 def _in_words(error: BaseException) -> str:
     """Return an error in one line."""
     return f"{type(error).__name__}: {' '.join(str(error).split())}"
+
+
+def _reason(error: BaseException) -> str:
+    """Return in a line why a cluster was lost, and let its client be closed in silence."""
+    # It would print where it was when it is closed while it seeks its scheduler.
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
+    # Of a task that is cancelled only the reason, which all of them have.
+    return getattr(error, "reason", "") or _in_words(error)
+
+
+def _check_running(client: "Client") -> None:
+    """Raise ConnectionError while a client seeks a scheduler that is gone: it takes tasks and says nothing more of
+    them."""
+    if client.status != "running":
+        raise ConnectionError("the scheduler has stopped")
+
+
+# ---------------------------------------------------------------------- all pairs
+BLOCKS_AHEAD = 2
+"""Blocks of rows for each thread of a cluster that are computed, or wait, while one is written."""
+
+
+@contextmanager
+def rows_on_cluster(where: str, say: Callable[[str], None], distance: Distance, dtype: str) -> Iterator[Rows]:
+    """Yield what `write_all_pairs` may call to let a Dask cluster compute blocks of rows.
+
+    It raises the distance's own errors, and BihdistError if the cluster fails; see `_connected` for the rest.
+    """
+    client = _connected(where, say)
+    try:
+        yield partial(_rows, client, distance, dtype)
+    finally:
+        client.close()
+
+
+def _rows(client: "Client", distance: Distance, dtype: str, blocks: Sequence[IntArray]) -> Iterator[AnyArray]:
+    waiting, under_way = deque(blocks), deque["Future[AnyArray]"]()
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # that a surface is large
+            # As a task, it is there again where a worker was lost; scattered, it would not be.
+            there = client.submit(_same, distance, pure=False)
+        while waiting or under_way:
+            _check_running(client)
+            room = BLOCKS_AHEAD * max(1, sum(client.nthreads().values()))
+            while waiting and len(under_way) < room:
+                ids = waiting.popleft()
+                under_way.append(client.submit(_rows_there, there, distance.label, ids, dtype, pure=False))
+            yield under_way.popleft().result()
+    except BihdistError:
+        raise
+    except Exception as error:  # without its scheduler Dask has many, at any of its calls
+        raise BihdistError(f"The cluster has not computed the rows: {_reason(error)}.") from error
+
+
+def _same(distance: Distance) -> Distance:
+    return distance
+
+
+def _rows_there(distance: Distance, label: str, ids: IntArray, dtype: str) -> AnyArray:
+    """Return the rows of some vertices; SolverError if there they are computed by another method."""
+    rows = np.empty((len(ids), len(distance.surface.vertices)), dtype)
+    with one_blas_thread(), without_workers():
+        fill_rows(rows, distance, ids)
+    if distance.label != label:
+        raise SolverError(f"A worker has given up {label} for {distance.label}; name that method.")
+    return rows

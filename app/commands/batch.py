@@ -25,6 +25,7 @@ from .options import (
     NEIGHBOURS,
     PARAMETERS,
     add_areas,
+    add_dask,
     add_distance,
     add_dtype,
     add_output,
@@ -130,7 +131,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     verified = "check existing results against the checksums in their JSON"
     parser.add_argument("--verify", action="store_true", help=verified)
     add_workers(parser)
-    parser.add_argument("--dask", metavar="WHERE", help="a Dask cluster: tcp://HOST:PORT or its scheduler's FILE.json")
+    add_dask(parser)
 
 
 def run(options: argparse.Namespace) -> Result:

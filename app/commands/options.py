@@ -91,6 +91,12 @@ def add_workers(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--workers", type=count, metavar="N", help="processes (default: as many as cores)")
 
 
+def add_dask(parser: argparse.ArgumentParser, what: str = "") -> None:
+    """Add the option of a cluster that does the work."""
+    text = f"{what}a Dask cluster: tcp://HOST:PORT or its scheduler's FILE.json"
+    parser.add_argument("--dask", metavar="WHERE", help=text)
+
+
 def add_distance(parser: argparse.ArgumentParser, several: str = "", k: str = "", is_field: bool = False) -> None:
     """Add `--distance`, and an option for each parameter of the built-in ones, which holds unless one says its own.
 

@@ -1,11 +1,12 @@
 """`bihdist pairs`: distances between chosen vertices, or all of them, into a file."""
 
 import argparse
+from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING
 
 from bihdist_core.counts import counted
 from bihdist_core.distances.distance_types import Spec
-from bihdist_core.errors import OutputError, ParameterError
+from bihdist_core.errors import BihdistError, ParameterError
 
 from ..document.repairs import NAME
 from ..document.sources import ALL, Sources
@@ -16,6 +17,7 @@ from .options import (
     DTYPES,
     NEIGHBOURS,
     add_areas,
+    add_dask,
     add_distance,
     add_dtype,
     add_output,
@@ -29,7 +31,8 @@ from .result import Facts, Result, distance_facts
 from .terminal import accuracy, progress_line, tell, tell_failure
 
 if TYPE_CHECKING:
-    from bihdist_core.analysis.all_pairs import Begun
+    from bihdist_core.analysis.all_pairs import Begun, Rows
+    from bihdist_core.distances.distance import Distance
 
 WORDS = "compute distances between chosen vertices, or to their nearest ones"
 EXAMPLES = (
@@ -60,6 +63,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     add_dtype(parser, "number format of a .npy matrix of all pairs among the sources")
     parser.add_argument("--memory", type=positive, metavar="MB", help="for --sources all (default: 500)")
+    reach = "for --sources all by the exact geodesic distance: go so far, in mesh units; what is beyond is inf"
+    parser.add_argument("--radius", type=positive, metavar="R", help=reach)
+    add_dask(parser, "for --sources all: ")
     parser.add_argument(
         "--fresh",
         action="store_true",
@@ -93,9 +99,11 @@ def _one(options: argparse.Namespace) -> Facts:
     if (is_all or options.nearest) and len(chosen) > 1:
         word = "--sources all writes the pairs" if is_all else "--nearest writes the neighbours"
         raise ParameterError(f"{word} of one distance; name one.")
-    for option in ("fresh", "memory"):
+    for option in ("fresh", "memory", "radius", "dask"):
         if getattr(options, option) and not is_all:
             raise ParameterError(f"--{option} goes with --sources all.")
+    if options.radius and chosen[0].word != "geodesic":
+        raise ParameterError(f"--radius goes with --distance geodesic, not with {chosen[0].word}.")
     is_matrix = is_matrix and len(chosen) == 1
     if options.dtype and not is_matrix:
         raise ParameterError("--dtype goes with a matrix: a .npy of the pairs among --sources, of one distance.")
@@ -181,12 +189,16 @@ def _write_all(options: argparse.Namespace, spec: Spec) -> Facts:
     """Write the pairs of all vertices, and tell what is there of an earlier run, or is kept of this one."""
     from bihdist_core.analysis.all_pairs import begun, check_block, left_by_others, write_all_pairs
     from bihdist_core.distances.answers import Distances
+    from bihdist_core.distances.geodesic import GeodesicDistance
 
     memory = 1e6 * (options.memory or 500)
     with progress_line() as progress:
         laplacian = read_laplacian(options)
         check_block(len(laplacian.surface.vertices), memory)
-        distance = Distances(laplacian).get(spec, progress)
+        if options.radius is None:
+            distance = Distances(laplacian).get(spec, progress)
+        else:
+            distance = GeodesicDistance(laplacian, str(spec["method"]), progress, radius=options.radius)
         estimate = accuracy(distance, everywhere=True)
     dtype = options.dtype or DTYPES[0]
     known = begun(distance, options.output, dtype)
@@ -198,15 +210,26 @@ def _write_all(options: argparse.Namespace, spec: Spec) -> Facts:
         size = _size(path.stat().st_size)
         tell(f"{path} ({size}) is left over from another mesh or other options; it may be deleted.")
     try:
-        with progress_line() as progress:
-            write_all_pairs(distance, options.output, dtype, memory, progress, options.fresh)
-    except (KeyboardInterrupt, OutputError, MemoryError):
+        with _cluster(options, distance, dtype) as compute, progress_line() as progress:
+            write_all_pairs(distance, options.output, dtype, memory, progress, options.fresh, compute)
+    except (KeyboardInterrupt, BihdistError, MemoryError):
         if left := begun(distance, options.output, dtype):
             tell_failure(f"Finished rows are kept: {_described(left)}. Run the same command to resume.")
         raise
     count = len(laplacian.surface.vertices)
-    print(f"{options.output}: {distance.label}, all pairs of {count:,} vertices{estimate}")
-    return {"n_pairs": count**2, "distances": [distance_facts(distance, spec, everywhere=True)]}
+    within = "" if options.radius is None else f" up to {options.radius:g}"
+    print(f"{options.output}: {distance.label}{within}, all pairs of {count:,} vertices{estimate}")
+    facts = distance_facts(distance, spec, everywhere=True)
+    return {"n_pairs": count**2, "distances": [facts], **({"radius": options.radius} if within else {})}
+
+
+def _cluster(options: argparse.Namespace, distance: "Distance", dtype: str) -> "AbstractContextManager[Rows | None]":
+    """Return what computes blocks of rows: a Dask cluster if one is named, else this process."""
+    if options.dask is None:
+        return nullcontext()
+    from ..batch.engines import rows_on_cluster
+
+    return rows_on_cluster(options.dask, tell, distance, dtype)
 
 
 def _described(known: "Begun") -> str:

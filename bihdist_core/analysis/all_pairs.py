@@ -12,9 +12,10 @@ import hashlib
 import os
 import re
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO
@@ -33,7 +34,8 @@ MEMORY = 5e8
 """Bytes that the arrays of one block may take, unless another number is given."""
 BYTES_PER_VALUE = 40
 """In memory, at once, for each distance of a block: the fields, what they are made from, and their rounded copy."""
-
+Rows = Callable[[Sequence[IntArray]], Iterator[AnyArray]]
+"""From blocks of vertices, each (k,), to the rows (k, n) of each in turn, which are used before the next are made."""
 
 REMEDY = "use smaller blocks (--memory), a larger machine or a cluster."
 
@@ -71,6 +73,7 @@ def write_all_pairs(
     memory: float = MEMORY,
     progress: Progress | None = None,
     fresh: bool = False,
+    compute: Rows | None = None,
 ) -> None:
     """Write the (n, n) array of all distances as .npy; NaN in the rows and columns of vertices that have none.
 
@@ -89,6 +92,8 @@ def write_all_pairs(
     fresh : bool
         Compute all rows anew. Otherwise a call after an interruption, `Cancelled` included, computes only the rows that
         are missing; `begun` tells which are there.
+    compute : callable, optional
+        Called with blocks of vertices, to yield the rows of each in turn, which `fill_rows` may have made elsewhere.
 
     Raises
     ------
@@ -106,33 +111,36 @@ def write_all_pairs(
     report = progress or silent
     target = Path(os.path.realpath(path))
     n = len(distance.surface.vertices)
-    partial = _partial_path(distance, target, dtype)
+    unfinished = _partial_path(distance, target, dtype)
     header = _header(n, dtype)
     row_bytes = n * dtype.itemsize
     rows = _rows_of_block(n, memory)
+
+    def reached(row: float) -> None:
+        report(row / n, f"all pairs: {int(row):,} of {n:,} vertices")
+
     try:
         check_block(n, memory)
-        done = 0 if fresh else _rows_done(partial, header, row_bytes)
-        _check_space(target, len(header) + n * row_bytes, partial.stat().st_size if partial.exists() else 0)
-        with _alone(partial, target) as file:
+        done = 0 if fresh else _rows_done(unfinished, header, row_bytes)
+        _check_space(target, len(header) + n * row_bytes, unfinished.stat().st_size if unfinished.exists() else 0)
+        with _alone(unfinished, target) as file:
             # A row that was cut off is written again.
             file.truncate(len(header) + done * row_bytes if done else 0)
             file.seek(0, os.SEEK_END)
             if not done:
                 file.write(header)
-            room = np.empty((rows, n), dtype)
-            for start in range(done, n, rows):
-                report(start / n, f"all pairs: {start:,} of {n:,} vertices")
-                ids = np.arange(start, min(start + rows, n))
-                _fill(room[: len(ids)], distance, ids)
+            blocks = [np.arange(start, min(start + rows, n)) for start in range(done, n, rows)]
+            reached(done)
+            for block in (compute or partial(_compute_here, distance, dtype, reached))(blocks):
                 # Not `tofile`, which does not notice that the disk is full.
-                file.write(room[: len(ids)].data)
+                file.write(block.data)
                 file.flush()
+                done += len(block)
+                reached(done)
     except OutputError:
         raise
     except OSError as error:
         raise OutputError(f"{path} could not be written: {error.strerror or error}.") from error
-    report(1.0, f"all pairs: {n:,} vertices")
 
 
 def check_block(n: int, memory: float = MEMORY) -> None:
@@ -145,14 +153,29 @@ def _rows_of_block(n: int, memory: float) -> int:
     return int(np.clip(memory / (n * BYTES_PER_VALUE), 1, n))
 
 
-def _fill(rows: AnyArray, distance: Distance, ids: IntArray) -> None:
+def _compute_here(
+    distance: Distance, dtype: np.dtype, reached: Callable[[float], None], blocks: Sequence[IntArray]
+) -> Iterator[AnyArray]:
+    """Yield the rows of each block, all in the same memory."""
+    room = np.empty((max(map(len, blocks), default=0), len(distance.surface.vertices)), dtype)
+    for ids in blocks:
+        start, rows = int(ids[0]), room[: len(ids)]
+        fill_rows(rows, distance, ids, partial(_within, reached, start, len(ids)))
+        yield rows
+
+
+def _within(reached: Callable[[float], None], start: int, count: int, fraction: float, _text: str) -> None:
+    reached(start + fraction * count)
+
+
+def fill_rows(rows: AnyArray, distance: Distance, ids: IntArray, progress: Progress | None = None) -> None:
     """Write distances from k vertices into rows (k, n)."""
     used = distance.surface.component_of_vertex[ids] >= 0
     if used.all():
-        distance.from_sources(ids, out=rows.T)
+        distance.from_sources(ids, progress=progress, out=rows.T)
     else:
         rows[~used] = np.nan
-        rows[used] = distance.from_sources(ids[used], dtype=rows.dtype).T
+        rows[used] = distance.from_sources(ids[used], progress=progress, dtype=rows.dtype).T
 
 
 @contextmanager

@@ -130,6 +130,18 @@ def test_all_pairs_go_to_disk(mesh, tmp_path, capsys):
     assert ".csv" in refused(capsys, "pairs", mesh, "--sources", "all", "-o", tmp_path / "all.csv")
 
 
+def test_all_pairs_within_a_radius_are_inf_beyond(mesh, tmp_path, capsys):
+    out, words = tmp_path / "near.npy", ("pairs", mesh, "--sources", "all", "--radius", "0.8")
+    assert "geodesic, exact up to 0.8" in ran(capsys, *words, "--distance", "geodesic", "-o", out).out
+    whole = GeodesicDistance(read_surface(mesh), "exact").from_sources(np.arange(200)).T
+    assert 0.02 < (whole <= 0.8).mean() < 0.98
+    # Windows that end at the radius are added in another order.
+    np.testing.assert_allclose(np.load(out), np.where(whole <= 0.8, whole, np.inf), rtol=1e-12, atol=1e-12)
+    assert "with --distance geodesic, not with biharmonic" in refused(capsys, *words, "-o", out)
+    heat = ("--distance", "geodesic", "--method", "heat")
+    assert "Only the exact method has a radius" in refused(capsys, *words, *heat, "-o", out)
+
+
 # ---------------------------------------------------------------------- accuracy
 ACCURATE = re.compile(r"accurate to \de-1\d of the maximum")
 

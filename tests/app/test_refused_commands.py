@@ -90,6 +90,8 @@ def test_bad_input_gets_a_sentence_and_leaves_no_file(mesh, mesh_file, tmp_path,
         (["info", 500 * "m"], f"There is no file {132 * 'm'}...{65 * 'm'}. The samples"),
         (["pairs", mesh, "--pairs", "1:2", "--fresh", "-o", out], "--fresh goes with --sources all"),
         (["pairs", mesh, "--nearest", "--k", "2", "--memory", "10", "-o", out], "--memory goes with --sources all"),
+        (["pairs", mesh, "--pairs", "1:2", "--radius", "1", "-o", out], "--radius goes with --sources all"),
+        (["pairs", mesh, "--sources", "1,2", "--dask", "tcp://a:1", "-o", out], "--dask goes with --sources all"),
     ]:
         assert words in refused(capsys, *arguments)
         assert not out.exists()

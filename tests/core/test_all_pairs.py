@@ -61,7 +61,7 @@ def counted(distance, monkeypatch):
 def test_goes_on_where_it_was_stopped(distance, tmp_path, monkeypatch):
     path, memory = tmp_path / "D.npy", 10 * 150 * 40
     with pytest.raises(Cancelled):
-        write_all_pairs(distance, path, memory=memory, progress=stop_after(0.6))
+        write_all_pairs(distance, path, memory=memory, progress=stop_after(0.62))
     assert not path.exists()
     (partial,) = tmp_path.iterdir()
     with partial.open("r+b") as file:
@@ -76,7 +76,7 @@ def test_goes_on_where_it_was_stopped(distance, tmp_path, monkeypatch):
 def test_what_was_begun_is_taken_up_by_another_distance_of_the_same_spec(distance, tmp_path, monkeypatch):
     path, spec = tmp_path / "D.npy", Spec.of("diffusion", t=0.3)
     with pytest.raises(Cancelled):
-        write_all_pairs(spec.build(distance.laplacian), path, memory=10 * 150 * 40, progress=stop_after(0.6))
+        write_all_pairs(spec.build(distance.laplacian), path, memory=10 * 150 * 40, progress=stop_after(0.62))
     again = spec.build(Laplacian(bumpy(150)))
     asked = counted(again, monkeypatch)
     write_all_pairs(again, path)
@@ -106,7 +106,7 @@ def test_what_was_begun_is_told_and_may_be_computed_anew(distance, tmp_path, mon
     path, memory = tmp_path / "D.npy", 10 * 150 * 40
     assert begun(distance, path) is None
     with pytest.raises(Cancelled):
-        write_all_pairs(distance, path, memory=memory, progress=stop_after(0.6))
+        write_all_pairs(distance, path, memory=memory, progress=stop_after(0.62))
     (partial,) = tmp_path.iterdir()
     known = begun(distance, path)
     assert (known.path, known.rows, known.n, known.bytes) == (partial, 90, 150, partial.stat().st_size)
