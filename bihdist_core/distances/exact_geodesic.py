@@ -244,7 +244,7 @@ class _Workspace:
         self._queue = np.empty((3 * mesh.faces, kernel.QUEUE), np.uint8)
         self._heap = np.empty((6 * mesh.faces, kernel.WAITING), np.uint8)
         self._part, self._busy = np.empty((parts, kernel.PART), np.uint8), np.empty(parts, np.int32)
-        self._round = kernel.Round(*map(kernel.at, (self._part, self._busy)), parts=parts, shift=shift)
+        self._round = kernel.Round(kernel.at(self._part), kernel.at(self._busy), parts=parts, shift=shift)
         self._step = BAND * float(mesh.sides["length"].mean())
         self._message = np.empty((0, kernel.MESSAGE), np.uint8)
         self._window = np.empty((FIRST_WINDOWS, kernel.WINDOW), np.uint8)
@@ -313,7 +313,7 @@ class _Workspace:
             if number == len(self._orders):
                 self._orders.append(np.empty((2, room), np.int32))
             run.window, run.windows = kernel.at(self._window), room
-            run.order, run.spare = map(kernel.at, self._orders[number])
+            run.order, run.spare = kernel.at(self._orders[number][0]), kernel.at(self._orders[number][1])
             run.crossing, run.crossings = kernel.at(self._crossing), len(self._crossing)
 
 
