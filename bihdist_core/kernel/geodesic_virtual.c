@@ -92,7 +92,9 @@ static void unfold(Spread *run, i32 h) {
   const Mesh *mesh = run->mesh;
   const Side *side = &mesh->side[h];
   i32 a = side->vertex, b = mesh->side[next_side(h)].vertex, apex = mesh->side[previous_side(h)].vertex;
-  if (!(side->y > 0)) return;
+  /* No line is shorter than this, by the inequality of triangles. */
+  double least = (run->seen[a].distance + run->seen[b].distance - side->length) / 2 + side->y;
+  if (!(side->y > 0) || run->seen[apex].distance <= least) return;
   for (int end = 0; end < 1 + (run->seen[a].root != run->seen[b].root); end++) {
     Line found = line(run, h, end, side->x, side->y);
     if (!(found.distance < run->seen[apex].distance * LESS)) continue;
@@ -183,7 +185,8 @@ API i32 bih_virtual_sources(Spread *run, Watch *watch) {
     }
     for (i32 i = mesh->first[v]; i < mesh->first[v + 1]; i++) {
       i32 h = mesh->corner[i], g = previous_side(h), next = mesh->side[next_side(h)].vertex, last = mesh->side[g].vertex;
-      follow(run, v, next, mesh->side[h].length), follow(run, v, last, mesh->side[g].length);
+      follow(run, v, next, mesh->side[h].length);
+      if (mesh->side[g].twin & 1) follow(run, v, last, mesh->side[g].length); /* no side beyond g begins at v */
       if (run->seen[next].place == SETTLED) unfold(run, h);
       if (run->seen[last].place == SETTLED) unfold(run, g);
     }
