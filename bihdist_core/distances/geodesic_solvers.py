@@ -232,12 +232,9 @@ class HeatSolver(ApproximateSolver):
         solver = self.solver(component)
         loads, offsets = loads_and_offsets(pieces, self._laplacian.surface)
         corners = component.local(pieces.corners)
-        # A set is the nearest of its points also where a flow from all of them would be a little different.
-        rows = [*np.flatnonzero(~pieces.along)[:, None]]
-        if pieces.along.any():
-            rows.append(np.flatnonzero(pieces.along))
+        # Each piece by itself: along one flow from all of them distances would not be 0.
         least = np.full(len(component.vertices), np.inf)
-        for step, row in steps(progress, rows):
+        for step, row in steps(progress, range(len(pieces))):
             some = loads[row] > 0
             found = solver.distances_with(corners[row][some], loads[row][some], offsets[row][some], step)
             np.minimum(least, found, out=least)
