@@ -348,8 +348,9 @@ its square along smooth tubes."""
 def expected_windows(exact: ExactGeodesic, progress: Progress | None = None) -> float:
     """Estimate the windows that a field from one vertex of a connected surface will take.
 
-    Found by two fields that end at a radius, in some half a second: 0.8 to 1.5 times what it is, on 13 meshes.  For small
-    surfaces n^1.5, which is more than it is but on long tubes.  Raises SolverError where there are too many windows.
+    Found by two fields that end at a radius, in some half a second: 0.8 to 1.5 times what it is, on 13 meshes.  For
+    small surfaces n^1.5, which is more than it is but on long tubes.  Raises SolverError where there are too many
+    windows.
     """
     if exact.expected is None:
         exact.expected = _windows_by_trial(exact, progress)
