@@ -27,9 +27,6 @@ from .pair_questions import pairs_by_columns
 from .place_pairs import by_start
 from .virtual_sources import VirtualSources
 
-TINY_FRACTION = 1e-9
-"""The fraction of an edge length that a part of a line counts as at least, where all of it is in one place."""
-
 Answer = TypeVar("Answer")
 Made = TypeVar("Made")
 Front = TypeVar("Front", bound=GeodesicFront[Any])
@@ -229,9 +226,8 @@ class HeatSolver(ApproximateSolver):
         return fields
 
     def from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
-        solver = self.solver(component)
-        loads, offsets = loads_and_offsets(pieces, self._laplacian.surface)
-        corners = component.local(pieces.corners)
+        solver, corners = self.solver(component), component.local(pieces.corners)
+        loads, offsets = pieces.start + pieces.stop, offsets_of(pieces, self._laplacian.surface)
         # Each piece by itself: along one flow from all of them distances would not be 0.
         least = np.full(len(component.vertices), np.inf)
         for step, row in steps(progress, range(len(pieces))):
@@ -271,7 +267,7 @@ class EdgeSolver(GeodesicSolver[EdgeGeodesic]):
         return fields
 
     def from_pieces(self, component: Component, pieces: Pieces, progress: Progress | None) -> FloatArray:
-        _, offsets = loads_and_offsets(pieces, self._laplacian.surface)
+        offsets = offsets_of(pieces, self._laplacian.surface)
         touched = (pieces.start > 0) | (pieces.stop > 0)
         return self.solver(component).distances_with(component.local(pieces.corners)[touched], offsets[touched])
 
@@ -281,7 +277,7 @@ class EdgeSolver(GeodesicSolver[EdgeGeodesic]):
         for number, (start, mine) in enumerate(starts):
             progress(number / len(starts), self.label)
             lengths, some = self.from_pieces(component, start, progress), v.select(mine)
-            ways = lengths[component.local(some.corners)] + loads_and_offsets(some, self._laplacian.surface)[1]
+            ways = lengths[component.local(some.corners)] + offsets_of(some, self._laplacian.surface)
             found[mine] = np.where(some.start > 0, ways, np.inf).min(axis=1)
         return found
 
@@ -323,17 +319,12 @@ def is_slow(exact: ExactGeodesic, progress: Progress | None = None) -> bool:
     return expected_windows(exact, progress) > QUICK_WINDOWS
 
 
-def loads_and_offsets(pieces: Pieces, surface: Surface) -> tuple[FloatArray, FloatArray]:
-    """Return (k, 3) the part of each piece's length that falls on each corner, and (k, 3) how far the corners are off.
-
-    A point counts as much as an edge.
-    """
+def offsets_of(pieces: Pieces, surface: Surface) -> FloatArray:
+    """Return (k, 3) how far the corners of each piece's face are from it."""
     start, stop = pieces.positions(surface.vertices)
     way = stop - start
-    length = np.linalg.norm(way, axis=1)
-    edge = surface.mean_edge_length
-    load = np.where(pieces.along, np.maximum(length, TINY_FRACTION * edge), edge)
-    loads = load[:, None] * (pieces.start + pieces.stop) / 2
     to = surface.vertices[pieces.corners] - start[:, None]
-    share = np.einsum("kcx,kx->kc", to, way) / np.where(length > 0, length, 1)[:, None] ** 2
-    return loads, np.linalg.norm(to - np.clip(share, 0, 1)[..., None] * way[:, None], axis=2)
+    square = np.einsum("kx,kx->k", way, way)
+    share = np.einsum("kcx,kx->kc", to, way) / np.where(square > 0, square, 1)[:, None]
+    offsets: FloatArray = np.linalg.norm(to - np.clip(share, 0, 1)[..., None] * way[:, None], axis=2)
+    return offsets
