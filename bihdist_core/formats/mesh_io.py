@@ -1,4 +1,4 @@
-"""Mesh files into surfaces: OFF, OBJ, PLY, STL, VTK (legacy), VTP, VTU, glTF, GLB, GIFTI and FreeSurfer's.
+"""Mesh files into surfaces: OFF, OBJ, PLY, STL, VTK (legacy), VTP, VTU, glTF, GLB, GIFTI, FreeSurfer's and MNI's.
 
 All readers are our own and strict: a file is read whole or refused with a sentence, and vertex ids are the file's.
 (VTK's readers split OBJ vertices along texture seams, return what is left of a truncated file, and can take the
@@ -28,7 +28,8 @@ def read_surface(path: str | os.PathLike[str]) -> Surface:
     Parameters
     ----------
     path : str or path-like
-        The extension, in any case, names the format, or a name such as lh.pial. A file with .gz behind it is unpacked.
+        The extension, in any case, names the format, or a name such as lh.pial; FreeSurfer's surfaces may have any
+        other name. A file with .gz behind it is unpacked.
 
     Returns
     -------
@@ -83,7 +84,7 @@ def surface_in(content: bytes, name: str) -> Surface:
 
 def read_polygons(content: bytes, name: str) -> Polygons:
     """Read the polygons of a mesh file by the reader of its format."""
-    reader = FORMATS[mesh_format(name)].reader
+    reader = FORMATS[mesh_format(name, content)].reader
     polygons: Polygons = getattr(import_module(f".{reader}", __package__), f"read_{reader}")(content, name)
     return polygons
 

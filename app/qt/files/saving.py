@@ -10,7 +10,7 @@ from bihdist_core.formats.mesh_names import GZIP, MESH_FORMATS
 
 from ..context import Context
 
-MESH_PATTERNS = " ".join([*(f"*{extension}" for extension in MESH_FORMATS), f"*{GZIP}", "lh.*", "rh.*"])
+MESH_PATTERNS = " ".join([*(f"*{extension}" for extension in MESH_FORMATS), f"*{GZIP}", "lh.*", "rh.*", "*.surf", "*.asc"])
 MESH_FILES = f"Meshes ({MESH_PATTERNS});;All files (*)"
 """The filter of dialogs that open meshes."""
 
