@@ -48,7 +48,7 @@ def test_far_from_the_origin_no_field_is_further_off_than_is_said(shape, distanc
 def test_whole_numbers_and_single_precision_are_read_as_they_are():
     steps, faces = STEPS["bumpy"]()
     shift = np.array([5_411_000.0, 452_000.0, 0.0])
-    for x in (np.round(steps) + 2.0**40, (steps + [5000, 0, 0]).astype(np.float32)):
+    for x in (np.round(steps) + 2.0**40, (steps + np.array([5000, 0, 0])).astype(np.float32)):
         assert read_alike(BiharmonicDistance(Surface(x, faces)).laplacian.components[0], 3) == []
     component = BiharmonicDistance(Surface(steps / 100 + shift, faces)).laplacian.components[0]
     near, *others = read_alike(component, 3)
