@@ -84,7 +84,7 @@ class AnchorsDock(Instrument):
         in_column(self._list, below, None, of=inside, spacing=0, margins=(0, 4, 0, 0))
         fill(self, inside)
         read = partial(ask_file, context, "Read anchors", file_filter("Anchors", ANCHOR_FORMATS), self.read)
-        self.add_head_button("open", "Read anchors: CSV, JSON, MeshLab's picked points…", read)
+        self.add_head_button("open", "Read anchors: CSV, JSON, landmarks of MeshLab, Slicer and others…", read)
         self.add_head_button("save", "Save the anchors…", self.choose_and_save)
         menu = {
             "Save the interpolants as fields…": self.save_fields,
@@ -257,7 +257,7 @@ class AnchorsDock(Instrument):
             session.show(document)
             far = float(found.moved.max())
             moved = f", moved to vertices by up to {far:.3g}" if far > 0 else ""
-            self.context.tell(f"Read {len(found):,} anchors from {Path(path).name}{moved}")
+            self.context.tell(". ".join([f"Read {len(found):,} anchors from {Path(path).name}{moved}", *found.facts]))
 
     def choose_and_save(self) -> None:
         """Ask for a file, and write the anchors."""
