@@ -10,6 +10,7 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import ParameterError
 from bihdist_core.formats.anchors import ANCHOR_FORMATS, read_anchors, write_anchors
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
+from bihdist_core.scalars import with_decimal_point
 
 from ...document.document import Document
 from ...document.file_names import file_name
@@ -219,7 +220,7 @@ class AnchorsDock(Instrument):
             if not box.isModified():
                 continue
             try:
-                weights = replace(self.document[Anchors].weights, **{name: float(box.text())})
+                weights = replace(self.document[Anchors].weights, **{name: float(with_decimal_point(box.text()))})
             except (ValueError, ParameterError):
                 mark_wrong(box, True)
                 continue
