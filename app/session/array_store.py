@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import os
-import zipfile
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -20,7 +18,7 @@ import numpy.typing as npt
 from bihdist_core import ParameterError, Surface
 from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.file_content import open_regular
-from bihdist_core.formats.array_file import array_in
+from bihdist_core.formats.array_file import archived_array, opened_archive
 from bihdist_core.mesh_like import MeshLike
 from bihdist_core.sources.source import Source, checked_source
 
@@ -114,20 +112,18 @@ class ArrayStore:
             return given
         if not os.path.isfile(path):
             raise ParameterError(f"The arrays given from Python are missing: {path or 'no archive is named'}.")
-        with _opened(path) as archive:
+        with open_regular(path, "archive") as file, opened_archive(file, path) as archive:
             for mesh in document.surfaces:
                 if not mesh.path and mesh.change is None:
                     at = f"surface/{mesh.name}"
-                    vertices, faces, name = (_array(archive, f"{at}/{part}", path) for part in PARTS)
+                    vertices, faces, name = (archived_array(archive, f"{at}/{part}", path) for part in PARTS)
                     _check(given.add_surface(Surface(vertices, faces, str(name))), mesh, path)
             for field in document.fields:
-                _check(given.add_field(field.name, _array(archive, f"field/{field.name}", path)), field, path)
+                _check(given.add_field(field.name, archived_array(archive, f"field/{field.name}", path)), field, path)
         return given
 
 
 PARTS = ("vertices", "faces", "name")
-ENCRYPTED = 1
-"""A bit of the flags of an archive's entries."""
 
 
 def holds_arrays(document: Document) -> bool:
@@ -138,7 +134,7 @@ def holds_arrays(document: Document) -> bool:
 def is_archive(path: str | os.PathLike[str]) -> bool:
     """Return whether a file holds arrays that were given: whether it may be replaced by such a one."""
     try:
-        with _opened(path) as archive:
+        with open_regular(path, "archive") as file, opened_archive(file, path) as archive:
             return all(name.startswith(("surface/", "field/")) for name in archive.namelist())
     except ParameterError:
         return False
@@ -185,36 +181,6 @@ def _checksum(*arrays: AnyArray) -> str:
     for array in arrays:
         digest.update(np.ascontiguousarray(array).tobytes())
     return digest.hexdigest()
-
-
-@contextmanager
-def _opened(path: str | os.PathLike[str]) -> Iterator[zipfile.ZipFile]:
-    """An archive; ParameterError if it is none."""
-    with open_regular(path, "archive") as file, ExitStack() as files:
-        try:
-            archive = files.enter_context(zipfile.ZipFile(file))
-        except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile):
-            raise ParameterError(f"{path} is not an archive of arrays.") from None
-        yield archive
-
-
-def _array(archive: zipfile.ZipFile, name: str, path: str | os.PathLike[str]) -> AnyArray:
-    try:
-        entry = archive.getinfo(f"{name}.npy")
-    except KeyError:
-        raise ParameterError(f"{path} has no {name!r}.") from None
-    # Packed, a small file may hold more than there is memory for; ours are not.
-    if entry.compress_type != zipfile.ZIP_STORED or entry.flag_bits & ENCRYPTED:
-        raise ParameterError(f"{path}: {name!r} is compressed; arrays are written uncompressed.")
-    try:
-        with archive.open(entry) as file:
-            return array_in(file, entry.file_size)  # type: ignore[arg-type]
-    except ParameterError as error:
-        raise ParameterError(f"{path}: {name!r} cannot be read: {error}") from None
-    except MemoryError:
-        raise ParameterError(f"{path}: {name!r} is too large for the memory of this computer.") from None
-    except (OSError, ValueError, EOFError, NotImplementedError, zipfile.BadZipFile):
-        raise ParameterError(f"{path}: {name!r} cannot be read; the file is damaged.") from None
 
 
 def _check(found: MeshFile | FieldArray, wanted: MeshFile | FieldArray, path: str | os.PathLike[str]) -> None:

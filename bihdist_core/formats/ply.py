@@ -24,6 +24,7 @@ _TYPES = {
     **{"float": "f4", "double": "f8", "float32": "f4", "float64": "f8"},
 }
 _IDS = ("vertex_indices", "vertex_index")
+_NO_VALUES = {*"xyzstuv", "nx", "ny", "nz", "red", "green", "blue", "alpha"}
 
 
 @dataclass
@@ -50,9 +51,7 @@ def read_ply(raw: bytes, name: str) -> Polygons:
     order, elements, body = _header(raw, name)
     if order is None and (plain := _read_plain(raw, elements, body)):
         return plain
-    columns = (
-        _text_body(raw[body:], elements, name) if order is None else _Binary(raw, body, order, name).read(elements)
-    )
+    columns = _body(raw, order, elements, body, name)
     vertex = columns.get("vertex", {})
     missing = [axis for axis in "xyz" if not isinstance(vertex.get(axis), np.ndarray)]
     if missing:
@@ -66,6 +65,23 @@ def read_ply(raw: bytes, name: str) -> Polygons:
     if isinstance(strips, tuple):
         return _from_strips(vertices, strips[1], name)
     raise MeshError(f"{name} has {counted(len(vertices), 'vertex', 'vertices')} but no faces (no list vertex_indices).")
+
+
+def ply_values(raw: bytes, name: str) -> dict[str, AnyArray]:
+    """Read the properties (n,) of the vertices of a PLY file by name, without places, normals, colours and textures.
+
+    MeshError as of `read_ply`.
+    """
+    vertex = _body(raw, *_header(raw, name), name).get("vertex", {})
+    return {key: each for key, each in vertex.items() if isinstance(each, np.ndarray) and key not in _NO_VALUES}
+
+
+def _body(
+    raw: bytes, order: str | None, elements: list[_Element], body: int, name: str
+) -> dict[str, dict[str, _Column]]:
+    if order is None:
+        return _text_body(raw[body:], elements, name)
+    return _Binary(raw, body, order, name).read(elements)
 
 
 def _from_strips(vertices: FloatArray, values: FloatArray, name: str) -> Polygons:
