@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import AnyArray, FloatArray
+from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import MeshError, ParameterError
 from ..sentences import shortened
 from .array_file import archived_array, array_in, opened_archive
@@ -54,6 +54,25 @@ class VertexArray:
     values: FloatArray
     names: tuple[str, ...] = ()
     colours: FloatArray | None = None
+
+    @property
+    def vertex_colours(self) -> FloatArray:
+        """The colours (n, 3) of labels, NaN where there is none."""
+        assert self.colours is not None
+        found = np.full((len(self.values), 3), np.nan)
+        has = np.isfinite(self.values)
+        found[has] = self.colours[self.values[has].astype(np.int64)]
+        return found
+
+    @property
+    def counts(self) -> IntArray:
+        """The number (k,) of vertices that have each label."""
+        there = self.values[np.isfinite(self.values)].astype(np.int64)
+        return np.bincount(there, minlength=len(self.names))
+
+    def name_at(self, vertex: int) -> str:
+        """Return the label of a vertex, "" for none."""
+        return "" if np.isnan(self.values[vertex]) else self.names[int(self.values[vertex])]
 
 
 def read_vertex_array(path: str | os.PathLike[str], array: str = "") -> VertexArray:
