@@ -317,6 +317,10 @@ class Component:
         """The vertex areas (m,), unit length squared."""
         return self._whole.areas[self.vertices]
 
+    def operators_of(self, surface: Surface) -> tuple[sp.csr_matrix, FloatArray]:
+        """Return the stiffness matrix and the areas of another surface, of the same kind."""
+        return operators(surface, self._whole.areas_kind)
+
     # ------------------------------------------------------------------ the factor
     def tree(self, progress: Progress | None = None) -> EliminationTree:
         """Return the elimination order, which serves every matrix with the pattern of the stiffness matrix."""

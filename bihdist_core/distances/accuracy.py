@@ -7,8 +7,9 @@ by phi^T dL phi (`biharmonic_accuracy` has the biharmonic distance).  dL consist
 - the rounding of a face's height h, which changes all of the face's energy by a share of about eps l / h (l is its
   longest side);
 - for a degenerate face what its spring lacks (see `degenerate_faces`): a share 1 - h / (FLAT_RATIO l) of its energy, to
-first
-  order.
+  first order;
+- the rounding of coordinates as they were read, far from the origin above all, which moves the corners of all faces at
+  a vertex together: dL of a few surfaces whose coordinates are read as the same.
 
 Roundings are as good as random, so their squares are added; the springs of degenerate faces have one sign and add up.
 A residual r of a solve counts as y^T r, and what else the solver makes of it is found by computing the same distances
@@ -36,6 +37,9 @@ Effect = Callable[[int], FloatArray]
 POOR_ACCURACY = 1e-3
 """What may be further off than this, as a fraction of its maximum, is warned of; what need not be is not given."""
 
+FINEST_ACCURACY = 1e-12
+"""The least an accuracy is said to be: estimates look at some pairs, and others may be rounded worse."""
+
 EPS = float(np.finfo(float).eps)
 RELATIVE_ROUNDING = 8 * EPS / 2
 """By what share a number may be rounded that went through up to eight roundings; there is some to spare."""
@@ -46,6 +50,8 @@ CANCELLATION_EPS = 48
 """Bound on the error of a squared commute-time distance by cancellation, in eps times the largest G_ii."""
 TRIED_SPRINGS = 16
 """The number of springs of degenerate faces that are tried to find where they matter most."""
+TRIED_READINGS = 5
+"""The number of surfaces whose coordinates are read as the same."""
 FACES_PER_BLOCK = 8192
 """Faces at a time, so that the temporary arrays stay in the processor's cache."""
 
@@ -114,6 +120,8 @@ class Perturbation:
         self._diagonal = component.stiffness.diagonal()
         self._weights, height = face_weights(self._surface), self._surface.face_heights
         self._flat = component.flat
+        matrices = [component.operators_of(each)[0] for each in read_alike(component, TRIED_READINGS)]
+        self._read = [other - matrices[0] for other in matrices[1:]]
         with np.errstate(divide="ignore"):
             self._uncertain = np.where(height < FLAT_RATIO, 0, 1 / height)
         # What a convention gives is no place to look for errors.
@@ -142,7 +150,11 @@ class Perturbation:
             # A link, whose strength is half a height.
             links = (y[a] - y[b]) ** 2 / 2
             squares += (links[~flat.loose] ** 2).sum(axis=0)
-        return SAFETY_FACTOR * RELATIVE_ROUNDING * np.sqrt(squares), SAFETY_FACTOR / 2 * spring
+        rounding = RELATIVE_ROUNDING * np.sqrt(squares)
+        read = [np.einsum("ij,ij->j", y, change @ y) for change in self._read]
+        if read:
+            rounding += np.sqrt(np.mean(np.square(read), axis=0))
+        return SAFETY_FACTOR * rounding, SAFETY_FACTOR / 2 * spring
 
     def effect_of_springs(self) -> Effect | None:
         """Return the effect of what springs lack on squared commute-time distances from a vertex to all.
@@ -175,6 +187,55 @@ class Perturbation:
         energy *= self._uncertain[block, None]
         total: FloatArray = squares + np.einsum("ij,ij->j", energy, energy)
         return total
+
+
+def read_alike(component: Component, count: int) -> list[Surface]:
+    """Return the component near the origin, and `count` surfaces whose coordinates, at random, are read as its own.
+
+    None where distances cannot change by more than FINEST_ACCURACY.  Whole numbers and what single precision holds, as
+    all of a file that is in single precision, count as exact.
+    """
+    surface, x = component.surface, component.surface.vertices
+    with np.errstate(over="ignore", under="ignore"):
+        is_exact = (x == x.astype(np.float32)) | ((x == np.rint(x)) & (np.abs(x) < 1 / EPS))
+        half = np.where(is_exact, 0, np.spacing(np.abs(x)) / 2)
+    # A corner that moves by some share of the face's height changes the face's energy by up to some four times that.
+    heights = np.sqrt(2 * surface.face_areas * surface.face_heights)
+    moved = np.linalg.norm(half, axis=1)[surface.faces].max(axis=1)
+    if not (4 * moved > FINEST_ACCURACY * heights)[surface.face_heights >= FLAT_RATIO].any():
+        return []
+    # There, between the numbers of the file, are others.
+    near, rng = x - x[0], np.random.default_rng(2)
+    others = (near + half * rng.uniform(-1, 1, x.shape) for _ in range(count))
+    return [Surface(each, surface.faces, surface.name) for each in (near, *others)]
+
+
+def _moved_by_reading(component: Component) -> float:
+    """Return by how much commute-time distances may change where coordinates are read as the same.
+
+    L is D^T D for differences D u along the sides s of each face, weighted by 1 / (2 sqrt(area)), and d(i, j) is
+    |x_i - x_j| with x_i = D G e_i.  As in `biharmonic_accuracy`, random signs r tell how far these points move: by
+    G (dD^T r - dL V) with V = G D^T r.
+    """
+    first, *others = read_alike(component, TRIED_READINGS) or [component.surface]
+    if not others:
+        return 0.0
+    signs = np.random.default_rng(3).choice([-1.0, 1.0], (len(others), 3, len(first.faces)))
+    proper = np.flatnonzero(first.face_heights >= FLAT_RATIO)
+
+    def loads(surface: Surface, sign: FloatArray) -> FloatArray:
+        scaled = sign[:, proper] / (2 * np.sqrt(surface.face_areas[proper]))
+        along = np.concatenate([dots(side[:, proper], scaled) for side in surface.sides()])
+        found: FloatArray = np.bincount(surface.faces[proper].T.ravel(), along, len(surface.vertices)).astype(float)
+        return found
+
+    before = np.stack([loads(first, sign) for sign in signs], axis=1)
+    products, stiffness = component.solve(before), component.operators_of(first)[0]
+    changed = np.stack([loads(*each) for each in zip(others, signs, strict=True)], axis=1) - before
+    for each, load, column in zip(others, changed.T, products.T, strict=True):
+        load -= (component.operators_of(each)[0] - stiffness) @ column
+    moves = component.centred(component.solve(changed))
+    return 2 * float(np.sqrt((moves**2).mean(axis=1)).max())
 
 
 def _spread(some: IntArray) -> IntArray:
@@ -237,7 +298,8 @@ def accuracy_of_resistances(component: Component, columns: Columns, corrected: f
     # d(i, j)^2 is the largest (g_i - g_j)^2 / g^T L g, which of g = e_i is 1 / L_ii.
     closest = 1 / component.stiffness.diagonal().max(keepdims=True)
     cancelled = change_of_root(closest, CANCELLATION_EPS * EPS * float(component.green_diagonal().max()))
-    return float((change_of_root(computed**2, by).max() + cancelled[0]) / tops.min())
+    moved = _moved_by_reading(component)
+    return float((change_of_root(computed**2, by).max() + cancelled[0] + moved) / tops.min())
 
 
 # ---------------------------------------------------------------------- errors of solutions

@@ -18,6 +18,9 @@ a few r of random signs their mean squares estimate squared lengths (Johnson and
   and a height h;
 - the error of the factor, which the residual L V - A^(1/2) r tells;
 - what the springs of degenerate faces lack (see `degenerate_faces`), all with one sign.
+
+The coordinates.  Those that are read as the same have other L and A; x_i then moves by A^(1/2) G (dA^(1/2) A^(-1/2) -
+dL) G e_i, of which a few samples tell the largest.  That bound has much to spare.
 """
 
 import numpy as np
@@ -27,7 +30,7 @@ from ..arrays import FloatArray, IntArray
 from ..laplacian import Component
 from ..operators import face_weights
 from ..surface import FLAT_RATIO
-from .accuracy import EPS, RELATIVE_ROUNDING, SAFETY_FACTOR, change_of_root
+from .accuracy import EPS, RELATIVE_ROUNDING, SAFETY_FACTOR, change_of_root, read_alike
 
 USUAL = 48
 """Bound on the error of a squared distance, in eps H, unless more is found; from 3 to 20 is usual."""
@@ -39,6 +42,8 @@ than the second, as fractions of the maximum.  The third is how many of a field 
 are solved for together."""
 TRIED = 5
 """Number of vectors of random signs."""
+UNSEEN = 2
+"""Ratio of how far coordinates as they were read may move a point to the most that was found."""
 UNLUCKY = 2.5
 """Ratio of a distance's estimate from these vectors to the least value that the distance is taken to have."""
 THIN = 0.1
@@ -68,13 +73,15 @@ def accuracy_of_fields(component: Component) -> float:
     loads, products = b[:, :TRIED], y[:, :TRIED]
 
     # Both errors take a second solve.
-    changed = [component.stiffness @ products - loads + _rounded(component, products)]
+    changed = [SAFETY_FACTOR * (component.stiffness @ products - loads + _rounded(component, products))]
     if component.flat.lack.any():
-        changed.append(component.flat.pull(component.flat.lack[:, None] * component.flat.stretch(products)))
+        pulled = component.flat.pull(component.flat.lack[:, None] * component.flat.stretch(products))
+        changed.append(SAFETY_FACTOR / 2 * pulled)
+    if (read := _changed_by_reading(component, products, signs)).size:
+        changed.append(UNSEEN * read)
     again = component.solve(np.hstack([areas[:, None] * y[:, TRIED:], *changed]))
     moves = component.centred(again[:, len(sources) :]).reshape(m, len(changed), TRIED)
-    lengths = np.sqrt((moves**2).mean(axis=2)).max(axis=0)
-    moved = SAFETY_FACTOR * lengths[0] + SAFETY_FACTOR / 2 * lengths[1:].sum()
+    moved = float(np.sqrt((moves**2).mean(axis=2)).max(axis=0).sum())
 
     columns, in_place = factor.sandwich_columns(sources), factor.sandwich_diagonal[sources]
     found = np.abs(columns - again[:, : len(sources)])
@@ -115,6 +122,19 @@ def _closest(component: Component, products: FloatArray, least: FloatArray) -> f
     points = products[few] / np.sqrt(products.shape[1])
     apart = cKDTree(points).query(points, 2, distance_upper_bound=UNLUCKY * enough)[0][:, 1] / UNLUCKY
     return min(enough, float(np.maximum(apart, least[few]).min()))
+
+
+def _changed_by_reading(component: Component, products: FloatArray, signs: FloatArray) -> FloatArray:
+    """Return dA^(1/2) r - dL V (m, k) for surfaces that are read alike, another for each column of V (`products`).
+
+    `signs` (m, k) are r; k is 0 where that is next to nothing.
+    """
+    found = [component.operators_of(each) for each in read_alike(component, TRIED)]
+    changed, areas = np.empty((len(signs), max(len(found) - 1, 0))), component.areas
+    for load, (stiffness, other), column, sign in zip(changed.T, found[1:], products.T, signs.T, strict=False):
+        load[:] = (np.sqrt(other) - np.sqrt(areas)) * sign - (stiffness - found[0][0]) @ column
+        load -= areas * (load.sum() / areas.sum())
+    return changed
 
 
 def _rounded(component: Component, products: FloatArray) -> FloatArray:

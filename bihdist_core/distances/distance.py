@@ -13,11 +13,8 @@ from ..memo import Memo
 from ..mesh_like import MeshLike, Rows
 from ..progress import Progress
 from ..sources.pieces import Pieces
-from .accuracy import POOR_ACCURACY, ErrorEstimate, accurate_to, rounded_up
+from .accuracy import FINEST_ACCURACY, POOR_ACCURACY, ErrorEstimate, accurate_to, rounded_up
 from .pair_questions import PairQuestions
-
-FINEST_ACCURACY = 1e-12
-"""The least an accuracy is said to be: estimates look at some pairs, and others may be rounded worse."""
 
 
 class Distance(PairQuestions):

@@ -1,5 +1,5 @@
-"""FreeSurfer's files: surfaces (lh.pial), values at vertices (lh.thickness), annotations (lh.aparc.annot) and labels
-(lh.cortex.label).
+"""FreeSurfer's files: surfaces (lh.pial, lh.pial.asc), values at vertices (lh.thickness), annotations (lh.aparc.annot)
+and labels (lh.cortex.label).
 
 They have no extensions of their own, or share them; their first bytes tell them apart.  Coordinates are those of the
 file, of FreeSurfer's surfaces ("tkr"): what a file says of the volume it was made from is not applied.
@@ -14,10 +14,12 @@ from ..arrays import AnyArray, FloatArray, IntArray
 from ..counts import counted
 from ..errors import MeshError
 from .mesh_names import GZIP
-from .polygons import Polygons, checked_corners
+from .polygons import Polygons, checked_corners, whole_numbers
 from .text_lines import TextLines, shown
 
 _SURFACE, _QUADS, _VALUES = b"\xff\xff\xfe", b"\xff\xff\xfd", b"\xff\xff\xff"
+_BEGINNING = b"#!ascii"
+"""Of surfaces and labels of text."""
 _TABLE_VERSION = -2
 
 
@@ -42,19 +44,53 @@ def is_values(raw: bytes) -> bool:
 
 def read_freesurfer(raw: bytes, name: str) -> Polygons:
     """Read the triangles of a FreeSurfer surface; MeshError where it is none, or is cut off."""
+    if raw.startswith(_BEGINNING):
+        return _read_text(raw, name)
     if raw[:3] == _QUADS:
         raise MeshError(f"{name} is a FreeSurfer surface of quads; FreeSurfer's mris_convert makes triangles of it.")
     if not is_surface(raw):
         what = "holds values, not a surface" if is_values(raw) else "is not a FreeSurfer surface"
         raise MeshError(f"{name} {what}: its first bytes are {raw[:3].hex()} where {_SURFACE.hex()} belongs.")
     file = _Cursor(raw, name, len(_SURFACE))
-    for _ in range(2):
+    file.skip_line()
+    # An empty line, or a text, may follow the stamp; a count below 167 million begins with a smaller byte.
+    if not file.at_end and raw[file.at] >= 10:
         file.skip_line()
     n, m = file.whole("number of vertices"), file.whole("number of triangles")
     points = file.numbers(3 * n, ">f4", "coordinates").reshape(-1, 3)
     corners, sizes = file.numbers(3 * m, ">i4", "corners"), np.full(m, 3)
     ids = checked_corners(corners, sizes, n, lambda k: f"{name}: triangle {k}")
     return Polygons(points.astype(np.float64), sizes, ids)
+
+
+def _read_text(raw: bytes, name: str) -> Polygons:
+    """Read a surface of text: the numbers of vertices and triangles, then four for each, of which the last marks it."""
+    what = next((word for word in (b"label", b"patch") if word in raw.partition(b"\n")[0].split()[1:4]), None)
+    if what:
+        raise MeshError(f"{name} is a FreeSurfer {what.decode()}, not a surface.")
+    lines = TextLines(raw, name, comment=b"#")
+    numbers = lines.numbers(np.ones(len(lines), bool))
+    counts, _ = whole_numbers(numbers.values[: numbers.sizes[0]] if len(lines) else np.empty(0))
+    if len(counts) != 2 or counts.min() < 0:
+        line = f", line {numbers.number[0]}: {lines.line(0)}" if len(lines) else " is cut off: its second line"
+        raise MeshError(f"{name}{line} is not the numbers of vertices and triangles.")
+    n, m = counts.tolist()
+    if n + m != len(lines) - 1:
+        why = "it is cut off or damaged" if n + m > len(lines) - 1 else "its counts are wrong"
+        raise MeshError(
+            f"{name} announces {n:,} vertices and {m:,} triangles, and {len(lines) - 1:,} lines follow; {why}."
+        )
+    wrong = np.flatnonzero(numbers.sizes[1:] != 4)
+    if len(wrong):
+        k = wrong[0] + 1
+        raise MeshError(f"{name}, line {numbers.number[k]}: {lines.line(k)} is not three numbers and a mark.")
+    rows = numbers.columns(4, slice(1, None)) if n + m else np.empty((0, 4))
+    sizes, kept = np.full(m, 3), rows[n:, 3] == 0
+    ids = checked_corners(
+        rows[n:, :3].ravel(), sizes, n, lambda k: f"{name}, line {numbers.number[1 + n + k]}: triangle {k}"
+    )
+    repairs = (f"{counted(int((~kept).sum()), 'triangle')} marked as cut out ignored",) if not kept.all() else ()
+    return Polygons(rows[:n, :3], sizes[kept], ids.reshape(-1, 3)[kept].ravel(), repairs)
 
 
 def read_values(raw: bytes, name: str) -> AnyArray:
@@ -176,7 +212,6 @@ class _Cursor:
 
 # ---------------------------------------------------------------------- labels
 LABEL = ".label"
-_BEGINNING = b"#!ascii"
 
 
 def is_label(path: str | os.PathLike[str]) -> bool:

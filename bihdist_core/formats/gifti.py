@@ -1,7 +1,7 @@
 """GIFTI files (.gii), surfaces of brains and values on them: a strict reader, and a writer of values.
 
 Format: https://www.nitrc.org/projects/gifti/, version 1.0.  Coordinates are those of the array: the transforms to other
-coordinate systems that may stand beside it are not applied.  Numbers in files beside the file are not read.
+coordinate systems that may stand beside it are not applied.
 """
 
 import base64
@@ -12,6 +12,7 @@ import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import BinaryIO
 from xml.etree import ElementTree
 from xml.sax.saxutils import escape
@@ -20,6 +21,7 @@ import numpy as np
 
 from ..arrays import AnyArray
 from ..errors import MeshError
+from ..file_content import bytes_beside
 from .compression import MOST_BYTES
 from .polygons import Polygons, checked_corners
 from .text_lines import parsed_numbers, xml_root
@@ -31,6 +33,7 @@ _TYPES = {
 }
 _TYPES |= {"NIFTI_TYPE_FLOAT32": "f4", "NIFTI_TYPE_FLOAT64": "f8"}
 _PARTS = ("Red", "Green", "Blue", "Alpha")
+_EXTERNAL = "ExternalFileBinary"
 _ORDERS = {"LittleEndian": "<", "BigEndian": ">"}
 
 
@@ -105,14 +108,45 @@ def _root(raw: bytes, name: str) -> ElementTree.Element:
     return xml_root(raw, name, "a GIFTI file", "GIFTI")
 
 
-def _array(element: ElementTree.Element, where: str) -> GiftiArray:
-    intent, kind, encoding = (element.get(key, "")[:40] for key in ("Intent", "DataType", "Encoding"))
+def with_external_data(content: bytes, path: Path) -> bytes:
+    """Return the content of a GIFTI file with the numbers inside it that it keeps in files beside it.
+
+    MeshError as of `gifti_arrays`, and for a file that is not beside it.
+    """
+    if _EXTERNAL.encode() not in content:
+        return content
+    root = _root(content, path.name)
+    for k, element in enumerate(root.findall("DataArray")):
+        if element.get("Encoding") == _EXTERNAL:
+            where = f"{path.name}: array {k}"
+            kind, shape = _announced(element, where)
+            name, begin = element.get("ExternalFileName", ""), element.get("ExternalFileOffset", "").strip() or "0"
+            if not re.fullmatch("[0-9]{1,15}", begin):
+                raise MeshError(f"{where} begins at {begin[:20]!r} of its file, which is not a number of bytes.")
+            count = math.prod(shape) * np.dtype(kind).itemsize
+            found = bytes_beside(path, name, f"{where}: its file", MOST_BYTES, int(begin), count)
+            for old in element.findall("Data"):
+                element.remove(old)
+            ElementTree.SubElement(element, "Data").text = base64.b64encode(found).decode("ascii")
+            element.set("Encoding", "Base64Binary")
+    return ElementTree.tostring(root)
+
+
+def _announced(element: ElementTree.Element, where: str) -> tuple[str, tuple[int, ...]]:
+    """Return the type of an array's numbers, without the order of their bytes, and its shape."""
+    kind = element.get("DataType", "")[:40]
     if kind not in _TYPES:
         raise MeshError(f"{where} is of the type {kind!r}, which is not read.")
-    shape, size = _shape(element, where), np.dtype(_TYPES[kind]).itemsize
-    count = math.prod(shape)
-    if count * size > MOST_BYTES:
-        raise MeshError(f"{where} announces {count:,} numbers, more than are read.")
+    shape = _shape(element, where)
+    if math.prod(shape) * np.dtype(_TYPES[kind]).itemsize > MOST_BYTES:
+        raise MeshError(f"{where} announces {math.prod(shape):,} numbers, more than are read.")
+    return _TYPES[kind], shape
+
+
+def _array(element: ElementTree.Element, where: str) -> GiftiArray:
+    intent, encoding = (element.get(key, "")[:40] for key in ("Intent", "Encoding"))
+    kind, shape = _announced(element, where)
+    count, size = math.prod(shape), np.dtype(kind).itemsize
     text = (element.findtext("Data") or "").encode()
     if encoding == "ASCII":
         values: AnyArray = parsed_numbers(text, where, "numbers")
@@ -123,9 +157,11 @@ def _array(element: ElementTree.Element, where: str) -> GiftiArray:
         content = _decoded(text, count * size if encoding.startswith("G") else None, where)
         if len(content) % size:
             raise MeshError(f"{where} has {len(content)} bytes, which is not a whole number of {kind} values.")
-        values = np.frombuffer(content, order + _TYPES[kind])
-    elif encoding == "ExternalFileBinary":
-        raise MeshError(f"{where} keeps its numbers in another file, which is not read; save it as one file.")
+        values = np.frombuffer(content, order + kind)
+    elif encoding == _EXTERNAL:
+        raise MeshError(
+            f"{where} keeps its numbers in another file, which is read only where this one is not compressed."
+        )
     else:
         raise MeshError(f"{where} is encoded as {encoding!r}, which is not read.")
     if len(values) != count:

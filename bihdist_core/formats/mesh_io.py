@@ -1,4 +1,4 @@
-"""Mesh files into surfaces: OFF, OBJ, PLY, STL, VTK (legacy), VTP, VTU, glTF, GLB, GIFTI and FreeSurfer's.
+"""Mesh files into surfaces: OFF, OBJ, PLY, STL, VTK (legacy), VTP, VTU, glTF, GLB, GIFTI, FreeSurfer's and MNI's.
 
 All readers are our own and strict: a file is read whole or refused with a sentence, and vertex ids are the file's.
 (VTK's readers split OBJ vertices along texture seams, return what is left of a truncated file, and can take the
@@ -17,6 +17,7 @@ from ..errors import MeshError, MissingFileError
 from ..mesh_arrays import check_size
 from ..surface import Surface
 from .compression import unpacked
+from .gifti import with_external_data
 from .gltf_file import with_buffers
 from .mesh_names import FORMATS, GZIP, MESH_FORMATS, mesh_format
 from .polygons import Polygons, triangulated
@@ -28,7 +29,8 @@ def read_surface(path: str | os.PathLike[str]) -> Surface:
     Parameters
     ----------
     path : str or path-like
-        The extension, in any case, names the format, or a name such as lh.pial. A file with .gz behind it is unpacked.
+        The extension, in any case, names the format, or a name such as lh.pial; FreeSurfer's surfaces may have any
+        other name. A file with .gz behind it is unpacked.
 
     Returns
     -------
@@ -83,7 +85,7 @@ def surface_in(content: bytes, name: str) -> Surface:
 
 def read_polygons(content: bytes, name: str) -> Polygons:
     """Read the polygons of a mesh file by the reader of its format."""
-    reader = FORMATS[mesh_format(name)].reader
+    reader = FORMATS[mesh_format(name, content)].reader
     polygons: Polygons = getattr(import_module(f".{reader}", __package__), f"read_{reader}")(content, name)
     return polygons
 
@@ -99,7 +101,7 @@ def _check_extent(surface: Surface) -> None:
 
 
 def mesh_content(path: str | os.PathLike[str]) -> bytes:
-    """Read the bytes of a mesh file, a .gltf with the files that it names; the first half of `read_surface`."""
+    """Read the bytes of a mesh file, a .gltf or .gii with the files that it names; the first half of `read_surface`."""
     path = Path(path)
     try:
         kind = path.stat().st_mode
@@ -119,6 +121,8 @@ def mesh_content(path: str | os.PathLike[str]) -> bytes:
         content = path.read_bytes()
         if path.suffix.lower() == ".gltf":
             content = with_buffers(content, path)
+        elif path.suffix.lower() == ".gii":
+            content = with_external_data(content, path)
     except MeshError:
         raise  # it is a ValueError too
     except FileNotFoundError:

@@ -7,12 +7,15 @@ import gzip
 import os
 import re
 import zlib
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 GZIP = ".gz"
 FREESURFER = "FreeSurfer"
-"""The format of files whose names begin with the hemisphere, such as lh.pial."""
+"""The format of files whose names begin with the hemisphere, such as lh.pial, or that begin as a surface."""
+MNI = "MNI"
+"""The format of .obj files that begin as an object of CIVET."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +25,7 @@ class MeshFormat:
     Parameters
     ----------
     name : str
-        The extension in lower case, with its dot, or FREESURFER.
+        The extension in lower case, with its dot, FREESURFER or MNI.
     reader : str
         A module of this package; ``"off"`` has the function ``read_off(content, name)``, which returns `Polygons`.
     y_bonus : float
@@ -49,6 +52,7 @@ FORMATS = {
         MeshFormat(".glb", "gltf", y_bonus=4.0),
         MeshFormat(".gii", "gifti", y_bonus=-4.0),
         MeshFormat(FREESURFER, "freesurfer", y_bonus=-4.0),
+        MeshFormat(MNI, "mni", y_bonus=-4.0),
     )
 }
 """All formats by their names, in the order in which they are listed."""
@@ -58,20 +62,40 @@ MESH_FORMATS = tuple(name for name in FORMATS if name.startswith("."))
 
 _HEMISPHERE = re.compile(r"(^|[._-])[lr]h\.[a-z]", re.IGNORECASE)
 _OTHER_GIFTI = re.compile(r"\.(func|shape|label|time|rgba|vector|tensor|coord|topo)\.gii(\.gz)?$", re.IGNORECASE)
+_SURFACE = re.compile(rb"\xff\xff\xfe|#!ascii(?! *label)")
+_MNI = re.compile(rb"\s*[FLMPQTX]\s|[flmpqtx](?!\s)[^\0]{0,40}\0")
+"""A letter for the kind of object, and its numbers as words, or as bytes, of which some are zero."""
 _SEARCHED = 1 << 26
 """So many bytes of a GIFTI file are searched for points."""
 
 
-def mesh_format(path: str | os.PathLike[str]) -> str:
-    """Return the extension that names the format of a mesh file, without .gz.
+def mesh_format(path: str | os.PathLike[str], content: bytes | None = None) -> str:
+    """Return the extension that names the format of a mesh file, without .gz, FREESURFER or MNI; "" for another file.
 
-    FREESURFER, or "" for a file of another name.
+    Where the name leaves it open, the first bytes tell: of `content`, or of the file if it is there.
     """
     name = os.path.basename(path).lower().removesuffix(GZIP)
     extension = os.path.splitext(name)[1]
-    if extension in MESH_FORMATS:
+    if extension in MESH_FORMATS and extension != ".obj":
         return extension
-    return FREESURFER if has_hemisphere(name) else ""
+    if has_hemisphere(name) and extension != ".obj":
+        return FREESURFER
+    begin = beginning(path) if content is None else content
+    if extension == ".obj":
+        return MNI if _MNI.match(begin) else extension
+    return FREESURFER if _SURFACE.match(begin) else ""
+
+
+def beginning(path: str | os.PathLike[str], count: int = 200) -> bytes:
+    """Return the first bytes of a file, unpacked; none if they cannot be read."""
+    # A pipe would wait for ever.
+    if os.path.isfile(path):
+        with (
+            suppress(OSError, EOFError, zlib.error),
+            gzip.open(path) if os.fspath(path).lower().endswith(GZIP) else open(path, "rb") as file,
+        ):
+            return file.read(count)
+    return b""
 
 
 def has_hemisphere(name: str) -> bool:
@@ -100,9 +124,7 @@ def is_mesh_file(path: Path) -> bool:
         return bool(form)
     if _OTHER_GIFTI.search(path.name):
         return False
-    try:
-        with gzip.open(path) if path.suffix.lower() == GZIP else path.open("rb") as file:
-            head = file.read(3 if form == FREESURFER else _SEARCHED)
-    except (OSError, EOFError, zlib.error):
-        return form == ".gii"
-    return head == b"\xff\xff\xfe" if form == FREESURFER else b"NIFTI_INTENT_POINTSET" in head
+    if form == FREESURFER:
+        return bool(_SURFACE.match(beginning(path)))
+    content = beginning(path, _SEARCHED)
+    return not content or b"NIFTI_INTENT_POINTSET" in content

@@ -37,6 +37,9 @@ _OTHER_STATEMENTS = (
         "res",
     ),
 )
+_STATEMENTS = ("v", "f", "l", "p", *_OTHER_STATEMENTS)
+_CONTINUED = re.compile(rb"(?m)^(?:[^\n]*\\\n(?![ \t]*(?:%b)(?:[ \t\n]|\Z)))+[^\n]*" % "|".join(_STATEMENTS).encode())
+"""A backslash before a statement does not continue a line: it ends a path, as in `mtllib C:\\models\\`."""
 _VERTEX_SIZES = (3, 4, 6, 7)
 """Coordinates, perhaps a weight, perhaps a colour."""
 _NUMBERS = re.compile(rb"[-+.\d/eE]*")
@@ -56,7 +59,7 @@ def _read_plain(raw: bytes) -> Polygons | None:
     """Read the polygons by the compiled kernel; None if it leaves the file to the other reader."""
     if b"\\" in raw and re.search(rb"\\[\r\n#]", raw):
         return None
-    keywords = np.array([keyword_code(word.encode()) for word in ("v", "f", "l", "p", *_OTHER_STATEMENTS)], np.uint64)
+    keywords = np.array([keyword_code(word.encode()) for word in _STATEMENTS], np.uint64)
     found = mesh_text("read_obj", (keywords, len(keywords)), raw, _VERTEX_SIZES, comment=b"#")
     return Polygons(found.vertices, found.sizes, found.corners, _repairs(found.loose)) if found else None
 
@@ -79,7 +82,7 @@ def _check_end(raw: bytes, name: str) -> None:
 
 
 def _read_any(raw: bytes, name: str) -> Polygons:
-    lines = TextLines(raw, name, comment=b"#", continuation=True)
+    lines = TextLines(raw, name, comment=b"#", continued=_CONTINUED)
     is_vertex = lines.keyword == keyword_code(b"v")
     is_face = lines.keyword == keyword_code(b"f")
     is_loose = (lines.keyword == keyword_code(b"l")) | (lines.keyword == keyword_code(b"p"))

@@ -55,6 +55,12 @@ def _read_any(raw: bytes, name: str) -> Polygons:
             f"follow: {problem}."
         )
     numbers = lines.numbers(np.arange(len(lines)) >= header)
+    more = numbers.sizes[:vertex_count] - allowed[0]
+    facts = []
+    # An RGB or RGBA colour, which a first line without C does not announce.
+    if len(allowed) == 1 and more.size and more[0] in (3, 4) and (more == more[0]).all():
+        allowed = [allowed[0] + int(more[0])]
+        facts.append(f"{more[0]} numbers behind each vertex, a colour that the first line does not announce, ignored")
     wrong = np.flatnonzero(~np.isin(numbers.sizes[:vertex_count], allowed))
     if len(wrong):
         k = wrong[0]
@@ -64,7 +70,7 @@ def _read_any(raw: bytes, name: str) -> Polygons:
         )
     vertices = numbers.columns(3, slice(0, vertex_count))
     sizes, corners = _faces(numbers, vertex_count, name)
-    return Polygons(vertices, sizes, corners)
+    return Polygons(vertices, sizes, corners, facts=tuple(facts))
 
 
 def _read_row(lines: TextLines, header: int, n: int, p: int, allowed: list[int]) -> Polygons | None:

@@ -7,6 +7,7 @@ where faces carry texture coordinates of their own.
 
 import re
 import struct
+from collections import Counter
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -23,6 +24,7 @@ _TYPES = {
     **{"int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4"},
     **{"float": "f4", "double": "f8", "float32": "f4", "float64": "f8"},
 }
+_LINE_END = re.compile(rb"\r\n|\n\r|\n|\r")
 _IDS = ("vertex_indices", "vertex_index")
 _NO_VALUES = {*"xyzstuv", "nx", "ny", "nz", "red", "green", "blue", "alpha"}
 
@@ -48,10 +50,10 @@ _Column = AnyArray | tuple[IntArray, AnyArray]
 
 def read_ply(raw: bytes, name: str) -> Polygons:
     """Read the polygons of a PLY file; MeshError where it is none, or does not hold what its header announces."""
-    order, elements, body = _header(raw, name)
-    if order is None and (plain := _read_plain(raw, elements, body)):
+    order, elements, bodies = _header(raw, name)
+    if order is None and (plain := _read_plain(raw, elements, bodies[0])):
         return plain
-    columns = _body(raw, order, elements, body, name)
+    columns = _body(raw, order, elements, bodies, name)
     vertex = columns.get("vertex", {})
     missing = [axis for axis in "xyz" if not isinstance(vertex.get(axis), np.ndarray)]
     if missing:
@@ -77,11 +79,11 @@ def ply_values(raw: bytes, name: str) -> dict[str, AnyArray]:
 
 
 def _body(
-    raw: bytes, order: str | None, elements: list[_Element], body: int, name: str
+    raw: bytes, order: str | None, elements: list[_Element], bodies: list[int], name: str
 ) -> dict[str, dict[str, _Column]]:
     if order is None:
-        return _text_body(raw[body:], elements, name)
-    return _Binary(raw, body, order, name).read(elements)
+        return _text_body(raw[bodies[0] :], elements, name)
+    return _binary_body(raw, bodies, order, elements, name)
 
 
 def _from_strips(vertices: FloatArray, values: FloatArray, name: str) -> Polygons:
@@ -95,18 +97,22 @@ def _from_strips(vertices: FloatArray, values: FloatArray, name: str) -> Polygon
     return Polygons(vertices, np.full(len(faces), 3), faces.ravel(), facts=(fact,))
 
 
-def _header(raw: bytes, name: str) -> tuple[str | None, list[_Element], int]:
-    """Return the byte order ('<', '>', None for text), the elements, and where the body begins."""
-    found = re.match(rb"(?:\xef\xbb\xbf)?ply[ \t]*(\r\n|\r|\n)", raw)
+def _header(raw: bytes, name: str) -> tuple[str | None, list[_Element], list[int]]:
+    """Return the byte order ('<', '>', None for text), the elements, and where the body may begin, likely places
+    first."""
+    found = re.match(rb"(?:\xef\xbb\xbf)?ply[ \t]*(?=[\r\n])", raw)
     if not found:
         raise MeshError(f"{name} is not a PLY file: it does not begin with the line 'ply'.")
-    line_end = found[1]
-    end = re.compile(rb"(?:\r|\n)end_header[ \t]*" + line_end).search(raw)
+    end = re.compile(rb"[\r\n]end_header[ \t]*(?=[\r\n])").search(raw)
     if not end:
         raise MeshError(f"{name} is cut off or damaged: its header has no line 'end_header'.")
+    head = raw[found.end() : end.start() + 1]
+    # What follows may be a longer or a shorter line end, and the body's first byte: most likely one of those before.
+    used = [each for each, _ in Counter(_LINE_END.findall(head)).most_common()]
+    ends = [each for each in (*used, b"\r\n", b"\n\r", b"\n", b"\r") if raw.startswith(each, end.end())]
     order: str | None = ""
     elements: list[_Element] = []
-    for number, line in enumerate(raw[found.end() : end.start()].split(line_end), 2):
+    for number, line in enumerate(_LINE_END.split(head)[1:], 2):
         words = line.decode("utf-8", "replace").split()
         match words:
             case [] | ["comment" | "obj_info", *_]:
@@ -125,7 +131,7 @@ def _header(raw: bytes, name: str) -> tuple[str | None, list[_Element], int]:
                 raise MeshError(f"{name}, line {number}: {shown(line)} is not a line of a PLY header.")
     if order == "":
         raise MeshError(f"{name} does not say in its header whether it is text or binary (no line 'format').")
-    return order, elements, end.end()
+    return order, elements, [end.end() + len(each) for each in dict.fromkeys(ends)]
 
 
 def _list_sizes(values: FloatArray, element: _Element, name: str) -> IntArray:
@@ -232,6 +238,19 @@ def _enough(good: BoolArray, element: _Element, name: str) -> None:
 
 
 # ---------------------------------------------------------------------- binary
+def _binary_body(
+    raw: bytes, bodies: list[int], order: str, elements: list[_Element], name: str
+) -> dict[str, dict[str, _Column]]:
+    """Return the columns of a body, from the first place of some from which it fills the file."""
+    errors = []
+    for body in bodies:
+        try:
+            return _Binary(raw, body, order, name).read(elements)
+        except MeshError as error:
+            errors.append(error)
+    raise errors[0]
+
+
 @dataclass
 class _Binary:
     raw: bytes

@@ -48,19 +48,18 @@ class TextLines:
     """The lines of a text file that hold more than blanks and comments.
 
     `start`, `end` (l,) positions in `text`; `number` (l,) line numbers in the file, from 1. Windows and old Macintosh
-    line ends and a byte order mark are accepted. MeshError if the bytes are no text.
+    line ends and a byte order mark are accepted. What matches `continued` are lines to join, all but the last with a
+    backslash at the end. MeshError if the bytes are no text.
     """
 
-    def __init__(self, raw: bytes, name: str, comment: bytes = b"", continuation: bool = False) -> None:
+    def __init__(self, raw: bytes, name: str, comment: bytes = b"", continued: re.Pattern[bytes] | None = None) -> None:
         self.name = name
         self.text = plain_text(raw, name)
         if comment and comment in self.text:
             self.text = re.sub(re.escape(comment) + rb"[^\n]*", b"", self.text)
-        if continuation and b"\\\n" in self.text:
+        if continued and b"\\\n" in self.text:
             # The joined line keeps its line ends behind it, so that later line numbers stay right.
-            self.text = re.sub(
-                rb"(?:[^\n]*\\\n)+[^\n]*", lambda m: m[0].replace(b"\\\n", b" ") + b"\n" * m[0].count(b"\n"), self.text
-            )
+            self.text = continued.sub(lambda m: m[0].replace(b"\\\n", b" ") + b"\n" * m[0].count(b"\n"), self.text)
         byte = np.frombuffer(self.text, np.uint8)
         breaks = np.flatnonzero(byte == 10)
         start, end = np.append(0, breaks + 1), np.append(breaks, len(byte))

@@ -6,13 +6,10 @@ An array with a value for each vertex has its name from the file; of a table, ea
 from __future__ import annotations
 
 import csv
-import gzip
 import io
 import os
 import re
-import zlib
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -29,7 +26,7 @@ from .freesurfer import is_label, is_values, read_annotation, read_values
 from .gifti import LABEL_INTENT, POINTS, TRIANGLES, gifti_arrays, label_colours, label_table
 from .gltf import gltf_values
 from .gltf_file import with_buffers
-from .mesh_names import FREESURFER, GZIP, is_mesh_file, mesh_format
+from .mesh_names import FREESURFER, GZIP, beginning, is_mesh_file, mesh_format
 from .ply import ply_values
 from .text_lines import TextLines, plain_text
 from .vertex_values import value_file
@@ -105,7 +102,7 @@ def is_vertex_array_file(path: str | os.PathLike[str]) -> bool:
     path = Path(path)
     form, extension = mesh_format(path), os.path.splitext(_plain_name(path))[1]
     if form in (".gii", FREESURFER) and path.is_file():
-        return not is_mesh_file(path) and (extension in _READERS or is_values(_beginning(path)))
+        return not is_mesh_file(path) and (extension in _READERS or is_values(beginning(path)))
     return extension in _READERS and not form
 
 
@@ -139,15 +136,6 @@ def read_vertex_arrays(path: str | os.PathLike[str]) -> list[VertexArray]:
 
 def _plain_name(path: str | os.PathLike[str]) -> str:
     return os.path.basename(path).lower().removesuffix(GZIP)
-
-
-def _beginning(path: Path) -> bytes:
-    with (
-        suppress(OSError, EOFError, zlib.error),
-        gzip.open(path) if path.suffix.lower() == GZIP else path.open("rb") as file,
-    ):
-        return file.read(3)
-    return b""
 
 
 def _checked(path: str | os.PathLike[str], found: Iterable[VertexArray]) -> list[VertexArray]:

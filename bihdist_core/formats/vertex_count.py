@@ -5,7 +5,7 @@ import os
 import re
 import zlib
 
-from .mesh_names import FREESURFER, GZIP, mesh_format
+from .mesh_names import FREESURFER, GZIP, MNI, mesh_format
 
 _HEAD = 1 << 16
 """So many bytes are searched for an announcement."""
@@ -18,13 +18,15 @@ _IN_WORDS = {
     ".off": re.compile(rb"\A\s*\w*OFF\s+(\d{1,18})\s+\d+"),
     ".ply": re.compile(rb"[\r\n]element[ \t]+vertex[ \t]+(\d{1,18})"),
     ".vtk": re.compile(rb"[\r\n]POINTS[ \t]+(\d{1,18})", re.IGNORECASE),
+    FREESURFER: re.compile(rb"\A#![^\n]*\n\s*(\d{1,18})[ \t]+\d+"),
+    MNI: re.compile(rb"\A\s*P(?:\s+\S+){5}\s+(\d{1,18})"),
     ".vtp": _PIECE,
     ".vtu": _PIECE,
     ".gii": re.compile(rb"""<DataArray\b(?=[^>]*NIFTI_INTENT_POINTSET)[^>]*\bDim0\s*=\s*["'](\d{1,18})["']"""),
 }
 _IN_BYTES = {
     ".off": re.compile(rb"\s*\w*OFF[ \t]+BINARY[ \t\r]*\n(.{4})", re.DOTALL),
-    FREESURFER: re.compile(rb"\xff\xff\xfe[^\n]*\n[^\n]*\n(.{4})", re.DOTALL),
+    FREESURFER: re.compile(rb"\xff\xff\xfe[^\n]*\n(?:(?![\0-\x09])[^\n]*\n)?(.{4})", re.DOTALL),
 }
 """A big-endian number of four bytes."""
 

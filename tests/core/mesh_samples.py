@@ -102,10 +102,32 @@ def gifti_surface(vertices=VERTICES, faces=FACES, **options):
     return gifti(gifti_array("POINTSET", points, **options), gifti_array("TRIANGLE", triangles, **options))
 
 
-def freesurfer(vertices=VERTICES, faces=FACES):
+def freesurfer(vertices=VERTICES, faces=FACES, stamp=b"created by hand\n\n"):
     counts = struct.pack(">2i", len(vertices), len(faces))
     arrays = np.asarray(vertices, ">f4").tobytes() + np.asarray(faces, ">i4").tobytes()
-    return b"\xff\xff\xfecreated by hand\n\n" + counts + arrays
+    return b"\xff\xff\xfe" + stamp + counts + arrays
+
+
+def freesurfer_text(vertices=VERTICES, faces=FACES, marks=None):
+    """marks: of each triangle, other than 0 where it is cut out."""
+    marked = np.column_stack([faces, np.zeros(len(faces), int) if marks is None else marks])
+    text = "".join(f"{line}  0\n" for line in rows(vertices).splitlines()) + rows(marked)
+    return f"#!ascii version of lh.pial\n{len(vertices)} {len(faces)}\n{text}"
+
+
+def mni(vertices=VERTICES, polygons=FACES, colours=0, order="", colour_size=4):
+    """A text, or bytes of an order; colours: 0 for one, 1 for one of each polygon, 2 for one of each vertex."""
+    n_colours = (1, len(polygons), len(vertices))[colours]
+    normals, ends = np.tile([0.0, 0.0, 1.0], (len(vertices), 1)), np.cumsum([len(p) for p in polygons]).tolist()
+    corners = [int(v) for p in polygons for v in p]
+    if order:
+        content = b"p" + np.array([0.3, 0.3, 0.4, 10, 1], f"{order}f4").tobytes()
+        content += struct.pack(f"{order}i", len(vertices)) + np.asarray([vertices, normals], f"{order}f4").tobytes()
+        content += struct.pack(f"{order}2i", len(polygons), colours) + b"\xff" * colour_size * n_colours
+        return content + np.array([*ends, *corners], f"{order}i4").tobytes()
+    places = "".join(f" {line}\n" for line in rows(vertices).splitlines())
+    text = f"P 0.3 0.3 0.4 10 1 {len(vertices)}\n{places}\n{rows(normals)}\n {len(polygons)}\n {colours} "
+    return text + "1 1 1 1\n" * n_colours + f"\n {' '.join(map(str, ends))}\n\n {' '.join(map(str, corners))}\n"
 
 
 def obj(vertices=VERTICES, polygons=FACES):
@@ -259,6 +281,9 @@ SAMPLES = {
     "wrapped.ply": ply("ascii").replace(b"1.0 1.0", b"1.0\n1.0").replace(b"3 3 4", b"3 3\n4"),
     "a.surf.gii": gifti_surface(),
     "text.gii": gifti_surface(encoding="ASCII"),
+    "lh.white.asc": freesurfer_text(),
+    "mni.obj": mni(),
+    "coloured.obj.gz": gzip.compress(mni(colours=2).encode()),
     "big.gii.gz": gzip.compress(gifti_surface(encoding="Base64Binary", order=">")),
 }
 SINGLE = {
@@ -269,6 +294,9 @@ SINGLE = {
     "a.glb": glb(*gltf_parts(index_type="<u4")),
     "a.glb.gz": gzip.compress(glb(*gltf_parts())),
     "lh.pial": freesurfer(),
+    "inner_skull.surf": freesurfer(stamp=b"created by hand\n"),
+    "little.obj": mni(order="<"),
+    "big.obj": mni(order=">", colours=1, colour_size=8),
     "sub-01_rh.white.gz": gzip.compress(freesurfer()),
 }
 """Those that hold single precision."""

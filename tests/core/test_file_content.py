@@ -10,9 +10,9 @@ import pytest
 
 from bihdist_core import BihdistError, NotEnoughMemory, OutputError, ParameterError
 from bihdist_core.file_content import MOST_NESTED, file_json, file_text, json_value, open_regular
-from bihdist_core.formats.mesh_names import FORMATS, FREESURFER, MESH_FORMATS, is_mesh_file, mesh_format, mesh_name
+from bihdist_core.formats.mesh_names import FORMATS, FREESURFER, MESH_FORMATS, MNI, is_mesh_file, mesh_format, mesh_name
 from bihdist_core.sentences import MOST_CHARACTERS, MOST_WORD_CHARACTERS, one_line, shortened, with_and
-from tests.core.mesh_samples import VERTICES, freesurfer, gifti, gifti_array, gifti_surface, off
+from tests.core.mesh_samples import VERTICES, freesurfer, freesurfer_text, gifti, gifti_array, gifti_surface, mni, off
 from tests.core.test_freesurfer import values
 
 
@@ -115,7 +115,7 @@ def test_format_and_name(path, form, name):
 
 
 def test_each_format_has_a_reader():
-    assert {*FORMATS} == {*MESH_FORMATS, FREESURFER}
+    assert {*FORMATS} == {*MESH_FORMATS, FREESURFER, MNI}
     for row in FORMATS.values():
         assert callable(getattr(import_module(f"bihdist_core.formats.{row.reader}"), f"read_{row.reader}"))
 
@@ -126,13 +126,28 @@ def test_meshes_of_a_folder_are_told_from_values_beside_them(put, tmp_path):
         "a.off": off(),
         "b.off.gz": gzip.compress(off().encode()),
         "lh.pial": freesurfer(),
+        "outer_skin.surf": freesurfer(),
+        "pial.asc": freesurfer_text(),
+        "mni.obj": mni(),
         "rh.white.gz": gzip.compress(freesurfer()),
         "a.surf.gii": gifti_surface(),
         "left.gii.gz": gzip.compress(gifti_surface()),
         "cut.gii.gz": gzip.compress(gifti_surface())[:-20],  # reading says what is wrong
     }
-    others = {"lh.curv": values(), "a.shape.gii": shape, "sulc.gii": shape, "a.func.gii": gifti_surface(), "a.txt": "1"}
-    others |= {"lh.aparc.annot": b"\0\0\0\5", "rh.thickness.gz": b"no gzip"}
+    others = {
+        "lh.curv": values(),
+        "a.shape.gii": shape,
+        "sulc.gii": shape,
+        "a.func.gii": gifti_surface(),
+        "a.txt": "1",
+        "lh.a.label": "#!ascii label\n",
+    }
+    others |= {
+        "lh.curv.asc": "000 0 0 0 1\n",
+        "any.surf": "# HyperSurface\n",
+        "lh.aparc.annot": b"\0\0\0\5",
+        "rh.thickness.gz": b"no gzip",
+    }
     for name, content in (meshes | others).items():
         put(name, content)
     (tmp_path / "folder.gii").mkdir()

@@ -1,5 +1,6 @@
 """FreeSurfer's surfaces, values and annotations: as nibabel writes them, and what is refused."""
 
+import gzip
 import random
 import struct
 
@@ -8,8 +9,9 @@ import pytest
 
 from bihdist_core.errors import MeshError
 from bihdist_core.formats.freesurfer import read_annotation, read_values
-from bihdist_core.formats.mesh_io import surface_in
-from tests.core.mesh_samples import FACES, VERTICES, assert_same, freesurfer, message_of
+from bihdist_core.formats.mesh_io import read_surface, surface_in
+from bihdist_core.formats.vertex_count import announced_vertices
+from tests.core.mesh_samples import FACES, VERTICES, assert_same, freesurfer, freesurfer_text, message_of
 
 VALUES = np.array([0.5, -1, 2, 0, 3], np.float32)
 NAMES = ("unknown", "bankssts", "cuneus")
@@ -54,6 +56,54 @@ def test_surfaces_written_by_nibabel(tmp_path):
     assert_same(surface, VERTICES.astype(np.float32))
 
 
+@pytest.mark.parametrize("name", ["lh.pial", "lh.seghead", "inner_skull.surf", "pial", "brain.T1.dat"])
+@pytest.mark.parametrize("stamp", [b"by hand\n\n", b"by hand\n", b"by hand\na second line\n", b"\n\n", b"\n"])
+def test_surfaces_of_any_name_and_stamp(tmp_path, name, stamp):
+    for n in (5, 9, 10, 11, 32, 255, 256, 2560, 2570, 65_546, 167_774):  # counts of all kinds of bytes
+        vertices = np.zeros((n, 3))
+        vertices[:5] = VERTICES
+        content = freesurfer(vertices, stamp=stamp)
+        (tmp_path / name).write_bytes(content)
+        assert_same(read_surface(tmp_path / name), vertices.astype(np.float32))
+        assert announced_vertices(tmp_path / name) == n
+    (tmp_path / f"{name}.gz").write_bytes(gzip.compress(content))
+    assert len(read_surface(tmp_path / f"{name}.gz").vertices) == n
+
+
+@pytest.mark.parametrize("name", ["lh.pial.asc", "pial.asc", "lh.pial", "suma"])
+def test_surfaces_of_text(tmp_path, name):
+    (tmp_path / name).write_text(freesurfer_text())
+    surface = read_surface(tmp_path / name)
+    assert_same(surface)
+    assert surface.repairs == ()
+    (tmp_path / name).write_bytes(freesurfer_text(marks=[0, 1, 0]).replace("\n", "\r\n").encode()[:-2])
+    surface = read_surface(tmp_path / name)
+    assert_same(surface, faces=FACES[[0, 2]])
+    assert surface.repairs == ("1 triangle marked as cut out ignored",)
+
+
+TEXT = freesurfer_text()
+REFUSED_TEXTS = {
+    "label": ("#!ascii label  , from subject\n1\n0 0 0 0 0\n", "is a FreeSurfer label, not a surface"),
+    "patch": (TEXT.replace("of lh", "of patch lh"), "is a FreeSurfer patch, not a surface"),
+    "no counts": ("#!ascii version\n", "is cut off: its second line is not the numbers of vertices and triangles"),
+    "one count": (TEXT.replace("5 3\n", "5\n"), "line 2: '5' is not the numbers of vertices and triangles"),
+    "negative": (TEXT.replace("5 3\n", "5 -3\n"), "line 2: '5 -3' is not the numbers"),
+    "fraction": (TEXT.replace("5 3\n", "5 3.5\n"), "line 2: '5 3.5' is not the numbers"),
+    "cut off": (TEXT[:-8], "announces 5 vertices and 3 triangles, and 7 lines follow; it is cut off or damaged"),
+    "longer": (TEXT + "0 1 2 0\n", "and 9 lines follow; its counts are wrong"),
+    "column": (TEXT.replace("1.5  0", "1.5"), "line 7: '-0.5 0.001 1.5' is not three numbers and a mark"),
+    "index": (TEXT.replace("0 1 2 0", "0 1 5 0"), "line 8: triangle 0 names vertex 5, but ids run from 0 to 4"),
+    "word": (TEXT.replace("1.5", "1,5"), "line 7: '1,5' is not a number"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED_TEXTS)
+def test_surfaces_of_text_that_are_refused(case):
+    content, expected = REFUSED_TEXTS[case]
+    assert expected in refused(surface_in, content.encode())
+
+
 def test_values_are_those_that_nibabel_writes(tmp_path):
     nibabel = pytest.importorskip("nibabel.freesurfer")
     nibabel.write_morph_data(str(tmp_path / "lh.thickness"), VALUES)
@@ -91,7 +141,8 @@ def test_surfaces_that_are_refused():
     assert "holds values, not a surface: its first bytes are ffffff" in message(values())
     assert "is a FreeSurfer surface of quads" in message(b"\xff\xff\xfd" + whole[3:])
     assert "is not a FreeSurfer surface: its first bytes are 236173" in message(b"#asc\n1 2\n")
-    assert "the text at its beginning does not end" in message(whole[:19])
+    assert "announces 15 coordinates and holds 0" in message(whole[:28])
+    assert "the text at its beginning does not end" in message(whole[:18])
     assert "announces 9 corners and holds 8" in message(whole[:-1])
     assert "announces 15 coordinates and holds" in message(whole[:50])
     assert "the number of vertices is -1" in message(whole[:20] + b"\xff" * 4 + whole[24:])

@@ -1,5 +1,6 @@
 """Reading mesh files: every format gives the file's ids, coordinates and faces."""
 
+import itertools
 import re
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 
 from bihdist_core.formats.field_output import write_fields
 from bihdist_core.formats.mesh_io import read_surface
-from bihdist_core.formats.mesh_names import mesh_format
+from bihdist_core.formats.mesh_names import MNI, mesh_format
 from bihdist_core.formats.vertex_count import announced_vertices
 from bihdist_core.surface import Surface
 from tests.core.mesh_samples import (
@@ -44,6 +45,7 @@ def test_the_vertices_that_a_file_announces_are_found_without_reading_it(put, na
     form = mesh_format(path)
     # Neither a header of triangles nor the accessors of a scene tell how many vertices there will be.
     is_told = form not in (".stl", ".gltf", ".glb") and (form != ".obj" or path.suffix != ".gz")
+    is_told &= form != MNI or path.read_bytes()[:1] != b"p"
     assert announced_vertices(path) == (len(read_surface(path).vertices) if is_told else None)
 
 
@@ -151,6 +153,16 @@ def test_off_headers(put, first):
     assert_same(read_surface(put("a.off", first + off().split("\n", 2)[2])))
 
 
+@pytest.mark.parametrize("extra", [3, 4])
+@pytest.mark.parametrize("header", ["OFF", "NOFF", "STOFF"])
+def test_off_with_colours_that_the_first_line_does_not_announce(put, header, extra):
+    wide = np.hstack([VERTICES, np.full((5, {"OFF": 0, "NOFF": 3, "STOFF": 2}[header] + extra), 0.5)])
+    surface = read_surface(put("a.off", off(wide, header=header)))
+    assert_same(surface)
+    said = f"{extra} numbers behind each vertex, a colour that the first line does not announce, ignored"
+    assert surface.facts == (said,)
+
+
 def test_off_on_few_lines(put):
     assert_same(read_surface(put("a.off", "OFF\n5 3 0\n" + " ".join(off().split()[4:]))))
     coloured = off(np.hstack([VERTICES, np.full((5, 3), 0.5)]), header="COFF")
@@ -174,6 +186,31 @@ def test_off_colours_after_faces_comments_and_blank_lines(put):
     assert_same(read_surface(put("a.off", text.encode("latin-1"))))
 
 
+# ---------------------------------------------------------------------- PLY
+LINE_ENDS = ("\n", "\r\n", "\r", "\n\r")
+
+
+@pytest.mark.parametrize("form", ["ascii", "binary_little_endian", "binary_big_endian"])
+def test_ply_headers_of_any_line_ends(put, form):
+    """All alike, and mixed; and numbers that begin with the bytes of line ends."""
+    lines = [*ply(form).split(b"end_header\n")[0].decode().splitlines(), "end_header"]
+    for first in (0.0, 3.0, *np.frombuffer(b"\r\n\r\n\n\r\n\r" + b"\n@\n@\n@\n@" + b"@\n@\n@\n@\r", np.float64)):
+        vertices = np.array(VERTICES)
+        vertices[0, 0] = first
+        body = ply(form, vertices=vertices).split(b"end_header\n", 1)[1]
+        for ends in (*([end] * len(lines) for end in LINE_ENDS), *mixed_ends(len(lines))):
+            header = "".join(line + end for line, end in zip(lines, ends, strict=True)).encode()
+            assert_same(read_surface(put("a.ply", header + body)), vertices)
+
+
+def mixed_ends(count):
+    """Line ends that change at the first, in the middle and at the last line, and in turn."""
+    for one, other in itertools.permutations(LINE_ENDS, 2):
+        for where in (1, count // 2, count - 1):
+            yield [one] * where + [other] * (count - where)
+        yield [(one, other)[k % 2] for k in range(count)]
+
+
 # ---------------------------------------------------------------------- OBJ
 def test_obj_texture_and_normal_ids_do_not_split_vertices(put):
     text = obj(polygons=[]) + "vt 0 0\nvt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/1\nf 1/2 3/1 4/2\nf 4//1 5//1 1//1\n"
@@ -193,6 +230,16 @@ def test_obj_continued_lines_colours_weights_and_other_statements(put):
     surface = read_surface(put("a.obj", text.encode("latin-1")))
     assert_same(surface)
     assert surface.repairs == ("1 line or point statement ignored",)
+
+
+NAMES = ("mtllib C:\\models\\", "usemtl a\\", "o C:\\", "g a b\\", "# C:\\models\\", "usemap \\", "x y\\")
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+@pytest.mark.parametrize("names", [*NAMES, "\n".join(NAMES)])
+def test_obj_paths_that_end_in_a_backslash(put, names, end):
+    for text in (f"{names}\n{obj()}", obj(polygons=[]) + f"{names}\n" + obj(VERTICES[:0]), obj() + names):
+        assert_same(read_surface(put("a.obj", text.replace("\n", end))))
 
 
 def test_obj_counts_lines_it_does_not_know(put):

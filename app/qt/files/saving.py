@@ -10,7 +10,7 @@ from bihdist_core.formats.mesh_names import GZIP, MESH_FORMATS
 
 from ..context import Context
 
-MESH_PATTERNS = " ".join([*(f"*{extension}" for extension in MESH_FORMATS), f"*{GZIP}", "lh.*", "rh.*"])
+MESH_PATTERNS = " ".join([*(f"*{each}" for each in (*MESH_FORMATS, GZIP, ".surf", ".asc")), "lh.*", "rh.*"])
 MESH_FILES = f"Meshes ({MESH_PATTERNS});;All files (*)"
 """The filter of dialogs that open meshes."""
 
