@@ -123,7 +123,11 @@ DISC = Glyph("disc", CIRCLE, (Layer("mark_edge", 1.0, "own", inset=0.5),), least
 LARGEST = replace(DISC, name="largest", rank=4)
 """Marks the largest difference."""
 SWATCH = Glyph(
-    "swatch", polyline([(-1, -1), (1, -1), (1, 1), (-1, 1)], True), (Layer(fill="own"),), least=3.5, of_text=0.36
+    "swatch",
+    polyline([(-1, -1), (1, -1), (1, 1), (-1, 1)], True),
+    (Layer("quiet_text", 0.5, "own"),),
+    least=3.5,
+    of_text=0.36,
 )
 """Stands in a legend for a colour."""
 DOT = replace(DISC, name="dot", reach=0.3, least=2.0, rank=1, hidden=None)

@@ -94,7 +94,7 @@ class FieldFiles:
             return
         chosen: int | None = 0
         if len(fitting) > 1:
-            question = f"{os.path.basename(path)} has {len(fitting)} arrays. &Which one do you want to show?"
+            question = f"{os.path.basename(path)} has {len(fitting)} arrays. &Which one?"
             rows = [(each.name, about, about) for each, _ in fitting for about in (_about(each),)]
             chosen = Which(question, rows, "an array", "Add", self._context.widget).ask()
         if chosen is None:
