@@ -9,7 +9,8 @@ import binascii
 import math
 import re
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
@@ -26,20 +27,23 @@ from .polygons import Polygons, checked_corners
 from .text_lines import parsed_numbers, xml_root
 
 POINTS, TRIANGLES = "NIFTI_INTENT_POINTSET", "NIFTI_INTENT_TRIANGLE"
+LABEL_INTENT = "NIFTI_INTENT_LABEL"
 _TYPES = {
     f"NIFTI_TYPE_{sign}INT{8 * size}": f"{sign.lower() or 'i'}{size}" for sign in ("", "U") for size in (1, 2, 4, 8)
 }
 _TYPES |= {"NIFTI_TYPE_FLOAT32": "f4", "NIFTI_TYPE_FLOAT64": "f8"}
+_PARTS = ("Red", "Green", "Blue", "Alpha")
 _EXTERNAL = "ExternalFileBinary"
 _ORDERS = {"LittleEndian": "<", "BigEndian": ">"}
 
 
 @dataclass(frozen=True)
 class GiftiArray:
-    """An array of a file with its intent, such as NIFTI_INTENT_POINTSET."""
+    """An array of a file with its intent, such as NIFTI_INTENT_POINTSET, and its name, "" for none."""
 
     intent: str
     values: AnyArray
+    name: str = ""
 
 
 def read_gifti(raw: bytes, name: str) -> Polygons:
@@ -75,14 +79,27 @@ def label_table(raw: bytes, name: str) -> dict[int, str]:
 
     MeshError as of `gifti_arrays`, and for a key that is none.
     """
-    names = {}
+    return {key: (element.text or "").strip() for key, element in _labels(raw, name)}
+
+
+def label_colours(raw: bytes, name: str) -> dict[int, tuple[float, ...]]:
+    """Read the red, green, blue and alpha of labels, from 0 to 1, by the keys of those that have a colour."""
+    found = {}
+    for key, element in _labels(raw, name):
+        with suppress(TypeError, ValueError):  # no colour, or none that can be shown
+            parts = [float(element.get(part, 1 if part == "Alpha" else None)) for part in _PARTS]  # type: ignore[arg-type]
+            found[key] = tuple(min(max(part, 0.0), 1.0) for part in parts)
+    return found
+
+
+def _labels(raw: bytes, name: str) -> Iterator[tuple[int, ElementTree.Element]]:
+    """Yield the keys and elements of the labels."""
     for k, element in enumerate(_root(raw, name).iterfind("LabelTable/Label")):
         # Version 1.0 of the format calls it Key, files of older programs Index.
         key = element.get("Key", element.get("Index", ""))
         if not re.fullmatch("-?[0-9]{1,10}", key):
             raise MeshError(f"{name}: label {k} of its table has the key {key[:20]!r}, not a whole number.")
-        names[int(key)] = (element.text or "").strip()
-    return names
+        yield int(key), element
 
 
 def _root(raw: bytes, name: str) -> ElementTree.Element:
@@ -150,7 +167,8 @@ def _array(element: ElementTree.Element, where: str) -> GiftiArray:
     if len(values) != count:
         raise MeshError(f"{where} announces {count:,} numbers and holds {len(values):,}; the file is damaged.")
     by_columns = element.get("ArrayIndexingOrder") == "ColumnMajorOrder"
-    return GiftiArray(intent, values.reshape(shape, order="F" if by_columns else "C"))
+    about = {md.findtext("Name", ""): md.findtext("Value", "") for md in element.iterfind("MetaData/MD")}
+    return GiftiArray(intent, values.reshape(shape, order="F" if by_columns else "C"), about.get("Name", "").strip())
 
 
 def _shape(element: ElementTree.Element, where: str) -> tuple[int, ...]:

@@ -88,13 +88,13 @@ def mesh_format(path: str | os.PathLike[str], content: bytes | None = None) -> s
         return extension
     if has_hemisphere(name) and extension != ".obj":
         return FREESURFER
-    begin = _begin(path) if content is None else content
+    begin = beginning(path) if content is None else content
     if extension == ".obj":
         return MNI if _MNI.match(begin) else extension
     return FREESURFER if _SURFACE.match(begin) else ""
 
 
-def _begin(path: str | os.PathLike[str], count: int = 200) -> bytes:
+def beginning(path: str | os.PathLike[str], count: int = 200) -> bytes:
     """Return the first bytes of a file, unpacked; none if they cannot be read."""
     # A pipe would wait for ever.
     if os.path.isfile(path):
@@ -136,6 +136,6 @@ def is_mesh_file(path: Path) -> bool:
     if _OTHER_GIFTI.search(path.name):
         return False
     if form == FREESURFER:
-        return bool(_SURFACE.match(_begin(path)))
-    content = _begin(path, _SEARCHED)
+        return bool(_SURFACE.match(beginning(path)))
+    content = beginning(path, _SEARCHED)
     return not content or b"NIFTI_INTENT_POINTSET" in content
