@@ -132,7 +132,7 @@ def is_mesh_file(path: Path) -> bool:
         return bool(form)
     if form in ARRAY_FILES:
         holds_mesh = import_module(".array_mesh", __package__).holds_mesh
-        return bool(holds_mesh(_begin(path, -1), path.name))
+        return bool(holds_mesh(beginning(path, -1), path.name))
     if _OTHER_GIFTI.search(path.name):
         return False
     if form == FREESURFER:
