@@ -88,7 +88,7 @@ def check_size(vertices: FloatArray, faces: IntArray, name: str) -> None:
 def _converted(values: npt.ArrayLike, dtype: npt.DTypeLike, refusal: str) -> tuple[AnyArray, AnyArray]:
     """Return a copy of an array of numbers, as it is and as another type; MeshError, with the reason, for others."""
     try:
-        array = np.array(values)
+        array = np.array(values, order="C")
         if array.dtype.kind not in "iufO":
             raise TypeError(f"their type is {array.dtype}")
         return array, array.astype(dtype, copy=False)

@@ -26,7 +26,8 @@ from .freesurfer import is_label, is_values, read_annotation, read_values
 from .gifti import LABEL_INTENT, POINTS, TRIANGLES, gifti_arrays, label_colours, label_table
 from .gltf import gltf_values
 from .gltf_file import with_buffers
-from .mesh_names import FREESURFER, GZIP, beginning, is_mesh_file, mesh_format
+from .mat_file import mat_variables
+from .mesh_names import GZIP, SHARED, beginning, is_mesh_file, mesh_format
 from .ply import ply_values
 from .text_lines import TextLines, plain_text
 from .vertex_values import value_file
@@ -101,7 +102,7 @@ def is_vertex_array_file(path: str | os.PathLike[str]) -> bool:
     """Return whether a file holds values at vertices and no mesh, by its name or else by its content."""
     path = Path(path)
     form, extension = mesh_format(path), os.path.splitext(_plain_name(path))[1]
-    if form in (".gii", FREESURFER) and path.is_file():
+    if form in SHARED and path.is_file():
         return not is_mesh_file(path) and (extension in _READERS or is_values(beginning(path)))
     return extension in _READERS and not form
 
@@ -233,18 +234,8 @@ def _ids(column: FloatArray) -> AnyArray | None:
 
 
 def _from_mat(content: bytes, path: Path) -> Iterable[VertexArray]:
-    from scipy.io import loadmat, whosmat
-
-    if content.startswith(b"MATLAB 7.3"):
-        raise MeshError(f"{path.name} is a MAT file of version 7.3, which is not read; save it with -v7 in MATLAB.")
-    try:
-        # What the headers announce is asked first: a small file may unfold to any size.
-        announced = whosmat(io.BytesIO(content))
-        names = [name for name, shape, _ in announced if 8 * np.prod(shape, dtype=float) <= MOST_BYTES]
-        found: Mapping[str, Any] = loadmat(io.BytesIO(content), variable_names=names)
-    except Exception as error:  # of SciPy's reader, which says of damaged files whatever it meets
-        raise MeshError(f"{path.name} is not a MAT file, or is damaged ({shortened(str(error), 100)}).") from None
-    return _columns({name: found[name] for name in names if isinstance(found.get(name), np.ndarray)})
+    variables = mat_variables(content, path.name)
+    return _columns({name: array for name, array in variables.items() if isinstance(array, np.ndarray)})
 
 
 def _from_gifti(content: bytes, path: Path) -> Iterable[VertexArray]:
