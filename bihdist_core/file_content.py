@@ -5,11 +5,12 @@
 
 import json
 import os
+import re
 import stat
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from .errors import ParameterError, unreadable
+from .errors import MeshError, ParameterError, unreadable
 
 MOST_BYTES = 1 << 30
 """Of a text: ten million numbers, each on a line, take a tenth of that."""
@@ -45,6 +46,26 @@ def file_text(path: str | os.PathLike[str], what: str, most: int = MOST_BYTES) -
             return file.read(most).decode("utf-8-sig")
         except (OSError, UnicodeDecodeError) as error:
             raise unreadable(f"The {what} {path}", error) from None
+
+
+def bytes_beside(path: Path, name: str, where: str, most: int, begin: int = 0, count: int = -1) -> bytes:
+    """Return the bytes, or `count` of them, of a file that another, which it stands beside, names.
+
+    Raises MeshError, which begins with `where`, for a name of any other place, and a file of more than `most` bytes.
+    """
+    if not name or name in (".", "..") or re.search(r"[/\\:\0]", name):
+        raise MeshError(f"{where} is {name[:80]!r}; only a file in the folder of the {path.suffix} is read.")
+    try:
+        status = (path.parent / name).stat()
+        if not stat.S_ISREG(status.st_mode):
+            raise MeshError(f"{where}, {name[:80]!r}, is not a regular file.")
+        if status.st_size > most:
+            raise MeshError(f"{where}, {name[:80]!r}, has more than {most / 2**30:g} GiB.")
+        with open(path.parent / name, "rb") as file:
+            file.seek(begin)
+            return file.read(count)
+    except OSError as error:
+        raise MeshError(f"{where}, {name[:80]!r} beside it, cannot be read: {error.strerror or error}.") from None
 
 
 def file_json(path: str | os.PathLike[str], what: str, kind: str) -> Any:

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .arrays import AnyArray, FloatArray, IntArray
+from .counts import counted
 from .errors import MeshError
 from .kernel.library import DONE, library
 
@@ -18,11 +19,25 @@ def checked_vertices(vertices: npt.ArrayLike, name: str) -> FloatArray:
     _, x = _converted(vertices, np.float64, f"{name}: the vertices are not an array of numbers")
     if x.ndim != 2 or x.shape[1] != 3:
         raise MeshError(f"{name}: vertices must have shape (n, 3), not {x.shape}.")
-    is_finite = np.isfinite(x)
-    if not is_finite.all():
-        bad = np.flatnonzero(~is_finite.all(axis=1))
-        raise MeshError(f"{name}: vertex {bad[0]} has the coordinates {_row(x[bad[0]])}; all must be finite numbers.")
     return x
+
+
+def place_unused(x: FloatArray, faces: IntArray, name: str) -> list[str]:
+    """Put vertices of no face that are NaN in the place of a vertex of the faces (m, 3), and return that in words.
+
+    MeshError, which begins with `name`, for other coordinates that are not finite.
+    """
+    is_finite = np.isfinite(x)
+    if is_finite.all():
+        return []
+    unused = np.asarray(np.isnan(x).any(axis=1))
+    unused[faces] = False
+    bad = np.flatnonzero(~is_finite.all(axis=1) & ~unused)
+    if len(bad):
+        raise MeshError(f"{name}: vertex {bad[0]} has the coordinates {_row(x[bad[0]])}; all must be finite numbers.")
+    x[unused] = x[faces[0, 0]]
+    what = counted(int(unused.sum()), "vertex", "vertices")
+    return [f"{what} of no face and without coordinates (NaN) put in the place of vertex {faces[0, 0]}"]
 
 
 def checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[IntArray, list[str]]:
@@ -73,7 +88,7 @@ def check_size(vertices: FloatArray, faces: IntArray, name: str) -> None:
 def _converted(values: npt.ArrayLike, dtype: npt.DTypeLike, refusal: str) -> tuple[AnyArray, AnyArray]:
     """Return a copy of an array of numbers, as it is and as another type; MeshError, with the reason, for others."""
     try:
-        array = np.array(values)
+        array = np.array(values, order="C")
         if array.dtype.kind not in "iufO":
             raise TypeError(f"their type is {array.dtype}")
         return array, array.astype(dtype, copy=False)

@@ -18,7 +18,7 @@ from .coincident_points import merged_within
 from .counts import counted
 from .errors import MeshError, ParameterError, VertexError
 from .kernel.library import library
-from .mesh_arrays import checked_faces, checked_vertices
+from .mesh_arrays import checked_faces, checked_vertices, place_unused
 from .mesh_like import MeshLike, Rows
 
 Coordinates = FloatArray | list[FloatArray]
@@ -48,7 +48,8 @@ class Surface:
     Raises
     ------
     MeshError
-        For wrong shapes, a coordinate that is not finite, a vertex id out of range, or no faces.
+        For wrong shapes, a coordinate that is not finite (but NaN at a vertex of no face), a vertex id out of range, or
+        no faces.
 
     Notes
     -----
@@ -73,10 +74,11 @@ class Surface:
     def __post_init__(self) -> None:
         vertices = checked_vertices(self.vertices, self.name)
         faces, dropped = checked_faces(self.faces, len(vertices), self.name)
+        placed = place_unused(vertices, faces, self.name)
         vertices.flags.writeable = faces.flags.writeable = False
         for key, value in [("vertices", vertices), ("faces", faces), ("repairs", (*self.repairs, *dropped))]:
             object.__setattr__(self, key, value)
-        object.__setattr__(self, "facts", tuple(self.facts))
+        object.__setattr__(self, "facts", (*self.facts, *placed))
 
     @classmethod
     def of(cls, mesh: MeshLike | Rows, faces: npt.ArrayLike | None = None, *, name: str | None = None) -> Surface:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from bihdist_core.errors import OutputError, ParameterError
 from bihdist_core.file_output import atomic_write
-from bihdist_core.formats.mesh_names import GZIP, MESH_FORMATS
+from bihdist_core.formats.mesh_names import ARRAY_FILES, GZIP, MESH_FORMATS
 
 from ..samples import SAMPLES
 from .result import Result
@@ -145,9 +145,11 @@ def installed_files() -> dict[Path, bytes]:
 def mime_package() -> str:
     """Return the XML that describes the types of meshes, sessions and recipes, for shared-mime-info.
 
-    Types that the system, F3D or MeshLab describe have their names.
+    Types that the system, F3D or MeshLab describe have their names. Files of arrays stay with other programs.
     """
-    compressed = "".join(f'<glob pattern="*{extension}{GZIP}"/>' for extension in MESH_FORMATS)
+    compressed = "".join(
+        f'<glob pattern="*{extension}{GZIP}"/>' for extension in MESH_FORMATS if extension not in ARRAY_FILES
+    )
     return _template("bihdist.xml", COMPRESSED=compressed)
 
 

@@ -1,16 +1,18 @@
 """The field of a command: of a distance, or of the difference of two, from a source or from several."""
 
 import argparse
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from bihdist_core.errors import ParameterError
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
-from ..document.quantities import Quantity
+from ..document.document import FieldArray
+from ..document.file_names import field_name
+from ..document.quantities import OwnField, Quantity
 from .mesh import read_laplacian
-from .mesh_sources import sources_on
+from .mesh_sources import first_spec, sources_on
 from .options import quantities
 from .result import Facts, accuracy_facts
 from .terminal import tell_accuracy
@@ -41,7 +43,7 @@ class CommandField:
     @property
     def word(self) -> str:
         """The name of the field in letters, digits and `_`."""
-        return "_minus_".join(spec.word for spec in self.shows.specs)
+        return field_name(self.shows, ()).removesuffix("_percent")
 
     @property
     def surface(self) -> "Surface":
@@ -57,30 +59,41 @@ class CommandField:
 
 def field_of(
     options: argparse.Namespace,
-    words: str,
+    words: str | None,
     progress: Progress | None,
     before: CommandField | None = None,
     several: bool = False,
 ) -> CommandField:
-    """Return the field that `words` name, from the sources and with the parameters of the options.
+    """Return the field that `words` name, from the sources and with the parameters of the options; None stands for the
+    first field of the options, else for the biharmonic distance.
 
     `before` is another field of the same mesh from the same sources.  Raises ParameterError for several sources unless
     `several` allows them.
     """
+    import numpy as np
+
     from bihdist_core.distances.answers import Answer, Distances, difference_of
     from bihdist_core.sources.pieces import pieces_of
 
-    (chosen,) = quantities(options, [words])
+    fields = {field.name: field for field in options.fields or ()}
+    (chosen,) = quantities(options, [words or next(iter(fields), "biharmonic")])
     laplacian = before.laplacian if before else read_laplacian(options)
     distances = Distances(laplacian)
     if before:
         sources = before.sources
     else:
-        found = sources_on(options, laplacian.surface, lambda: distances.get(chosen.specs[0], progress), progress)
-        sources = found.sources if several else [found.one()]
+        found = sources_on(options, laplacian.surface, lambda: distances.get(first_spec([chosen]), progress), progress)
+        sources = found.sources if several and chosen.points else [found.one()] if chosen.points else found.sources[:1]
     pieces = [pieces_of(each, laplacian.surface) for each in sources]
     answers, accuracies = [], []
-    for spec in chosen.specs:
+    for each in chosen.parts:
+        if isinstance(each, OwnField):
+            answer = _given(fields[each.name], laplacian.surface)
+            if several and answer.field is not None:
+                answer = replace(answer, field=np.repeat(answer.field[:, None], len(sources), axis=1))
+            answers.append(answer)
+            continue
+        (spec,) = each.specs
         distance = distances.get(spec, progress)
         field = distance.from_sources(sources, progress) if several else distance.from_source(sources[0], progress)
         estimate = distance.error_estimate(pieces=pieces)
@@ -92,4 +105,20 @@ def field_of(
         answer = difference_of(answers[0], answers[1], raw=not chosen.in_percent)
     if answer.failure:
         raise ParameterError(answer.failure)
+    check_values(answer)
     return CommandField(laplacian, sources, chosen, answer, "".join(dict.fromkeys(accuracies)))
+
+
+def check_values(*answers: "Answer") -> None:
+    """Raise ParameterError for an answer that is shown in colours, and has no values."""
+    for answer in answers:
+        if answer.colours is not None:
+            raise ParameterError(f"{answer.label} has labels, and no values.")
+
+
+def _given(field: FieldArray, surface: "Surface") -> "Answer":
+    """Return a field of the options; ParameterError unless it has a value for each vertex of the surface."""
+    from ..session.array_store import ArrayStore
+
+    store = ArrayStore()
+    return store.answer(store.add_file(field), surface)

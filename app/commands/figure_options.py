@@ -7,7 +7,6 @@ same way: no option is ignored.
 import argparse
 from collections.abc import Mapping
 from dataclasses import replace
-from itertools import product
 from typing import Any
 
 from bihdist_core.counts import counted
@@ -15,7 +14,7 @@ from bihdist_core.distances.distance_types import Spec
 from bihdist_core.errors import ParameterError
 from bihdist_core.sources.source import Source
 
-from ..document.document import Document, MeshFile, Panel, Point, comparison, free_names
+from ..document.document import Document, MeshFile, Panel, Point, comparison, free_names, from_points, unnamed_fields
 from ..document.edits import put_point, show_in
 from ..document.page import Recipe
 from ..document.quantities import Quantity, from_point
@@ -33,9 +32,11 @@ from .options import (
     add_rows,
     add_sources,
     check_parameters,
+    fields_of,
     given,
     given_parameters,
     quantities,
+    with_fields,
 )
 from .terminal import progress_line, tell
 
@@ -83,6 +84,7 @@ def _changed(recipe: Recipe, options: argparse.Namespace) -> Recipe:
     document, made = made_from(recipe.document)
     if options.other_mesh is not None:
         document = _with_other_mesh(document, options.other_mesh)
+    document = with_fields(document, fields_of(options))
     document = with_rows(replace(recipe, document=document), given(options, REPAIRS), (REPAIRS,)).document
     asked, second = _sources(document, options), None
     if options.beside is not None:
@@ -154,6 +156,7 @@ def _with_panels(document: Document, options: argparse.Namespace, asked: list[So
     if options.distance or (asked and len(asked) != len(starts)):
         words = options.distance
         shows = tuple(quantities(options, words, [field.name for field in document.fields])) if words else ()
+        shows += tuple(unnamed_fields(options.fields or (), shows)) if words else ()
         shows = shows or tuple(
             dict.fromkeys(from_point(_respecified(panel.shows, options), "") for panel in document.panels)
         )
@@ -169,7 +172,7 @@ def _with_panels(document: Document, options: argparse.Namespace, asked: list[So
         kept = [point for point in document.points if point.name in used]
         names = free_names("source", len(sources), [point.name for point in kept])
         points = [Point(name, at, surface) for name, at in zip(names, sources, strict=True)]
-        panels = [Panel(k, from_point(each, name), surface) for k, (name, each) in enumerate(product(names, shows))]
+        panels = [Panel(k, each, surface) for k, each in enumerate(from_points(shows, names))]
         document = replace(document, points=(*points, *kept), panels=tuple(panels), next_id=len(panels))
         check_parameters(options, [spec for panel in document.panels for spec in panel.shows.specs])
         return document, len(shows) if len(sources) > 1 else None

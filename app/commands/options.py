@@ -4,12 +4,14 @@ import argparse
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 from bihdist_core.distances.distance_types import BUILT_IN, Spec, distance_types
 from bihdist_core.errors import ParameterError
 
-from ..document.document import COMPARISON, Document
+from ..document.document import COMPARISON, Document, FieldArray, check_unique, free_field_name, unnamed_fields
+from ..document.edits import add_panel
 from ..document.lists import pair_from_words, pairs_from_words, split_list
 from ..document.option import Option, Row
 from ..document.page import Page, Recipe
@@ -101,9 +103,19 @@ def add_distance(parser: argparse.ArgumentParser, several: str = "", k: str = ""
     """Add `--distance`, and an option for each parameter of the built-in ones, which holds unless one says its own.
 
     `several` says what several with commas are; without it there is one, biharmonic if none is named. `k` says what
-    else the command counts by `--k`. With `is_field` it may be the difference of two.
+    else the command counts by `--k`. With `is_field` it may be the difference of two, and
+    there is `--field`, whose value is a list of `FieldArray`, or None.
     """
     two = ", or two like 'biharmonic - geodesic'" if is_field else ""
+    if is_field:
+        what = (
+            "values at vertices that another program has computed, shown or used in --distance by their NAME, "
+            "'biharmonic - thickness': .npy, .npz, .csv, .txt, .mat, .ply, .vtp, .vtu, .gltf, .glb, .gii, .annot, .nii "
+            "(CIFTI) or such as lh.thickness; of several arrays in a file FILE:ARRAY; with commas for several"
+        )
+        parser.add_argument(
+            "--field", dest="fields", metavar="NAME=FILE,…", type=as_argument(_fields), action="extend", help=what
+        )
     words = f"{', '.join(distance_types())}; with parameters like 'diffusion(t=1/4)'{two}"
     if several:
         parser.add_argument(
@@ -113,8 +125,8 @@ def add_distance(parser: argparse.ArgumentParser, several: str = "", k: str = ""
             help=f"{words}; with commas: {several}",
         )
     else:
-        text = f"{words} (default: biharmonic)"
-        parser.add_argument("--distance", metavar="NAME", default="biharmonic", help=text)
+        text = f"{words} (default: {'the --field, else ' if is_field else ''}biharmonic)"
+        parser.add_argument("--distance", metavar="NAME", default=None if is_field else "biharmonic", help=text)
     for name, parameter in PARAMETERS.items():
         of = ", ".join(kind.word for kind in BUILT_IN if parameter in kind.parameters)
         also = f"{k}; or " if k and name == "k" else ""
@@ -125,10 +137,40 @@ def add_distance(parser: argparse.ArgumentParser, several: str = "", k: str = ""
         )
 
 
+def _fields(text: str) -> list[FieldArray]:
+    """Return the fields in NAME=FILE or FILE, with commas between them; they are read with the mesh."""
+    from bihdist_core.formats.vertex_arrays import array_name, split_array
+
+    found: list[FieldArray] = []
+    for word in split_list(text):
+        name, equals, file = word.partition("=")
+        path, array = split_array(file if equals else word)
+        name = name if equals else free_field_name(array_name(path, array), [field.name for field in found])
+        found.append(FieldArray(name, "", "A", path, array))
+    return found
+
+
+def fields_of(options: argparse.Namespace) -> tuple[FieldArray, ...]:
+    """Return the fields of the options with their checksums; ParameterError for one that cannot be read."""
+    from ..session.array_store import ArrayStore
+
+    return tuple(map(ArrayStore().add_file, options.fields or ()))
+
+
+def with_fields(document: Document, found: tuple[FieldArray, ...]) -> Document:
+    """Return the document with more fields, each with a panel of its own if it has none."""
+    names = check_unique([field.name for field in found], "field")
+    kept = tuple(field for field in document.fields if field.name not in names)
+    document = replace(document, fields=(*kept, *found))
+    for field in unnamed_fields(found, [panel.shows for panel in document.panels]):
+        document = add_panel(document, field)
+    return document
+
+
 def eigenpair_count(options: argparse.Namespace, texts: Sequence[str], usual: int) -> int:
     """Read the command's own number of eigenpairs from `--k`, also that of distances without a number."""
     count = _k(options, usual)
-    if not any(map(_counts_eigenpairs, texts)):
+    if not any(_counts_eigenpairs(text, _names(options)) for text in texts):
         options.k = None
     return count
 
@@ -149,9 +191,18 @@ def _k(options: argparse.Namespace, usual: int) -> int:
     return usual if options.k is None else int(PARAMETERS["k"].parsed(options.k))
 
 
-def _counts_eigenpairs(text: str) -> bool:
+def _names(options: argparse.Namespace) -> list[str]:
+    """Return the names of the options' fields."""
+    return [field.name for field in getattr(options, "fields", None) or ()]
+
+
+def _counts_eigenpairs(text: str, fields: Sequence[str] = ()) -> bool:
     """Return True for the words of a distance that sums eigenpairs and does not say how many."""
-    sums = [spec for spec in quantity(text).specs if any(each.name == "k" for each in spec.distance_type.parameters)]
+    sums = [
+        spec
+        for spec in quantity(text, fields=fields).specs
+        if any(each.name == "k" for each in spec.distance_type.parameters)
+    ]
     return len(sums) > text.replace(" ", "").count("k=")
 
 
@@ -265,8 +316,11 @@ def specs(options: argparse.Namespace, texts: Sequence[str]) -> list[Spec]:
 
 
 def quantities(options: argparse.Namespace, texts: Sequence[str], fields: Sequence[str] = ()) -> list[Quantity]:
-    """Read distances, differences and a recipe's own fields from texts and the parameters beside them."""
-    found = [quantity(text, fields=fields, **given_parameters(options)) for text in texts]
+    """Read distances, differences, and fields of the options and a recipe from texts and the parameters beside them."""
+    found = [
+        quantity(text, fields=list(dict.fromkeys([*fields, *_names(options)])), **given_parameters(options))
+        for text in texts
+    ]
     check_parameters(options, [spec for shows in found for spec in shows.specs])
     return found
 

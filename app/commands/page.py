@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> Result:
     from ..web.html_file import embed_code
 
     if options.distance is None and options.recipe is None:
-        options.distance = list(USUAL)
+        options.distance = [*USUAL, *(field.name for field in options.fields or ())]
     recipe = chosen_recipe(options)
     path = options.output or f"{mesh_name(recipe.document.surfaces[0].path)}.html"
     with progress_line() as progress:

@@ -16,7 +16,17 @@ from ..figures.repair_options import MERGE, REPAIRS
 from ..figures.view_options import UP, up_meaning
 from .mesh import found_mesh
 from .mesh_sources import one_source, sources_of_document, sources_of_two
-from .options import PANELS, add_distance, add_rows, add_sources, given, given_parameters, quantities, repairs_of
+from .options import (
+    PANELS,
+    add_distance,
+    add_rows,
+    add_sources,
+    fields_of,
+    given,
+    given_parameters,
+    quantities,
+    repairs_of,
+)
 from .result import Result
 
 WORDS = "open the viewer"
@@ -75,20 +85,23 @@ def run(options: argparse.Namespace) -> Result:
         second = None
         if options.beside is not None:
             sources, second = sources_of_two(options.sources, sources, options.beside)
-        shown = comparison(path, tuple(chosen), (one_source(sources),))
+        shown = comparison(path, tuple(chosen), (one_source(sources),), fields=fields_of(options))
         shown = with_rows(Recipe(shown), given(options, *_rows()), _rows()).document
         if options.beside is not None:
             shown = open_second_mesh(shown, MeshFile("", found_mesh(options.beside)), second)
         shown = with_rows(Recipe(shown), given(options, REPAIRS), (REPAIRS,)).document
-    if is_choice and options.sources is not None:
-        raise ParameterError("Sources need a mesh; name one.")
+    from ..session.array_store import ArrayStore
+
+    read = ArrayStore.read(Recipe(shown)) if options.fields and isinstance(shown, Document) else None
+    if is_choice and (options.sources is not None or options.fields):
+        raise ParameterError("Sources and fields need a mesh; name one.")
     from ..qt.screen import check_screen
 
     # Before anything imports Qt.
     check_screen()
     from ..qt.start import run_viewer
 
-    status = run_viewer(shown, is_choice, options.screenshot, options.save_session, options.theme)
+    status = run_viewer(shown, is_choice, options.screenshot, options.save_session, options.theme, read)
     files = (options.screenshot, options.save_session)
     facts = {
         "meshes": [{"mesh": mesh} for mesh in (options.mesh, options.beside) if mesh],
@@ -101,7 +114,7 @@ def run(options: argparse.Namespace) -> Result:
 
 def _refuse_options(options: argparse.Namespace) -> None:
     """Raise ParameterError for options that a session file contains."""
-    named = {f"--{name}": getattr(options, name) for name in ("sources", "distance")}
+    named = {"--sources": options.sources, "--distance": options.distance, "--field": options.fields}
     named |= {f"--{name}": value for name, value in given_parameters(options).items()}
     values = given(options, *_rows())
     named |= {option.word: values.get(option.name) for row in _rows() for option in row.options}

@@ -100,21 +100,25 @@ class Point:
 
 @dataclass(frozen=True)
 class FieldArray:
-    """A field of the user's own, given from Python: values at a surface's vertices.
+    """A field of the user's own: values at a surface's vertices, in a file or given from Python.
 
     Attributes
     ----------
     name
         Its name.
     sha256
-        The checksum of the values, which stand beside the document (`session.array_store`).
+        The checksum of the values; those from Python stand beside the document (`session.array_store`).
     surface
         The name of the surface.
+    path, array
+        The file, and the name of the array in a file of several; both empty for values from Python.
     """
 
     name: str
     sha256: str
     surface: str = "A"
+    path: str = ""
+    array: str = ""
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str):
@@ -125,6 +129,14 @@ class FieldArray:
             raise ParameterError(f"A field's name has up to {LONGEST_NAME} characters, all of them printable.")
         if self.name.partition("(")[0] in distance_types():
             raise ParameterError(f"A field needs a name of its own; {self.name!r} is a distance.")
+
+
+def free_field_name(text: str, taken: list[str]) -> str:
+    """Return a name for a field that is not taken, as near as may be to a text, such as the name of its file."""
+    words = "".join(letter for letter in text if letter.isprintable()).replace(" - ", " ").removeprefix("raw ")
+    name = words.strip()[: LONGEST_NAME - 10].strip() or "field"
+    name = f"other {name}" if name.partition("(")[0] in distance_types() else name
+    return free_names(name, 1, taken)[0]
 
 
 @dataclass(frozen=True)
@@ -414,11 +426,8 @@ def comparison(
     `fields` are the user's own; those that no quantity names have panels of their own at the end.
     """
     names = free_names("source", len(sources), [])
-    # What starts nowhere is the same for all sources.
-    starting = [each for each in shows if isinstance(each, Spec) or each.points]
-    shown = [from_point(each, name) for k, name in enumerate(names) for each in (starting if k else shows)]
-    named = {part.name for each in shown for part in own_fields(each)}
-    shown += [OwnField(field.name) for field in fields if field.name not in named]
+    shown = from_points(shows, names)
+    shown += unnamed_fields(fields, shown)
     return Document(
         surfaces=(MeshFile("A", path),),
         points=tuple(Point(name, at) for name, at in zip(names, sources, strict=True)),  # type: ignore[arg-type]
@@ -427,6 +436,19 @@ def comparison(
         next_id=len(shown),
         fields=fields,
     )
+
+
+def from_points(shows: "Sequence[Spec | Quantity]", names: Sequence[str]) -> list[Quantity]:
+    """Return quantities from each of some points, point by point."""
+    # What starts nowhere is the same for all sources.
+    starting = [each for each in shows if isinstance(each, Spec) or each.points]
+    return [from_point(each, name) for k, name in enumerate(names) for each in (starting if k else shows)]
+
+
+def unnamed_fields(fields: Iterable[FieldArray], shown: Iterable[Quantity]) -> list[OwnField]:
+    """Return those of the user's own fields of which none of the quantities is made."""
+    named = {part.name for each in shown for part in own_fields(each)}
+    return [OwnField(field.name) for field in fields if field.name not in named]
 
 
 def starting_points(document: Document) -> tuple[Point, ...]:

@@ -7,9 +7,19 @@ from bihdist_core.distances.distance_types import Spec, distance_types
 from bihdist_core.sources.source import Source
 
 from .derived_surfaces import changed_mesh, without_changed
-from .document import COMPARISON, Document, MeshFile, Panel, Point, free_names, with_new_point
+from .document import (
+    COMPARISON,
+    Document,
+    FieldArray,
+    MeshFile,
+    Panel,
+    Point,
+    free_field_name,
+    free_names,
+    with_new_point,
+)
 from .looks import Isolines
-from .quantities import Difference, DistanceFrom, Quantity, from_point, own_fields
+from .quantities import Difference, DistanceFrom, OwnField, Quantity, from_point, own_fields
 from .removal import without_orphans, without_surfaces
 
 KEPT_OF_CLOSED = (
@@ -163,6 +173,22 @@ def add_panel(document: Document, shows: Quantity, surface: str = "A") -> Docume
     """One more panel, at the end, with an id that no panel has had."""
     panel = Panel(document.next_id, shows, surface)
     return replace(document, panels=(*document.panels, panel), next_id=document.next_id + 1)
+
+
+def show_field(document: Document, field: FieldArray, panel: int) -> Document:
+    """Show one more field of the user's own: in a panel of its own, or if there are six in the one named, or another of
+    its surface.
+
+    It gets a name that is free; the same array of the same file is not added again.
+    """
+    known = next((each for each in document.fields if replace(each, name=field.name) == field), None)
+    if known is None:
+        known = replace(field, name=free_field_name(field.name, [each.name for each in document.fields]))
+        document = replace(document, fields=(*document.fields, known))
+    if len(document.panels) < MOST_ADDED:
+        return add_panel(document, OwnField(known.name), known.surface)
+    here = [each.id for each in document.panels_of(known.surface)]
+    return show_in(document, panel if panel in here else here[-1], OwnField(known.name))
 
 
 def remove_panel(document: Document, panel: int) -> Document:

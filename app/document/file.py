@@ -82,6 +82,7 @@ def with_all_paths(document: Document, named: Callable[[str], str]) -> Document:
     return replace(
         document,
         surfaces=tuple(with_paths(mesh, named) for mesh in document.surfaces),
+        fields=tuple(replace(field, path=named(field.path)) if field.path else field for field in document.fields),
         panels=tuple(replace(panel, shows=panel.shows.with_paths(named)) for panel in document.panels),
         parts=tuple(part.with_paths(named) for part in document.parts),
     )

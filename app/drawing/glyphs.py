@@ -122,6 +122,14 @@ DISC = Glyph("disc", CIRCLE, (Layer("mark_edge", 1.0, "own", inset=0.5),), least
 """Marks where a field starts."""
 LARGEST = replace(DISC, name="largest", rank=4)
 """Marks the largest difference."""
+SWATCH = Glyph(
+    "swatch",
+    polyline([(-1, -1), (1, -1), (1, 1), (-1, 1)], True),
+    (Layer("quiet_text", 0.5, "own"),),
+    least=3.5,
+    of_text=0.36,
+)
+"""Stands in a legend for a colour."""
 DOT = replace(DISC, name="dot", reach=0.3, least=2.0, rank=1, hidden=None)
 """Marks a point that an isoline passes through."""
 RING = Glyph(

@@ -54,6 +54,8 @@ class FigurePanel:
         Whether the directions of x, y and z are shown, unless they are in a panel before.
     colours
         (n, 3) colours of the surface's own, instead of a field, grey where they are NaN.
+    are_labels
+        Whether the colours stand for labels, between which there are no others.
     largest
         How large a difference is and where, in words.
     """
@@ -81,6 +83,7 @@ class FigurePanel:
     lines: tuple[LineMark, ...] = ()
     areas: tuple[AreaMark, ...] = ()
     colours: FloatArray | None = None
+    are_labels: bool = False
     largest: str = ""
 
     def __post_init__(self) -> None:

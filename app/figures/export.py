@@ -29,6 +29,7 @@ from ..session.questions import questions, source_at, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
 from .description import Figure, FigurePanel
 from .draw import FIGURE_FORMATS, check_offscreen, check_room, check_transparency, save_figure
+from .legend import legend_of_labels
 from .size import Size
 from .tex import tex_path, tex_snippet
 
@@ -109,12 +110,17 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
         )
         for panel, answer, marks in zip(document.panels, answers, marked, strict=True)
     )
-    remarks = (mark.text for marks in marked for mark in marks if isinstance(mark, Remark))
+    remarks = [mark.text for marks in marked for mark in marks if isinstance(mark, Remark)]
+    size = Size.parse(page.size) if page.size else Size()
+    legend, left_out = legend_of_labels(answers)
+    if legend and size.height is not None:
+        legend, left_out = (), "There is no legend of labels on a page of given height; give its width only."
     return Figure(
         panels,
-        remarks=tuple(dict.fromkeys(remarks)),
+        remarks=tuple(dict.fromkeys([*remarks, left_out] if left_out else remarks)),
+        legend=legend,
         columns=page.columns or (COLUMNS if changed_mesh(document) is not None else None),
-        size=Size.parse(page.size) if page.size else Size(),
+        size=size,
         style=style,
         range=document.range,
         transparent=page.transparent,
@@ -216,6 +222,7 @@ def _figure_panel(
         surface,
         answer.field,
         colours=answer.colours,
+        are_labels=answer.labels is not None,
         heading=heading,
         hint=hint,
         label="" if answer.failure else answer.label,

@@ -2,16 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
-from ..drawing.glyphs import glyph_shapes
+from bihdist_core.distances.answers import Answer
+
+from ..drawing.glyphs import SWATCH, glyph_shapes
 from ..drawing.shapes import Shape
-from .description import Figure
+from ..marks.field_marks import label_rows
+from ..marks.primitives import PointMark
+from .description import Entry, Figure
 from .page_layout import ComposedPage, PageLayout
 from .words import TextLines
 
 GAP, BETWEEN, HIGH = 0.5, 2.0, 1.7
 """Font sizes from a mark to its words, from one entry to the next, and from line to line."""
+
+
+MOST_LABELS = 48
+"""Of which the legend has names."""
+
+
+def legend_of_labels(answers: Iterable[Answer]) -> tuple[tuple[Entry, ...], str]:
+    """Return an entry for each label that panels show, and a sentence on labels left out, "" for none."""
+    rows = list(dict.fromkeys(row for answer in answers for row in label_rows(answer, MOST_LABELS)))
+    count = max((int((each.labels.counts > 0).sum()) for each in answers if each.labels is not None), default=0)
+    entries = tuple((PointMark(0, SWATCH, row.colour), row.text) for row in rows)
+    sentence = f"The legend names the {MOST_LABELS} labels of most vertices among {count:,}."
+    return entries, sentence if count > MOST_LABELS else ""
 
 
 def with_legend(figure: Figure, layout: PageLayout) -> PageLayout:

@@ -207,7 +207,8 @@ class _Fields:
         figure = figure_of(recipe, self.surfaces, answers)
         drawn = zip(figure.panels, document.panels, strict=True)
         seen = tuple(replace(each, views=(cameras[panel.surface],)) for each, panel in drawn)
-        return replace(figure, panels=seen, is_moving=True)
+        # A frame has the height that turning shapes need, and no room for a legend.
+        return replace(figure, panels=seen, is_moving=True, legend=())
 
 
 def _figures(movie: Movie, fields: _Fields) -> Iterator[Figure]:

@@ -16,7 +16,7 @@ from bihdist_core.sources.source import Curve
 from bihdist_core.sources.words import EMPTY
 
 from ..document.derived_surfaces import COLUMNS
-from ..document.document import COMPARISON
+from ..document.document import COMPARISON, from_points
 from ..document.option import NotExpressible, Option, Row, with_attribute
 from ..document.page import Recipe
 from ..document.quantities import Quantity, from_point, own_fields
@@ -126,16 +126,17 @@ def _panels_of(recipe: Recipe) -> dict[str, Any]:
         raise NotExpressible(f"One line draws one mesh, and here are {len(document.surfaces)}.")
     if not document.surfaces[0].path:
         raise NotExpressible("The mesh was given from Python as arrays, which no line can hold.")
-    if document.fields or any(own_fields(panel.shows) for panel in document.panels):
+    used = dict.fromkeys(part.name for panel in document.panels for part in own_fields(panel.shows))
+    fields = [document.field(name) for name in used]
+    if not all(field.path for field in (*fields, *document.fields)):
         raise NotExpressible("User-defined fields were given from Python as arrays, which no line can hold.")
     if not document.panels:
         raise NotExpressible("There are no panels.")
     names = list(dict.fromkeys(name for panel in document.panels for name in panel.shows.points))
     shows: list[Quantity] = [
-        from_point(p.shows, "source") for p in document.panels if set(p.shows.points) == set(names[:1])
+        from_point(p.shows, "source") for p in document.panels if set(p.shows.points) <= set(names[:1])
     ]
-    # What starts nowhere, such as interpolants, is named once.
-    repeated = [from_point(each, name) for name in names or ["source"] for each in shows]
+    repeated = from_points(shows, names or ["source"])
     if [panel.shows for panel in document.panels] != repeated:
         raise NotExpressible("The panels start from different points, and not every distance from every point.")
     places = [document.point(name).at for name in names]
@@ -143,13 +144,19 @@ def _panels_of(recipe: Recipe) -> dict[str, Any]:
         raise NotExpressible("One of several sources has not been placed.")
     starts = [Starts(at) for at in places if at is not None]
     words = [str(each) for each in shows]
-    values: dict[str, Any] = {} if words == [str(spec) for spec in COMPARISON] else {"distances": words}
+    usual = words in ([*map(str, COMPARISON), *used], [*map(str, COMPARISON)])
+    values: dict[str, Any] = {} if usual else {"distances": words}
+    if fields:
+        values["fields"] = {
+            each.name: os.path.abspath(each.path) + f":{each.array}" * bool(each.array) for each in fields
+        }
     return values | ({"source": starts} if starts else {})
 
 
 PANELS = Row(
     (
         Option("distances", "", flag="distance", group="", is_list=True),
+        Option("fields", "", flag="field", group="", write=lambda fields: ",".join(map("=".join, fields.items()))),
         Option("source", "", flag="sources", group="", write=lambda start: start, is_list=True, may_be_lone=True),
     ),
     ("Document.surfaces", "Document.fields", "Document.points", "Document.panels", "Panel.shows"),

@@ -150,7 +150,7 @@ def figure(
     distances: Sequence[str | Quantity] = ("biharmonic", "geodesic", "diffusion"),
     source: Source | str | Sequence[Source | str] | npt.NDArray[np.integer] | None = None,
     *,
-    fields: Mapping[str, npt.ArrayLike] | None = None,
+    fields: Mapping[str, npt.ArrayLike | os.PathLike[str]] | None = None,
     second_mesh: Mesh | None = None,
     areas: str = "voronoi",
     cut: str = "",
@@ -179,9 +179,9 @@ def figure(
     source : int, str, Source or sequence of these, optional
         The vertex where distances start, by default the highest, or another source (``"12+40"``). Several sources get
         a row of panels each; with a second mesh, one source each mesh.
-    fields : mapping of str to (n,) array_like, optional
-        Your own fields by name, NaN where undefined.  Each has a panel, or is used in `distances` like a distance:
-        ``"biharmonic - mine"``.
+    fields : mapping of str to (n,) array_like or file, optional
+        Your own fields by name, NaN where undefined, or files of them: ``"lh.thickness"``, ``"all.npz:curv"``.  Each
+        has a panel, or is used in `distances` like a distance: ``"biharmonic - mine"``.
     second_mesh : str or MeshLike, optional
         Another mesh, with panels of its own.
     areas : {"voronoi", "barycentric"}

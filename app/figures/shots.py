@@ -167,7 +167,7 @@ def take_shots(
                 render_window.shown.show_field(panel.field, tops[index], panel.signed)
                 render_window.shown.show_bands(band_edges(panel.isolines, tops[index], panel.signed))
             elif panel.colours is not None:
-                render_window.shown.show_colours(panel.colours)
+                render_window.shown.show_colours(panel.colours, panel.are_labels)
             else:
                 render_window.shown.show_bare(is_plain=not panel.failure)
             curves = render_cache.curves or panel.isolines.labels  # which stand on curves

@@ -14,7 +14,7 @@ from bihdist_core.sources.words import short_words_of
 from ..document.document import Document, Panel
 from ..document.on_surface import SOURCE, Hidden
 from ..document.source_edits import members_of
-from ..drawing.glyphs import DOT, LARGEST
+from ..drawing.glyphs import DOT, LARGEST, SWATCH
 from ..session.isoline_points import IsolinePoint, passed
 from ..session.loaded_mesh import LoadedMesh
 from ..session.questions import source_at
@@ -96,6 +96,17 @@ def source_lines(pieces: Pieces, name: str = "") -> list[LineMark]:
     found = chains(segments) if len(segments) else []
     at = np.array(places, np.int64)
     return [LineMark(corners[at[ids]], weights[at[ids]], closed, name=name) for ids, closed in found]
+
+
+def label_rows(answer: Answer, most: int) -> list[LegendRow]:
+    """Return what the colours of labels stand for, of those that most vertices have, in the order of their table."""
+    labels = answer.labels
+    if labels is None or labels.colours is None:
+        return []
+    order = np.argsort(-labels.counts, kind="stable")[:most]
+    colours = ["#" + "".join(f"{round(255 * part):02x}" for part in colour) for colour in labels.colours.tolist()]
+    there = sorted(k for k in order.tolist() if labels.counts[k])
+    return [LegendRow(SWATCH, labels.names[k], colours[k]) for k in there]
 
 
 def largest(answer: Answer) -> list[PointMark | LegendRow]:

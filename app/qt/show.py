@@ -305,7 +305,7 @@ _open: set[Viewer] = set()
 def show(
     mesh: Mesh,
     distances: Sequence[str | Quantity] = ("biharmonic", "geodesic", "diffusion"),
-    fields: Mapping[str, npt.ArrayLike] | None = None,
+    fields: Mapping[str, npt.ArrayLike | os.PathLike[str]] | None = None,
     source: Source | str | None = None,
     *,
     areas: str = "voronoi",
@@ -325,9 +325,10 @@ def show(
         A file, the name of a sample, or the mesh itself.
     distances : sequence of str
         The distances, a panel each, such as ``"diffusion(t=1/4)"`` or ``"biharmonic - geodesic"``.
-    fields : mapping of str to (n,) array_like, optional
-        Your own fields by name, NaN where undefined.  Each has a panel, coloured from 0 (if it has negative values,
-        from minus its largest absolute value), or is used in `distances` like a distance: ``"biharmonic - mine"``.
+    fields : mapping of str to (n,) array_like or file, optional
+        Your own fields by name, NaN where undefined, or files of them: ``"lh.thickness"``, ``"all.npz:curv"``.  Each
+        has a panel, coloured from 0 (if it has negative values, from minus its largest absolute value), or is used in
+        `distances` like a distance: ``"biharmonic - mine"``.
     source : int, str or Source, optional
         The vertex where distances start, by default the highest, or another source (``"12+40"``).
     areas : {"voronoi", "barycentric"}

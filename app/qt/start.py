@@ -15,6 +15,7 @@ from ..document.document import Document
 from ..document.looks import Isolines
 from ..document.settings import Preferences
 from ..samples import SAMPLES
+from ..session.array_store import ArrayStore
 from .application import application, check_screen
 from .files.files import Files
 from .files.session_actions import SessionFile, offer_lost_state
@@ -44,9 +45,11 @@ def run_viewer(
     screenshot: str | None = None,
     save_session: str | None = None,
     theme: str = "",
+    given: ArrayStore | None = None,
 ) -> int:
     """Show a document, or a session's file, in the window until it is closed, or until its picture is saved.
 
+    `given` has the fields that the document names.
     With `is_empty` the document's mesh is chosen in the window. `theme` is "light", "dark" or "desktop"; "" for the
     user's preference. Returns the exit status.
     """
@@ -60,6 +63,7 @@ def run_viewer(
         shown = as_preferred(shown, preferences)
     preferences = beginning_at(preferences, shown)
     window = MainWindow(None if isinstance(shown, str) else shown, preferences)
+    window.session.given.update(given or ArrayStore())
     restore_geometry(window, preferences)
     _alive.append(window)
     failures: list[str] = []

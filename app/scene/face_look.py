@@ -80,17 +80,17 @@ def put_face_look(shader: vtkShaderProperty, has_edges: bool, has_colours: bool 
 def pass_on(shader: vtkShaderProperty, *attributes: tuple[str, str, str]) -> None:
     """Hand vertex attributes to the fragment shader, also past a geometry shader, in one call, as the last one counts.
 
-    Each attribute comes with its name there and its type in GLSL.  VTK renames what ends in VSOut where there is a
-    geometry
-    shader.
+    Each attribute comes with its name there and its type in GLSL, before which "flat" may stand.  VTK renames what ends
+    in VSOut where there is a geometry shader.
     """
     lines: dict[str, list[str]] = {part: [] for part in ("vertex", "set", "geometry", "copy", "fragment")}
     for attribute, name, kind in attributes:
-        lines["vertex"].append(f"in {kind} {attribute};\nout {kind} {name}VSOut;")
+        flat, kind = "flat " * kind.startswith("flat "), kind.removeprefix("flat ")
+        lines["vertex"].append(f"in {kind} {attribute};\n{flat}out {kind} {name}VSOut;")
         lines["set"].append(f"{name}VSOut = {attribute};")
-        lines["geometry"].append(f"in {kind} {name}VSOut[];\nout {kind} {name}GSOut;")
+        lines["geometry"].append(f"{flat}in {kind} {name}VSOut[];\n{flat}out {kind} {name}GSOut;")
         lines["copy"].append(f"{name}GSOut = {name}VSOut[i];")
-        lines["fragment"].append(f"in {kind} {name}VSOut;\n#define {name} {name}VSOut")
+        lines["fragment"].append(f"{flat}in {kind} {name}VSOut;\n#define {name} {name}VSOut")
     for put, place, part in (
         (shader.AddVertexShaderReplacement, _POSITION, "vertex"),
         (shader.AddVertexShaderReplacement, "//VTK::PositionVC::Impl", "set"),

@@ -5,9 +5,9 @@ of a value that has a line, measured in pixels.  Lines so drawn have the same wi
 """
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
 from bihdist_core.arrays import AnyArray, ByteArray, FloatArray
@@ -27,8 +27,9 @@ allows, so that a face with an undefined corner is undefined up to the others, w
 FINE = 8192
 """Colours of a table with bands, so that each ends where its isoline is."""
 
-TINTS = ("selected", "colours")
-"""Colours of vertices besides those of the field, each with an attribute of the shader."""
+TINTS = {"selected": ("selectedAt", "vec4"), "colours": ("coloursAt", "vec4"), "labels": ("coloursAt", "flat vec4")}
+"""Colours of vertices besides those of the field, each with an attribute of the shader: its name there and its type.
+Those of labels are flat, as between two labels there is no third."""
 
 _LIT = "//VTK::Light::Impl"
 MOST_LINES = 2 * MOST_ISOLINES + 64
@@ -139,13 +140,20 @@ class FieldActor:
         """Tint vertices that stand out with colours (n, 4) uint8, see `selected_colours`; None for none."""
         self._tint("selected", colours)
 
-    def show_colours(self, colours: FloatArray) -> None:
-        """Show colours (n, 3) from 0 to 1 instead of a field, grey where they are NaN."""
+    def show_colours(self, colours: FloatArray, are_labels: bool = False) -> None:
+        """Show colours (n, 3) from 0 to 1 instead of a field, grey where they are NaN.
+
+        A face has one colour of `are_labels`, that of most of its corners; others go over into each other.
+        """
         self.show_bare()
         known = np.isfinite(colours).all(axis=1)
         tint = np.zeros((len(colours), 4), np.uint8)
         tint[known] = np.column_stack([np.round(255 * colours[known]), np.full(known.sum(), 255)])
-        self._tint("colours", tint)
+        self._tint("labels" if are_labels else "colours", tint)
+
+    def _drop_colours(self) -> None:
+        for name in self._tints.keys() - {"selected"}:
+            self._tint(name, None)
 
     def _tint(self, name: str, colours: ByteArray | None) -> None:
         """Let vertices have these colours (n, 4) uint8, multiplied by alpha, for one of TINTS; None for none."""
@@ -156,6 +164,8 @@ class FieldActor:
             array = numpy_to_vtk(np.concatenate([colours, colours[self._copies]]).astype(np.float32) / 255, deep=True)
             array.SetName(name)
             self._own.GetPointData().AddArray(array)
+            if name == "labels":
+                self._own.SetPolys(_turned(self._own, np.concatenate([colours, colours[self._copies]])))
             self._own.Modified()
         self._pass_tints(set(self._tints))
 
@@ -215,8 +225,7 @@ class FieldActor:
         has_lines
             Whether there are isolines.
         """
-        if "colours" in self._tints:
-            self._tint("colours", None)
+        self._drop_colours()
         own = float(np.nanmax(np.abs(field) if signed else field, initial=0.0))
         top = own if maximum is None else maximum
         shares = field / top if top > 0 else np.zeros_like(field)
@@ -234,8 +243,7 @@ class FieldActor:
     def show_bare(self, is_plain: bool = False) -> None:
         """Show the surface in grey; `is_plain` for one that is meant to have no field."""
         self._be_plain(is_plain)
-        if "colours" in self._tints:
-            self._tint("colours", None)
+        self._drop_colours()
         self._values[:] = UNDEFINED
         self._array.Modified()
         self.maximum = self._own_maximum = 0.0
@@ -362,11 +370,23 @@ class FieldActor:
         shader = self.actor.GetShaderProperty()
         shader.ClearAllShaderReplacements()
         attributes = [("isolineAttribute", "isolineValue", "float")]
-        attributes += [(f"{name}Attribute", f"{name}At", "vec4") for name in TINTS if name in self._passed_on]
+        attributes += [(f"{name}Attribute", *TINTS[name]) for name in TINTS if name in self._passed_on]
         pass_on(shader, *attributes)
-        put_face_look(shader, has_edges, "colours" in self._passed_on)
+        put_face_look(shader, has_edges, bool(self._passed_on - {"selected"}))
         paint = (PAINT_SELECTED if "selected" in self._passed_on else "") + _PAINT
         shader.AddFragmentShaderReplacement(_LIT, False, f"{_LIT}\n{paint}", False)
+
+
+def _turned(mesh: vtkPolyData, colours: ByteArray) -> vtkCellArray:
+    """Return the triangles of a mesh with colours (n, 4) at its points, each with a colour that two of its corners have
+    at the last one: that is the one of which the shader takes what is flat."""
+    faces = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3).copy()
+    code = np.ascontiguousarray(colours).view(np.uint32).ravel()[faces]
+    odd = (code[:, 0] == code[:, 1]) & (code[:, 1] != code[:, 2])
+    faces[odd] = faces[odd][:, [2, 0, 1]]
+    cells = vtkCellArray()
+    cells.SetData(3, numpy_to_vtkIdTypeArray(faces.ravel(), deep=True))
+    return cells
 
 
 def lookup_table(style: Style, signed: bool = False, edges: FloatArray | None = None) -> vtkLookupTable:

@@ -1,26 +1,25 @@
-"""Surfaces and fields from Python instead of files, by the checksums that documents name them by.
+"""Surfaces and fields from Python instead of files, and fields of files, by the checksums that documents name them by.
 
-They are saved as an .npz archive of plain arrays: `surface/A/vertices`, `surface/A/faces` and `surface/A/name` of a
-surface A, and `field/height` of a field.
+Those from Python are saved as an .npz archive of plain arrays: `surface/A/vertices`, `surface/A/faces` and
+`surface/A/name` of a surface A, and `field/height` of a field.
 """
 
 from __future__ import annotations
 
 import hashlib
 import os
-import zipfile
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from bihdist_core import ParameterError, Surface
 from bihdist_core.arrays import AnyArray, FloatArray
+from bihdist_core.distances.answers import Answer, given_answer
 from bihdist_core.file_content import open_regular
-from bihdist_core.formats.array_file import array_in
+from bihdist_core.formats.array_file import archived_array, opened_archive
 from bihdist_core.mesh_like import MeshLike
 from bihdist_core.sources.source import Source, checked_source
 
@@ -29,8 +28,13 @@ from ..document.page import Recipe
 from ..document.quantities import Quantity, quantity
 from ..document.second_mesh_edits import open_second_mesh
 
+if TYPE_CHECKING:
+    from bihdist_core.formats.vertex_arrays import VertexArray
+
 Mesh = MeshLike
 """A file or the name of a sample, or what else `Surface.of` takes."""
+Values = npt.ArrayLike | os.PathLike[str]
+"""Numbers (n,) at the vertices, or a file of them: FILE, or FILE:ARRAY where it has several."""
 
 
 class ArrayStore:
@@ -42,6 +46,7 @@ class ArrayStore:
     def __init__(self) -> None:
         self._surfaces: dict[str, Surface] = {}
         self._fields: dict[str, FloatArray] = {}
+        self._labels: dict[str, VertexArray] = {}
 
     def add_surface(self, surface: Surface, name: str = "A") -> MeshFile:
         """Keep a surface; what a document calls it."""
@@ -49,31 +54,53 @@ class ArrayStore:
         self._surfaces[digest] = surface
         return MeshFile(name, "", digest)
 
-    def add_field(self, name: str, values: npt.ArrayLike, surface: str = "A") -> FieldArray:
-        """Keep a field (n,) of real numbers, NaN where undefined; what a document calls it.
+    def add_field(self, name: str, values: Values, surface: str = "A") -> FieldArray:
+        """Keep a field (n,) of real numbers, NaN where undefined, or of a file; what a document calls it.
 
         ParameterError for anything else, and for a name that is none.
         """
+        if isinstance(values, str | os.PathLike):
+            from bihdist_core.formats.vertex_arrays import split_array
+
+            return self.add_file(FieldArray(name, "", surface, *split_array(os.fspath(values))))
         try:
-            array = np.asarray(
+            numbers = np.asarray(
                 np.ma.filled(np.ma.asarray(values, np.float64), np.nan) if np.ma.isMA(values) else values
             )
-            if array.dtype.kind not in "biufO":
+            if numbers.dtype.kind not in "biufO":
                 raise TypeError
-            array = array.astype(np.float64)
+            numbers = numbers.astype(np.float64)
         except (TypeError, ValueError):
             raise ParameterError(f"The field {name!r} is not an array of real numbers.") from None
-        if array.ndim != 1:
-            raise ParameterError(f"The field {name!r} has the shape {array.shape}; it needs one value for each vertex.")
-        if np.isinf(array).any():
-            vertex = int(np.flatnonzero(np.isinf(array))[0])
+        if numbers.ndim != 1:
             raise ParameterError(
-                f"The field {name!r} is {array[vertex]} at vertex {vertex}; use NaN where it is undefined."
+                f"The field {name!r} has the shape {numbers.shape}; it needs one value for each vertex."
             )
-        array.flags.writeable = False
-        field = FieldArray(name, _checksum(array), surface)
-        self._fields[field.sha256] = array
+        if np.isinf(numbers).any():
+            vertex = int(np.flatnonzero(np.isinf(numbers))[0])
+            raise ParameterError(
+                f"The field {name!r} is {numbers[vertex]} at vertex {vertex}; use NaN where it is undefined."
+            )
+        numbers.flags.writeable = False
+        field = FieldArray(name, _checksum(numbers), surface)
+        self._fields[field.sha256] = numbers
         return field
+
+    def add_file(self, field: FieldArray) -> FieldArray:
+        """Keep a field of a file, and return it with its checksum; ParameterError if it is not as its checksum says."""
+        from bihdist_core.formats.vertex_arrays import read_vertex_array  # with the readers of all formats
+
+        return self.add_array(field, read_vertex_array(field.path, field.array))
+
+    def add_array(self, field: FieldArray, found: VertexArray) -> FieldArray:
+        """Keep a field that has been read from its file; see `add_file`."""
+        digest = self.add_field(field.name, found.values, field.surface).sha256
+        if found.names:
+            labels = hashlib.sha256(f"{digest} {found.names}".encode()).hexdigest()
+            self._fields[labels], self._labels[labels], digest = self._fields[digest], found, labels
+        if field.sha256 not in ("", digest):
+            raise _changed(field.path, field.name)
+        return replace(field, sha256=digest)
 
     def surface(self, mesh: MeshFile) -> Surface:
         """Return the surface a document means; ParameterError if it was never given."""
@@ -87,10 +114,26 @@ class ArrayStore:
             raise ParameterError(f"The field {name!r} was given from Python, and is no longer available.")
         return self._fields[sha256]
 
+    def answer(self, field: FieldArray, surface: Surface) -> Answer:
+        """Return a field on its surface; ParameterError unless it has a value for each vertex."""
+        values = self.checked_field(field, surface)
+        return given_answer(field.name, values, surface.faces, self._labels.get(field.sha256))
+
+    def checked_field(self, field: FieldArray, surface: Surface) -> FloatArray:
+        """Return the values (n,) of a field; ParameterError unless there is one for each vertex of the surface."""
+        values = self.field(field.sha256, field.name)
+        if len(values) != len(surface.vertices):
+            raise ParameterError(
+                f"The field {field.name!r} has {len(values):,} values, and {surface.name} has "
+                f"{len(surface.vertices):,} vertices."
+            )
+        return values
+
     def update(self, other: ArrayStore) -> None:
         """Keep what another keeps."""
         self._surfaces.update(other._surfaces)
         self._fields.update(other._fields)
+        self._labels.update(other._labels)
 
     # ------------------------------------------------------------------ files
     def arrays(self, document: Document) -> dict[str, AnyArray]:
@@ -101,44 +144,49 @@ class ArrayStore:
                 surface, at = self.surface(mesh), f"surface/{mesh.name}"
                 arrays |= {f"{at}/vertices": surface.vertices, f"{at}/faces": surface.faces}
                 arrays[f"{at}/name"] = np.array(surface.name)
-        return arrays | {f"field/{field.name}": self.field(field.sha256, field.name) for field in document.fields}
+        given = (field for field in document.fields if not field.path)
+        return arrays | {f"field/{field.name}": self.field(field.sha256, field.name) for field in given}
 
     @classmethod
     def read(cls, recipe: Recipe) -> ArrayStore:
-        """Read the arrays that the document of a recipe needs, from the recipe's archive.
+        """Read the arrays that the document of a recipe needs, from the recipe's archive and from files of fields.
 
-        Raises ParameterError if the archive is missing, is none, lacks something, or holds something else.
+        Raises ParameterError if one is missing, is none, lacks something, or holds something else.
         """
         given, document, path = cls(), recipe.document, recipe.arrays
+        for field in document.fields:
+            if field.path:
+                given.add_file(field)
         if not holds_arrays(document):
             return given
         if not os.path.isfile(path):
             raise ParameterError(f"The arrays given from Python are missing: {path or 'no archive is named'}.")
-        with _opened(path) as archive:
+        with open_regular(path, "archive") as file, opened_archive(file, path) as archive:
             for mesh in document.surfaces:
                 if not mesh.path and mesh.change is None:
                     at = f"surface/{mesh.name}"
-                    vertices, faces, name = (_array(archive, f"{at}/{part}", path) for part in PARTS)
+                    vertices, faces, name = (archived_array(archive, f"{at}/{part}", path) for part in PARTS)
                     _check(given.add_surface(Surface(vertices, faces, str(name))), mesh, path)
             for field in document.fields:
-                _check(given.add_field(field.name, _array(archive, f"field/{field.name}", path)), field, path)
+                if not field.path:
+                    _check(
+                        given.add_field(field.name, archived_array(archive, f"field/{field.name}", path)), field, path
+                    )
         return given
 
 
 PARTS = ("vertices", "faces", "name")
-ENCRYPTED = 1
-"""A bit of the flags of an archive's entries."""
 
 
 def holds_arrays(document: Document) -> bool:
     """Return whether a document names anything that stands in no file of its own."""
-    return bool(document.fields) or any(not mesh.path for mesh in document.surfaces)
+    return not all(field.path for field in document.fields) or not all(mesh.path for mesh in document.surfaces)
 
 
 def is_archive(path: str | os.PathLike[str]) -> bool:
     """Return whether a file holds arrays that were given: whether it may be replaced by such a one."""
     try:
-        with _opened(path) as archive:
+        with open_regular(path, "archive") as file, opened_archive(file, path) as archive:
             return all(name.startswith(("surface/", "field/")) for name in archive.namelist())
     except ParameterError:
         return False
@@ -147,7 +195,7 @@ def is_archive(path: str | os.PathLike[str]) -> bool:
 def comparison_of_arrays(
     mesh: Mesh,
     distances: Sequence[str | Quantity],
-    fields: Mapping[str, npt.ArrayLike],
+    fields: Mapping[str, Values],
     sources: tuple[Source | str | None, ...],
     areas: str = "voronoi",
 ) -> tuple[Document, ArrayStore]:
@@ -172,7 +220,7 @@ def _entry(mesh: Mesh, given: ArrayStore) -> MeshFile:
     return MeshFile("A", str(mesh)) if isinstance(mesh, str | os.PathLike) else given.add_surface(Surface.of(mesh))
 
 
-def _quantity(shows: Any, fields: Mapping[str, npt.ArrayLike]) -> Quantity:
+def _quantity(shows: Any, fields: Collection[str]) -> Quantity:
     if isinstance(shows, str):
         return quantity(shows, fields=fields)
     if not isinstance(shows, Quantity):
@@ -187,36 +235,10 @@ def _checksum(*arrays: AnyArray) -> str:
     return digest.hexdigest()
 
 
-@contextmanager
-def _opened(path: str | os.PathLike[str]) -> Iterator[zipfile.ZipFile]:
-    """An archive; ParameterError if it is none."""
-    with open_regular(path, "archive") as file, ExitStack() as files:
-        try:
-            archive = files.enter_context(zipfile.ZipFile(file))
-        except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile):
-            raise ParameterError(f"{path} is not an archive of arrays.") from None
-        yield archive
-
-
-def _array(archive: zipfile.ZipFile, name: str, path: str | os.PathLike[str]) -> AnyArray:
-    try:
-        entry = archive.getinfo(f"{name}.npy")
-    except KeyError:
-        raise ParameterError(f"{path} has no {name!r}.") from None
-    # Packed, a small file may hold more than there is memory for; ours are not.
-    if entry.compress_type != zipfile.ZIP_STORED or entry.flag_bits & ENCRYPTED:
-        raise ParameterError(f"{path}: {name!r} is compressed; arrays are written uncompressed.")
-    try:
-        with archive.open(entry) as file:
-            return array_in(file, entry.file_size)  # type: ignore[arg-type]
-    except ParameterError as error:
-        raise ParameterError(f"{path}: {name!r} cannot be read: {error}") from None
-    except MemoryError:
-        raise ParameterError(f"{path}: {name!r} is too large for the memory of this computer.") from None
-    except (OSError, ValueError, EOFError, NotImplementedError, zipfile.BadZipFile):
-        raise ParameterError(f"{path}: {name!r} cannot be read; the file is damaged.") from None
-
-
 def _check(found: MeshFile | FieldArray, wanted: MeshFile | FieldArray, path: str | os.PathLike[str]) -> None:
     if found.sha256 != wanted.sha256:
-        raise ParameterError(f"{path}: {wanted.name!r} has changed since its checksum was recorded.")
+        raise _changed(path, wanted.name)
+
+
+def _changed(path: str | os.PathLike[str], name: str) -> ParameterError:
+    return ParameterError(f"{path}: {name!r} has changed since its checksum was recorded.")

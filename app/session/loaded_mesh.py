@@ -16,7 +16,7 @@ from bihdist_core.analysis.first_view import FirstLook, first_look
 from bihdist_core.analysis.upright import guess_up
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.applications.perturbation import perturbed
-from bihdist_core.arrays import FloatArray, IntArray
+from bihdist_core.arrays import IntArray
 from bihdist_core.distances.answers import Answer, Distances
 from bihdist_core.distances.distance_types import Spec
 from bihdist_core.formats.mesh_io import mesh_content, surface_in
@@ -148,9 +148,9 @@ class LoadedMesh:
                     del self._last[next(iter(self._last))]
         return known
 
-    def own_field(self, field: FieldArray) -> FloatArray:
-        """Return the values (n,) of a field of the user's own."""
-        return self._given.field(field.sha256, field.name)
+    def own_field(self, field: FieldArray) -> Answer:
+        """Return a field of the user's own."""
+        return self._given.answer(field, self.surface)
 
     def memory(self, kind: type[MemoryKind]) -> MemoryKind:
         """Return the memory that questions of one kind have of this surface, empty at first."""
@@ -173,12 +173,8 @@ class LoadedMesh:
             up = self._up_in(document, document.surfaces[0].name)
             document = replace(document, up=up, camera=self.view_of(document.camera, up))
         for field in document.fields:
-            count = len(self._given.field(field.sha256, field.name)) if field.surface in mine else 0
-            if field.surface in mine and count != len(self.surface.vertices):
-                raise ParameterError(
-                    f"The field {field.name!r} has {count:,} values, and {self.surface.name} has "
-                    f"{len(self.surface.vertices):,} vertices."
-                )
+            if field.surface in mine:
+                self._given.checked_field(field, self.surface)
         views = []
         for each in document.second_views:
             up = self.up if each.up == "auto" else each.up

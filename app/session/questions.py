@@ -12,7 +12,6 @@ from bihdist_core import Surface
 from bihdist_core.analysis.first_view import first_look
 from bihdist_core.analysis.quality import apparent_source
 from bihdist_core.arrays import FloatArray
-from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Answer, difference_of
 from bihdist_core.distances.distance_types import Spec
 from bihdist_core.progress import Progress, part
@@ -154,9 +153,7 @@ class FieldQuestion(Question):
     def answer(
         self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
     ) -> Answer:
-        field = loaded.own_field(self.field)
-        is_signed = bool(np.nanmin(field, initial=0.0) < 0)
-        return Answer(label=self.field.name, field=field, error_estimate=ErrorEstimate(), is_signed=is_signed)
+        return loaded.own_field(self.field)
 
 
 @dataclass(frozen=True)

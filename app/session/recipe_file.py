@@ -135,7 +135,7 @@ def recipe_written(
 def _archive_of(document: Document, path: str | os.PathLike[str]) -> Path:
     """Return the path of a recipe's arrays: it names the arrays, so that no others take their place."""
     named = [(mesh.name, mesh.sha256) for mesh in document.surfaces if not mesh.path and mesh.change is None]
-    named += [(field.name, field.sha256) for field in document.fields]
+    named += [(field.name, field.sha256) for field in document.fields if not field.path]
     content = hashlib.sha256(repr(named).encode()).hexdigest()[:16]
     path = Path(path)
     return path.with_name(f"{path.stem[:LONGEST]}.{content}.npz")

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import numpy.typing as npt
-
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
@@ -14,7 +12,7 @@ from ..document.page import Recipe
 from ..document.quantities import Quantity
 from ..figures.arguments import option_values
 from ..figures.options import with_options
-from ..session.array_store import ArrayStore, Mesh, comparison_of_arrays
+from ..session.array_store import ArrayStore, Mesh, Values, comparison_of_arrays
 from .options import page_rows
 
 
@@ -23,7 +21,7 @@ def recipe_of(
     mesh: Mesh,
     distances: Sequence[str | Quantity],
     source: Source | str | None,
-    fields: Mapping[str, npt.ArrayLike] | None,
+    fields: Mapping[str, Values] | None,
     arguments: Mapping[str, Any],
     progress: Progress | None = None,
 ) -> tuple[Recipe, ArrayStore]:

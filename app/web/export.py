@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bihdist_core import BihdistError, Laplacian, ParameterError, Surface
-from bihdist_core.distances.answers import Distances
+from bihdist_core.arrays import FloatArray
+from bihdist_core.distances.answers import Answer, Distances
 from bihdist_core.distances.distance import Distance
 from bihdist_core.distances.distance_types import BUILT_IN, Spec
 from bihdist_core.distances.spectral import SpectralDistance
@@ -171,7 +172,7 @@ def page_of(
     for name, each in points.items():
         maximum = _maximum(loaded, document.areas, contents, name)
         differs[str(contents.fields[name])] += each.error / max(maximum, 1e-300)
-    fields = {each.word: loaded.own_field(document.field(each.name)) for each in contents.own}
+    fields = {each.word: _values(loaded.own_field(document.field(each.name))) for each in contents.own}
     own = {word: StoredField.of(values, mesh.ids) for word, values in fields.items()}
     differs |= {word: each.error for word, each in own.items()}
     stored = {"bits": 24 if precision == "24" else precision, "backs": mesh.has_backs, "differs": differs}
@@ -182,6 +183,15 @@ def page_of(
         scene["offered"].append(offered_panel(name, spec, distance, recipe.document.range))
         points |= {name: its_points} if its_points else {}
     return Page(scene, mesh, points, tuple(answer.label for answer in answers), differs, own)
+
+
+def _values(own: Answer) -> FloatArray:
+    """Return the values (n,) of a field of the user's own; ParameterError for labels."""
+    if own.field is None:
+        raise ParameterError(
+            f"{own.label} has labels, which no page that computes shows; leave it out, or draw it with bihdist figure."
+        )
+    return own.field
 
 
 def _check_announced(mesh: MeshFile) -> None:

@@ -25,7 +25,7 @@ def page(
     distances: Sequence[str | Quantity] = USUAL,
     source: Source | str | None = None,
     *,
-    fields: Mapping[str, npt.ArrayLike] | None = None,
+    fields: Mapping[str, npt.ArrayLike | os.PathLike[str]] | None = None,
     areas: str = "voronoi",
     cut: str = "",
     merge: float | None = None,
@@ -53,8 +53,8 @@ def page(
         The distances, a panel each, such as ``"geodesic"`` or ``"biharmonic - commute-time"``.
     source : int, str or Source, optional
         Vertex that distances start from at first, by default the highest.
-    fields : mapping of str to (n,) array_like, optional
-        Your own fields by name, NaN where undefined, which stay as they are whatever the source.
+    fields : mapping of str to (n,) array_like or file, optional
+        Your own fields by name, NaN where undefined, or files of them, which stay as they are whatever the source.
     areas : {"voronoi", "barycentric"}
         Vertex areas.
     cut : str

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -28,7 +29,7 @@ def widget(
     distances: Sequence[str | Quantity] = USUAL,
     source: Source | str | None = None,
     *,
-    fields: Mapping[str, npt.ArrayLike] | None = None,
+    fields: Mapping[str, npt.ArrayLike | os.PathLike[str]] | None = None,
     on_pick: Callable[[int], object] | None = None,
     areas: str = "voronoi",
     cut: str = "",
@@ -54,8 +55,8 @@ def widget(
         The distances, a panel each, such as ``"geodesic"`` or ``"biharmonic - commute-time"``.
     source : int, str or Source, optional
         Vertex that distances start from, by default the highest.
-    fields : mapping of str to (n,) array_like, optional
-        Your own fields by name, NaN where undefined, which stay as they are whatever the source.
+    fields : mapping of str to (n,) array_like or file, optional
+        Your own fields by name, NaN where undefined, or files of them, which stay as they are whatever the source.
     on_pick : callable, optional
         Called with the vertex of each click.
     areas : {"voronoi", "barycentric"}

@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable, Collection, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -25,6 +26,9 @@ from .distance import Distance
 from .distance_types import Spec
 from .source_questions import OtherSource
 
+if TYPE_CHECKING:
+    from ..formats.vertex_arrays import VertexArray
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Answer:
@@ -35,7 +39,8 @@ class Answer:
     is True if it says how far vertices are. `signs` say what a positive and a negative value of a difference mean, such
     as "biharmonic is farther". `is_rough` is True for noise, which isolines would only cover. `remark` is what else is
     to be said of it. `colours` (n, 3) are red, green and blue from 0 to 1, NaN where there is none, shown instead of a
-    field; `leads_to` (n,) are the vertices of another surface that they stand for, -1 for none.
+    field; `leads_to` (n,) are the vertices of another surface that they stand for, -1 for none; `labels` are the labels
+    that they stand for.
     """
 
     label: str
@@ -50,6 +55,7 @@ class Answer:
     remark: str = ""
     colours: FloatArray | None = None
     leads_to: IntArray | None = None
+    labels: "VertexArray | None" = None
 
     @property
     def maximum(self) -> float:
@@ -98,7 +104,12 @@ def difference_of(minuend: Answer, subtrahend: Answer, raw: bool = False) -> Ans
     """
     label = f"{minuend.label} − {subtrahend.label}"
     if minuend.field is None or subtrahend.field is None:
-        failures = dict.fromkeys(answer.failure for answer in (minuend, subtrahend) if answer.failure)
+        both = (minuend, subtrahend)
+        failures = dict.fromkeys(
+            answer.failure or f"{answer.label} is shown in colours, and has no values to subtract."
+            for answer in both
+            if answer.field is None
+        )
         return Answer(label=label, failure=" ".join(failures))
     try:
         field, unit = difference_in_unit(minuend.field, subtrahend.field, (minuend.unit, subtrahend.unit), raw)
@@ -114,6 +125,7 @@ def difference_of(minuend: Answer, subtrahend: Answer, raw: bool = False) -> Ans
         field=field,
         error_estimate=error_estimate,
         is_signed=True,
+        is_rough=minuend.is_rough or subtrahend.is_rough,
         signs=_signs(minuend, subtrahend),
     )
 
@@ -142,6 +154,24 @@ def percent(fraction: float) -> str:
 def with_unit(unit: str) -> str:
     """Return the text that follows a value in a unit."""
     return unit.removeprefix("1") if unit.startswith("1 /") else f" {unit}" if unit else ""
+
+
+SIGNED = 0.01
+"""The share of the largest value from which on values below 0 are no rounding: those of thicknesses are."""
+ROUGH = 5.0
+"""Of the length of a line once around the shape, the mean length of an isoline from which on isolines cover a field.
+Distances have 2, cortical thickness and curvature 7 to 17."""
+
+
+def given_answer(name: str, field: FloatArray, faces: IntArray, labels: "VertexArray | None" = None) -> Answer:
+    """Return the answer of a field (n,) that somebody else has computed, under its name; labels have no values."""
+    answer = Answer(label=name, error_estimate=ErrorEstimate())
+    if labels is not None:
+        return replace(answer, colours=labels.vertex_colours, labels=labels)
+    low, high = float(np.nanmin(field, initial=0.0)), float(np.nanmax(field, initial=0.0))
+    across = np.nansum(np.ptp(field[faces], axis=1)) / (high - low) if high > low else 0.0
+    is_rough = bool(across > ROUGH * np.sqrt(len(faces)))
+    return replace(answer, field=field, is_signed=low < -SIGNED * high, is_rough=is_rough)
 
 
 def failed(label: str, error: Exception) -> Answer:

@@ -1,9 +1,14 @@
-"""Arrays in .npy files, which anybody may have written: plain numbers or texts, as many as the header says."""
+"""Arrays in .npy files and .npz archives, which anybody may have written: plain numbers or texts, as many as the header
+says."""
 
 import ast
 import math
 import os
 import re
+import zipfile
+import zlib
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -11,6 +16,7 @@ import numpy as np
 from ..arrays import AnyArray
 from ..errors import ParameterError
 from ..file_content import open_regular
+from .compression import MOST_BYTES
 
 _MAGIC = b"\x93NUMPY"
 _COUNTS = {(1, 0): 2, (2, 0): 4}
@@ -18,6 +24,8 @@ _COUNTS = {(1, 0): 2, (2, 0): 4}
 _LONGEST = 10_000
 """Bytes of a header, as NumPy has it."""
 _PLAIN = re.compile(r"[<>|=][biufcSU][1-9][0-9]{0,8}")
+_ENCRYPTED = 1
+"""A bit of the flags of an archive's entries."""
 
 
 def read_array(path: str | os.PathLike[str], what: str) -> AnyArray:
@@ -90,3 +98,35 @@ def _facts(facts: Any) -> tuple[Any, bool, tuple[int, ...]]:
         if is_shape and isinstance(is_fortran, bool):
             return facts["descr"], is_fortran, shape
     raise ParameterError("its header is damaged.")
+
+
+# ---------------------------------------------------------------------- archives
+@contextmanager
+def opened_archive(file: BinaryIO, path: str | os.PathLike[str]) -> Iterator[zipfile.ZipFile]:
+    """Open the .npz archive in an open file; ParameterError, with its path, if it is none."""
+    with ExitStack() as files:
+        try:
+            archive = files.enter_context(zipfile.ZipFile(file))
+        except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile):
+            raise ParameterError(f"{path} is not an archive of arrays.") from None
+        yield archive
+
+
+def archived_array(archive: zipfile.ZipFile, name: str, path: str | os.PathLike[str]) -> AnyArray:
+    """Read the array of a name in an archive; ParameterError, with the path, if it cannot be."""
+    try:
+        entry = archive.getinfo(f"{name}.npy")
+    except KeyError:
+        raise ParameterError(f"{path} has no {name!r}.") from None
+    # Packed, a small file may hold more than there is memory for.
+    if entry.file_size > MOST_BYTES or entry.flag_bits & _ENCRYPTED:
+        raise ParameterError(f"{path}: {name!r} is encrypted, or has more than {MOST_BYTES / 2**30:g} GiB.")
+    try:
+        with archive.open(entry) as file:
+            return array_in(file, entry.file_size)  # type: ignore[arg-type]
+    except ParameterError as error:
+        raise ParameterError(f"{path}: {name!r} cannot be read: {error}") from None
+    except MemoryError:
+        raise ParameterError(f"{path}: {name!r} is too large for the memory of this computer.") from None
+    except (OSError, ValueError, EOFError, NotImplementedError, zipfile.BadZipFile, zlib.error):
+        raise ParameterError(f"{path}: {name!r} cannot be read; the file is damaged.") from None

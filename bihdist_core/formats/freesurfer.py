@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import AnyArray, IntArray
+from ..arrays import AnyArray, FloatArray, IntArray
 from ..counts import counted
 from ..errors import MeshError
 from .mesh_names import GZIP
@@ -25,10 +25,11 @@ _TABLE_VERSION = -2
 
 @dataclass(frozen=True)
 class Annotation:
-    """Labels (n,): the place of each vertex's name in `names`, -1 where it has none."""
+    """Labels (n,): the place of each vertex's name in `names`, -1 where it has none; colours (k, 3) are from 0 to 1."""
 
     labels: IntArray
     names: tuple[str, ...]
+    colours: FloatArray
 
 
 def is_surface(raw: bytes) -> bool:
@@ -126,7 +127,8 @@ def read_annotation(raw: bytes, name: str) -> Annotation:
     if len(unknown):
         k = unknown[0]
         raise MeshError(f"{name}: vertex {k} has the colour {of_vertex[k]}, which is not in the table of labels.")
-    return Annotation(np.where(of_vertex == 0, -1, labels), names)
+    parts = np.maximum(table, 0)[:, None] >> np.array([0, 8, 16]) & 255
+    return Annotation(np.where(of_vertex == 0, -1, labels), names, parts / 255)
 
 
 def _table(file: "_Cursor") -> tuple[tuple[str, ...], IntArray]:

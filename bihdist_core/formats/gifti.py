@@ -1,7 +1,7 @@
 """GIFTI files (.gii), surfaces of brains and values on them: a strict reader, and a writer of values.
 
 Format: https://www.nitrc.org/projects/gifti/, version 1.0.  Coordinates are those of the array: the transforms to other
-coordinate systems that may stand beside it are not applied.  Numbers in files beside the file are not read.
+coordinate systems that may stand beside it are not applied.
 """
 
 import base64
@@ -9,8 +9,10 @@ import binascii
 import math
 import re
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import BinaryIO
 from xml.etree import ElementTree
 from xml.sax.saxutils import escape
@@ -19,24 +21,29 @@ import numpy as np
 
 from ..arrays import AnyArray
 from ..errors import MeshError
+from ..file_content import bytes_beside
 from .compression import MOST_BYTES
 from .polygons import Polygons, checked_corners
 from .text_lines import parsed_numbers, xml_root
 
 POINTS, TRIANGLES = "NIFTI_INTENT_POINTSET", "NIFTI_INTENT_TRIANGLE"
+LABEL_INTENT = "NIFTI_INTENT_LABEL"
 _TYPES = {
     f"NIFTI_TYPE_{sign}INT{8 * size}": f"{sign.lower() or 'i'}{size}" for sign in ("", "U") for size in (1, 2, 4, 8)
 }
 _TYPES |= {"NIFTI_TYPE_FLOAT32": "f4", "NIFTI_TYPE_FLOAT64": "f8"}
+_PARTS = ("Red", "Green", "Blue", "Alpha")
+_EXTERNAL = "ExternalFileBinary"
 _ORDERS = {"LittleEndian": "<", "BigEndian": ">"}
 
 
 @dataclass(frozen=True)
 class GiftiArray:
-    """An array of a file with its intent, such as NIFTI_INTENT_POINTSET."""
+    """An array of a file with its intent, such as NIFTI_INTENT_POINTSET, and its name, "" for none."""
 
     intent: str
     values: AnyArray
+    name: str = ""
 
 
 def read_gifti(raw: bytes, name: str) -> Polygons:
@@ -72,14 +79,27 @@ def label_table(raw: bytes, name: str) -> dict[int, str]:
 
     MeshError as of `gifti_arrays`, and for a key that is none.
     """
-    names = {}
+    return {key: (element.text or "").strip() for key, element in _labels(raw, name)}
+
+
+def label_colours(raw: bytes, name: str) -> dict[int, tuple[float, ...]]:
+    """Read the red, green, blue and alpha of labels, from 0 to 1, by the keys of those that have a colour."""
+    found = {}
+    for key, element in _labels(raw, name):
+        with suppress(TypeError, ValueError):  # no colour, or none that can be shown
+            parts = [float(element.get(part, 1 if part == "Alpha" else None)) for part in _PARTS]  # type: ignore[arg-type]
+            found[key] = tuple(min(max(part, 0.0), 1.0) for part in parts)
+    return found
+
+
+def _labels(raw: bytes, name: str) -> Iterator[tuple[int, ElementTree.Element]]:
+    """Yield the keys and elements of the labels."""
     for k, element in enumerate(_root(raw, name).iterfind("LabelTable/Label")):
         # Version 1.0 of the format calls it Key, files of older programs Index.
         key = element.get("Key", element.get("Index", ""))
         if not re.fullmatch("-?[0-9]{1,10}", key):
             raise MeshError(f"{name}: label {k} of its table has the key {key[:20]!r}, not a whole number.")
-        names[int(key)] = (element.text or "").strip()
-    return names
+        yield int(key), element
 
 
 def _root(raw: bytes, name: str) -> ElementTree.Element:
@@ -88,14 +108,45 @@ def _root(raw: bytes, name: str) -> ElementTree.Element:
     return xml_root(raw, name, "a GIFTI file", "GIFTI")
 
 
-def _array(element: ElementTree.Element, where: str) -> GiftiArray:
-    intent, kind, encoding = (element.get(key, "")[:40] for key in ("Intent", "DataType", "Encoding"))
+def with_external_data(content: bytes, path: Path) -> bytes:
+    """Return the content of a GIFTI file with the numbers inside it that it keeps in files beside it.
+
+    MeshError as of `gifti_arrays`, and for a file that is not beside it.
+    """
+    if _EXTERNAL.encode() not in content:
+        return content
+    root = _root(content, path.name)
+    for k, element in enumerate(root.findall("DataArray")):
+        if element.get("Encoding") == _EXTERNAL:
+            where = f"{path.name}: array {k}"
+            kind, shape = _announced(element, where)
+            name, begin = element.get("ExternalFileName", ""), element.get("ExternalFileOffset", "").strip() or "0"
+            if not re.fullmatch("[0-9]{1,15}", begin):
+                raise MeshError(f"{where} begins at {begin[:20]!r} of its file, which is not a number of bytes.")
+            count = math.prod(shape) * np.dtype(kind).itemsize
+            found = bytes_beside(path, name, f"{where}: its file", MOST_BYTES, int(begin), count)
+            for old in element.findall("Data"):
+                element.remove(old)
+            ElementTree.SubElement(element, "Data").text = base64.b64encode(found).decode("ascii")
+            element.set("Encoding", "Base64Binary")
+    return ElementTree.tostring(root)
+
+
+def _announced(element: ElementTree.Element, where: str) -> tuple[str, tuple[int, ...]]:
+    """Return the type of an array's numbers, without the order of their bytes, and its shape."""
+    kind = element.get("DataType", "")[:40]
     if kind not in _TYPES:
         raise MeshError(f"{where} is of the type {kind!r}, which is not read.")
-    shape, size = _shape(element, where), np.dtype(_TYPES[kind]).itemsize
-    count = math.prod(shape)
-    if count * size > MOST_BYTES:
-        raise MeshError(f"{where} announces {count:,} numbers, more than are read.")
+    shape = _shape(element, where)
+    if math.prod(shape) * np.dtype(_TYPES[kind]).itemsize > MOST_BYTES:
+        raise MeshError(f"{where} announces {math.prod(shape):,} numbers, more than are read.")
+    return _TYPES[kind], shape
+
+
+def _array(element: ElementTree.Element, where: str) -> GiftiArray:
+    intent, encoding = (element.get(key, "")[:40] for key in ("Intent", "Encoding"))
+    kind, shape = _announced(element, where)
+    count, size = math.prod(shape), np.dtype(kind).itemsize
     text = (element.findtext("Data") or "").encode()
     if encoding == "ASCII":
         values: AnyArray = parsed_numbers(text, where, "numbers")
@@ -106,15 +157,18 @@ def _array(element: ElementTree.Element, where: str) -> GiftiArray:
         content = _decoded(text, count * size if encoding.startswith("G") else None, where)
         if len(content) % size:
             raise MeshError(f"{where} has {len(content)} bytes, which is not a whole number of {kind} values.")
-        values = np.frombuffer(content, order + _TYPES[kind])
-    elif encoding == "ExternalFileBinary":
-        raise MeshError(f"{where} keeps its numbers in another file, which is not read; save it as one file.")
+        values = np.frombuffer(content, order + kind)
+    elif encoding == _EXTERNAL:
+        raise MeshError(
+            f"{where} keeps its numbers in another file, which is read only where this one is not compressed."
+        )
     else:
         raise MeshError(f"{where} is encoded as {encoding!r}, which is not read.")
     if len(values) != count:
         raise MeshError(f"{where} announces {count:,} numbers and holds {len(values):,}; the file is damaged.")
     by_columns = element.get("ArrayIndexingOrder") == "ColumnMajorOrder"
-    return GiftiArray(intent, values.reshape(shape, order="F" if by_columns else "C"))
+    about = {md.findtext("Name", ""): md.findtext("Value", "") for md in element.iterfind("MetaData/MD")}
+    return GiftiArray(intent, values.reshape(shape, order="F" if by_columns else "C"), about.get("Name", "").strip())
 
 
 def _shape(element: ElementTree.Element, where: str) -> tuple[int, ...]:

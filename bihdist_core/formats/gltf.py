@@ -20,6 +20,8 @@ from .polygons import Polygons, checked_corners, strip_triangles
 
 _INDICES = (5121, 5123, 5125)
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
+UNDEFINED = -1e30
+"""Stands for NaN in values at vertices, as glTF allows none."""
 _HARMLESS = re.compile("KHR_(materials|texture|lights|xmp|mesh_quantization|animation)|EXT_(texture|lights)")
 """Extensions that triangles do not depend on, or that need nothing more."""
 
@@ -29,11 +31,27 @@ def read_gltf(raw: bytes, name: str) -> Polygons:
 
     MeshError where it is none, is cut off or damaged, or needs what is not read.
     """
+    return _joined(raw, name).polygons()
+
+
+def gltf_values(raw: bytes, name: str) -> dict[str, FloatArray]:
+    """Read the values (n,) at vertices in a glTF file by name, attributes such as `_THICKNESS`; MeshError as of
+    `read_gltf`.
+
+    NaN where a primitive has not the attribute, and for values below -1e29, which stand for it.
+    """
+    joined = _joined(raw, name)
+    joined.polygons()
+    words = dict.fromkeys(key for attributes, _ in joined.attributes for key in attributes if key.startswith("_"))
+    return {word.lstrip("_").lower(): np.concatenate(list(joined.values(word))) for word in words}
+
+
+def _joined(raw: bytes, name: str) -> "_Joined":
     file = gltf_file(raw, name)
     for extension in file.entries(file.data, "extensionsRequired"):
         if not isinstance(extension, str) or not _HARMLESS.match(extension):
             raise MeshError(f"{name} needs the extension {str(extension)[:60]!r}, which is not read; save it without.")
-    return _Joined(file).polygons()
+    return _Joined(file)
 
 
 class _Joined:
@@ -42,6 +60,7 @@ class _Joined:
     def __init__(self, file: GltfFile) -> None:
         self.file = file
         self.points: list[FloatArray] = []
+        self.attributes: list[tuple[dict[str, Any], int]] = []  # of the same primitives, with their vertices' number
         self.corners: list[IntArray] = []
         self.before = 0
         self.primitives = self.nodes = self.ignored = 0
@@ -63,6 +82,17 @@ class _Joined:
         corners = np.concatenate([np.empty(0, np.int64), *self.corners])
         repairs = (f"{counted(self.ignored, 'primitive')} of points or lines ignored",) if self.ignored else ()
         return Polygons(vertices, np.full(len(corners) // 3, 3), corners, repairs, tuple(self._facts()))
+
+    def values(self, word: str) -> Iterator[FloatArray]:
+        """Yield the values of an attribute, NaN for those of primitives without it."""
+        for attributes, count in self.attributes:
+            values = np.full(count, np.nan)
+            if word in attributes:
+                found = self.file.array(attributes[word], "SCALAR", tuple(COMPONENTS)).ravel()
+                if len(found) != count:
+                    raise MeshError(f"{self.file.name}: {word[:40]} has {len(found):,} values at {count:,} vertices.")
+                values[:] = np.where(found < UNDEFINED / 10, np.nan, found)
+            yield values
 
     def _facts(self) -> Iterator[str]:
         if self.primitives > 1:
@@ -133,6 +163,7 @@ class _Joined:
                 points = self._points(accessor, place)
                 first_of[accessor] = self.before, len(points)
                 self.points.append(points)
+                self.attributes.append((attributes, len(points)))
                 self.before += len(points)
             first, n = first_of[accessor]
             ids = np.arange(n)

@@ -8,7 +8,6 @@ import binascii
 import json
 import math
 import re
-import stat
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -18,7 +17,7 @@ import numpy as np
 
 from ..arrays import AnyArray, FloatArray
 from ..errors import MeshError
-from ..file_content import json_value
+from ..file_content import bytes_beside, json_value
 from .compression import MOST_BYTES
 
 _MAGIC, _JSON, _BIN = b"glTF", b"JSON", b"BIN\0"
@@ -140,27 +139,9 @@ def with_buffers(content: bytes, path: Path) -> bytes:
     for k, buffer in enumerate(GltfFile(path.name, data, None).entries(data, "buffers")):
         uri = buffer.get("uri") if isinstance(buffer, dict) else None
         if isinstance(uri, str) and not uri.startswith("data:"):
-            coded = base64.b64encode(_beside(path, unquote(uri), k)).decode()
+            coded = base64.b64encode(bytes_beside(path, unquote(uri), f"{path.name}: buffer {k}", MOST_BYTES)).decode()
             buffer["uri"], changed = f"data:;base64,{coded}", True
     return json.dumps(data).encode() if changed else content
-
-
-def _beside(path: Path, uri: str, k: int) -> bytes:
-    """Return the bytes of the file beside a .gltf that its buffer k names."""
-    if not uri or uri in (".", "..") or re.search(r"[/\\:\0]", uri):
-        raise MeshError(f"{path.name}: buffer {k} is {uri[:80]!r}; only a file in the folder of the .gltf is read.")
-    other = path.parent / uri
-    try:
-        status = other.stat()
-        if not stat.S_ISREG(status.st_mode):
-            raise MeshError(f"{path.name}: buffer {k}, {uri[:80]!r}, is not a regular file.")
-        if status.st_size > MOST_BYTES:
-            raise MeshError(f"{path.name}: buffer {k}, {uri[:80]!r}, has more than {MOST_BYTES / 2**30:g} GiB.")
-        return other.read_bytes()
-    except OSError as error:
-        raise MeshError(
-            f"{path.name}: buffer {k}, {uri[:80]!r} beside it, cannot be read: {error.strerror or error}."
-        ) from None
 
 
 def _chunks(raw: bytes, name: str) -> tuple[bytes, bytes | None]:

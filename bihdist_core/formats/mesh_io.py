@@ -17,6 +17,7 @@ from ..errors import MeshError, MissingFileError
 from ..mesh_arrays import check_size
 from ..surface import Surface
 from .compression import unpacked
+from .gifti import with_external_data
 from .gltf_file import with_buffers
 from .mesh_names import FORMATS, GZIP, MESH_FORMATS, mesh_format
 from .polygons import Polygons, triangulated
@@ -100,7 +101,7 @@ def _check_extent(surface: Surface) -> None:
 
 
 def mesh_content(path: str | os.PathLike[str]) -> bytes:
-    """Read the bytes of a mesh file, a .gltf with the files that it names; the first half of `read_surface`."""
+    """Read the bytes of a mesh file, a .gltf or .gii with the files that it names; the first half of `read_surface`."""
     path = Path(path)
     try:
         kind = path.stat().st_mode
@@ -120,6 +121,8 @@ def mesh_content(path: str | os.PathLike[str]) -> bytes:
         content = path.read_bytes()
         if path.suffix.lower() == ".gltf":
             content = with_buffers(content, path)
+        elif path.suffix.lower() == ".gii":
+            content = with_external_data(content, path)
     except MeshError:
         raise  # it is a ValueError too
     except FileNotFoundError:

@@ -9,6 +9,7 @@ import re
 import zlib
 from contextlib import suppress
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 
 GZIP = ".gz"
@@ -51,6 +52,8 @@ FORMATS = {
         MeshFormat(".gltf", "gltf", y_bonus=4.0),
         MeshFormat(".glb", "gltf", y_bonus=4.0),
         MeshFormat(".gii", "gifti", y_bonus=-4.0),
+        MeshFormat(".mat", "array_mesh"),
+        MeshFormat(".npz", "array_mesh"),
         MeshFormat(FREESURFER, "freesurfer", y_bonus=-4.0),
         MeshFormat(MNI, "mni", y_bonus=-4.0),
     )
@@ -59,6 +62,11 @@ FORMATS = {
 
 MESH_FORMATS = tuple(name for name in FORMATS if name.startswith("."))
 """The extensions of mesh files; .gz may follow."""
+
+ARRAY_FILES = (".mat", ".npz")
+"""Those that hold arrays of any kind."""
+SHARED = (".gii", FREESURFER, *ARRAY_FILES)
+"""The formats of files that may hold something else than a mesh."""
 
 _HEMISPHERE = re.compile(r"(^|[._-])[lr]h\.[a-z]", re.IGNORECASE)
 _OTHER_GIFTI = re.compile(r"\.(func|shape|label|time|rgba|vector|tensor|coord|topo)\.gii(\.gz)?$", re.IGNORECASE)
@@ -80,13 +88,13 @@ def mesh_format(path: str | os.PathLike[str], content: bytes | None = None) -> s
         return extension
     if has_hemisphere(name) and extension != ".obj":
         return FREESURFER
-    begin = _begin(path) if content is None else content
+    begin = beginning(path) if content is None else content
     if extension == ".obj":
         return MNI if _MNI.match(begin) else extension
     return FREESURFER if _SURFACE.match(begin) else ""
 
 
-def _begin(path: str | os.PathLike[str], count: int = 200) -> bytes:
+def beginning(path: str | os.PathLike[str], count: int = 200) -> bytes:
     """Return the first bytes of a file, unpacked; none if they cannot be read."""
     # A pipe would wait for ever.
     if os.path.isfile(path):
@@ -115,16 +123,19 @@ def mesh_name(path: str | os.PathLike[str]) -> str:
 
 
 def is_mesh_file(path: Path) -> bool:
-    """Return whether a file of a folder is a mesh, by its name; a GIFTI or FreeSurfer file also by what it holds.
+    """Return whether a file of a folder is a mesh, by its name; one of SHARED also by what it holds.
 
-    One that cannot be read counts as a mesh, so that reading it says why.
+    A GIFTI file that cannot be read counts as a mesh, so that reading it says why.
     """
     form = mesh_format(path)
-    if form not in (".gii", FREESURFER) or not path.is_file():
+    if form not in SHARED or not path.is_file():
         return bool(form)
+    if form in ARRAY_FILES:
+        holds_mesh = import_module(".array_mesh", __package__).holds_mesh
+        return bool(holds_mesh(beginning(path, -1), path.name))
     if _OTHER_GIFTI.search(path.name):
         return False
     if form == FREESURFER:
-        return bool(_SURFACE.match(_begin(path)))
-    content = _begin(path, _SEARCHED)
+        return bool(_SURFACE.match(beginning(path)))
+    content = beginning(path, _SEARCHED)
     return not content or b"NIFTI_INTENT_POINTSET" in content

@@ -26,6 +26,7 @@ _TYPES = {
 }
 _LINE_END = re.compile(rb"\r\n|\n\r|\n|\r")
 _IDS = ("vertex_indices", "vertex_index")
+_NO_VALUES = {*"xyzstuv", "nx", "ny", "nz", "red", "green", "blue", "alpha"}
 
 
 @dataclass
@@ -52,10 +53,7 @@ def read_ply(raw: bytes, name: str) -> Polygons:
     order, elements, bodies = _header(raw, name)
     if order is None and (plain := _read_plain(raw, elements, bodies[0])):
         return plain
-    if order is None:
-        columns = _text_body(raw[bodies[0] :], elements, name)
-    else:
-        columns = _binary_body(raw, bodies, order, elements, name)
+    columns = _body(raw, order, elements, bodies, name)
     vertex = columns.get("vertex", {})
     missing = [axis for axis in "xyz" if not isinstance(vertex.get(axis), np.ndarray)]
     if missing:
@@ -69,6 +67,23 @@ def read_ply(raw: bytes, name: str) -> Polygons:
     if isinstance(strips, tuple):
         return _from_strips(vertices, strips[1], name)
     raise MeshError(f"{name} has {counted(len(vertices), 'vertex', 'vertices')} but no faces (no list vertex_indices).")
+
+
+def ply_values(raw: bytes, name: str) -> dict[str, AnyArray]:
+    """Read the properties (n,) of the vertices of a PLY file by name, without places, normals, colours and textures.
+
+    MeshError as of `read_ply`.
+    """
+    vertex = _body(raw, *_header(raw, name), name).get("vertex", {})
+    return {key: each for key, each in vertex.items() if isinstance(each, np.ndarray) and key not in _NO_VALUES}
+
+
+def _body(
+    raw: bytes, order: str | None, elements: list[_Element], bodies: list[int], name: str
+) -> dict[str, dict[str, _Column]]:
+    if order is None:
+        return _text_body(raw[bodies[0] :], elements, name)
+    return _binary_body(raw, bodies, order, elements, name)
 
 
 def _from_strips(vertices: FloatArray, values: FloatArray, name: str) -> Polygons:

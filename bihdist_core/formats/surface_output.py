@@ -17,11 +17,10 @@ from ..mesh_like import MeshLike
 from ..surface import Surface, vertex_normals
 from ..version import VERSION
 from .field_output import Columns, checked_columns, ply_names, write_ply_mesh
+from .gltf import UNDEFINED
 from .mesh_names import mesh_name
 from .vtp import write_poly_data
 
-UNDEFINED = -1e30
-"""Stands for NaN in .glb: glTF allows no NaN."""
 SMALLEST, LARGEST = 1e-30, 1e30
 """Sizes between which single precision holds a surface."""
 

@@ -12,7 +12,7 @@ from ..counts import counted
 from ..errors import MeshError, ParameterError
 from .compression import unpacked
 from .freesurfer import LABEL, is_label, read_annotation, read_label, read_values
-from .gifti import POINTS, TRIANGLES, gifti_arrays
+from .gifti import POINTS, TRIANGLES, gifti_arrays, with_external_data
 from .mesh_names import GZIP, has_hemisphere
 
 VALUE_FILES = ".gii, .annot, .label, FreeSurfer's lh.thickness"
@@ -81,7 +81,8 @@ def value_file(path: str | os.PathLike[str], what: str) -> Iterator[bytes]:
         content = path.read_bytes() if path.is_file() else None
         if content is None:
             raise ParameterError(f"The {what} in {path} cannot be read: there is no such file.")
-        yield unpacked(content, path.name) if path.suffix.lower() == GZIP else content
+        content = unpacked(content, path.name) if path.suffix.lower() == GZIP else content
+        yield with_external_data(content, path) if path.name.lower().removesuffix(GZIP).endswith(".gii") else content
     except OSError as error:
         raise ParameterError(f"The {what} in {path} cannot be read: {error.strerror or error}.") from None
     except MeshError as error:

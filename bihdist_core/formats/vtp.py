@@ -2,7 +2,7 @@
 and a writer of points, lines and polygons.
 
 Text, base64 and raw appended arrays, plain or compressed with zlib, LZ4 or LZMA, of either byte order; pieces are put
-one after the other.  Point and cell data are read over.  Ids are the order of the points.
+one after the other.  Ids are the order of the points.  Point data are read where they are asked for, cell data are not.
 """
 
 import base64
@@ -34,10 +34,7 @@ _GRID = {"Cells": "CELLS"}
 def read_vtp(raw: bytes, name: str) -> Polygons:
     """Read the polygons of a VTP or VTU file; MeshError where it is none or is cut off."""
     file = _opened(raw, name)
-    grids = file.root.findall("UnstructuredGrid/Piece")
-    pieces = grids or file.root.findall("PolyData/Piece")
-    if not pieces:
-        raise MeshError(f"{name} holds no piece of PolyData or of an UnstructuredGrid; only these are surfaces.")
+    grids, pieces = _pieces(file)
     points: list[FloatArray] = []
     cells: dict[str, list[Cells]] = {}
     types: list[IntArray] = []
@@ -60,6 +57,32 @@ def read_vtp(raw: bytes, name: str) -> Polygons:
     if types:
         joined = cells_by_type(joined["CELLS"], np.concatenate(types), name)
     return polygons_of_cells(np.concatenate(points), joined, name)
+
+
+def vtp_values(raw: bytes, name: str) -> dict[str, AnyArray]:
+    """Read the point data (n,) of a VTP or VTU file by name; MeshError as of `read_vtp`.
+
+    Arrays with several components, and those that not all pieces have, are left out.
+    """
+    file = _opened(raw, name)
+    _, pieces = _pieces(file)
+    found: dict[str, list[AnyArray]] = {}
+    for piece in pieces:
+        n = _announced(file, piece, "NumberOfPoints")
+        for element in piece.findall("PointData/DataArray"):
+            word = element.get("Name", "")
+            if element.get("NumberOfComponents", "1") == "1" and element.get("type") in _TYPES:
+                found.setdefault(word, []).append(file.array(element, n, f"values of {word[:40]!r}"))
+    return {word: np.concatenate(parts) for word, parts in found.items() if len(parts) == len(pieces)}
+
+
+def _pieces(file: "_File") -> tuple[list[ElementTree.Element], list[ElementTree.Element]]:
+    """Return the pieces that are grids of cells, if there are any, and all pieces; MeshError if there is none."""
+    grids = file.root.findall("UnstructuredGrid/Piece")
+    pieces = grids or file.root.findall("PolyData/Piece")
+    if not pieces:
+        raise MeshError(f"{file.name} holds no piece of PolyData or of an UnstructuredGrid; only these are surfaces.")
+    return grids, pieces
 
 
 @dataclass

@@ -2,12 +2,14 @@
 
 import base64
 import gzip
+import io
 import json
 import struct
 import zlib
 
 import numpy as np
 import pytest
+from scipy.io import savemat
 
 from bihdist_core.errors import MeshError
 
@@ -128,6 +130,21 @@ def mni(vertices=VERTICES, polygons=FACES, colours=0, order="", colour_size=4):
     places = "".join(f" {line}\n" for line in rows(vertices).splitlines())
     text = f"P 0.3 0.3 0.4 10 1 {len(vertices)}\n{places}\n{rows(normals)}\n {len(polygons)}\n {colours} "
     return text + "1 1 1 1\n" * n_colours + f"\n {' '.join(map(str, ends))}\n\n {' '.join(map(str, corners))}\n"
+
+
+def mat(vertices=VERTICES, faces=FACES, names=("X", "Y", "Z", "TRIV"), struct="surface", packed=True):
+    """A MAT file of a struct, or of variables."""
+    columns = list(np.asarray(vertices, float).T[:, :, None]) if len(names) == 4 else [np.asarray(vertices, float)]
+    arrays = dict(zip(names, [*columns, np.asarray(faces, float) + 1], strict=True))
+    file = io.BytesIO()
+    savemat(file, {struct: arrays} if struct else arrays, do_compression=packed)
+    return file.getvalue()
+
+
+def npz(vertices=VERTICES, faces=FACES, save=np.savez_compressed, **others):
+    file = io.BytesIO()
+    save(file, vertices=vertices, faces=faces, **others)
+    return file.getvalue()
 
 
 def obj(vertices=VERTICES, polygons=FACES):
@@ -279,6 +296,8 @@ SAMPLES = {
     "PACKED.PLY.GZ": gzip.compress(ply("binary_big_endian")),
     "wrapped.off": off().replace("1.0 1.0", "1.0\n1.0").replace("3 3 4", "3 3\n\n4 # c\n"),
     "wrapped.ply": ply("ascii").replace(b"1.0 1.0", b"1.0\n1.0").replace(b"3 3 4", b"3 3\n4"),
+    "tosca.mat": mat(),
+    "a.npz": npz(),
     "a.surf.gii": gifti_surface(),
     "text.gii": gifti_surface(encoding="ASCII"),
     "lh.white.asc": freesurfer_text(),

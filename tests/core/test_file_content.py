@@ -12,7 +12,18 @@ from bihdist_core import BihdistError, NotEnoughMemory, OutputError, ParameterEr
 from bihdist_core.file_content import MOST_NESTED, file_json, file_text, json_value, open_regular
 from bihdist_core.formats.mesh_names import FORMATS, FREESURFER, MESH_FORMATS, MNI, is_mesh_file, mesh_format, mesh_name
 from bihdist_core.sentences import MOST_CHARACTERS, MOST_WORD_CHARACTERS, one_line, shortened, with_and
-from tests.core.mesh_samples import VERTICES, freesurfer, freesurfer_text, gifti, gifti_array, gifti_surface, mni, off
+from tests.core.mesh_samples import (
+    VERTICES,
+    freesurfer,
+    freesurfer_text,
+    gifti,
+    gifti_array,
+    gifti_surface,
+    mat,
+    mni,
+    npz,
+    off,
+)
 from tests.core.test_freesurfer import values
 
 
@@ -129,6 +140,8 @@ def test_meshes_of_a_folder_are_told_from_values_beside_them(put, tmp_path):
         "outer_skin.surf": freesurfer(),
         "pial.asc": freesurfer_text(),
         "mni.obj": mni(),
+        "cat0.mat": mat(),
+        "a.npz": npz(),
         "rh.white.gz": gzip.compress(freesurfer()),
         "a.surf.gii": gifti_surface(),
         "left.gii.gz": gzip.compress(gifti_surface()),
@@ -148,6 +161,7 @@ def test_meshes_of_a_folder_are_told_from_values_beside_them(put, tmp_path):
         "lh.aparc.annot": b"\0\0\0\5",
         "rh.thickness.gz": b"no gzip",
     }
+    others |= {"f.mat": mat(names=("X", "f")), "f.npz": npz().replace(b"faces", b"facet"), "cut.npz": npz()[:-9]}
     for name, content in (meshes | others).items():
         put(name, content)
     (tmp_path / "folder.gii").mkdir()

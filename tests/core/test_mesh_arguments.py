@@ -195,3 +195,12 @@ def test_fields_of_other_types_are_refused_in_a_sentence(name, bad):
         TAKES_A_FIELD[name](bad)
     assert str(caught.value).endswith(".")
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("order", [np.asfortranarray, lambda x: np.repeat(x, 2, axis=0)[::2], lambda x: x.T.copy().T])
+def test_arrays_lie_in_memory_in_any_way(order):
+    surface = bumpy(60)
+    other = core.Surface(order(surface.vertices), order(surface.faces))
+    np.testing.assert_array_equal(
+        core.BiharmonicDistance(other).from_source(3), core.BiharmonicDistance(surface).from_source(3)
+    )

@@ -9,7 +9,7 @@ import pytest
 
 from app.commands.desktop import menu_entry, mime_package
 from app.version import version
-from bihdist_core.formats.mesh_names import MESH_FORMATS
+from bihdist_core.formats.mesh_names import ARRAY_FILES, MESH_FORMATS
 
 ROOT = Path(__file__).parents[2]
 tomllib = pytest.importorskip("tomllib")
@@ -68,7 +68,7 @@ def test_the_menu_opens_what_the_desktop_entry_opens():
     (item,) = json.loads((FOLDER / "menu.json").read_text(encoding="utf-8"))["menu_items"]
     assert (item["name"], item["description"]) == (entry["Name"], entry["Comment"])
     linux, windows = item["platforms"]["linux"], item["platforms"]["win"]
-    assert windows["file_extensions"] == list(MESH_FORMATS)
+    assert windows["file_extensions"] == [each for each in MESH_FORMATS if each not in ARRAY_FILES]
     name = "{http://www.freedesktop.org/standards/shared-mime-info}%s"
     types = [each for each in ElementTree.fromstring(mime_package()) if each.find(name % "glob") is not None]
     patterns = {each.get("type"): each.find(name % "glob").get("pattern") for each in types}

@@ -34,7 +34,7 @@ def drop(s, path):
     from qtpy import QtCore, QtGui
 
     urls = QtCore.QMimeData()
-    urls.setUrls([QtCore.QUrl.fromLocalFile(path)])
+    urls.setUrls([QtCore.QUrl.fromLocalFile(str(path))])
     buttons, keys = QtCore.Qt.MouseButton.LeftButton, QtCore.Qt.KeyboardModifier.NoModifier
     at, action = QtCore.QPointF(5, 5), QtCore.Qt.DropAction.CopyAction
     parts(s.window).files.eventFilter(s.window, QtGui.QDropEvent(at, action, urls, buttons, keys))

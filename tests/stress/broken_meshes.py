@@ -9,10 +9,14 @@ import numpy as np
 
 from tests.core.mesh_samples import (
     freesurfer,
+    freesurfer_text,
     gifti_surface,
     glb,
     gltf,
     gltf_parts,
+    mat,
+    mni,
+    npz,
     obj,
     off,
     off_binary,
@@ -52,6 +56,11 @@ FORMATS: dict[str, Write] = {
     "a.glb": lambda x, faces, _: glb(*gltf_parts(x, faces, "<u4")),
     "a.surf.gii": lambda x, faces, _: gifti_surface(x, faces),
     "lh.white": lambda x, faces, _: freesurfer(x, faces),
+    "lh.white.asc": lambda x, faces, _: freesurfer_text(x, faces),
+    "mni.obj": lambda x, faces, _: mni(x, faces),
+    "little.obj": lambda x, faces, _: mni(x, faces, order="<"),
+    "a.mat": lambda x, faces, _: mat(x, faces),
+    "a.npz": lambda x, faces, _: npz(x, faces),
     "a.off.gz": lambda x, faces, _: gzip.compress(off(x, faces).encode()),
 }
 WORDS = f"{len(KINDS)} kinds of broken meshes in {len(FORMATS)} formats"

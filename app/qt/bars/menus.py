@@ -103,7 +103,21 @@ class Menus:
             bar.addMenu(name) for name in ("&File", "&Edit", "&View", "&Panels", "&Tools", "&Help")
         )
         self._of_meshes = (panels, tools)
-        self._fill(file, ["open", self.recent, self.samples, "close mesh", None, "open beside", "close beside", None])
+        self._fill(
+            file,
+            [
+                "open",
+                self.recent,
+                self.samples,
+                "close mesh",
+                None,
+                "open beside",
+                "close beside",
+                None,
+                "add field",
+                None,
+            ],
+        )
         self._fill(self.repairs, ["cut", "merge", "largest", None, "save ids", None, "put back"])
         self._fill(file, [self.repairs, None])
         self._fill(file, ["save", "save as", None])

@@ -1,22 +1,35 @@
-"""Panels' fields, saved as values at vertices."""
+"""Fields in files: those of other programs are shown, and those of panels are saved."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from bihdist_core import Surface
 from bihdist_core.arrays import ByteArray, FloatArray
+from bihdist_core.counts import counted
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
+from bihdist_core.formats.mesh_names import GZIP
 from bihdist_core.formats.surface_output import COLOURED_FORMATS, write_coloured
+from bihdist_core.progress import Progress
 
-from ...document.document import Panel
+from ...document.document import FieldArray, Panel, free_field_name
+from ...document.edits import show_field
 from ...document.file_names import field_names, file_name
 from ...document.quantities import quantity_name
 from ...document.second_mesh_edits import letter_of
+from ...drawing.numbers import number
 from ...scene.style import style_of
 from ...session.bar_ends import bar_end
 from ..context import Context
+from ..pages.messages import Which
+from .saving import ask_file, file_filter
 from .writing import Writing
+
+if TYPE_CHECKING:
+    from bihdist_core.formats.vertex_arrays import VertexArray
 
 
 def _write_one(path: str, surface: Surface, colours: ByteArray, fields: dict[str, FloatArray]) -> None:
@@ -27,11 +40,76 @@ def _write_one(path: str, surface: Surface, colours: ByteArray, fields: dict[str
         write_fields(path, surface, fields)
 
 
+def _read(path: str, progress: Progress) -> Iterator[object]:
+    """Read the arrays in a file; for the background."""
+    from bihdist_core.formats.vertex_arrays import read_vertex_arrays  # with the readers of all formats
+
+    yield read_vertex_arrays(path)
+
+
+def _about(array: "VertexArray") -> str:
+    """Return what an array holds, in words."""
+    count = int(np.isfinite(array.values).sum())
+    if array.names:
+        return f"{counted(int((array.counts > 0).sum()), 'label')} at {counted(count, 'vertex', 'vertices')}"
+    if not count:
+        return "no values"
+    return f"{number(float(np.nanmin(array.values)))} to {number(float(np.nanmax(array.values)))}"
+
+
 class FieldFiles:
-    """Asks where to save fields, and writes them in the background, as `bihdist field` does."""
+    """Reads fields of files, and writes those of panels in the background, as `bihdist field` does."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
+        self._reading = context.background("field", _read, self._take, lambda path, sentence: context.fail(sentence))
+
+    # ------------------------------------------------------------------ reading
+    def choose(self) -> None:
+        """Ask for a file with values at vertices, and show them."""
+        from bihdist_core.formats.vertex_arrays import ARRAY_FORMATS
+
+        ask_file(self._context, "Add field", file_filter("Fields", (*ARRAY_FORMATS, GZIP, "lh.*", "rh.*")), self.add)
+
+    def add(self, path: str) -> None:
+        """Show an array of a file, which the user chooses if there are several; or tell why that is not possible."""
+        if self._context.session.loaded() is None:
+            self._context.fail(f"{os.path.basename(path)} has values at vertices; open its mesh first.")
+        else:
+            self._reading.ask(path)
+
+    def _take(self, path: str, arrays: "list[VertexArray]") -> None:
+        session, active = self._context.session, self._context.grid.active
+        if session.loaded() is None:
+            return
+        first = [panel.surface for panel in session.document.panels if panel.id == active]
+        names = dict.fromkeys([*first, *(mesh.name for mesh in session.document.surfaces)])
+        counts = {name: len(session.mesh(name).surface.vertices) for name in names if session.loaded(name)}
+        fitting = [(each, name) for each in arrays for name, n in counts.items() if n == len(each.values)]
+        fitting = list({each.name: (each, name) for each, name in reversed(fitting)}.values())[::-1]
+        if not fitting:
+            values = " or ".join(dict.fromkeys(f"{len(each.values):,}" for each in arrays[:3]))
+            there = " and ".join(f"{session.mesh(name).surface.name} has {n:,} vertices" for name, n in counts.items())
+            self._context.fail(f"{os.path.basename(path)} has {values} values, and {there}.")
+            return
+        chosen: int | None = 0
+        if len(fitting) > 1:
+            question = f"{os.path.basename(path)} has {len(fitting)} arrays. &Which one?"
+            rows = [(each.name, about, about) for each, _ in fitting for about in (_about(each),)]
+            chosen = Which(question, rows, "an array", "Add", self._context.widget).ask()
+        if chosen is None:
+            return
+        array, surface = fitting[chosen]
+        name = array.name if len(arrays) > 1 else ""
+        with self._context.errors_shown():
+            from bihdist_core.formats.vertex_arrays import array_name
+
+            wanted = FieldArray(free_field_name(array_name(path, name), []), "", surface, os.path.abspath(path), name)
+            added = session.given.add_array(wanted, array)
+            session.show(show_field(session.document, added, active))
+            self._context.tell(f"Added {added.name} from {os.path.basename(path)}")
+
+    # ------------------------------------------------------------------ writing
 
     def save(self, id: int, path: str = "") -> None:
         """Save the field of a panel; asks for a path if none is given."""

@@ -11,6 +11,7 @@ from ...document.file_names import file_name
 from ..context import Context
 from ..pages.messages import ask_which
 from .curve_files import CurveFiles, is_curve
+from .field_files import FieldFiles
 from .saving import MESH_FILES, ask_file, ask_path
 from .session_actions import FILES, SessionFile
 
@@ -36,9 +37,14 @@ class Files(QtCore.QObject):
         ask_file(self._context, "Open second mesh", MESH_FILES, self._context.session.open_second_mesh)
 
     def open(self, path: str) -> None:
-        """Open a mesh, a session or recipe, or a source curve."""
+        """Open a mesh, a session or recipe, a source curve, or a field."""
         if not path.lower().endswith(".json"):
-            self._context.open(path)
+            from bihdist_core.formats.vertex_arrays import is_vertex_array_file  # with the readers of all formats
+
+            if is_vertex_array_file(path):
+                self._context.once_built(lambda: self._context[FieldFiles].add(path))
+            else:
+                self._context.open(path)
         elif is_curve(path):
             self._context.once_built(lambda: self._context[CurveFiles].take(path))
         else:

@@ -18,7 +18,7 @@ from bihdist_core import BihdistError, ParameterError
 from bihdist_core.sentences import with_and
 
 from ...document.document import DockPlaces, Document, MeshFile, content
-from ...document.file import checksum, read_recipe, with_paths
+from ...document.file import checksum, read_recipe, with_all_paths
 from ...document.file_names import file_name
 from ...document.page import Page, Recipe
 from ...document.second_mesh_edits import MOST_SHOWN
@@ -416,8 +416,7 @@ class SessionFile(QtCore.QObject):
         return False
 
     def _keep(self, recipe: Recipe, origin: _Origin) -> bool:
-        meshes = tuple(with_paths(mesh, _absolute) for mesh in recipe.document.surfaces)
-        recipe = replace(recipe, document=replace(recipe.document, surfaces=meshes))
+        recipe = replace(recipe, document=with_all_paths(recipe.document, _absolute))
         return remembered.keep_state(lambda path: self._write(recipe, path, stays=True), origin.path)
 
     def forget(self) -> None:

@@ -94,49 +94,65 @@ class Question(QtWidgets.QMessageBox):
         return next((words for words, button in self.words.items() if button is self.clickedButton()), "")
 
 
-# ---------------------------------------------------------------------- which of several files
-class WhichFile(QtWidgets.QDialog):
-    """A dialog in which one of several files is chosen."""
+# ---------------------------------------------------------------------- which of several
+class Which(QtWidgets.QDialog):
+    """A dialog in which one of several is chosen: rows of a name, quiet words under it, and a tip.
 
-    def __init__(self, paths: Sequence[str], parent: QtWidgets.QWidget | None = None) -> None:
+    `what` is what they are called, and `do` what the button does with the chosen one.
+    """
+
+    def __init__(
+        self, question: str, rows: Sequence[tuple[str, str, str]], what: str, do: str, parent: QtWidgets.QWidget | None
+    ) -> None:
         super().__init__(parent)
-        self.setWindowTitle("Choose a file")
-        question = QtWidgets.QLabel(f"{len(paths)} files were dropped. &Which one do you want to open?", wordWrap=True)
-        self.list = QtWidgets.QListWidget(accessibleName="Files")
-        self.list.setItemDelegate(_PathRows(self.list))
+        self.setWindowTitle(f"Choose {what}")
+        words = QtWidgets.QLabel(question, wordWrap=True)
+        self.list = QtWidgets.QListWidget(accessibleName=question.replace("&", ""))
+        self.list.setItemDelegate(_Rows(self.list))
         self.list.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        question.setBuddy(self.list)
-        for path in paths:
-            item = QtWidgets.QListWidgetItem(os.path.basename(path), self.list)
-            item.setData(QtCore.Qt.ItemDataRole.UserRole, path)
-            item.setToolTip(path)
-            item.setData(QtCore.Qt.ItemDataRole.AccessibleTextRole, f"{os.path.basename(path)} in {_folder(path)}")
+        words.setBuddy(self.list)
+        for name, quiet, tip in rows:
+            item = QtWidgets.QListWidgetItem(name, self.list)
+            item.setData(QtCore.Qt.ItemDataRole.UserRole, quiet)
+            item.setToolTip(tip)
+            item.setData(QtCore.Qt.ItemDataRole.AccessibleTextRole, f"{name}, {quiet}")
         self.list.setCurrentRow(0)
         self.list.itemDoubleClicked.connect(lambda item: self.accept())
         role = QtWidgets.QDialogButtonBox.ButtonRole
         buttons = QtWidgets.QDialogButtonBox(self)
-        choose = buttons.addButton("Open", role.AcceptRole)
+        choose = buttons.addButton(do, role.AcceptRole)
         choose.setDefault(True)
-        choose.setToolTip("Open the selected file (Enter)")
+        choose.setToolTip(f"{do} the selected one (Enter)")
         leave = buttons.addButton("Cancel", role.RejectRole)
         leave.setAutoDefault(False)
-        leave.setToolTip("Open none of them (Esc)")
+        leave.setToolTip("None of them (Esc)")
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
-        in_column(question, (self.list, 1), buttons, of=self, spacing=12, margins=(24, 20, 24, 16))
-        rows = min(max(len(paths), 2), 6) * _PathRows.HIGH + 2
-        self.list.setMinimumHeight(2 * _PathRows.HIGH)
-        self.resize(460, self.sizeHint().height() - self.list.sizeHint().height() + rows)
+        in_column(words, (self.list, 1), buttons, of=self, spacing=12, margins=(24, 20, 24, 16))
+        high = min(max(len(rows), 2), 6) * _Rows.HIGH + 2
+        self.list.setMinimumHeight(2 * _Rows.HIGH)
+        self.resize(460, self.sizeHint().height() - self.list.sizeHint().height() + high)
         self.list.setFocus()
 
-    @property
-    def chosen(self) -> str:
-        """The path of the chosen file."""
-        return str(self.list.currentItem().data(QtCore.Qt.ItemDataRole.UserRole))
+    def ask(self) -> int | None:
+        """Wait for the answer, and return the number of the chosen one; None for none."""
+        answer = self.list.currentRow() if self.exec() else None
+        self.deleteLater()
+        return answer
 
 
-class _PathRows(QtWidgets.QStyledItemDelegate):
-    """Rows with a file's name and under it its folder, shortened in the middle, as both ends tell folders apart."""
+class WhichFile(Which):
+    """A dialog in which one of several files is chosen."""
+
+    def __init__(self, paths: Sequence[str], parent: QtWidgets.QWidget | None = None) -> None:
+        question = f"{len(paths)} files were dropped. &Which one do you want to open?"
+        super().__init__(
+            question, [(os.path.basename(path), _folder(path), path) for path in paths], "a file", "Open", parent
+        )
+
+
+class _Rows(QtWidgets.QStyledItemDelegate):
+    """Rows with a name and under it quiet words, shortened in the middle, as both ends tell folders apart."""
 
     HIGH = 46
 
@@ -144,7 +160,8 @@ class _PathRows(QtWidgets.QStyledItemDelegate):
         return QtCore.QSize(100, self.HIGH)
 
     def paint(self, painter: QtGui.QPainter, option: QtWidgets.QStyleOptionViewItem, index: QtCore.QModelIndex) -> None:
-        theme, path = LOOK.theme, index.data(QtCore.Qt.ItemDataRole.UserRole)
+        theme = LOOK.theme
+        name, quiet = (index.data(getattr(QtCore.Qt.ItemDataRole, role)) for role in ("DisplayRole", "UserRole"))
         state, middle = QtWidgets.QStyle.StateFlag, QtCore.Qt.TextElideMode.ElideMiddle
         painter.save()
         if option.state & state.State_Selected:
@@ -153,8 +170,8 @@ class _PathRows(QtWidgets.QStyledItemDelegate):
             painter.fillRect(option.rect, QtGui.QColor(theme.hover))
         box = option.rect.adjusted(12, 5, -12, -5)
         for font, colour, words, align in (
-            (LOOK.font(), theme.text, os.path.basename(path), QtCore.Qt.AlignmentFlag.AlignTop),
-            (LOOK.font(12), theme.quiet, _folder(path), QtCore.Qt.AlignmentFlag.AlignBottom),
+            (LOOK.font(), theme.text, name, QtCore.Qt.AlignmentFlag.AlignTop),
+            (LOOK.font(12), theme.quiet, quiet, QtCore.Qt.AlignmentFlag.AlignBottom),
         ):
             painter.setFont(font)
             painter.setPen(QtGui.QColor(colour))
@@ -176,10 +193,8 @@ def _folder(path: str) -> str:
 
 def ask_which(window: QtWidgets.QWidget | None, paths: Sequence[str]) -> str | None:
     """Ask which of several files to open, wait for the answer, and return it; None if none."""
-    dialog = WhichFile(paths, window)
-    answer = dialog.chosen if dialog.exec() else None
-    dialog.deleteLater()
-    return answer
+    chosen = WhichFile(paths, window).ask()
+    return None if chosen is None else paths[chosen]
 
 
 # ---------------------------------------------------------------------- a line above the panels

@@ -11,6 +11,7 @@ from .bar_layout import Reading
 
 NOT_CONNECTED, UNDEFINED = "not connected to the source", "undefined here"
 NOWHERE = "mapped nowhere"
+NO_LABEL = "no label"
 
 
 def value_words(answer: Answer | None, vertex: int | None, shows: Quantity) -> tuple[str, str]:
@@ -20,6 +21,8 @@ def value_words(answer: Answer | None, vertex: int | None, shows: Quantity) -> t
     """
     if answer is None or vertex is None:
         return "", ""
+    if answer.labels is not None:
+        return answer.labels.name_at(vertex) or NO_LABEL, ""
     if answer.leads_to is not None:
         image = int(answer.leads_to[vertex])
         return (f"→ {image}" if image >= 0 else NOWHERE), ""

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,8 @@ from bihdist_core.arrays import FloatArray
 from ...drawing.colour_bar import BarColours, BarLine, across, bar_shapes, line_shapes, outline_shape
 from ...drawing.numbers import number
 from ...drawing.painters.qt import paint, rgba_of, text_width
-from ...drawing.shapes import Path, Pen, Shape, Text, rounded
+from ...drawing.shapes import Box, Path, Pen, Shape, Text, rounded
+from ...marks.primitives import LegendRow
 from ...scene.bands import bar_colours
 from ...scene.style import PAPER, Style
 from ..look.look import LOOK
@@ -29,6 +31,15 @@ POINT, CORNER = 6.0, 2.0
 
 SENTENCE_MARGIN = 12
 """Least logical pixels beside a sentence."""
+
+MOST_LABELS = 400
+"""Labels that a legend may name."""
+
+TOOLTIP_LINES = 30
+"""Of a legend, before there is another column."""
+
+SWATCH_SIZE, ENTRY_GAP = 9.0, 14.0
+"""Logical pixels of a colour in a legend, and between two entries."""
 
 FAINT = 1.3
 """Colours of less contrast with the ground need an outline."""
@@ -49,6 +60,7 @@ class ColourBar(QtWidgets.QWidget):
         self._style = PAPER
         self._at_rest: tuple[float, str] | None = None
         self._sentence: tuple[str, ...] = ()
+        self._labels: tuple[LegendRow, ...] = ()
         self._layout = lay_out(None, self.width())
         self.setSizePolicy(QtWidgets.QSizePolicy.Policy.Expanding, QtWidgets.QSizePolicy.Policy.Fixed)
         self.setAttribute(QtCore.Qt.WidgetAttribute.WA_OpaquePaintEvent)
@@ -92,6 +104,12 @@ class ColourBar(QtWidgets.QWidget):
             self._sentence = tuple(sentence)
             self._lay_out()
 
+    def show_labels(self, rows: Sequence[LegendRow]) -> None:
+        """Show a legend of labels in the place of the bar; () for the bar."""
+        if tuple(rows) != self._labels:
+            self._labels = tuple(rows)
+            self._lay_out()
+
     def show_value(self, value: float | None) -> None:
         """Show the value at the pointer, NaN where there is none; None for no pointer."""
         is_undefined, unit = value is not None and not math.isfinite(value), self._unit
@@ -128,6 +146,11 @@ class ColourBar(QtWidgets.QWidget):
         sentence = "" if reading is None else reading.sentence
         ends = "no values" if reading is None else f"{number(reading.low)} to {number(reading.high)}"
         is_sentence = bool(self._sentence) and reading is None
+        if self._labels:
+            self.setToolTip(_table_of(self._labels))
+            self.setAccessibleDescription(", ".join(row.text for row in self._labels))
+            self.update()
+            return
         self.setToolTip(self._sentence[0] if is_sentence else "" if self._layout.is_whole else sentence)
         described = f"{ends}: {sentence}" if sentence else ends
         self.setAccessibleDescription(self._sentence[0] if is_sentence else described)
@@ -153,6 +176,8 @@ class ColourBar(QtWidgets.QWidget):
     @property
     def shapes(self) -> list[Shape]:
         """All that the bar shows, in logical pixels."""
+        if self._labels:
+            return self._label_shapes()
         if self._sentence and self._reading is None:
             return self._sentence_shapes()
         return [
@@ -174,6 +199,47 @@ class ColourBar(QtWidgets.QWidget):
             found.append(Text(part, x, 0.2 * self.height(), size, colour, bool(k % 2), level="line"))
             x += width
         return found
+
+    def _label_shapes(self) -> list[Shape]:
+        """Return the legend in as many lines as there is room for; what is left out is counted."""
+        size, scale, theme = 12 * LOOK.scale, LOOK.scale, LOOK.theme
+        room, high = self.width() - 2 * SENTENCE_MARGIN, 18 * scale
+        lines: list[list[tuple[LegendRow | None, str, float]]] = [[]]
+        most = max(int(self.height() / high), 1)
+
+        def wide(text: str) -> float:
+            return text_width(text, size) + (SWATCH_SIZE + 5 + ENTRY_GAP) * scale
+
+        rest = len(self._labels)
+        for row in self._labels:
+            used = sum(width for _, _, width in lines[-1])
+            more = wide(f"{rest} more") if len(lines) == most and rest > 1 else 0.0
+            if used + wide(row.text) + more > room:
+                if len(lines) == most:
+                    break
+                lines.append([])
+            lines[-1].append((row, row.text, wide(row.text)))
+            rest -= 1
+        if rest:
+            lines[-1].append((None, f"{rest} more", text_width(f"{rest} more", size) + ENTRY_GAP * scale))
+        shapes: list[Shape] = []
+        y = (self.height() - high * len(lines)) / 2 + high / 2
+        for line in lines:
+            x = (self.width() - sum(width for _, _, width in line) + ENTRY_GAP * scale) / 2
+            for entry, text, width in line:
+                at = x
+                if entry is not None:
+                    side = SWATCH_SIZE * scale
+                    is_faint = contrast(entry.colour, theme.canvas) < FAINT
+                    pen = Pen(rgba_of(theme.strong)) if is_faint else None
+                    swatch = rounded(Box(x, y - side / 2, side, side), CORNER)
+                    shapes.append(Path(swatch, rgba_of(entry.colour), pen))
+                    at += (SWATCH_SIZE + 5) * scale
+                ink = rgba_of(theme.quiet if entry is None else theme.text)
+                shapes.append(Text(text, at, y, size, ink, level="line"))
+                x += width
+            y += high
+        return shapes
 
     def _bar_shapes(self) -> list[Shape]:
         """Return the bar and the lines across it, the same ones as long as they look so."""
@@ -217,3 +283,12 @@ class ColourBar(QtWidgets.QWidget):
     def pixel(self) -> float:
         """The size of a device pixel, on whole ones of which all lines are equally sharp."""
         return 1 / float(self.devicePixelRatioF())
+
+
+def _table_of(rows: Sequence[LegendRow]) -> str:
+    """Return a legend as a table of Qt's, in columns."""
+    columns = -(-len(rows) // TOOLTIP_LINES)
+    lines = -(-len(rows) // columns)
+    cells = [f'<td><font color="{row.colour}">■</font>&nbsp;{escape(row.text)}&nbsp;&nbsp;</td>' for row in rows]
+    in_lines = ("".join(cells[k::lines]) for k in range(lines))
+    return f"<table>{''.join(f'<tr>{line}</tr>' for line in in_lines)}</table>"

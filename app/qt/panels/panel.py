@@ -14,6 +14,7 @@ from bihdist_core.distances.answers import Answer
 from ...document.document import COMPARISON, Inset
 from ...document.looks import AS_IT_IS, TWENTY_STEPS, Isolines, Shading
 from ...document.quantities import DistanceFrom
+from ...marks.field_marks import label_rows
 from ...marks.primitives import Caption
 from ...scene.bands import band_edges, beyond
 from ...scene.drawable import drawable, rise, warp_by_scalar
@@ -29,7 +30,7 @@ from ...session.questions import Question
 from ..look.layouts import in_column
 from ..look.look import LOOK
 from .answer_words import copied_words, reading_of, value_words
-from .colour_bar import ColourBar
+from .colour_bar import MOST_LABELS, ColourBar
 from .head import PanelHead
 from .number_box import EndPopUp
 from .overlay import Pointed
@@ -228,7 +229,7 @@ class DistancePanel(QtWidgets.QWidget):
             actor.show_isolines(self._lines)
         self._raise(answer, self._top, height)
         if answer.colours is not None:
-            actor.show_colours(answer.colours)
+            actor.show_colours(answer.colours, answer.labels is not None)
         elif answer.field is None:
             actor.show_bare(is_plain=not answer.failure)
         else:
@@ -243,6 +244,7 @@ class DistancePanel(QtWidgets.QWidget):
 
     def _show_bar(self) -> None:
         answer = self._current
+        self.bar.show_labels(() if answer is None else label_rows(answer, MOST_LABELS))
         if answer is None or answer.field is None:
             self.bar.clear()
         else:

@@ -121,7 +121,7 @@ def _reached_in_words(found: IntArray, onto: Surface) -> str:
 
 def colours_words(answer: Answer | None) -> tuple[str, ...]:
     """Return the meaning of an answer's colours, in more and in fewer words; () for an answer without colours."""
-    if answer is None or answer.colours is None:
+    if answer is None or answer.colours is None or answer.labels is not None:
         return ()
     if answer.leads_to is None:
         return "red, green and blue from x, y and z", "coloured by position", ""

@@ -3,6 +3,7 @@
 import argparse
 from dataclasses import asdict
 
+from ...commands.field_of import check_values
 from ...commands.mesh import check_mesh, write_ids_of
 from ...commands.mesh_sources import first_spec, one_source, sources_of_document, sources_of_mesh
 from ...commands.options import (
@@ -15,6 +16,7 @@ from ...commands.options import (
     add_rows,
     add_sources,
     chart_page,
+    fields_of,
     quantities,
     repairs_of,
 )
@@ -77,8 +79,9 @@ def run(options: argparse.Namespace) -> Result:
     with progress_line() as progress:
         repairs = repairs_of(options, options.mesh)
         source = one_source(sources_of_document(options.sources, options.mesh, shows, areas, repairs, progress))
-        document = with_repairs(comparison(options.mesh, shows, (source,), areas), **asdict(repairs))
-        document, surfaces = open_document(Recipe(document, page), ArrayStore())
+        document = comparison(options.mesh, shows, (source,), areas, fields_of(options))
+        recipe = Recipe(with_repairs(document, **asdict(repairs)), page)
+        document, surfaces = open_document(recipe, ArrayStore.read(recipe))
         surface = surfaces[document.surfaces[0].name].surface
         tell_repairs(surface)
         if options.pins:
@@ -91,6 +94,7 @@ def run(options: argparse.Namespace) -> Result:
         document = document.with_changed(Profile, shares=not options.values)
         _, path = path_of(document, surfaces)
         found = compute(document, surfaces, progress)
+    check_values(*found)
     answers = dict(zip((panel.id for panel in document.panels), found, strict=True))
     if options.output:
         write_profile(options.output, path, profile_fields(document, answers))

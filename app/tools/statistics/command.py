@@ -41,7 +41,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     add_distance(
         parser,
-        "one, or two to compare them (default: biharmonic)",
+        "one, or two to compare them (default: those of --field, else biharmonic)",
         k="the number of eigenpairs, for --truncation",
         is_field=True,
     )
@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> Result:
     from bihdist_core.errors import ParameterError
     from bihdist_core.file_output import check_outputs
 
-    words = options.distance or ["biharmonic"]
+    words = options.distance or [field.name for field in options.fields or ()] or ["biharmonic"]
     if len(words) > 2:
         raise ParameterError(f"Two distances can be compared, not {len(words)}.")
     if options.scatter and len(words) != 2:
