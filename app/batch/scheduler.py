@@ -6,6 +6,7 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, replace
 
 from bihdist_core.errors import ParameterError
+from bihdist_core.formats.mesh_names import files_of
 
 from ..document.file import checksum
 from .engines import Engine
@@ -39,7 +40,7 @@ def tasks_for(
             tasks.append(Task(path, name, "+".join(read), own, address, version))
         except ParameterError as error:
             failures += [Failure(name, *each, str(error)) for each in wanted.results()]
-    return sorted(tasks, key=lambda task: (-os.path.getsize(task.mesh), task.name)), failures
+    return sorted(tasks, key=lambda task: (-sum(map(os.path.getsize, files_of(task.mesh))), task.name)), failures
 
 
 def _checksum(path: str) -> str:

@@ -62,12 +62,18 @@ EXAMPLES = (
     "bihdist batch meshes --do fields --sources farthest:10 -o results",
     "bihdist batch hand beast --do pairs,nearest --sources farthest:50 --k 5 -o results",
     "bihdist batch hand beast --do figure -o pictures",
+    "bihdist batch 'sub-*/surf/lh.pial+rh.pial' --do pairs --sources random:100 -o results",
 )
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `batch` to its parser."""
-    parser.add_argument("meshes", metavar="MESH", nargs="*", help="mesh files, names of samples, or folders of meshes")
+    parser.add_argument(
+        "meshes",
+        metavar="MESH",
+        nargs="*",
+        help="mesh files, names of samples, folders of meshes, or both hemispheres by a pattern: 'sub-*/lh.*+rh.*'",
+    )
     parser.add_argument(
         "--list", metavar="FILE", help="more meshes, a path or a sample on each line; - for standard input"
     )

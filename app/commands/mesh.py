@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from bihdist_core.errors import BihdistError, MeshError, MissingFileError, OutputError, ParameterError
-from bihdist_core.formats.mesh_names import mesh_name
+from bihdist_core.formats.mesh_names import is_there, mesh_name
 from bihdist_core.sentences import shortened
 
 from ..batch.work_order import ARRAYS
@@ -41,7 +41,7 @@ def check_mesh(word: str, commands: Iterable[str] = ()) -> None:
 
     `commands` are words that would have been possible in its place, too.
     """
-    if os.path.exists(mesh_path(word)):
+    if is_there(mesh_path(word)):
         return
 
     shown = shortened(word, MAX_NAME_CHARS)
@@ -159,7 +159,12 @@ def check_array_output(path: str, formats: Sequence[str], work: str) -> str:
 
 def add_meshes(parser: argparse.ArgumentParser) -> None:
     """Add the argument of several meshes."""
-    parser.add_argument("meshes", nargs="+", metavar="MESH", help="mesh files, or the names of samples")
+    parser.add_argument(
+        "meshes",
+        nargs="+",
+        metavar="MESH",
+        help="mesh files, some with + between as one (lh.pial+rh.pial), or the names of samples",
+    )
 
 
 def into_each(options: argparse.Namespace, do: Callable[[argparse.Namespace], Facts]) -> Result:

@@ -35,7 +35,7 @@ NEIGHBOURS = 10
 """So many, unless `--k` says otherwise."""
 DTYPES = ("float64", "float32")
 """The types of numbers in written arrays, the default first."""
-MESH = "mesh file, or the name of a sample"
+MESH = "mesh file, two with + between (lh.pial+rh.pial), or the name of a sample"
 PARAMETERS = {p.name: p for kind in BUILT_IN for p in kind.parameters}
 """The parameters of the built-in distances by name, each of which is an option."""
 

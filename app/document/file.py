@@ -14,6 +14,7 @@ from typing import Any
 
 from bihdist_core.errors import MeshError, ParameterError
 from bihdist_core.file_content import file_json, json_value, open_regular
+from bihdist_core.formats.mesh_names import files_of, is_there
 
 from .document import Document, MeshFile
 from .form import READERS, document_data, document_from, written
@@ -28,6 +29,9 @@ PROGRAM = "bihdist"
 
 def checksum(path: str | os.PathLike[str]) -> str:
     """The SHA-256 of a file's bytes, of a .gltf with the files it names inside; ParameterError if it cannot be read."""
+    files = files_of(path)
+    if len(files) > 1:
+        return hashlib.sha256("".join(map(checksum, files)).encode()).hexdigest()
     if os.path.splitext(path)[1].lower() == ".gltf":
         return _checksum_of_mesh(path)
     digest = hashlib.sha256()
@@ -64,7 +68,7 @@ def recipe_text(recipe: Recipe, version: str) -> str:
 
 def mesh_reference(mesh: str, file: str | os.PathLike[str]) -> str:
     """Return the name of a mesh in a file: from the file's folder where it can be, so that both may move together."""
-    if not os.path.exists(mesh):
+    if not is_there(mesh):
         return mesh  # a sample's name
     try:
         return Path(os.path.relpath(mesh, Path(file).resolve().parent)).as_posix()
@@ -113,7 +117,7 @@ def read_recipe(path: str | os.PathLike[str]) -> Recipe:
     def beside(named: str) -> str:
         there = Path(path).parent / named
         # os.path, which takes a path that is too long for one that is not there.
-        return str(there) if os.path.exists(there) else named
+        return str(there) if is_there(there) else named
 
     arrays = str(Path(path).parent / recipe.arrays) if recipe.arrays else ""
     return replace(recipe, document=with_all_paths(recipe.document, beside), arrays=arrays)

@@ -19,8 +19,8 @@ from bihdist_core.applications.perturbation import perturbed
 from bihdist_core.arrays import IntArray
 from bihdist_core.distances.answers import Answer, Distances
 from bihdist_core.distances.distance_types import Spec
-from bihdist_core.formats.mesh_io import mesh_content, surface_in
-from bihdist_core.formats.mesh_names import mesh_format
+from bihdist_core.formats.mesh_io import mesh_content, read_surface, surface_in
+from bihdist_core.formats.mesh_names import files_of, is_there, mesh_format
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
@@ -296,8 +296,11 @@ def unmerged(mesh: MeshFile, given: ArrayStore) -> Surface:
 def _read(mesh: MeshFile, remedy: str) -> tuple[Surface, str]:
     """Read the surface in a file, and the file's checksum."""
     path = checked_path(mesh, remedy)
-    content = mesh_content(path)
-    surface, found = surface_in(content, os.path.basename(path)), hashlib.sha256(content).hexdigest()
+    if len(files_of(path)) > 1:
+        surface, found = read_surface(path), checksum(path)
+    else:
+        content = mesh_content(path)
+        surface, found = surface_in(content, os.path.basename(path)), hashlib.sha256(content).hexdigest()
     if mesh.sha256 and found != mesh.sha256:
         sentence = f"The mesh {mesh.path} has changed since its checksum was recorded. {remedy}"
         raise ParameterError(sentence.strip())
@@ -315,6 +318,6 @@ def _with_pose(change: Perturbation, remedy: str) -> tuple[Perturbation, Surface
 def checked_path(mesh: MeshFile, remedy: str = "") -> str:
     """Return the path of a mesh's file, empty for a surface in memory; ParameterError if it is missing."""
     path = mesh_path(mesh.path) if mesh.path else ""
-    if path and not os.path.exists(path):
+    if path and not is_there(path):
         raise ParameterError(f"The mesh {mesh.path} is not there. {remedy}".strip())
     return path

@@ -19,7 +19,7 @@ from ..surface import Surface
 from .compression import unpacked
 from .gifti import with_external_data
 from .gltf_file import with_buffers
-from .mesh_names import FORMATS, GZIP, MESH_FORMATS, mesh_format
+from .mesh_names import FORMATS, GZIP, JOIN, MESH_FORMATS, files_of, mesh_format
 from .polygons import Polygons, triangulated
 
 
@@ -58,7 +58,24 @@ def read_surface(path: str | os.PathLike[str]) -> Surface:
     >>> square.n_faces, square.facts
     (2, ('1 quad divided into 2 triangles',))
     """
+    files = files_of(path)
+    if len(files) > 1:
+        return _joined([read_surface(file) for file in files])
     return surface_in(mesh_content(path), Path(path).name)
+
+
+def _joined(surfaces: list[Surface]) -> Surface:
+    """Return surfaces as one, whose facts say which vertices are of which."""
+    starts = np.cumsum([0, *(len(surface.vertices) for surface in surfaces)])
+    names = [surface.name for surface in surfaces]
+    return Surface(
+        np.concatenate([surface.vertices for surface in surfaces]),
+        np.concatenate([surface.faces + start for surface, start in zip(surfaces, starts[:-1], strict=True)]),
+        name=JOIN.join(names),
+        repairs=[f"{surface.name}: {text}" for surface in surfaces for text in surface.repairs],
+        facts=[f"vertices {a} to {b - 1} are of {name}" for a, b, name in zip(starts, starts[1:], names, strict=False)]
+        + [f"{surface.name}: {text}" for surface in surfaces for text in surface.facts],
+    )
 
 
 def surface_in(content: bytes, name: str) -> Surface:

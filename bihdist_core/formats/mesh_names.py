@@ -13,6 +13,8 @@ from importlib import import_module
 from pathlib import Path
 
 GZIP = ".gz"
+JOIN = "+"
+"""Between the files of one mesh."""
 FREESURFER = "FreeSurfer"
 """The format of files whose names begin with the hemisphere, such as lh.pial, or that begin as a surface."""
 MNI = "MNI"
@@ -111,8 +113,30 @@ def has_hemisphere(name: str) -> bool:
     return bool(_HEMISPHERE.search(name))
 
 
+def files_of(path: str | os.PathLike[str]) -> list[str]:
+    """Return the files of a mesh: of lh.pial+rh.pial two, if both are there and no file has that name.
+
+    Those after the first are beside it if they are named without a folder.
+    """
+    text = os.fspath(path)
+    if JOIN not in text or os.path.exists(text):
+        return [text]
+    first, *others = text.split(JOIN)
+    folder = os.path.dirname(first)
+    files = [first, *(each if os.path.dirname(each) else os.path.join(folder, each) for each in others)]
+    return files if all(map(os.path.isfile, files)) else [text]
+
+
+def is_there(path: str | os.PathLike[str]) -> bool:
+    """Return whether all files of a mesh are there."""
+    return all(map(os.path.exists, files_of(path)))
+
+
 def mesh_name(path: str | os.PathLike[str]) -> str:
     """Name a mesh after its file, without the endings of the format: `lh.pial` for lh.pial.surf.gii.gz."""
+    files = files_of(path)
+    if len(files) > 1:
+        return JOIN.join(map(mesh_name, files))
     name = os.path.basename(path)
     if name.lower().endswith(GZIP):
         name = name[: -len(GZIP)]

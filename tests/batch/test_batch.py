@@ -319,7 +319,10 @@ def test_files_of_the_same_name_are_called_by_their_folders(tmp_path):
     assert list(find_mesh_files([str(tmp_path / "one")], str(path)).paths) == ["left", "one"]
     shutil.copytree(tmp_path / "one", tmp_path / "more" / "one")
     path.write_text("one/left.off\nmore/one/left.off\n")
-    with pytest.raises(ParameterError, match="the same name, one_left"):
+    assert list(find_mesh_files([], str(path)).paths) == [f"{tmp_path.name}_one_left", "more_one_left"]
+    write_mesh(tmp_path / "one" / "left.obj", bumpy(50))
+    path.write_text("one/left.off\none/left.obj\n")
+    with pytest.raises(ParameterError, match=r"left\.off and .*left\.obj have the same name"):
         find_mesh_files([], str(path))
 
 

@@ -104,6 +104,24 @@ def test_along_edges_at_the_value_there_is_each_piece_once():
     assert line.length == 1
 
 
+def test_each_row_of_vertices_is_one_line_and_a_constant_patch_one_closed_outline():
+    """The values x of a grid of 11 by 11 vertices, all at once."""
+    s = grid(10, 10)
+    lines = isolines(s, s.vertices[:, 0], range(11))
+    assert [(line.value, line.closed, line.length, len(line.points)) for line in lines] == [
+        (x, False, 10, 11) for x in range(11)
+    ]
+    patch = np.clip(np.abs(s.vertices[:, :2] - 5).max(axis=1), 2, 4)
+    inner, outer = isolines(s, patch, [2, 3.5])
+    assert inner.closed
+    assert outer.closed
+    assert inner.length == 16
+    # That of the outer plateau is the border of the grid, and inside a square of which two corners are cut off.
+    plateau = isolines(s, patch, [4])
+    assert all(line.closed for line in plateau)
+    assert [line.length for line in plateau] == pytest.approx([40, 28 + 2 * np.sqrt(2)])
+
+
 def test_what_is_flat_at_the_value_has_its_outline_once():
     s = grid(6, 6)
     cone = np.maximum(0, 2 - np.abs(s.vertices[:, :2] - 3).max(axis=1))

@@ -15,6 +15,7 @@ from typing import NamedTuple
 from qtpy import QtCore, QtWidgets
 
 from bihdist_core import BihdistError, ParameterError
+from bihdist_core.formats.mesh_names import is_there
 from bihdist_core.sentences import with_and
 
 from ...document.document import DockPlaces, Document, MeshFile, content
@@ -372,7 +373,7 @@ class SessionFile(QtCore.QObject):
         if not mesh.path:
             return mesh
         known = mesh_path(mesh.path)
-        if not os.path.exists(known):
+        if not is_there(known):
             message, path = f"The mesh {mesh.path[:200]} was not found.", ""
         elif mesh.sha256 and checksum(known) != mesh.sha256:
             message, path = f"{mesh.path} has changed since the session was saved.", mesh.path
@@ -459,7 +460,7 @@ def _mesh_instead(context: Context, message: str, path: str) -> str:
 
 
 def _absolute(path: str) -> str:
-    return os.path.abspath(path) if path and os.path.exists(path) else path
+    return os.path.abspath(path) if path and is_there(path) else path
 
 
 def offer_lost_state(context: Context) -> None:
