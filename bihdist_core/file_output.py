@@ -19,14 +19,14 @@ with suppress(ImportError):  # on Windows
 
 
 def check_output(path: str | os.PathLike[str], formats: Sequence[str]) -> str:
-    """Return the extension of an output path, in lower case; to be called before long work whose result goes there.
+    """Return the one of `formats` that an output path ends in; to be called before long work whose result goes there.
 
     `formats` are extensions with their dot, such as .npy or .func.gii.  Raises OutputError for another extension, a
     folder that is missing or cannot be written, and a path that is a folder.
     """
     path = Path(path)
     name = path.name.lower()
-    extension = next((each for each in formats if name.endswith(each) and name != each), "")
+    extension = next((each for each in formats if name.endswith(each.lower()) and name != each.lower()), "")
     if not extension:
         ending = f"the extension {path.suffix!r}" if path.suffix else "no extension"
         raise OutputError(f"{path} has {ending}; this can be written as {', '.join(formats)}.")

@@ -1,6 +1,7 @@
 """Single numbers as they come from anywhere, checked; no numpy is imported here."""
 
 import operator
+import re
 from typing import Any
 
 from .errors import ParameterError
@@ -27,3 +28,13 @@ def real_number(value: Any, what: str) -> float:
         return float(value)
     except (TypeError, ValueError, OverflowError):
         raise ParameterError(f"{what} is a number, not {value!r}.") from None
+
+
+def with_decimal_point(text: str) -> str:
+    """Return a typed number as `float` reads it: a true minus, a comma for the decimal point, and commas between
+    thousands as the program writes them ("12,345.6"), are understood."""
+    text = text.strip().replace("\N{MINUS SIGN}", "-")
+    is_decimal = (
+        text.count(",") == 1 and "." not in text and not re.match(r"[-+]?[1-9][0-9]{0,2},[0-9]{3}(?![0-9])", text)
+    )
+    return text.replace(",", "." if is_decimal else "")

@@ -51,7 +51,7 @@ def sources_of_mesh(
     found = chosen_sources(asked, surface, distance, name, progress=progress)
     if found.pins is not None:
         noun = "position" if asked.file.startswith(POSITION) else "pin"
-        tell_moved(found.path, noun, found.pins.moved, found.pins.ids.tolist(), surface)
+        tell_moved(found.path, noun, found.pins, found.pins.ids.tolist(), surface)
     return found
 
 

@@ -50,7 +50,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_sources(parser, what, default="(default for --nearest: all)", are_vertices=True)
     add_pairs(
         parser,
-        "pairs, instead of --sources: 1:2,3:4; or a file with a line `i,j` for each, @FILE, or - for standard input",
+        "pairs, instead of --sources: 1:2,3:4; or a file with a line `i,j` for each, @FILE, or - for standard input; "
+        "or landmarks of two files, @FILE,FILE",
     )
     files = f"a .npy or .csv file, for --nearest also .npz or .json; {NAME}: each mesh's"
     add_output(parser, files, usual="-pairs.npy")
@@ -127,7 +128,8 @@ def _write_pairs(options: argparse.Namespace, chosen: list[Spec], is_matrix: boo
         laplacian = read_laplacian(options)
         distances = Distances(laplacian)
         if options.pairs:
-            pairs = read_pairs(options.pairs) if isinstance(options.pairs, str) else np.array(options.pairs)
+            surface, pairs = laplacian.surface, options.pairs
+            pairs = read_pairs(pairs, (surface, surface), tell) if isinstance(pairs, str) else np.array(pairs)
             laplacian.surface.check_vertices(np.unique(pairs))
         else:
             found = sources_on(options, laplacian.surface, lambda: distances.get(chosen[0], progress), progress)

@@ -21,9 +21,10 @@ from ..session.time_left import TimeLeft
 
 if TYPE_CHECKING:
     from bihdist_core import Distance, Surface
-    from bihdist_core.arrays import FloatArray
     from bihdist_core.distances.accuracy import ErrorEstimate
     from bihdist_core.distances.answers import Answer
+    from bihdist_core.formats.anchors import Anchors
+    from bihdist_core.formats.pins import Pins
 
 PROGRESS_INTERVAL_S = 10.0
 """Seconds from one line of progress to the next where there is no terminal."""
@@ -257,9 +258,13 @@ def report_answers(answers: "Iterable[Answer]", name: str) -> int:
     return 1 if failures else 0
 
 
-def tell_moved(path: str, noun: str, moved: "FloatArray", names: Sequence[object], surface: "Surface") -> None:
-    """Say how far the points of a file (k,) had to be moved to vertices, if any were."""
+def tell_moved(path: str, noun: str, found: "Pins | Anchors", names: Sequence[object], surface: "Surface") -> None:
+    """Say how far the points of a file (k,) had to be moved to vertices, if any were, and what is known of them."""
     import numpy as np
+
+    moved = found.moved
+    for fact in found.facts:
+        tell(f"{path}: {fact}.")
 
     # Positions are often written with seven digits.
     size = float(np.linalg.norm(np.ptp(surface.vertices, axis=0)))

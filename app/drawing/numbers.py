@@ -1,6 +1,7 @@
 """Numbers as text, the same in the window, in figures and on pages: four significant digits and a true minus."""
 
 import math
+from collections.abc import Iterable
 
 from bihdist_core.distances.difference import PERCENTAGE_POINTS
 
@@ -25,6 +26,17 @@ def number(value: float, signed: bool = False) -> str:
         mantissa, _, power = f"{value:{plus}.{DIGITS - 1}e}".partition("e")
         text = f"{mantissa}e{int(power)}"
     return text.replace("-", MINUS)
+
+
+def coordinates(position: Iterable[float], edge: float) -> str:
+    """Return a position as text, with as many digits as tell a tenth of the mean edge, and no fewer than `number`."""
+    return "  ".join(_coordinate(float(x), edge / 10) for x in position)
+
+
+def _coordinate(x: float, step: float) -> str:
+    is_coarse = x and step > 0 and 10.0 ** (math.floor(math.log10(abs(x))) - DIGITS + 1) > step
+    places = max(math.ceil(-math.log10(step)), 0) if is_coarse else 0
+    return f"{x:,.{places}f}".replace("-", MINUS) if is_coarse else number(x)
 
 
 def share(value: float, signed: bool = False) -> str:

@@ -6,7 +6,7 @@ from qtpy import QtCore, QtWidgets
 
 from ..document.document import Document, content
 from ..document.tools import tools
-from ..drawing.numbers import number
+from ..drawing.numbers import coordinates
 from .context import Context
 from .dragging import Dragging
 from .files.field_files import FieldFiles
@@ -147,12 +147,13 @@ class Gestures(QtCore.QObject):
             context.hit = None
             pointing.leave()
             context.pointed.emit(None, "")
-            context.status.show_place(None, None)
+            context.status.show_place(None)
             return
         pointing.show(panel, vertex)
         widget, surface = self._grid.panel(panel), context.session.mesh(panel).surface
         context.pointed.emit(vertex, widget.surface)
-        context.status.show_place(vertex, None if vertex is None else surface.vertices[vertex], widget.head.letter)
+        position = None if vertex is None else surface.vertices[vertex]
+        context.status.show_place(vertex, position, surface.mean_edge_length, widget.head.letter)
         gesture, snapping = self._on(panel), context[Snapping]
         at, was = (None if each is None else snapping.at(panel, each) for each in (hit, last))
         is_elsewhere = last is None or panel != last_in or at != was
@@ -211,7 +212,7 @@ class Gestures(QtCore.QObject):
         menu.addAction("Zoom in here\tZ", lambda: self._zoom_to(panel, hit))
         menu.addSeparator()
         menu.addAction(f"Copy vertex id {vertex}", lambda: _copy(str(vertex)))
-        menu.addAction("Copy position", lambda: _copy(" ".join(f"{x:.9g}" for x in self._place(panel, vertex))))
+        menu.addAction("Copy position", lambda: _copy(" ".join(map(repr, self._place(panel, vertex)))))
         menu.addAction("Copy values", lambda: _copy(self._values(panel, vertex)))
 
     def _place(self, panel: int, vertex: int) -> list[float]:
@@ -220,7 +221,7 @@ class Gestures(QtCore.QObject):
 
     def _values(self, id: int, vertex: int) -> str:
         """Return the values of all panels of the same surface at a vertex, a line each."""
-        place = " ".join(number(x) for x in self._place(id, vertex))
+        place = coordinates(self._place(id, vertex), self._context.session.mesh(id).surface.mean_edge_length)
         name = self._grid.panel(id).surface
         lines = [panel.words_at(vertex) for panel in self._grid.panels if panel.surface == name]
         return "\n".join([f"vertex {vertex} at {place}", *lines])

@@ -7,6 +7,7 @@ from typing import Any
 from qtpy import QtWidgets
 
 from bihdist_core import ParameterError
+from bihdist_core.scalars import with_decimal_point
 
 from ..document.edits import pass_through, pass_through_none
 from ..document.looks import MOST_ISOLINES
@@ -105,10 +106,7 @@ class IsolineChoices:
 
 
 def _number(text: str) -> float:
-    word = text.strip().replace("\N{MINUS SIGN}", "-")
-    if word.count(",") == 1 and "." not in word:
-        word = word.replace(",", ".")  # a comma for the point
     try:
-        return float(word)
+        return float(with_decimal_point(text))
     except ValueError:
         raise ParameterError(f"{text.strip()[:20] or 'Nothing'!r} is not a number.") from None

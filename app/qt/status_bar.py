@@ -13,7 +13,7 @@ from bihdist_core.counts import counted
 from bihdist_core.distances.answers import Answer
 
 from ..document.page import Recipe
-from ..drawing.numbers import number
+from ..drawing.numbers import coordinates
 from ..drawing.painters.qt import number_width, paint_number
 from ..scene.style import Style
 from .look.icons import pixmap
@@ -89,7 +89,7 @@ class StatusBar(QtWidgets.QStatusBar):
                 [*(mark + text for mark, each in notes for text in each.facts), *more],
             )
         self.accuracy.show_lists()
-        self.show_place(None, None)
+        self.show_place(None)
         self._fit()
 
     def show_inexact(self, answers: Sequence[Answer]) -> None:
@@ -107,11 +107,14 @@ class StatusBar(QtWidgets.QStatusBar):
         words = [f"{shown:,} on the surface"] * bool(shown) + [f"{hidden:,} hidden"] * bool(hidden)
         self.marks.show_words(", ".join(words), "click for the list (A)")
 
-    def show_place(self, vertex: int | None, position: Sequence[float] | None, letter: str = "") -> None:
-        """Show the vertex under the pointer and its position, with the letter of its surface where there are two."""
+    def show_place(
+        self, vertex: int | None, position: Sequence[float] | None = None, edge: float = 0.0, letter: str = ""
+    ) -> None:
+        """Show the vertex under the pointer and its position among mean edges of this length, with the letter of its
+        surface where there are two."""
         where = f" on {letter}" if letter else ""
         self.vertex.show_text("" if vertex is None else f"vertex {vertex}{where}")
-        self.place.show_text("" if position is None else "  ".join(number(x) for x in position))
+        self.place.show_text("" if position is None else coordinates(position, edge))
 
     def say(self, text: str, holds: Callable[[], bool] | None = None) -> None:
         """Show a message for a while, but only as long as `holds()` after changes of the document."""

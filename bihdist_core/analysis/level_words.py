@@ -3,16 +3,17 @@
 import math
 
 from ..errors import ParameterError
+from ..scalars import with_decimal_point
 
 
 def value_from_words(text: str, maximum: float) -> float | None:
     """Read "0.25", or "20 %" of the maximum; return None for nothing. ParameterError for other words."""
-    words = text.strip().replace("\N{MINUS SIGN}", "-")
+    words = with_decimal_point(text)
     if not words:
         return None
     scale = maximum / 100 if words.endswith("%") else 1.0
     try:
-        value = float(words.removesuffix("%").replace(",", "")) * scale
+        value = float(words.removesuffix("%")) * scale
     except ValueError:
         value = math.nan
     if math.isnan(value):

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
+from ..file_output import check_output
 from ..sentences import shortened
 from ..surface import Surface
-from .pins import PIN_FORMATS, Picked, picked_in, placed, write_rows
+from .landmarks import LANDMARKS, Picked
+from .pins import PIN_FORMATS, picked_in, pins_extension, placed, write_rows
 
 COLUMNS = ("vertex", "value", "x", "y", "z", "name")
 
@@ -23,13 +24,14 @@ class Anchors:
     """Anchors: k vertices of a surface with values (k,), and names, which may be empty.
 
     `moved` (k,) is how far each vertex is from the position that the file gave, in the mesh's unit; 0 where it gave
-    none.
+    none. `facts` are those of `Pins`.
     """
 
     vertices: IntArray
     values: FloatArray
     names: tuple[str, ...]
     moved: FloatArray
+    facts: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.vertices)
@@ -41,11 +43,11 @@ def read_anchors(path: str | os.PathLike[str], surface: Surface) -> Anchors:
     ``.csv``: a header of `value` with `vertex`, or `x,y,z`, or both, and maybe `name`, in any order, then a line for
     each.
     ``.json``: ``{"anchors": [{"vertex", "position": [x, y, z], "value", "name"}, ...]}``.
-    ``.pp``: MeshLab's picked points, whose names are the values. An anchor is at its vertex or, where the file names
-    none, at the one nearest to its position. Raises ParameterError, with the file, the place in it and the value, for
-    anything else, and for the same vertex twice.
+    Landmarks of other programs (`LANDMARKS`) have the values for names. An anchor is at its vertex or, where the file
+    names none, at the one nearest to its position. Raises ParameterError, with the file, the place in it and the
+    value, for anything else, and for the same vertex twice.
     """
-    return anchors_at(picked_in(path), surface, Path(path).suffix.lower() == ".pp")
+    return anchors_at(picked_in(path), surface, pins_extension(path) in LANDMARKS)
 
 
 def anchors_at(found: list[Picked], surface: Surface, are_named: bool = False) -> Anchors:
@@ -68,7 +70,7 @@ def anchors_at(found: list[Picked], surface: Surface, are_named: bool = False) -
         if vertex in first:
             raise ParameterError(f"{pin.where}: vertex {vertex} is an anchor already, {first[vertex]}.")
         first[vertex] = f"in {pin.where}"
-    return Anchors(pins.vertices, np.array(values), pins.names, pins.moved)
+    return Anchors(pins.vertices, np.array(values), pins.names, pins.moved, pins.facts)
 
 
 def write_anchors(
@@ -82,6 +84,7 @@ def write_anchors(
 
     Raises OutputError if the file cannot be written; what was there then stays.
     """
+    check_output(path, ANCHOR_FORMATS)
     ids = surface.check_vertices(vertices)
     numbers = np.asarray(values, np.float64)
     if numbers.shape != ids.shape or not np.isfinite(numbers).all():
@@ -96,5 +99,5 @@ def write_anchors(
     write_rows(path, COLUMNS, "anchors", rows, surface.name)
 
 
-ANCHOR_FORMATS = PIN_FORMATS
-"""The extensions that `read_anchors` and `write_anchors` know."""
+ANCHOR_FORMATS = tuple(each for each in PIN_FORMATS if each not in LANDMARKS or LANDMARKS[each].has_names)
+"""The extensions that `read_anchors` and `write_anchors` know: those that have a place for values, or for names."""

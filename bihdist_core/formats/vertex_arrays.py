@@ -184,6 +184,10 @@ def _from_npz(content: bytes, path: Path) -> Iterable[VertexArray]:
         return list(_columns({name: archived_array(archive, name, path) for name in names}))
 
 
+_MISSING = (b"NA", b"N/A", b"null", b"None")
+"""What stands in tables where there is no value."""
+
+
 def _from_table(content: bytes, path: Path) -> Iterable[VertexArray]:
     """Read the columns of a text, between which commas, semicolons, tabs or blanks stand."""
     text = re.sub(rb"#[^\n]*", b"", plain_text(content, path.name)).strip()
@@ -196,9 +200,12 @@ def _from_table(content: bytes, path: Path) -> Iterable[VertexArray]:
     if separator != b" ":
         rest = rest.replace(b",", b".") if separator == b";" else rest  # as where commas are decimal
         rest = re.sub(rb"\n\s*\n", b"\n", rest.replace(b'"', b""))
-        rest = re.sub(rb"(?m)(^|[,;\t])[ ]*(?=[,;\t]|$)", rb"\1nan", rest) if rest else rest
+        ends = (separator * 2, separator + b"\n", b"\n" + separator, separator + b" ")
+        if any(each in b"\n%b\n" % rest for each in ends):  # there may be empty cells
+            rest = re.sub(rb"(?m)(^|[,;\t])[ ]*(?=[,;\t]|$)", rb"\1nan", rest)
         rest = rest.replace(separator, b" ")
-    rest = re.sub(rb"(?m)(?<!\S)(NA|N/A|null|None)(?!\S)", b"nan", rest)
+    if any(word in rest for word in _MISSING):
+        rest = re.sub(rb"(?<!\S)(%b)(?!\S)" % b"|".join(_MISSING), b"nan", rest)
     lines = TextLines(rest, path.name)
     if not len(lines):
         raise MeshError(f"{path.name} has no lines of numbers.")

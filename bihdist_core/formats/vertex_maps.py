@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +17,7 @@ from ..mesh_like import MeshLike
 from ..sentences import shortened
 from ..surface import Surface
 from .field_output import write_array
+from .pins import pins_extension, placed_pairs
 from .whole_numbers import NUMBER_FORMATS, WHOLE, read_whole_numbers, text_lines
 
 MAP_FORMATS = NUMBER_FORMATS
@@ -111,18 +112,37 @@ def write_map(path: str | os.PathLike[str], found: npt.ArrayLike) -> None:
         temporary.write_text("".join(f"{id}\n" for id in ids.tolist()), encoding="ascii")
 
 
-def read_pairs(path: str | os.PathLike[str], source: Surface | None = None, target: Surface | None = None) -> IntArray:
+def read_pairs(
+    path: str | os.PathLike[str], surfaces: Sequence[Surface] = (), tell: Callable[[str], object] = str
+) -> IntArray:
     """Read pairs of ids (k, 2) from a file with a line `i,j`, `i:j` or `i j` for each, perhaps below a header.
 
-    `source` and `target` are the surfaces whose vertices i and j must be, if they are known. Raises ParameterError,
-    with the file, the line and the value, for anything else.
+    `surfaces` are the two whose vertices i and j must be, if they are known. They must be for landmarks
+    (`are_landmarks`): two files with a comma between, or one with two sets; what is known of their positions is told.
+    Raises ParameterError, with the file, the line and the value, for anything else.
     """
-    return pairs_in(text_lines(Path(path), "pairs"), str(path), source, target)
+    if not are_landmarks(path):
+        return pairs_in(text_lines(Path(path), "pairs"), str(path), surfaces)
+    if not surfaces:
+        raise ParameterError(f"{path}: pairs of landmarks need both of their meshes.")
+    sets = placed_pairs(_files(path), surfaces)
+    for each, surface in zip(sets, surfaces, strict=True):
+        for fact in each.facts:
+            tell(f"{path}, on {surface.name}: {fact}.")
+    return np.column_stack([each.vertices for each in sets])
 
 
-def pairs_in(
-    lines: Sequence[tuple[int, str]], path: str, source: Surface | None = None, target: Surface | None = None
-) -> IntArray:
+def are_landmarks(path: str | os.PathLike[str]) -> bool:
+    """Return whether a file of pairs holds landmarks, or is two with a comma between."""
+    return len(_files(path)) == 2 or pins_extension(path) not in ("", *PAIR_FORMATS)
+
+
+def _files(path: str | os.PathLike[str]) -> list[str]:
+    found = [word.strip() for word in os.fspath(path).split(",")]
+    return found if len(found) == 2 and not os.path.exists(path) else [os.fspath(path)]
+
+
+def pairs_in(lines: Sequence[tuple[int, str]], path: str, surfaces: Sequence[Surface] = ()) -> IntArray:
     """Read pairs of ids (k, 2) from numbered lines such as those of `read_pairs`; messages call the file `path`."""
     pairs = []
     for number, line in lines:
@@ -134,8 +154,8 @@ def pairs_in(
                 f"{path}, line {number}: {shortened(repr(line), 60)} is not a pair of ids such as 1,2."
             )
         pairs.append((int(words[0]), int(words[1])))
-        for id, surface in zip(pairs[-1], (source, target), strict=True):
-            if surface is not None and not 0 <= id < len(surface.vertices):
+        for id, surface in zip(pairs[-1], surfaces, strict=False):
+            if not 0 <= id < len(surface.vertices):
                 most = len(surface.vertices) - 1
                 raise ParameterError(f"{path}, line {number}: {surface.name} has vertices 0 to {most}, not {id}.")
     if not pairs:

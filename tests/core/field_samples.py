@@ -54,6 +54,12 @@ def _table(path):
     return {"depth, mm": VALUES, "curv": MORE}
 
 
+def _missing(path):
+    path.write_text("a,b,c\n0.5,,1\n-1, ,NA\n2,null,\n0,4,5\n3.25,N/A,6\n", encoding="utf-8")
+    gap = np.nan
+    return {"a": VALUES, "b": np.array([gap, gap, gap, 4, gap]), "c": np.array([1, gap, gap, 5, 6])}
+
+
 def _points(path):
     import meshio
 
@@ -158,6 +164,7 @@ WRITERS = {
     "decimal_commas.csv": _text("values;\n0,5;\n-1;\n2;\n0;\n3,25;\n"),
     "with_ids.txt": _text("4 3.25\r\n0 .5\r\n1 -1\r\n2 2e0\r\n3 0\r\n"),
     "from_r.csv": _text('"","values"\n"1",0.5\n"2",-1\n"3",2\n"4",0\n"5",3.25\n'),
+    "missing.csv": _missing,
     "table.csv": _table,
     "f.vtu": _points,
     "f.ply": _points,

@@ -14,7 +14,7 @@ from qtpy.QtTest import QTest
 
 from app.document.edits import move_source
 from app.document.quantities import DistanceFrom
-from app.drawing.numbers import number, share
+from app.drawing.numbers import coordinates, number, share
 from app.drawing.painters.qt import number_width
 from app.qt.acts import ALL
 from app.qt.look.look import LOOK
@@ -156,7 +156,8 @@ def test_pointing_shows_the_values_of_the_same_vertex_everywhere_and_draws_no_su
     s.until(lambda: parts(s.window).gestures.hovered == target)
     s.settle()
     assert s.window.status.vertex.text == f"vertex {target}"
-    assert s.window.status.place.text == "  ".join(number(x) for x in s.session.mesh().surface.vertices[target])
+    surface = s.session.mesh().surface
+    assert s.window.status.place.text == coordinates(surface.vertices[target], surface.mean_edge_length)
     for panel, answer in zip(s.panels, s.answers, strict=True):
         value = answer.field[target]
         assert f": {number(value)} " in panel.bar.accessibleDescription()

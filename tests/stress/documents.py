@@ -29,7 +29,8 @@ from app.tools.interpolation.part import add_anchor
 from bihdist_core import BihdistError, write_mesh
 from bihdist_core.analysis.parcels import checked_mask
 from bihdist_core.formats.anchors import read_anchors
-from bihdist_core.formats.pins import read_pins, written_points
+from bihdist_core.formats.landmarks import written_pp
+from bihdist_core.formats.pins import read_pins
 from bihdist_core.formats.vertex_maps import read_map, read_pairs
 from bihdist_core.formats.whole_numbers import read_whole_numbers
 from bihdist_core.sources.words import read_curve
@@ -122,7 +123,7 @@ def _documents(folder: Path) -> dict[str, Document]:
     known["pins.csv"] = Document(pins.encode(), lambda path: read_pins(path, s))
     entries = {"pins": [{"name": "one", "vertex": 3, "id": 1}, {"name": "two", "position": [0, 0, 1]}]}
     known["pins.json"] = Document(json.dumps(entries).encode(), lambda path: read_pins(path, s))
-    picked = written_points([([0.0, 0.0, 1.0], "a"), ([1.0, 0.0, 0.0], "b")], "m.off")
+    picked = written_pp([([0.0, 0.0, 1.0], "a"), ([1.0, 0.0, 0.0], "b")], "m.off")
     known["pins.pp"] = Document(picked.encode(), lambda path: read_pins(path, s))
     known["anchors.csv"] = Document(b"vertex,value\n3,0.5\n7,-1e3\n", lambda path: read_anchors(path, s))
     valued = {"pins": [{"vertex": 3, "value": 0.5}, {"position": [0, 0, 1], "value": 2}]}
@@ -130,7 +131,7 @@ def _documents(folder: Path) -> dict[str, Document]:
     ids = rng.permutation(COUNT)
     known["map.txt"] = Document("\n".join(map(str, ids)).encode(), lambda path: read_map(path, s, s))
     known["map.npy"] = Document(_npy(ids), lambda path: read_map(path, s, s))
-    known["pairs.csv"] = Document(b"i,j\n1,2\n3,4\n", lambda path: read_pairs(path, s, s))
+    known["pairs.csv"] = Document(b"i,j\n1,2\n3,4\n", lambda path: read_pairs(path, (s, s)))
     labels = rng.integers(-1, 4, COUNT)
     known["labels.npy"] = Document(_npy(labels.astype(float)), labelled)
     known["labels.txt"] = Document("\n".join(map(str, labels)).encode(), labelled)

@@ -5,7 +5,19 @@ SEEDS: how many blocks the recorded run has; BLOCK: the cases of a block; SECOND
 
 from types import ModuleType
 
-from . import accuracy, broken_meshes, cancellations, documents, fields, hands, interruptions, mesh_files, soak
+from . import (
+    accuracy,
+    broken_meshes,
+    cancellations,
+    documents,
+    field_files,
+    fields,
+    hands,
+    interruptions,
+    mesh_files,
+    soak,
+)
 
-_MODULES = (mesh_files, documents, broken_meshes, accuracy, fields, interruptions, cancellations, hands, soak)
+_MODULES: tuple[ModuleType, ...] = (mesh_files, field_files, documents, broken_meshes, accuracy, fields)
+_MODULES += (interruptions, cancellations, hands, soak)
 PARTS: dict[str, ModuleType] = {module.__name__.rpartition(".")[2]: module for module in _MODULES}

@@ -22,6 +22,7 @@ from tests.stress import (
     cancellations,
     documents,
     faulty,
+    field_files,
     fields,
     hands,
     interruptions,
@@ -149,7 +150,7 @@ def test_the_table_goes_into_a_page(run, tmp_path):
 def test_parts_that_are_none_are_refused(capsys):
     with pytest.raises(SystemExit):
         program.main(["--parts", "mesh_files,all"])
-    assert "there is no part all; parts are mesh_files, documents," in capsys.readouterr().err
+    assert "there is no part all; parts are mesh_files, field_files," in capsys.readouterr().err
 
 
 def test_one_case_is_tried_again(monkeypatch, capsys):
@@ -250,6 +251,7 @@ def test_there_are_kinds_enough():
 SEED = 0
 SMALL = {
     mesh_files: 200,
+    field_files: 200,
     documents: 200,
     broken_meshes: len(broken_kinds.KINDS),
     accuracy: 25,

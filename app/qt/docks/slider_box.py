@@ -6,7 +6,9 @@ from dataclasses import dataclass
 
 from qtpy import QtCore, QtWidgets
 
-from ...drawing.numbers import MINUS, tick
+from bihdist_core.scalars import with_decimal_point
+
+from ...drawing.numbers import tick
 from ..look.form import describe
 from ..look.look import LOOK
 from ..look.text_box import TextBox, mark_wrong
@@ -94,7 +96,7 @@ class SliderBox(QtWidgets.QWidget):
         if not self.box.isModified():
             return
         try:
-            value = float(self.box.text().replace(MINUS, "-").replace(",", "").strip())
+            value = float(with_decimal_point(self.box.text()))
         except ValueError:
             value = math.nan
         if math.isfinite(value) and self._is_good(value):

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 from qtpy import QtCore, QtWidgets
 
@@ -48,6 +49,20 @@ WAIT = 120
 """Milliseconds from the last change to the preview, as the user may go on typing."""
 
 
+class _LetterBox(QtWidgets.QDoubleSpinBox):
+    """A size with a decimal point, as everywhere in the program, whatever the desktop's; a comma is understood."""
+
+    def __init__(self, **properties: object) -> None:
+        super().__init__(locale=QtCore.QLocale.c(), **properties)
+
+    def validate(self, text: str, at: int) -> tuple[Any, str, int]:
+        state, text, at = super().validate(text.replace(",", "."), at)
+        return state, text, at
+
+    def valueFromText(self, text: str) -> float:
+        return float(super().valueFromText(text.replace(",", ".")))
+
+
 class ExportDialog(LooksDialog):
     """A dialog for a figure of what the window shows, with an answer for each panel.
 
@@ -77,7 +92,7 @@ class ExportDialog(LooksDialog):
             self.values = self.form.tick("&Values at anchors", page.anchor_values, tip, "anchor_values")
         self.form.section("Look")
         self.add_look()
-        self.letters = QtWidgets.QDoubleSpinBox(decimals=1, maximum=72, singleStep=0.5, suffix=" pt")
+        self.letters = _LetterBox(decimals=1, maximum=72, singleStep=0.5, suffix=" pt")
         self.letters.setSpecialValueText("Automatic")
         self.letters.setButtonSymbols(QtWidgets.QAbstractSpinBox.ButtonSymbols.NoButtons)
         self.letters.setValue(recipe.page.font_size or 0.0)

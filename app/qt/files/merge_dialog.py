@@ -10,8 +10,9 @@ from bihdist_core import MeshError, Surface
 from bihdist_core.coincident_points import least_apart
 from bihdist_core.counts import counted
 from bihdist_core.progress import Progress
+from bihdist_core.scalars import with_decimal_point
 
-from ...drawing.numbers import MINUS, number
+from ...drawing.numbers import number
 from ..background import Background
 from ..look.form import Form, closing_buttons
 from ..look.layouts import in_column, in_row, quiet_label
@@ -113,7 +114,7 @@ class MergeDialog(QtWidgets.QDialog):
     def tolerance(self) -> float | None:
         """The tolerance that is typed; None where it is not a length."""
         try:
-            value = float(self.box.text().strip().replace(MINUS, "-"))
+            value = float(with_decimal_point(self.box.text()))
         except ValueError:
             return None
         return value if math.isfinite(value) and value >= 0 else None

@@ -3,6 +3,7 @@
 from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import ParameterError
+from bihdist_core.scalars import with_decimal_point
 
 from ...figures.size import PRINT_DPI, Size
 from ..look.layouts import in_column, in_row, quiet_label
@@ -53,8 +54,7 @@ class SizeBoxes(QtWidgets.QWidget):
         number = self.rows.checkedId()
         if 0 <= number < len(self._sizes):
             return str(self._sizes[number][1])
-        width, height = self.width_box.text().strip(), self.height_box.text().strip()
-        dpi = self.dpi.text().strip()
+        width, height, dpi = (with_decimal_point(box.text()) for box in (self.width_box, self.height_box, self.dpi))
         if not width and not height and not dpi:
             return ""
         short = self.unit.currentText()

@@ -7,6 +7,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import ParameterError
 from bihdist_core.distances.distance_types import Parameter, Value
+from bihdist_core.scalars import with_decimal_point
 
 from ...document.looks import LARGEST
 from ...drawing.numbers import MINUS, number
@@ -278,7 +279,7 @@ class NumberPopUp(TypedPopUp):
 
     def _typed(self) -> None:
         try:
-            value = self.parameter.parsed(self.box.text().strip().replace(MINUS, "-"))
+            value = self.parameter.parsed(with_decimal_point(self.box.text()))
         except ParameterError as error:
             self._complain(str(error))
             return
@@ -309,9 +310,9 @@ class EndPopUp(TypedPopUp):
         self.open_under(control, (control.width() - self.width()) // 2)
 
     def _typed(self) -> None:
-        text = self.box.text().strip().replace(MINUS, "-")
+        text = with_decimal_point(self.box.text())
         try:
-            end = float(text.replace(",", "")) if text.count(",") != 1 or "." in text else float(text.replace(",", "."))
+            end = float(text)
         except ValueError:
             end = float("nan")
         if not 1 / LARGEST <= end <= LARGEST:

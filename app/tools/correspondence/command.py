@@ -7,13 +7,14 @@ from bihdist_core.counts import counted
 from ...commands.mesh import ids_beside, laplacian_of, name_output
 from ...commands.options import add_areas, add_distance, add_output, add_pairs, add_two_meshes, repairs_of, specs
 from ...commands.result import Facts, Result, distance_facts
-from ...commands.terminal import accuracy, progress_line
+from ...commands.terminal import accuracy, progress_line, tell
 from .options import PAIRS_MEANING
 
 WORDS = "map one mesh to another, from a few pairs of corresponding vertices"
 EXAMPLES = (
     "bihdist correspond figure figure_pose2 --pairs 1:1,300:300,900:900 -o map.npy",
     "bihdist correspond figure figure_pose2 --pairs @pairs.txt --truth identity -o map.txt",
+    "bihdist correspond a.ply b.ply --pairs @a.fcsv,b.fcsv -o map.npy",
 )
 TEXT = ".txt"
 
@@ -43,12 +44,16 @@ def run(options: argparse.Namespace) -> Result:
     name_output(options)
     check_output(options.output, MAP_FORMATS)
     (chosen,) = specs(options, [options.distance])
-    pairs = read_pairs(options.pairs) if isinstance(options.pairs, str) else np.array(options.pairs)
     ids_files = [ids_beside(options, letter) for letter in "AB"]
     with progress_line() as progress:
         one, two = (
             laplacian_of(mesh, options.areas, repairs_of(options, mesh), ids_file)
             for mesh, ids_file in zip((options.mesh, options.other), ids_files, strict=True)
+        )
+        pairs = (
+            read_pairs(options.pairs, (one.surface, two.surface), tell)
+            if isinstance(options.pairs, str)
+            else np.array(options.pairs)
         )
         truth = read_map(options.truth, one.surface, two.surface) if options.truth else None
         sides = Distances(one), Distances(two)

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from qtpy import QtCore, QtGui, QtWidgets
 
+from bihdist_core.formats.landmarks import LANDMARKS
 from bihdist_core.formats.vertex_maps import PAIR_FORMATS, read_pairs, write_pairs
 
 from ...document.document import Document
@@ -65,7 +66,7 @@ class PairsDock(Instrument):
         under = in_column(*parts, spacing=8, margins=(PAD, 10, PAD, 10))
         in_column(self._head, self._list, under, None, self.errors, of=inside, spacing=0)
         fill(self, inside)
-        read = partial(ask_file, context, "Read pairs", file_filter("Pairs", PAIR_FORMATS), self.read)
+        read = partial(ask_file, context, "Read pairs", file_filter("Pairs", (*PAIR_FORMATS, *LANDMARKS)), self.read)
         self.add_head_button("open", "Read pairs (lines i,j)…", read)
         self.add_head_button("save", "Save the pairs…", self.choose_and_save)
         menu = {
@@ -197,12 +198,13 @@ class PairsDock(Instrument):
         loaded = [session.loaded(mesh.name) for mesh in document.surfaces[:2]]
         with self.context.errors_shown():
             surfaces = [each.surface for each in loaded if each is not None]
-            found = read_pairs(path, *surfaces) if len(surfaces) == 2 else read_pairs(path)
+            facts: list[str] = []
+            found = read_pairs(path, surfaces if len(surfaces) == 2 else (), facts.append)
             changed = add_pairs(document, [(int(i), int(j)) for i, j in found])
             session.show(changed)
             new = len(changed[Pairs].pairs) - len(document[Pairs].pairs)
             known = f", {len(found) - new} of them already there" if new < len(found) else ""
-            self.context.tell(f"Read {len(found):,} pairs from {Path(path).name}{known}")
+            self.context.tell(" ".join([f"Read {len(found):,} pairs from {Path(path).name}{known}", *facts]))
 
     def choose_and_save(self) -> None:
         """Ask for a file, and write the pairs."""

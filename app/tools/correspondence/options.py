@@ -20,17 +20,26 @@ PAIRS = "pairs"
 
 PAIRS_MEANING = (
     "known pairs, vertex I of A and J of B: 1:2,3:4; or a file with a line `i,j` for each, @FILE, or - for standard "
-    "input"
+    "input; or landmarks on A and on B, @FILE,FILE"
 )
 
 
 def _put(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
     import numpy as np
 
-    from bihdist_core.formats.vertex_maps import read_pairs
+    from bihdist_core.formats.vertex_maps import are_landmarks, read_pairs
+
+    from ...samples import mesh_path
+    from ...session.repaired_surface import read_repaired
 
     document, pairs = recipe.document, values.get("pairs", ())
-    pairs = np.asarray(read_pairs(pairs) if isinstance(pairs, str) else pairs)
+    if isinstance(pairs, str):
+        surfaces = []
+        if are_landmarks(pairs):
+            _check_two(document, "--pairs", "pairs=")
+            surfaces = [read_repaired(mesh_path(mesh.path), mesh.repairs) for mesh in document.surfaces[:2]]
+        pairs = read_pairs(pairs, surfaces)
+    pairs = np.asarray(pairs)
     if pairs.size:
         if pairs.ndim != 2 or pairs.shape[1] != 2 or pairs.dtype.kind not in "iu":
             raise ParameterError(f"Pairs are whole numbers of shape (k, 2), not {pairs.dtype} of {pairs.shape}.")

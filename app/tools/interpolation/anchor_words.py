@@ -25,12 +25,13 @@ class AnchorFile:
     def read(self, surface: "Surface") -> "Anchors":
         """Return its anchors at vertices of a surface; ParameterError as `read_anchors`."""
         from bihdist_core.formats.anchors import anchors_at, read_anchors
+        from bihdist_core.formats.landmarks import LANDMARKS
         from bihdist_core.formats.pins import picked_from, pins_format
 
         if not self.text:
             return read_anchors(self.path, surface)
         format = pins_format(self.text) or ".csv"
-        return anchors_at(picked_from(self.text, self.path, format), surface, format == ".pp")
+        return anchors_at(picked_from(self.text, self.path, format), surface, format in LANDMARKS)
 
 
 def anchors_from_words(text: str) -> Marks | AnchorFile:

@@ -29,7 +29,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         type=anchors,
         required=True,
         help="vertices with values (12=0,40=1); or in a file, @FILE, or - for standard input: a .csv with a line "
-        "`vertex,value` and one for each, .json, or MeshLab's .pp named by values",
+        "`vertex,value` and one for each, .json, or landmarks such as MeshLab's .pp named by values",
     )
     add_output(parser, "a .npy, .csv, .ply or .vtp file", usual="-interpolated.npy")
     add_distance(parser, "a field each (default: biharmonic)")
@@ -67,7 +67,7 @@ def run(options: argparse.Namespace) -> Result:
         surface, distances = laplacian.surface, Distances(laplacian)
         known = anchors_on(options.anchors, surface)
         if isinstance(options.anchors, AnchorFile):
-            tell_moved(options.anchors.path, "anchor", known.moved, known.names, surface)
+            tell_moved(options.anchors.path, "anchor", known, known.names, surface)
         ends = tips(laplacian)
         for spec in chosen:
             distance = distances.get(spec, progress)

@@ -10,6 +10,7 @@ from qtpy import QtCore, QtWidgets
 from bihdist_core import ParameterError
 from bihdist_core.formats.anchors import ANCHOR_FORMATS, read_anchors, write_anchors
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
+from bihdist_core.scalars import with_decimal_point
 
 from ...document.document import Document
 from ...document.file_names import file_name
@@ -84,7 +85,7 @@ class AnchorsDock(Instrument):
         in_column(self._list, below, None, of=inside, spacing=0, margins=(0, 4, 0, 0))
         fill(self, inside)
         read = partial(ask_file, context, "Read anchors", file_filter("Anchors", ANCHOR_FORMATS), self.read)
-        self.add_head_button("open", "Read anchors: CSV, JSON, MeshLab's picked points…", read)
+        self.add_head_button("open", "Read anchors: CSV, JSON, landmarks of MeshLab, Slicer and others…", read)
         self.add_head_button("save", "Save the anchors…", self.choose_and_save)
         menu = {
             "Save the interpolants as fields…": self.save_fields,
@@ -219,7 +220,7 @@ class AnchorsDock(Instrument):
             if not box.isModified():
                 continue
             try:
-                weights = replace(self.document[Anchors].weights, **{name: float(box.text())})
+                weights = replace(self.document[Anchors].weights, **{name: float(with_decimal_point(box.text()))})
             except (ValueError, ParameterError):
                 mark_wrong(box, True)
                 continue
@@ -257,7 +258,7 @@ class AnchorsDock(Instrument):
             session.show(document)
             far = float(found.moved.max())
             moved = f", moved to vertices by up to {far:.3g}" if far > 0 else ""
-            self.context.tell(f"Read {len(found):,} anchors from {Path(path).name}{moved}")
+            self.context.tell(". ".join([f"Read {len(found):,} anchors from {Path(path).name}{moved}", *found.facts]))
 
     def choose_and_save(self) -> None:
         """Ask for a file, and write the anchors."""

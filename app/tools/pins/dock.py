@@ -17,7 +17,7 @@ from ...document.document import Document
 from ...document.edits import move_source
 from ...document.quantities import column_names
 from ...document.shared_parts.pins import Pin, Pins, add_pins, change_pin, move_pin, remove_pins
-from ...drawing.numbers import number, percent, share
+from ...drawing.numbers import coordinates, number, percent, share
 from ...qt.context import Context
 from ...qt.docks.instrument import Instrument
 from ...qt.files.saving import ask_file
@@ -173,14 +173,15 @@ class PinsDock(Instrument):
         rows = []
         for place in self.places:
             at = place.position(loaded.surface.vertices)
-            values = [number(x) for x in at] if listed.positions else []
+            position = coordinates(at, loaded.surface.mean_edge_length)
+            values = position.split("  ") if listed.positions else []
             tips, quiet = [""] * len(values), [False] * len(values)
             for title, answer, is_old in answers:
                 one, other = value_and_fraction(place, answer)
                 values.append(other if listed.shares else one)
                 tips.append(f"{answer.label or title}: {one} {answer.unit}{f' ({other})' if other else ''}")
                 quiet.append(is_old)
-            text = f"{place.name}: {short_words_of(place.at)} at {' '.join(number(x) for x in at)}"
+            text = f"{place.name}: {short_words_of(place.at)} at {position}"
             about = place.point, place.number, PINS[place.pin.colour], place.pin.name, place.words, text
             rows.append(PinRow(*about, tuple(values), tuple(tips), tuple(quiet)))
         titles = [title for title, _, _ in answers]

@@ -50,7 +50,7 @@ class PinFiles:
             found = read_pins(path, surface)
             session.show(with_pins(document, found, document.surfaces[0].name))
             read = f"Read {counted(len(found), 'pin')} from {Path(path).name}"
-            self._context.tell(snapped(found, surface) or read)
+            self._context.tell(". ".join([snapped(found, surface) or read, *found.facts]))
 
     def copy_list(self, answers: Sequence[tuple[str, Answer]]) -> None:
         """Copy the list with all digits, with a tab between columns."""

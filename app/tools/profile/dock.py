@@ -217,7 +217,7 @@ class ProfileDock(Instrument):
             if self._pointed_arc is not None:
                 self._pointed_arc = None
                 self._unpoint()
-                status.show_place(None, None)
+                status.show_place(None)
             self.chart.show_at(None)
             return
         arc = float(np.clip(at[0], 0, path.length))
@@ -225,7 +225,7 @@ class ProfileDock(Instrument):
         vertex = int(place.corners[0, int(place.weights[0].argmax())])
         self._highlight_place(path, arc)
         surface = self.surface_of(self.surface)
-        status.show_place(vertex, place.values(surface.vertices)[0])
+        status.show_place(vertex, place.values(surface.vertices)[0], surface.mean_edge_length)
         self.chart.show_at(arc, f"vertex {vertex}")
 
     def _highlight_place(self, path: SurfacePath, arc: float) -> None:

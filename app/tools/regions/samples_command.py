@@ -23,7 +23,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `samples` to its parser."""
     add_mesh(parser)
     add_sources(parser, "the vertices to write", default="", required=True, are_vertices=True)
-    files = "a .txt file, an id on each line, a .npy file, or pins as .csv, .json or MeshLab's .pp"
+    files = "a .txt file, an id on each line, a .npy file, or pins as .csv, .json, MeshLab's .pp or other landmarks"
     add_output(parser, files, usual="-samples.txt")
     add_distance(parser)
     add_areas(parser)

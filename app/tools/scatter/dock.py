@@ -293,8 +293,9 @@ class ScatterDock(Instrument):
         if panel is None:
             return
         context.grid.pointing.show(panel, vertex)
-        position = None if vertex is None else context.session.mesh(panel).surface.vertices[vertex]
-        context.status.show_place(vertex, position)
+        surface = context.session.mesh(panel).surface
+        position = None if vertex is None else surface.vertices[vertex]
+        context.status.show_place(vertex, position, surface.mean_edge_length)
 
     # ------------------------------------------------------------------ what is saved
     def figure(self) -> "ScatterFigure":

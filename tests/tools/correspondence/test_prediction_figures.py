@@ -116,10 +116,10 @@ def test_what_cannot_be_predicted_is_refused(words, said, named, tmp_path, capsy
 
 
 def test_pairs_are_written_as_they_are_read_and_ids_are_those_of_the_meshes(named, tmp_path):
-    assert np.array_equal(read_pairs(tmp_path / "pairs.csv", bumpy(200), bumpy(230)), PAIRS)
+    assert np.array_equal(read_pairs(tmp_path / "pairs.csv", (bumpy(200), bumpy(230))), PAIRS)
     (tmp_path / "wrong.csv").write_text("a,b\n3,7\n200,4\n")
     with pytest.raises(ParameterError, match=r"line 3: .* has vertices 0 to 199, not 200"):
-        read_pairs(tmp_path / "wrong.csv", bumpy(200), bumpy(230))
+        read_pairs(tmp_path / "wrong.csv", (bumpy(200), bumpy(230)))
     (tmp_path / "wrong.csv").write_text("3,-1\n")
     with pytest.raises(ParameterError, match="0 to 229, not -1"):
-        read_pairs(tmp_path / "wrong.csv", bumpy(200), bumpy(230))
+        read_pairs(tmp_path / "wrong.csv", (bumpy(200), bumpy(230)))
