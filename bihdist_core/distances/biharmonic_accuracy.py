@@ -81,7 +81,7 @@ def accuracy_of_fields(component: Component) -> float:
         changed.append(UNSEEN * read)
     again = component.solve(np.hstack([areas[:, None] * y[:, TRIED:], *changed]))
     moves = component.centred(again[:, len(sources) :]).reshape(m, len(changed), TRIED)
-    moved = float(np.sqrt((moves**2).mean(axis=2)).max(axis=0).sum())
+    moved = np.sqrt((moves**2).mean(axis=2)).max(axis=0).sum()
 
     columns, in_place = factor.sandwich_columns(sources), factor.sandwich_diagonal[sources]
     found = np.abs(columns - again[:, : len(sources)])
@@ -98,7 +98,7 @@ def accuracy_of_fields(component: Component) -> float:
     usual = change_of_root(np.array([apart**2]), max(_usual_error(component), SEEN * found_in_place))
     rest = squares >= apart**2
     cancelled = max(float(usual[0]), float(change_of_root(squares[rest], SEEN * found[rest]).max(initial=0.0)))
-    return float((cancelled + 2 * moved) / top)
+    return float((cancelled + 2 * moved) / np.float64(top))  # which is 0 where all vertices are in one place
 
 
 def _usual_error(component: Component) -> float:
