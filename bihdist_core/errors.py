@@ -74,6 +74,10 @@ class PlainSolverWarning(RuntimeWarning):
     """The compiled kernel cannot be used; the message says why, and what to do."""
 
 
+class LandmarkWarning(UserWarning):
+    """What is to be known of the positions in a file of landmarks, such as those far from the surface."""
+
+
 def unreadable(what: str, error: Exception) -> ParameterError:
     """Return the error for a file that was not read, such as "The pins in a.csv", with the reason."""
     reason = getattr(error, "strerror", None) or error

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from bihdist_core.counts import counted
-from bihdist_core.errors import BihdistError, OutputError, PlainSolverWarning
+from bihdist_core.errors import BihdistError, LandmarkWarning, OutputError, PlainSolverWarning
 from bihdist_core.expected_time import duration_in
 from bihdist_core.progress import Progress
 
@@ -113,7 +113,7 @@ def telling(quiet: bool = False, clock: Callable[[], float] = time.monotonic) ->
     shown = warnings.showwarning
 
     def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
-        if issubclass(category, PlainSolverWarning):
+        if issubclass(category, PlainSolverWarning | LandmarkWarning):
             _telling.note(str(message))
         else:
             shown(message, category, *where, **more)

@@ -1,6 +1,7 @@
 """The sources that are asked for, on a surface: those that are listed, chosen by a rule, or read from a file."""
 
-from collections.abc import Callable
+import warnings
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,7 +15,7 @@ from bihdist_core.analysis.upright import guess_up
 from bihdist_core.arrays import BoolArray
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.distance_types import Spec
-from bihdist_core.errors import ParameterError
+from bihdist_core.errors import LandmarkWarning, ParameterError
 from bihdist_core.file_content import file_text
 from bihdist_core.formats.freesurfer import is_label
 from bihdist_core.formats.mesh_names import mesh_format, mesh_name
@@ -139,13 +140,22 @@ def chosen_on(
     if asked.rule == LISTED and asked.members:
         return Chosen([*asked.members])
     surface = read_repaired(mesh_path(mesh.path), mesh.repairs)
-    return chosen_sources(
+    found = chosen_sources(
         asked,
         surface,
         lambda: Distances(Laplacian(surface, areas)).get(spec, progress),
         name or mesh_name(mesh.path),
         progress=progress,
     )
+    if found.pins is not None:
+        warn_of(found.path, found.pins.facts)
+    return found
+
+
+def warn_of(path: str, facts: Iterable[str]) -> None:
+    """Warn of what is known of the positions in a file of landmarks, where no command says it."""
+    for fact in facts:
+        warnings.warn(f"{path}: {fact}.", LandmarkWarning, stacklevel=2)
 
 
 def parts_of(line: str) -> list[str]:

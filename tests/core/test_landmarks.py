@@ -251,6 +251,22 @@ def test_a_figure_and_pairs_on_one_mesh_take_landmarks(tmp_path, capsys):
     assert np.loadtxt(out, delimiter=",", skiprows=1)[:, :2].tolist() == [[5, 9], [17, 40], [120, 3]]
 
 
+@pytest.mark.filterwarnings("always::bihdist_core.errors.LandmarkWarning")
+def test_figures_say_what_is_known_of_landmarks_too(tmp_path, capsys):
+    for name, surface in (("m.off", SHAPE), ("n.off", OTHER)):
+        write_mesh(tmp_path / name, surface)
+    points = "".join(f"{x},{y},{z + 9},{k}\n" for k, (x, y, z) in enumerate(AT))
+    (tmp_path / "a.fcsv").write_text(f"# Markups fiducial file\n# columns = x,y,z,label\n{points}")
+    said, out = "3 of 3 landmarks farther from the surface", tmp_path / "a.png"
+    mesh, marks = tmp_path / "m.off", f"@{tmp_path / 'a.fcsv'}"
+    for option in ("--pins", "--anchors"):
+        assert said in ran(capsys, "figure", mesh, "--distance", "biharmonic", option, marks, "-o", out).err
+    (tmp_path / "b.csv").write_text(rows(OTHER.vertices[THERE]).replace(" ", ","))
+    pairs = f"{marks},{tmp_path / 'b.csv'}"
+    both = [mesh, tmp_path / "n.off", "--distance", "biharmonic", "--pairs", pairs, "--map", "pairs"]
+    assert f"on m.off: {said}" in ran(capsys, "figure", *both, "-o", out).err
+
+
 # ---------------------------------------------------------------------- what is wrong
 @pytest.mark.parametrize(
     ("name", "content", "said"),

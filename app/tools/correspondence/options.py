@@ -1,10 +1,11 @@
 """Pairs, and what is shown between two meshes instead of distances, as figures are told of them."""
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from bihdist_core.errors import ParameterError
+from bihdist_core.errors import LandmarkWarning, ParameterError
 
 from ...document.document import Document
 from ...document.file import checksum
@@ -38,7 +39,7 @@ def _put(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
         if are_landmarks(pairs):
             _check_two(document, "--pairs", "pairs=")
             surfaces = [read_repaired(mesh_path(mesh.path), mesh.repairs) for mesh in document.surfaces[:2]]
-        pairs = read_pairs(pairs, surfaces)
+        pairs = read_pairs(pairs, surfaces, lambda fact: warnings.warn(fact, LandmarkWarning, stacklevel=2))
     pairs = np.asarray(pairs)
     if pairs.size:
         if pairs.ndim != 2 or pairs.shape[1] != 2 or pairs.dtype.kind not in "iu":

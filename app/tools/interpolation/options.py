@@ -30,10 +30,12 @@ def _with_anchors(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
         raise ParameterError(f"--anchors are on one mesh, and this recipe has {len(document.surfaces)}.")
     if isinstance(marks, AnchorFile):
         from ...samples import mesh_path
+        from ...session.chosen_sources import warn_of
         from ...session.repaired_surface import read_repaired
 
         mesh = document.surfaces[0]
         found = marks.read(read_repaired(mesh_path(mesh.path), mesh.repairs))
+        warn_of(marks.path, found.facts)
         marks = dict(zip(found.vertices.tolist(), found.values.tolist(), strict=True))
     marks = marks.items() if isinstance(marks, Mapping) else [m if isinstance(m, tuple) else (m, None) for m in marks]
     document = without_orphans(document, document.with_changed(Anchors, anchors=()))
