@@ -255,7 +255,7 @@ def test_a_figure_and_pairs_on_one_mesh_take_landmarks(tmp_path, capsys):
 def test_figures_say_what_is_known_of_landmarks_too(tmp_path, capsys):
     for name, surface in (("m.off", SHAPE), ("n.off", OTHER)):
         write_mesh(tmp_path / name, surface)
-    points = "".join(f"{x},{y},{z + 9},{k}\n" for k, (x, y, z) in enumerate(AT))
+    points = "".join(f"{x},{y},{z},{k}\n" for k, (x, y, z) in enumerate(2 * AT - SHAPE.vertices.mean(axis=0)))
     (tmp_path / "a.fcsv").write_text(f"# Markups fiducial file\n# columns = x,y,z,label\n{points}")
     said, out = "3 of 3 landmarks farther from the surface", tmp_path / "a.png"
     mesh, marks = tmp_path / "m.off", f"@{tmp_path / 'a.fcsv'}"
