@@ -22,7 +22,7 @@ from ..mesh_like import MeshLike
 from ..progress import Progress, part
 from ..scalars import real_number
 from ..solver.shifted import COMPLEX, INVERTED
-from ..solver.spectrum import Spectrum, dense_is_faster, eigenpair_work
+from ..solver.spectrum import Spectrum, eigenpair_work
 from ..solver.worker_threads import WORKERS
 from ..sources.pieces import Pieces
 from .accuracy import Perturbation
@@ -39,6 +39,8 @@ TOLERANCE = 1e-7
 """Of the maximum: how exact distances are by eigenpairs."""
 LONG_TIME = 2.0
 """From here on eigenpairs are taken: their number is small, and weights fall below the error of rational functions."""
+SMALL = 400
+"""All eigenpairs of so few vertices are found at once."""
 WEIGHED = 32.0
 """Eigenvalues, times t / lambda_1, with a weight that counts."""
 WORTH = 2.0
@@ -165,7 +167,7 @@ def is_faster_by_eigenpairs(component: Component, t: float, progress: Progress |
     """Return whether the eigenpairs that have a weight at a time are expected to take less time than poles."""
     have, n = len(component.spectrum(FIRST_EIGENPAIRS, progress).eigenvalues), len(component.areas)
     count = expected_count(component, t)
-    if t >= LONG_TIME or have == component.most_eigenpairs or count <= have or dense_is_faster(n, count):
+    if t >= LONG_TIME or have == component.most_eigenpairs or count <= have or n <= SMALL:
         return True
     if served(component, t / float(component.spectrum(1).eigenvalues[0])):
         return False
