@@ -43,7 +43,8 @@ from .distances.distance import Distance
 from .distances.distance_types import DistanceType, Parameter
 from .distances.embedding import Embedding
 from .distances.geodesic import GeodesicDistance
-from .distances.spectral import PowerDistance, TruncatedBiharmonicDistance
+from .distances.power import PowerDistance
+from .distances.spectral import TruncatedBiharmonicDistance
 from .errors import (
     BihdistError,
     Cancelled,

@@ -33,6 +33,7 @@ from .scalars import whole_number
 from .solver.aside import aside
 from .solver.elimination_tree import EliminationTree
 from .solver.factor import Factor, share_of_ordering, usual_bytes, usual_seconds
+from .solver.resolvents import Resolvents
 from .solver.spectrum import Spectrum, eigenpair_bytes, eigenpair_work, is_long, smallest_eigenpairs
 from .solver.worker_threads import WORKERS
 from .surface import Surface
@@ -380,6 +381,12 @@ class Component:
         diagonal: FloatArray = self.factor(diagonals=True).sandwich_diagonal - self.u**2 / self.areas.sum()
         return diagonal
 
+    def biharmonic_columns(self, index: IntArray) -> FloatArray:
+        """Return (m, k) the columns `index` (k,) of C; unit length squared."""
+        columns = self.factor(diagonals=True).sandwich_columns(index)
+        columns -= self.u[:, None] * (self.u[index] / self.areas.sum())
+        return columns
+
     @locked_cached_property
     def biharmonic_eccentricity(self) -> FloatArray:
         """The root (m,) of the mean, by area, of the squared biharmonic distances to all points; unit length.
@@ -398,11 +405,27 @@ class Component:
         """The column u = G A 1 (m,), by which C = G A G - u u^T / sum(A) is without a mean; unit length squared."""
         return self.solve(self.areas)
 
+    @locked_cached_property
+    def resolvents(self) -> Resolvents:
+        """The inverses of L - z A at the poles z that distances asked for."""
+        return Resolvents(self.tree(), self.stiffness, self.areas, self.surface.name)
+
     # ------------------------------------------------------------------ the spectrum
     @property
     def most_eigenpairs(self) -> int:
         """The number of eigenpairs besides the constant (`Laplacian.eigenpair_counts`)."""
         return int(self._whole.eigenpair_counts[self.index])
+
+    @property
+    def eigenpairs_there(self) -> int:
+        """The number of eigenpairs that have been computed."""
+        return 0 if self._spectrum is None else len(self._spectrum.eigenvalues)
+
+    @locked_cached_property
+    def largest_eigenvalue(self) -> float:
+        """A bound on the largest finite eigenvalue by Gershgorin's circles; unit 1 / length squared."""
+        areas, rows = self.areas, np.asarray(np.abs(self.stiffness).sum(axis=1)).ravel()
+        return float((rows[areas > 0] / areas[areas > 0]).max())
 
     def check_room_for(self, count: int) -> None:
         """Before long work: NotEnoughMemory where so many eigenpairs have no room, with the factor if there is none."""
@@ -424,6 +447,9 @@ class Component:
     def spectrum(self, count: int, progress: Progress | None = None) -> Spectrum:
         """At least the first `count` eigenpairs (of at most `most_eigenpairs`); grown and kept."""
         count = min(count, self.most_eigenpairs)
+        have = self._spectrum
+        if have is not None and len(have.eigenvalues) >= count:
+            return have
         with turn(self._spectrum_lock, progress, "waiting for eigenpairs"):
             have = self._spectrum
             if have is not None and len(have.eigenvalues) >= count:

@@ -190,11 +190,15 @@ class Answering:
         # The source may move while the distance is made ready: then the next question has it.
         preparing = worker.progress(lambda latest: are_about_the_same(latest.question, question))
         asking = worker.progress(is_wanted)
+        distances = loaded.distances(question.areas)
+        coarse = question.with_specs(tuple(distances.meanwhile(spec) or spec for spec in question.specs))
+        if coarse != question:
+            self._show_preview(id, request, coarse, preparing, asking)
         for spec in question.specs:
-            loaded.distances(question.areas).get(spec, part(preparing, 0, 0.9))
+            distances.get(spec, part(preparing, 0, 0.9))
         asking(0.9, str(question))
         at_hand = question.is_at_hand(loaded)
-        specs = tuple(loaded.distances(question.areas).preview(spec) or spec for spec in question.specs)
+        specs = tuple(distances.preview(spec) or spec for spec in question.specs)
         preview = question.with_specs(specs)
         if (
             preview != question

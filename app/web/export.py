@@ -11,6 +11,7 @@ import numpy as np
 from bihdist_core import BihdistError, Laplacian, ParameterError, Surface
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer, Distances
+from bihdist_core.distances.diffusion import EigenpairDiffusion
 from bihdist_core.distances.distance import Distance
 from bihdist_core.distances.distance_types import BUILT_IN, Spec
 from bihdist_core.distances.spectral import SpectralDistance
@@ -321,6 +322,8 @@ def _maximum(loaded: LoadedMesh, areas: str, contents: Contents, name: str) -> f
 
 
 def _spectral(distances: Distances, spec: Spec, progress: Progress | None = None) -> SpectralDistance:
+    if spec.word == "diffusion":
+        return EigenpairDiffusion(distances.laplacian, float(spec["t"]), progress)
     distance = distances.get(spec, progress)
     assert isinstance(distance, SpectralDistance)
     return distance

@@ -247,6 +247,15 @@ class Distances:
         with self._lock:
             return spec in self._known
 
+    def meanwhile(self, spec: Spec) -> Spec | None:
+        """Return a coarse distance that is there at once, where this one has still to be made, or None."""
+        coarse = None if self.is_ready(spec) else spec.meanwhile(self.laplacian)
+        if coarse is None:
+            return None
+        with self._lock:
+            self._known[spec.as_coarse] = coarse
+        return spec.as_coarse
+
     def preview(self, spec: Spec, progress: Progress | None = None) -> Spec | None:
         """Return a distance that is quick and resembles this one, or None if it is quick itself."""
         return spec.quick(self.get(spec, progress))

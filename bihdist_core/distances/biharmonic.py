@@ -164,7 +164,7 @@ class BiharmonicDistance(FactoredDistance):
             distances[some] = np.linalg.norm(_half_order(component, component.solve(b, step)), axis=0)
         return distances
 
-    def _estimated_accuracy(self, component: Component) -> float:
+    def _estimated_accuracy(self, component: Component, progress: Progress) -> float:
         return accuracy_of_fields(component)
 
 

@@ -26,7 +26,7 @@ dL) G e_i, of which a few samples tell the largest.  That bound has much to spar
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import AnyArray, FloatArray, IntArray
 from ..laplacian import Component
 from ..operators import face_weights
 from ..surface import FLAT_RATIO
@@ -73,10 +73,9 @@ def accuracy_of_fields(component: Component) -> float:
     loads, products = b[:, :TRIED], y[:, :TRIED]
 
     # Both errors take a second solve.
-    changed = [SAFETY_FACTOR * (component.stiffness @ products - loads + _rounded(component, products))]
+    changed = [SAFETY_FACTOR * (component.stiffness @ products - loads + operator_changes(component, products))]
     if component.flat.lack.any():
-        pulled = component.flat.pull(component.flat.lack[:, None] * component.flat.stretch(products))
-        changed.append(SAFETY_FACTOR / 2 * pulled)
+        changed.append(SAFETY_FACTOR / 2 * spring_changes(component, products))
     if (read := _changed_by_reading(component, products, signs)).size:
         changed.append(UNSEEN * read)
     again = component.solve(np.hstack([areas[:, None] * y[:, TRIED:], *changed]))
@@ -137,8 +136,19 @@ def _changed_by_reading(component: Component, products: FloatArray, signs: Float
     return changed
 
 
-def _rounded(component: Component, products: FloatArray) -> FloatArray:
-    """Return E V (m, k) for random roundings E of the operator, where `products` (m, k) is V."""
+def spring_changes(component: Component, products: AnyArray) -> AnyArray:
+    """Return E V (m, k) for what the springs of degenerate faces lack; complex as the products are."""
+    if np.iscomplexobj(products):
+        return spring_changes(component, products.real) + 1j * spring_changes(component, products.imag)
+    flat = component.flat
+    changed: AnyArray = flat.pull(flat.lack[:, None] * flat.stretch(products))
+    return changed
+
+
+def operator_changes(component: Component, products: AnyArray) -> AnyArray:
+    """Return E V (m, k) for random roundings E of the operator, where `products` (m, k) is V; complex as they are."""
+    if np.iscomplexobj(products):
+        return operator_changes(component, products.real) + 1j * operator_changes(component, products.imag)
     surface, flat, rng = component.surface, component.flat, np.random.default_rng(1)
 
     def signs(n: int) -> FloatArray:

@@ -105,5 +105,5 @@ class CommuteTimeDistance(FactoredDistance):
         )
         field[near] = np.sqrt(np.maximum(exact, 0))
 
-    def _estimated_accuracy(self, component: Component) -> float:
+    def _estimated_accuracy(self, component: Component, progress: Progress) -> float:
         return accuracy_of_resistances(component, lambda index: self.compute_columns(component, index, None), NEAR)

@@ -11,7 +11,7 @@ from ..errors import SolverError
 from ..laplacian import Component, Laplacian
 from ..memo import Memo
 from ..mesh_like import MeshLike, Rows
-from ..progress import Progress
+from ..progress import Progress, silent
 from ..sources.pieces import Pieces
 from .accuracy import FINEST_ACCURACY, POOR_ACCURACY, ErrorEstimate, accurate_to, rounded_up
 from .pair_questions import PairQuestions
@@ -103,9 +103,11 @@ class Distance(PairQuestions):
         """Return the components given, or those that were asked about, or else the largest, by number."""
         return (sorted(self._asked) or [0]) if components is None else components
 
-    def _accuracy_of(self, components: Sequence[int], pieces: Sequence[Pieces] = ()) -> float | None:
+    def _accuracy_of(
+        self, components: Sequence[int], pieces: Sequence[Pieces] = (), progress: Progress | None = None
+    ) -> float | None:
         """Return the accuracy on components of fields from vertices, and from some pieces of the surface."""
-        known = [self._accuracy_on(self.laplacian.components[index]) for index in components]
+        known = [self._accuracy_on(self.laplacian.components[index], progress) for index in components]
         return None if None in known else max(a for a in known if a is not None)
 
     def is_slow(self, progress: Progress | None = None) -> bool:
@@ -176,7 +178,7 @@ class Distance(PairQuestions):
         'accurate to 10 % of the maximum typically, and worse on thin faces, however fine the mesh'
         """
         components = self._asked_components(components)
-        accuracy = self._accuracy_of(components, pieces)
+        accuracy = self._accuracy_of(components, pieces, progress)
         if accuracy is None:
             return ErrorEstimate()
         if accuracy > POOR_ACCURACY:
@@ -226,18 +228,18 @@ class Distance(PairQuestions):
             "longest side high); remeshing would help."
         )
 
-    def _accuracy_on(self, component: Component) -> float | None:
+    def _accuracy_on(self, component: Component, progress: Progress | None) -> float | None:
         if component.index not in self._accuracies:
             self.prepare(component)
             # Where numbers end, the estimate is infinite.
             with np.errstate(all="ignore"):
-                accuracy = self._estimated_accuracy(component)
+                accuracy = self._estimated_accuracy(component, progress or silent)
             if accuracy is not None:
                 accuracy = np.inf if np.isnan(accuracy) else max(accuracy, FINEST_ACCURACY)
             self._accuracies[component.index] = accuracy
         return self._accuracies[component.index]
 
-    def _estimated_accuracy(self, component: Component) -> float | None:
+    def _estimated_accuracy(self, component: Component, progress: Progress) -> float | None:
         """Return `accuracy` on one component."""
         return None
 

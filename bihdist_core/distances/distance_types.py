@@ -200,6 +200,9 @@ class DistanceType:
         How web pages compute it: not at all, by their solver, or from eigenpairs that they take along.
     colour : str
         Of its curves in charts, as ``"#rrggbb"``; empty for any.
+    meanwhile : str
+        Where a function is that is called with a Laplacian and the parameters, and makes a coarse distance at once, to
+        be shown until this one is made; None where there is none, or no need.
 
     Examples
     --------
@@ -223,6 +226,7 @@ class DistanceType:
     is_complete: bool = False
     on_pages: Literal["", "solved", "eigenpairs"] = ""
     colour: str = ""
+    meanwhile: str = ""
 
     def parameter(self, name: str) -> Parameter:
         """Return the parameter of a name.
@@ -253,17 +257,19 @@ class DistanceType:
 class Spec:
     """A distance's word with its own parameters and no others: equal specs are equal distances.
 
-    Made by `of` or `parse`; as a text it is what `parse` reads: diffusion(t=1/4), biharmonic.
+    Made by `of` or `parse`; as a text it is what `parse` reads: diffusion(t=1/4), biharmonic.  A coarse one stands for
+    what `meanwhile` returns.
     """
 
     word: str
     values: tuple[tuple[str, Value], ...] = ()
+    is_coarse: bool = False
 
     @staticmethod
     def of(word: str, **values: object) -> "Spec":
         """Make a spec; ParameterError for an unknown word or parameter, or a value that is not allowed."""
         found = distance_type(word)
-        for name in values:
+        for name in values.keys() - _RETIRED.get(found.word, set()):
             found.parameter(name)
         return Spec(found.word, tuple((p.name, p.checked(values.get(p.name, p.default))) for p in found.parameters))
 
@@ -279,7 +285,8 @@ class Spec:
             name, equals, value = (x.strip() for x in part.partition("="))
             if not equals or not value:
                 raise ParameterError(f"{part.strip()!r} in {text!r} is not like t=1/4.")
-            values[name] = found.parameter(name).parsed(value)
+            if name not in _RETIRED.get(found.word, set()):
+                values[name] = found.parameter(name).parsed(value)
         return Spec.of(found.word, **values)
 
     def __str__(self) -> str:
@@ -318,10 +325,17 @@ class Spec:
     def load(self) -> Callable[..., "Distance"]:
         """Import what makes the distance, so that `build` need not."""
         make = self.distance_type.make
-        if isinstance(make, str):
-            module, _, name = make.partition(":")
-            make = getattr(import_module(module), name)
-        return make
+        return _imported(make) if isinstance(make, str) else make
+
+    @property
+    def as_coarse(self) -> "Spec":
+        """What stands for the coarse distance."""
+        return replace(self, is_coarse=True)
+
+    def meanwhile(self, laplacian: "Laplacian") -> "Distance | None":
+        """Return a coarse distance that is there at once, to be shown until this one is made; None without need."""
+        where = self.distance_type.meanwhile
+        return _imported(where)(laplacian, **dict(self.values)) if where and not self.is_coarse else None
 
     def build(self, laplacian: "Laplacian", progress: "Progress | None" = None) -> "Distance":
         """Make the distance, which is where the long work is."""
@@ -376,6 +390,12 @@ def _loaded(point: Any) -> DistanceType:
     return found
 
 
+def _imported(where: str) -> Any:
+    """Import what is at "module:name"."""
+    module, _, name = where.partition(":")
+    return getattr(import_module(module), name)
+
+
 def _shown(value: object) -> str:
     text = repr(value) if not isinstance(value, int) or abs(value) < 10**30 else "a number of many digits"
     text = text.removesuffix(".0") if isinstance(value, float) else text
@@ -427,11 +447,12 @@ BUILT_IN = (
         "power",
         "1/λ^α family",
         "larger α: smoother, less local",
-        "bihdist_core.distances.spectral:PowerDistance",
-        (Parameter("alpha", 1.5, "the power α of 1/λ", above=1.0, shown=(1.05, 8.0)), _PAIRS),
-        squares="Σ (Δφₖ)² / λₖ^α, k ≤ K",
+        "bihdist_core.distances.power:PowerDistance",
+        (Parameter("alpha", 1.5, "the power α of 1/λ", above=1.0, shown=(1.05, 8.0)),),
+        squares="Σ (Δφₖ)² / λₖ^α, all k",
         scaling="α − 1",
-        cost="K eigenpairs once; sources cost next to nothing",
+        cost="some twenty factorizations for all α; as many solves",
+        is_complete=True,
     ),
     DistanceType(
         "commute-time",
@@ -463,8 +484,10 @@ BUILT_IN = (
         ),
         squares="Σ exp(−t λₖ/λ₁) (Δφₖ)²",
         scaling="−1",
-        cost="eigenpairs up to a tolerance, more for small t",
+        cost="few eigenpairs for large t, else eight factorizations; as many solves",
         short="Diffus.",
+        is_complete=True,
+        meanwhile="bihdist_core.distances.diffusion:coarse_diffusion",
         on_pages="eigenpairs",
     ),
     DistanceType(
@@ -490,6 +513,8 @@ BUILT_IN = (
     ),
 )
 _BY_WORD = {each.word: each for each in BUILT_IN}
+_RETIRED = {"power": {"k"}}
+"""Parameters that distances had once, which old texts and recipes hold."""
 _ALIASES = {"commute": "commute-time"}
 """Other words for built-in distances, in lower case."""
 _METHODS = _BY_WORD["geodesic"].parameter("method").choices[1:]

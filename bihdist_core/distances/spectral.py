@@ -14,7 +14,6 @@ from ..laplacian import Component, Laplacian
 from ..memo import Memo
 from ..mesh_like import MeshLike
 from ..progress import Progress, part
-from ..scalars import real_number
 from ..solver.spectrum import Spectrum
 from ..solver.tall import pair_distances, point_distances
 from ..sources.pieces import Pieces
@@ -25,7 +24,6 @@ from .tails import (
     biharmonic_squares,
     bound_from_pieces,
     bound_of_pairs,
-    commute_time_squares,
     tail_lengths,
 )
 
@@ -184,8 +182,10 @@ class SpectralDistance(Distance):
                 some = each.select(mine)
                 yield component, some, super()._from_pieces(component, some, None)
 
-    def _accuracy_of(self, components: Sequence[int], pieces: Sequence[Pieces] = ()) -> float | None:
-        accuracy = super()._accuracy_of(components)
+    def _accuracy_of(
+        self, components: Sequence[int], pieces: Sequence[Pieces] = (), progress: Progress | None = None
+    ) -> float | None:
+        accuracy = super()._accuracy_of(components, (), progress)
         assert accuracy is not None
         if not pieces:
             return max([accuracy, *(self._off_so_far(self.laplacian.components[index]) for index in components)])
@@ -200,7 +200,7 @@ class SpectralDistance(Distance):
                 self._lengths[component.index] = left_out, self._errors(component)
         return self._lengths[component.index]
 
-    def _estimated_accuracy(self, component: Component) -> float:
+    def _estimated_accuracy(self, component: Component, progress: Progress) -> float:
         return Cloud(component, self.points(component)).worst(*self._lengths_on(component))
 
     def _next(self, component: Component) -> float:
@@ -268,136 +268,7 @@ class SpectralDistance(Distance):
         return change, residuals * min(1.0, seen) + change, SAFETY_FACTOR * np.linalg.norm(root[few] * off, axis=1)
 
 
-class PowerDistance(SpectralDistance):
-    """The family of distances with weights 1 / lambda^alpha, from the first k eigenpairs (paper, section 6).
-
-    Parameters
-    ----------
-    laplacian : Laplacian or MeshLike
-        The surface, or its Laplacian, whose eigenpairs distances share.
-    alpha : float
-        The power, above 1, or else the sum diverges on a surface.
-    k : int
-        The number of eigenpairs; a component with fewer uses all it has.
-    progress : callable, optional
-        Called as ``progress(fraction, text)``.
-
-    Raises
-    ------
-    ParameterError
-        For an `alpha` out of range, or if no component has `k` eigenpairs.
-
-    Notes
-    -----
-    d(i, j)^2 = sum_{k <= K} (phi_k(i) - phi_k(j))^2 / lambda_k^alpha; it scales like length ** (alpha - 1).
-
-    Examples
-    --------
-    >>> import bihdist, pyvista
-    >>> sphere = pyvista.Icosphere(nsub=3)
-    >>> for alpha in (1.5, 2, 3):
-    ...     distance = bihdist.PowerDistance(sphere, alpha, k=60)
-    ...     print(alpha, distance.length_power, round(distance.between(0, 1), 3))
-    1.5 0.5 0.605
-    2 1.0 0.462
-    3 2.0 0.303
-    """
-
-    def __init__(
-        self, laplacian: Laplacian | MeshLike, alpha: float = 1.5, k: int = 200, progress: Progress | None = None
-    ) -> None:
-        if not 1 < real_number(alpha, "alpha") < np.inf:
-            raise ParameterError(f"alpha is {alpha:g}; the sum of 1 / lambda^alpha needs alpha > 1.")
-        super().__init__(laplacian)
-        self.alpha, self.k = float(alpha), checked_count(k)
-        self.laplacian.check_eigenpairs(self.k, int(self.laplacian.eigenpair_counts.max()))
-        self.label = f"1/λ^{alpha:g}, {self.k:,} eigenpairs"
-        self.length_power = self.alpha - 1
-        self.prepare(self.laplacian.components[0], progress)
-
-    def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, FloatArray]:
-        # With the diagonal of C, which tells what is left out; one more tells how clearly those used are set off.
-        component.check_room_for(self.k + 1)
-        factored = component.share_of_factor(self.k + 1)
-        component.factor(part(progress, 0, factored), diagonals=True)
-        spectrum = component.spectrum(self.k + 1, part(progress, factored, 1))
-        return spectrum, spectrum.eigenvalues[: self.k] ** -self.alpha
-
-    def _slopes(self, eigenvalues: FloatArray) -> FloatArray:
-        return np.full(len(eigenvalues), self.alpha)
-
-    def _advice(self, components: Sequence[int]) -> str:
-        for component in (self.laplacian.components[index] for index in components):
-            values = component.spectrum(self.k + 1).eigenvalues[: self.k + 1]
-            gaps = np.diff(values) / values[1:]
-            if len(values) > self.k and gaps[-1] < CLEAR_GAP:
-                clear = np.flatnonzero(gaps >= CLEAR_GAP) + 1
-                choose = f"; choose another k, such as {clear[-1]}" if len(clear) else ""
-                return (
-                    f"Eigenvalues {self.k} and {self.k + 1} differ by {gaps[-1]:.0e} of themselves only, so it is "
-                    f"not clear which eigenpairs are the first {self.k}{choose}."
-                )
-        return super()._advice(components)
-
-    def beyond(self, components: Sequence[int] | None = None, pieces: Sequence[Pieces] = ()) -> float:
-        """Bound how far fields may be from the sum of all eigenpairs, which for alpha = 2 is the biharmonic distance.
-
-        Parameters
-        ----------
-        components : sequence of int, optional
-            The components that the fields are on; those that were asked about if None.
-        pieces : sequence of Pieces
-            What the fields start from, where they do not all start from vertices.
-
-        Returns
-        -------
-        float
-            As a fraction of each field's maximum; a proven bound.
-
-        Examples
-        --------
-        >>> import bihdist, pyvista
-        >>> sphere = pyvista.Icosphere(nsub=3)
-        >>> [round(bihdist.PowerDistance(sphere, 2.0, k).beyond(), 2) for k in (10, 100)]
-        [1.21, 0.09]
-        """
-        shares = []
-        fields = list(self._fields_from(pieces))
-        for index in self._asked_components(components):
-            component = self.laplacian.components[index]
-            tails, next_value = self._tails(component), self._next(component)
-            if next_value == np.inf:
-                left_out = np.zeros(len(tails))
-            elif self.alpha < 2:
-                # Hoelder: the sum of 1 / lambda^alpha lies between those of 1 / lambda and 1 / lambda^2.
-                spectrum, weights = self._weighted(component, None)
-                vectors, values = spectrum.eigenvectors[:, : len(weights)], spectrum.eigenvalues[: len(weights)]
-                slower = tail_lengths(commute_time_squares(component), vectors, values**-0.5)
-                left_out = slower ** (2 - self.alpha) * tails ** (self.alpha - 1)
-            else:
-                left_out = next_value ** (1 - self.alpha / 2) * tails
-            lengths = left_out, self._lengths_on(component)[1]
-            shares.append(Cloud(component, self.points(component)).worst(*lengths))
-            shares += [self._off_from(*given, *lengths) for given in fields if given[0] is component]
-        return max(shares)
-
-    def _accuracy_text(self, accuracy: float, components: Sequence[int], pieces: Sequence[Pieces] = ()) -> str:
-        sentence = super()._accuracy_text(accuracy, components)
-        if all(self.k >= self.laplacian.components[index].most_eigenpairs for index in components):
-            return sentence
-        with np.errstate(all="ignore"):
-            beyond = rounded_up(self.beyond(components, pieces))
-        return f"{sentence} as a sum of {self.k:,} eigenpairs; all of them would change it by at most {beyond}"
-
-    def _left_out(self, component: Component, next_value: float, tails: FloatArray) -> FloatArray:
-        # What is asked for is the sum of the first.
-        return np.zeros(len(tails))
-
-    def _is_cut(self) -> bool:
-        return True
-
-
-class TruncatedBiharmonicDistance(PowerDistance):
+class TruncatedBiharmonicDistance(SpectralDistance):
     """The biharmonic distance from its first k eigenpairs; unit length.
 
     Parameters
@@ -427,9 +298,84 @@ class TruncatedBiharmonicDistance(PowerDistance):
     160: 0.027 of the maximum
     """
 
+    length_power = 1.0
+
     def __init__(self, laplacian: Laplacian | MeshLike, k: int = 200, progress: Progress | None = None) -> None:
-        super().__init__(laplacian, alpha=2.0, k=k, progress=progress)
+        super().__init__(laplacian)
+        self.k = checked_count(k)
+        self.laplacian.check_eigenpairs(self.k, int(self.laplacian.eigenpair_counts.max()))
         self.label = f"biharmonic, {self.k:,} eigenpairs"
+        self.prepare(self.laplacian.components[0], progress)
+
+    def _weighted(self, component: Component, progress: Progress | None) -> tuple[Spectrum, FloatArray]:
+        # With the diagonal of C, which tells what is left out; one more tells how clearly those used are set off.
+        component.check_room_for(self.k + 1)
+        factored = component.share_of_factor(self.k + 1)
+        component.factor(part(progress, 0, factored), diagonals=True)
+        spectrum = component.spectrum(self.k + 1, part(progress, factored, 1))
+        return spectrum, spectrum.eigenvalues[: self.k] ** -2
+
+    def _slopes(self, eigenvalues: FloatArray) -> FloatArray:
+        return np.full(len(eigenvalues), 2.0)
+
+    def _advice(self, components: Sequence[int]) -> str:
+        for component in (self.laplacian.components[index] for index in components):
+            values = component.spectrum(self.k + 1).eigenvalues[: self.k + 1]
+            gaps = np.diff(values) / values[1:]
+            if len(values) > self.k and gaps[-1] < CLEAR_GAP:
+                clear = np.flatnonzero(gaps >= CLEAR_GAP) + 1
+                choose = f"; choose another k, such as {clear[-1]}" if len(clear) else ""
+                return (
+                    f"Eigenvalues {self.k} and {self.k + 1} differ by {gaps[-1]:.0e} of themselves only, so it is "
+                    f"not clear which eigenpairs are the first {self.k}{choose}."
+                )
+        return super()._advice(components)
+
+    def beyond(self, components: Sequence[int] | None = None, pieces: Sequence[Pieces] = ()) -> float:
+        """Bound how far fields may be from the sum of all eigenpairs, the biharmonic distance.
+
+        Parameters
+        ----------
+        components : sequence of int, optional
+            The components that the fields are on; those that were asked about if None.
+        pieces : sequence of Pieces
+            What the fields start from, where they do not all start from vertices.
+
+        Returns
+        -------
+        float
+            As a fraction of each field's maximum; a proven bound.
+
+        Examples
+        --------
+        >>> import bihdist, pyvista
+        >>> sphere = pyvista.Icosphere(nsub=3)
+        >>> [round(bihdist.TruncatedBiharmonicDistance(sphere, k).beyond(), 2) for k in (10, 100)]
+        [1.21, 0.09]
+        """
+        shares = []
+        fields = list(self._fields_from(pieces))
+        for index in self._asked_components(components):
+            component = self.laplacian.components[index]
+            lengths = self._tails(component), self._lengths_on(component)[1]
+            shares.append(Cloud(component, self.points(component)).worst(*lengths))
+            shares += [self._off_from(*given, *lengths) for given in fields if given[0] is component]
+        return max(shares)
+
+    def _accuracy_text(self, accuracy: float, components: Sequence[int], pieces: Sequence[Pieces] = ()) -> str:
+        sentence = super()._accuracy_text(accuracy, components)
+        if all(self.k >= self.laplacian.components[index].most_eigenpairs for index in components):
+            return sentence
+        with np.errstate(all="ignore"):
+            beyond = rounded_up(self.beyond(components, pieces))
+        return f"{sentence} as a sum of {self.k:,} eigenpairs; all of them would change it by at most {beyond}"
+
+    def _left_out(self, component: Component, next_value: float, tails: FloatArray) -> FloatArray:
+        # What is asked for is the sum of the first.
+        return np.zeros(len(tails))
+
+    def _is_cut(self) -> bool:
+        return True
 
 
 def checked_count(k: int) -> int:

@@ -31,14 +31,6 @@ def biharmonic_squares(component: Component) -> FloatArray:
     return means
 
 
-def commute_time_squares(component: Component) -> FloatArray:
-    """Return (m,) sum_k phi_k(x)^2 / lambda_k over all eigenpairs: G_xx, centred; no unit."""
-    areas = component.areas
-    u, total = component.solve(areas), areas.sum()
-    diagonal: FloatArray = component.green_diagonal() - 2 * u / total + float(areas @ u) / total**2
-    return diagonal
-
-
 def tail_lengths(squares: FloatArray, vectors: FloatArray, factors: FloatArray | float = 1.0) -> FloatArray:
     """Return (m,) the lengths of what coordinates vectors * factors (m, k) leave out where all have squared lengths
     (m,)."""

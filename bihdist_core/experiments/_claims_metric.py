@@ -8,7 +8,7 @@ import numpy as np
 
 from ..analysis.diagnostics import smallest_distance, triangle_violations
 from ..arrays import FloatArray, IntArray
-from ..distances.diffusion import DiffusionDistance
+from ..distances.diffusion import EigenpairDiffusion
 from ..distances.distance import Distance
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..laplacian import Component, Laplacian
@@ -212,7 +212,7 @@ def _truncated_claim(doubles: Table, note: str) -> Claim:
     )
 
 
-class _Truncated(DiffusionDistance):
+class _Truncated(EigenpairDiffusion):
     """Diffusion distance from its first few eigenpairs, whatever the weights of the others."""
 
     def __init__(self, laplacian: Laplacian, t: float, count: int) -> None:

@@ -27,12 +27,10 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     (name,) = shapes.names("figure")
     surface = shapes.at_most(name, 1_000 if quick else COUNT, part(progress, 0, 0.1))
     laplacian = Laplacian(surface)
-    everything = laplacian.components[0].most_eigenpairs
-    laplacian.components[0].spectrum(everything, part(progress, 0.1, 0.8))
     sources = {"upper back": shapes.vertex_at(surface, *UPPER_BACK, "back")}
     random = random_sources(surface, QUICK_SOURCES if quick else SOURCES)
     sources |= {f"random {k}": source for k, source in enumerate(random, 1)}
-    family = {alpha: distance(laplacian, f"power alpha = {alpha}, k = {everything}") for alpha in ALPHAS}
+    family = {alpha: distance(laplacian, f"power alpha = {alpha}") for alpha in ALPHAS}
     geodesics, exact = distance(laplacian, "geodesic"), distance(laplacian, "biharmonic")
     radius = small_radius(surface)
     rows: list[tuple[Cell, ...]] = []
@@ -57,8 +55,8 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     return Result(
         "alpha",
         TITLE,
-        f"Sources: the upper back and {len(random)} random vertices. All {everything:,} eigenpairs of a mesh of "
-        f"{len(surface.vertices):,} vertices. The isotropy ratio is that on the geodesic circle of "
+        f"Sources: the upper back and {len(random)} random vertices. A mesh of {len(surface.vertices):,} "
+        f"vertices. The isotropy ratio is that on the geodesic circle of "
         f"{percent(radius / float(np.sqrt(surface.face_areas.sum())))} of the root of the area.",
         {name: surface},
         tuple(panels),

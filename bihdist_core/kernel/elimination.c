@@ -1,4 +1,4 @@
-/* The numeric factorization: fronts are eliminated bottom up, with their derivatives along A if areas are given. */
+/* The numeric factorization: fronts are eliminated bottom up, with their derivatives or imaginary parts. */
 #include "kernel.h"
 
 static const double STIFF = 3e-2; /* Below this fraction of its diagonal entry a pivot has lost digits that matter: beside
@@ -15,24 +15,26 @@ typedef struct {
 static double *schur_of(const Elimination *e, i64 q) {
   const Tree *t = e->factor->tree;
   double *block = handed(e->blocks, q);
-  return block ? block : e->stack + (1 + (e->factor->areas != NULL)) * t->stack[q];
+  return block ? block : e->stack + (1 + (e->factor->second != SINGLE)) * t->stack[q];
 }
 
-static i64 work_of(Front f, int dual) {
-  i64 products = dual ? f.c * (f.cp + 2 * f.mp) : 0;
-  return most(most(sweep_work(f.c, f.sp), f.s), most(products, most(f.c * f.mp, 2 * f.c * f.cp))) + f.cp + PAD;
+static i64 work_of(Front f, i64 second) {
+  i64 products = second == DERIVATIVE ? f.c * (f.cp + 2 * f.mp) : 0, parts = 1 + (second == IMAGINARY);
+  i64 refined = parts * most(f.c * f.mp, 2 * f.c * f.cp); /* for K, N */
+  return most(most(sweep_work(f.c, f.sp, parts), f.s), most(products, refined)) + f.cp + PAD;
 }
 
 /* What eliminating the fronts first to last needs, in doubles: room[0] for the stack, room[1] for the largest front,
- * room[2] in all.  The last one's Schur complement is handed on as a block of (1 + dual, m, mp). */
-API void bih_elimination_room(const Tree *t, i32 dual, i64 first, i64 last, i64 *room) {
-  i64 stack = 0, front = 0, work = 0;
+ * room[2] in all.  The last one's Schur complement is handed on as a block of (1, m, mp), or (2, m, mp) with
+ * a second one. */
+API void bih_elimination_room(const Tree *t, i64 second, i64 first, i64 last, i64 *room) {
+  i64 stack = 0, front = 0, work = 0, blocks = 1 + (second != SINGLE);
   for (i64 q = first; q <= last; q++) {
     Front f = front_of(t, q);
-    if (q < last) stack = most(stack, (1 + dual) * (t->stack[q] + f.m * f.mp));
-    front = most(front, f.s * f.sp), work = most(work, work_of(f, dual));
+    if (q < last) stack = most(stack, blocks * (t->stack[q] + f.m * f.mp));
+    front = most(front, f.s * f.sp), work = most(work, work_of(f, second));
   }
-  room[0] = padded(stack), room[1] = front + PAD, room[2] = room[0] + (1 + dual) * room[1] + work;
+  room[0] = padded(stack), room[1] = front + PAD, room[2] = room[0] + blocks * room[1] + work;
 }
 
 /* Add the Schur complement S of a child g into its parent's F; end (m,) as find_runs leaves it. */
@@ -69,13 +71,13 @@ static i64 count_below(const i32 *rows, i64 m, i64 place) {
 }
 
 /* F and F1 of a front: the matrix' entries, areas, and the Schur complements of its children; above the diagonal.  Of a
- * leaf's F1 there are the areas alone, and zeros for S1.  scale (c,): the matrix' own diagonal, before Schur complements come on top. */
+ * leaf's F1 that is a derivative there are the areas alone, and zeros for S1.  scale (c,): the matrix' own diagonal, before Schur complements come on top. */
 static i32 assemble(Elimination *e, i64 q, Front f, double *scale, double *work) {
   const Tree *t = e->factor->tree;
   const Rows *L = e->matrix;
   double *F = e->F, *F1 = e->F1;
   const double *areas = e->factor->areas;
-  i64 ld = f.sp, filled = is_leaf(t, q) ? f.c * ld : 0;
+  i64 ld = f.sp, filled = is_short(e->factor, q) ? f.c * ld : 0;
   zero(F, 8 * f.s * ld);
   if (areas) zero(F1 + filled, 8 * (f.s * ld - filled));
   for (i64 i = 0; i < f.c; i++) {
@@ -133,19 +135,37 @@ static void invert_by_cholesky(const Front f, double *K, const double *F, double
     for (i64 j = 0; j < i; j++) K[i * cp + j] = K[j * cp + i];
 }
 
+/* The same of a complex F, by Newton's step K += K (1 - F K). */
+static void improve(const Front f, Pair K, Pair F, double *work) {
+  i64 c = f.c, cp = f.cp;
+  Pair E = {work, work + c * cp};
+  double *const parts[] = {E.x, E.x1, K.x, K.x1};
+  zero(E.x, 16 * c * cp);
+  for (i64 i = 0; i < c; i++) E.x[i * cp + i] = 1;
+  add_pairs(0, c, c, c, -1, F, f.sp, 1, K, cp, E, cp);
+  double *T = E.x1 + c * cp; /* K, which the product reads as it was */
+  copy(T, K.x, 8 * c * cp), copy(T + c * cp, K.x1, 8 * c * cp);
+  add_pairs(1, c, c, c, 1, (Pair){T, T + c * cp}, cp, 1, E, cp, K, cp);
+  for (int p = 2; p < 4; p++)
+    for (i64 i = 0; i < c; i++)
+      for (i64 j = 0; j < i; j++) parts[p][i * cp + j] = parts[p][j * cp + i];
+}
+
 /* One step of iterative refinement of N: F N = -R then holds to rounding, as after solves with Cholesky's factor.  F as
- * assembled; overwrites its boundary block with S. */
-static void refine(const Front f, const double *K, double *N, i64 ln, double *F, double *work) {
-  i64 c = f.c, m = f.m, mp = f.mp, ld = f.sp;
-  double *E = work; /* R + F N */
-  for (i64 i = 0; i < c; i++) {
-    for (i64 j = 0; j < i; j++) F[i * ld + j] = F[j * ld + i];
-    copy(E + i * mp, F + i * ld + c, 8 * m);
-    zero(E + i * mp + m, 8 * (mp - m));
-  }
-  add_product(c, m, c, 1, F, ld, 1, N, ln, E, mp);
-  add_product(c, m, c, -1, K, f.cp, 1, E, mp, N, ln);
-  add_upper_product(m, m, c, 1, F + c, 1, ld, N, ln, F + c * ld + c, ld);
+ * assembled, mirrored; overwrites its boundary block with S. */
+static void refine(const Front f, Pair K, Pair N, i64 ln, Pair F, double *work) {
+  i64 c = f.c, m = f.m, mp = f.mp, ld = f.sp, right = c * ld + c;
+  Pair E = {work, F.x1 ? work + c * mp : NULL}; /* R + F N */
+  for (int p = 0; p < 1 + (F.x1 != NULL); p++)
+    for (i64 i = 0; i < c; i++) {
+      double *e = (p ? E.x1 : E.x) + i * mp;
+      copy(e, (p ? F.x1 : F.x) + i * ld + c, 8 * m);
+      zero(e + m, 8 * (mp - m));
+    }
+  add_pairs(0, c, m, c, 1, F, ld, 1, N, ln, E, mp);
+  add_pairs(0, c, m, c, -1, K, f.cp, 1, E, mp, N, ln);
+  Pair R = {F.x + c, F.x1 ? F.x1 + c : NULL}, S = {F.x + right, F.x1 ? F.x1 + right : NULL};
+  add_pairs(1, m, m, c, 1, R, 1, ld, N, ln, S, ld);
 }
 
 /* Of a leaf: in the boundary block of F1, S1 = X + X^T = N^T A N. */
@@ -181,35 +201,52 @@ static void derive(const Front f, const double *K, double *K1, const double *N, 
   add_upper_product(m, m, c, 1, N, 1, ln, P, mp, S1, ld);
 }
 
-static i32 eliminate(Elimination *e, i64 q) {
-  const Tree *t = e->factor->tree;
-  Front f = front_of(t, q);
-  i64 c = f.c, m = f.m, ld = f.sp, ln = kept(e->factor, q) * f.mp;
-  int dual = e->factor->areas != NULL;
-  double *F = e->F, *scale = e->work, *work = scale + f.cp, left = 1;
-  i32 status = assemble(e, q, f, scale, work);
-  if (status) return status;
-  for (i64 i = 0; i < c; i++)
-    if (!(scale[i] > 0)) return NOT_POSITIVE;
-  if (!sweep(c, f.s, F, ld, scale, work, &left)) return NOT_POSITIVE;
-  double *K = block_K(e->factor, q), *K1 = K + c * f.cp, *N = block_N(e->factor, q), *N1 = N + f.mp;
+/* K and N (c, m) out of a swept F. */
+static void take_swept(const Front f, const double *F, double *K, double *N, i64 ln) {
+  i64 c = f.c, m = f.m, ld = f.sp;
   for (i64 i = 0; i < c; i++) {
     for (i64 j = i; j < c; j++) K[i * f.cp + j] = K[j * f.cp + i] = -F[i * ld + j];
     for (i64 j = c; j < f.cp; j++) K[i * f.cp + j] = 0;
     for (i64 j = 0; j < m; j++) N[i * ln + j] = -F[i * ld + c + j];
     for (i64 j = m; j < f.mp; j++) N[i * ln + j] = 0;
   }
+}
+
+static void mirror(i64 c, double *F, i64 ld) {
+  for (i64 i = 0; i < c; i++)
+    for (i64 j = 0; j < i; j++) F[i * ld + j] = F[j * ld + i];
+}
+
+static i32 eliminate(Elimination *e, i64 q) {
+  const Tree *t = e->factor->tree;
+  Front f = front_of(t, q);
+  i64 c = f.c, m = f.m, ld = f.sp, ln = kept(e->factor, q) * f.mp, second = e->factor->second;
+  int is_complex = second == IMAGINARY;
+  double *scale = e->work, *work = scale + f.cp, left = 1;
+  Pair F = {e->F, is_complex ? e->F1 : NULL};
+  i32 status = assemble(e, q, f, scale, work);
+  if (status) return status;
+  for (i64 i = 0; i < c; i++) {
+    if (is_complex) scale[i] = scale[i] < 0 ? -scale[i] : scale[i];
+    else if (!(scale[i] > 0)) return NOT_POSITIVE;
+  }
+  if (!sweep(c, f.s, F, ld, scale, work, &left)) return NOT_POSITIVE;
+  double *K = block_K(e->factor, q), *K1 = K + c * f.cp, *N = block_N(e->factor, q), *N1 = N + f.mp;
+  take_swept(f, e->F, K, N, ln);
+  if (is_complex) take_swept(f, e->F1, K1, N1, ln);
   if (left < STIFF) {
     assemble(e, q, f, scale, work); /* the children's Schur complements are still there */
-    invert_by_cholesky(f, K, F, work);
-    refine(f, K, N, ln, F, work);
+    if (!is_complex) invert_by_cholesky(f, K, e->F, work);
+    mirror(c, e->F, ld);
+    if (is_complex) mirror(c, e->F1, ld), improve(f, (Pair){K, K1}, F, work);
+    refine(f, (Pair){K, is_complex ? K1 : NULL}, (Pair){N, N1}, ln, F, work);
   }
-  if (dual && is_leaf(t, q)) derive_leaf(f, N, e->F1, work);
-  else if (dual) derive(f, K, K1, N, N1, ln, e->F1, work);
+  if (is_short(e->factor, q)) derive_leaf(f, N, e->F1, work);
+  else if (second == DERIVATIVE) derive(f, K, K1, N, N1, ln, e->F1, work);
   double *S = schur_of(e, q), *S1 = S + m * f.mp;
   for (i64 i = 0; i < m; i++) {
-    copy(S + i * f.mp + i, F + (c + i) * ld + c + i, 8 * (m - i));
-    if (dual) copy(S1 + i * f.mp + i, e->F1 + (c + i) * ld + c + i, 8 * (m - i));
+    copy(S + i * f.mp + i, e->F + (c + i) * ld + c + i, 8 * (m - i));
+    if (second) copy(S1 + i * f.mp + i, e->F1 + (c + i) * ld + c + i, 8 * (m - i));
   }
   return DONE;
 }
@@ -220,10 +257,10 @@ static i32 eliminate(Elimination *e, i64 q) {
 API i32 bih_eliminate(const Factor *factor, const Rows *matrix, i64 first, i64 last, double *const *blocks, double *work,
                       i64 *where, Watch *watch) {
   i64 room[3];
-  int dual = factor->areas != NULL;
-  bih_elimination_room(factor->tree, dual, first, last, room);
+  i64 parts = 1 + (factor->second != SINGLE);
+  bih_elimination_room(factor->tree, factor->second, first, last, room);
   double *F = work + room[0];
-  Elimination e = {factor, matrix, work, blocks, F, F + room[1], F + (1 + dual) * room[1], 0, 0};
+  Elimination e = {factor, matrix, work, blocks, F, F + room[1], F + parts * room[1], 0, 0};
   for (i64 q = first; q <= last; q++) {
     if (stopped(watch)) return STOPPED;
     i32 status = eliminate(&e, q);

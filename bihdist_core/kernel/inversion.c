@@ -1,9 +1,12 @@
-/* Takahashi's selected inversion: the diagonals of G = L^-1 and of G A G without most of their other entries.
+/* Takahashi's selected inversion: the diagonals of G = L^-1 and of G A G, or of the real and imaginary parts of G,
+ * without most of their other entries.
  *
  * Top down each front gets the block Z of G on its own rows (1: pivots, 2: boundary), of which the boundary's is part of
  * its parent's, and Z1, that of G A G:
  *
  *     Z12 = N Z22      Z11 = K + Z12 N^T      Z1_12 = N1 Z22 + N Z1_22      Z1_11 = K1 + Z12 N1^T + Z1_12 N^T
+ *
+ * and of complex numbers Z12 = N Z22 - N1 Z1_22 and Z11 = K + Z12 N^T - Z1_12 N1^T.
  *
  * Of a leaf only the diagonals are wanted.  With K1 = K A K and N1 = K A N that of Z1_11 is that of
  * K A (K + 2 Z12 N^T) + N Z1_22 N^T. */
@@ -70,10 +73,11 @@ static void invert_leaf(const Factor *factor, i64 q, Front f, const double *Z, c
 }
 
 static void invert(const Factor *factor, i64 q, double *const *blocks, double *stack, double *work, double *diagonal,
-                   double *sandwich) {
+                   double *second) {
   const Tree *t = factor->tree;
   Front f = front_of(t, q);
-  i64 c = f.c, m = f.m, ld = f.sp, cp = f.cp, mp = f.mp, ln = 2 * mp, parent = t->parent[q];
+  i64 c = f.c, m = f.m, ld = f.sp, cp = f.cp, mp = f.mp, ln = kept(factor, q) * mp, parent = t->parent[q];
+  int both = factor->second != SINGLE, is_complex = factor->second == IMAGINARY;
   double *Z = block_of(t, q, blocks, stack), *Z1 = Z + f.s * ld;
   if (parent >= 0) {
     Front p = front_of(t, parent);
@@ -81,60 +85,69 @@ static void invert(const Factor *factor, i64 q, double *const *blocks, double *s
     work_i32 *end = (work_i32 *)work;
     find_runs(f, end);
     gather(f, end, Zp, p.sp, Z + c * ld + c, ld);
-    gather(f, end, Zp1, p.sp, Z1 + c * ld + c, ld);
+    if (both) gather(f, end, Zp1, p.sp, Z1 + c * ld + c, ld);
   }
-  if (is_leaf(t, q)) {
-    invert_leaf(factor, q, f, Z, Z1, work, diagonal, sandwich);
+  if (is_short(factor, q)) {
+    invert_leaf(factor, q, f, Z, Z1, work, diagonal, second);
     return;
   }
   const double *K = block_K(factor, q), *K1 = K + c * cp, *N = block_N(factor, q), *N1 = N + mp;
+  const double *Z22 = Z + c * ld + c, *Z1_22 = Z1 + c * ld + c;
   double *Y = work, *Y1 = Y + c * mp, *Nt = Y1 + c * mp, *Nt1 = Nt + m * cp;
   zero(Y, 16 * c * mp);
-  add_product(c, m, m, 1, N, ln, 1, Z + c * ld + c, ld, Y, mp);
-  add_product(c, m, m, 1, N1, ln, 1, Z + c * ld + c, ld, Y1, mp);
-  add_product(c, m, m, 1, N, ln, 1, Z1 + c * ld + c, ld, Y1, mp);
+  add_product(c, m, m, 1, N, ln, 1, Z22, ld, Y, mp);
+  if (both) add_product(c, m, m, 1, N1, ln, 1, Z22, ld, Y1, mp), add_product(c, m, m, 1, N, ln, 1, Z1_22, ld, Y1, mp);
+  if (is_complex) add_product(c, m, m, -1, N1, ln, 1, Z1_22, ld, Y, mp);
   const i32 *vertices = t->vertices + f.first;
   for (i64 i = 0; i < m; i++) zero(Nt + i * cp + c, 8 * (cp - c)), zero(Nt1 + i * cp + c, 8 * (cp - c));
-  transpose(c, m, N, ln, Nt, cp), transpose(c, m, N1, ln, Nt1, cp);
-  for (i64 i = 0; i < c; i++) copy(Z + i * ld, K + i * cp, 8 * c), copy(Z1 + i * ld, K1 + i * cp, 8 * c);
+  transpose(c, m, N, ln, Nt, cp);
+  for (i64 i = 0; i < c; i++) copy(Z + i * ld, K + i * cp, 8 * c);
   add_upper_product(c, c, m, 1, Y, mp, 1, Nt, cp, Z, ld);
-  add_upper_product(c, c, m, 1, Y, mp, 1, Nt1, cp, Z1, ld);
-  add_upper_product(c, c, m, 1, Y1, mp, 1, Nt, cp, Z1, ld);
-  for (i64 i = 0; i < c; i++) {
-    copy(Z + i * ld + c, Y + i * mp, 8 * m), copy(Z1 + i * ld + c, Y1 + i * mp, 8 * m);
-    for (i64 j = i; j < c; j++) Z[j * ld + i] = Z[i * ld + j], Z1[j * ld + i] = Z1[i * ld + j];
-    diagonal[vertices[i]] = Z[i * ld + i], sandwich[vertices[i]] = Z1[i * ld + i];
+  if (both) {
+    transpose(c, m, N1, ln, Nt1, cp);
+    for (i64 i = 0; i < c; i++) copy(Z1 + i * ld, K1 + i * cp, 8 * c);
+    add_upper_product(c, c, m, 1, Y, mp, 1, Nt1, cp, Z1, ld);
+    add_upper_product(c, c, m, 1, Y1, mp, 1, Nt, cp, Z1, ld);
   }
-  transpose(c, m, Y, mp, Z + c * ld, ld), transpose(c, m, Y1, mp, Z1 + c * ld, ld);
+  if (is_complex) add_upper_product(c, c, m, -1, Y1, mp, 1, Nt1, cp, Z, ld);
+  for (int k = 0; k < 1 + both; k++) {
+    double *z = k ? Z1 : Z, *y = k ? Y1 : Y, *to = k ? second : diagonal;
+    for (i64 i = 0; i < c; i++) {
+      copy(z + i * ld + c, y + i * mp, 8 * m);
+      for (i64 j = i; j < c; j++) z[j * ld + i] = z[i * ld + j];
+      to[vertices[i]] = z[i * ld + i];
+    }
+    transpose(c, m, y, mp, z + c * ld, ld);
+  }
 }
 
 /* The diagonals (n,) at the pivots of the fronts last to first, one task.  blocks (fronts,): of top fronts, where their
  * blocks of the inverse lie, (2, s, sp); NULL for others, or for all.  work: as much as bih_inversion_room says. */
 API i32 bih_invert(const Factor *factor, i64 first, i64 last, double *const *blocks, double *work, double *diagonal,
-                   double *sandwich, Watch *watch) {
+                   double *second, Watch *watch) {
   i64 room[2];
   bih_inversion_room(factor->tree, first, last, room);
   for (i64 q = last; q >= first; q--) {
     if (stopped(watch)) return STOPPED;
-    invert(factor, q, blocks, work, work + room[0], diagonal, sandwich);
+    invert(factor, q, blocks, work, work + room[0], diagonal, second);
     Front f = front_of(factor->tree, q);
     advance(watch, f.c * f.s * f.s);
   }
   return DONE;
 }
 
-/* A whole factor on one thread, and, with derivatives, the diagonals (n,).  work: as much as bih_factor_room says. */
-API i32 bih_factor(const Factor *factor, const Rows *matrix, double *work, double *diagonal, double *sandwich, i64 *where) {
+/* A whole factor on one thread, and, with a second block, the diagonals (n,).  work: as much as bih_factor_room says. */
+API i32 bih_factor(const Factor *factor, const Rows *matrix, double *work, double *diagonal, double *second, i64 *where) {
   Watch watch = {0, 0};
   i64 last = factor->tree->fronts - 1;
   i32 status = bih_eliminate(factor, matrix, 0, last, NULL, work, where, &watch);
-  if (status || !factor->areas) return status;
-  return bih_invert(factor, 0, last, NULL, work, diagonal, sandwich, &watch);
+  if (status || !diagonal) return status;
+  return bih_invert(factor, 0, last, NULL, work, diagonal, second, &watch);
 }
 
-API i64 bih_factor_room(const Tree *t, i32 dual) {
+API i64 bih_factor_room(const Tree *t, i64 second, i32 inverted) {
   i64 up[3], down[2] = {0};
-  bih_elimination_room(t, dual, 0, t->fronts - 1, up);
-  if (dual) bih_inversion_room(t, 0, t->fronts - 1, down);
+  bih_elimination_room(t, second, 0, t->fronts - 1, up);
+  if (inverted) bih_inversion_room(t, 0, t->fronts - 1, down);
   return most(up[2], down[1]);
 }

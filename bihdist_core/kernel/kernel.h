@@ -12,7 +12,10 @@
  * K1 and N1 are minus the derivatives of K and N, so that all that follows adds up to +G A G, G = L^-1.
  *
  * A leaf has no children: its F1 = A, diagonal, and R1 = 0, so that K1 = K A K and N1 = K A N.  These are not kept but
- * applied as products, for two thirds of a factor's pivots are in leaves. */
+ * applied as products, for two thirds of a factor's pivots are in leaves.
+ *
+ * The same pairs of blocks are complex numbers where L + i A is factored.  A pair (X, X1) is X + e X1 with e^2 = 0 for
+ * derivatives and e^2 = -1 for imaginary parts, which is one product more: see add_pairs in dense.c. */
 #ifndef BIHDIST_KERNEL_H
 #define BIHDIST_KERNEL_H
 #include <stddef.h>
@@ -98,11 +101,15 @@ typedef struct {
   i32 *rank; /* (n,) of a place among the pivots of top fronts */
 } Tree;
 
+/* What the second block of each pair is: there is none, it is the derivative along A, or the imaginary part, A's. */
+enum { SINGLE = 0, DERIVATIVE = 1, IMAGINARY = 2 };
+
 typedef struct {
   const Tree *tree;
-  const double *areas; /* (n,) the diagonal of A in elimination order; NULL without derivatives along it */
-  double *pivots;      /* K, and of fronts with children K1 after it */
-  double *boundaries;  /* N, (c, m); of fronts with children rows of N and of N1 take turns */
+  const double *areas; /* (n,) the diagonal of A in elimination order; NULL if there is no second block */
+  double *pivots;      /* K, and K1 after it, but not derivatives of leaves */
+  double *boundaries;  /* N, (c, m); where there is N1, their rows take turns */
+  i64 second;
 } Factor;
 
 typedef struct {
@@ -124,16 +131,19 @@ static inline void find_runs(Front f, work_i32 *end) {
 /* Where the block lies that a task hands on; NULL where a front hands nothing on, or nothing is. */
 static inline double *handed(double *const *blocks, i64 q) { return blocks ? blocks[q] : NULL; }
 static inline int is_leaf(const Tree *t, i64 q) { return t->children[2 * q] < 0; }
+/* Whether the second blocks of a front are not kept. */
+static inline int is_short(const Factor *f, i64 q) { return f->second == DERIVATIVE && is_leaf(f->tree, q); }
 /* How many of K and K1, or of N and N1, a front keeps. */
-static inline i64 kept(const Factor *f, i64 q) { return 1 + (f->areas && !is_leaf(f->tree, q)); }
+static inline i64 kept(const Factor *f, i64 q) { return 1 + (f->second && !is_short(f, q)); }
 static inline i64 block_at(const Factor *f, const i64 *block, i64 q) {
-  return block[q] + (f->areas ? least(block[q], block[f->tree->fronts]) : 0);
+  if (f->second == DERIVATIVE) return block[q] + least(block[q], block[f->tree->fronts]);
+  return (1 + (f->second == IMAGINARY)) * block[q];
 }
 static inline double *block_K(const Factor *f, i64 q) { return f->pivots + block_at(f, f->tree->pivot_block, q); }
 static inline double *block_N(const Factor *f, i64 q) { return f->boundaries + block_at(f, f->tree->row_block, q); }
 
 /* elimination.c */
-API void bih_elimination_room(const Tree *t, i32 dual, i64 first, i64 last, i64 *room);
+API void bih_elimination_room(const Tree *t, i64 second, i64 first, i64 last, i64 *room);
 API i32 bih_eliminate(const Factor *factor, const Rows *matrix, i64 first, i64 last, double *const *blocks,
                       double *work, i64 *where, Watch *watch);
 
@@ -142,8 +152,13 @@ void add_product(i64 rows, i64 columns, i64 inner, double scale, const double *A
                  i64 ldb, double *C, i64 ldc);
 void add_upper_product(i64 rows, i64 columns, i64 inner, double scale, const double *A, i64 row, i64 column,
                        const double *B, i64 ldb, double *C, i64 ldc);
-int sweep(i64 c, i64 s, double *F, i64 ld, const double *scale, double *work, double *left);
-i64 sweep_work(i64 c, i64 sp);
+typedef struct {
+  double *x, *x1; /* x1 is NULL where there are no imaginary parts */
+} Pair;
+void add_pairs(int upper, i64 rows, i64 columns, i64 inner, double scale, Pair A, i64 row, i64 column, Pair B, i64 ldb,
+               Pair C, i64 ldc);
+int sweep(i64 c, i64 s, Pair F, i64 ld, const double *scale, double *work, double *left);
+i64 sweep_work(i64 c, i64 sp, i64 parts);
 
 /* assembly.c */
 API void bih_measures(i64 m, const double *x, const i64 *faces, double *area, double *longest);
@@ -163,8 +178,8 @@ API i64 bih_lay_out(const Rows *g, Tree *t, const i32 *last, const i32 *subtrees
                     i64 *totals);
 
 /* inversion.c */
-API i64 bih_factor_room(const Tree *t, i32 dual);
-API i32 bih_factor(const Factor *factor, const Rows *matrix, double *work, double *diagonal, double *sandwich,
+API i64 bih_factor_room(const Tree *t, i64 second, i32 inverted);
+API i32 bih_factor(const Factor *factor, const Rows *matrix, double *work, double *diagonal, double *second,
                    i64 *where);
 
 /* substitution.c */

@@ -25,6 +25,9 @@ DONE, STOPPED, NOT_POSITIVE, OUTSIDE, ASYMMETRIC, NO_ROOM, TOO_MUCH, LOST, MORE 
 NONE = -1
 """No window, side or vertex."""
 
+SINGLE, DERIVATIVE, IMAGINARY = 0, 1, 2
+"""The second block of each pair of a factor: there is none, it is a derivative, or the imaginary part."""
+
 FOLDER = Path(__file__).parent
 SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
 """The folder of libraries, and the ending of their names."""
@@ -85,7 +88,11 @@ class Tree(Structure):
 class Factor(Structure):
     """The factor's blocks."""
 
-    _fields_ = (("tree", POINTER(Tree)), ("areas", c_void_p), ("pivots", c_void_p), ("boundaries", c_void_p))
+    _fields_ = (
+        ("tree", POINTER(Tree)),
+        *((name, c_void_p) for name in ("areas", "pivots", "boundaries")),
+        ("second", c_int64),
+    )
 
 
 class Mesh(Structure):
@@ -242,11 +249,11 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "end_dissection": (None, (_A, _A, _A)),
     "order": (c_int64, (_P, *(_A,) * 6)),
     "lay_out": (c_int64, (_P, _P, _A, _A, _I, _I, _A, _A)),
-    "elimination_room": (None, (_P, c_int32, _I, _I, _A)),
+    "elimination_room": (None, (_P, _I, _I, _I, _A)),
     "eliminate": (c_int32, (_P, _P, _I, _I, _A, _A, _A, _P)),
     "inversion_room": (None, (_P, _I, _I, _A)),
     "invert": (c_int32, (_P, _I, _I, _A, _A, _A, _A, _P)),
-    "factor_room": (c_int64, (_P, c_int32)),
+    "factor_room": (c_int64, (_P, _I, c_int32)),
     "factor": (c_int32, (_P, _P, _A, _A, _A, _A)),
     "take_rows": (None, (_P, _I, _I, _I, _I, _P, _I, _A)),
     "put_rows": (None, (_P, _I, _I, _I, _I, _A, _P, _I)),
@@ -255,6 +262,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "sweep_up": (c_int32, (_P, _I, _I, _I, _I, _A, _A, _A, _P)),
     "sweep_down": (c_int32, (_P, _I, _I, _I, _A, _A, _P)),
     "send_units": (None, (_P, _A, _I, _I, _A, _A, _A)),
+    "sweep_up_both": (None, (_P, _I, _A, _A, _A)),
     "sweep_down_both": (c_int32, (_P, _I, _I, _I, _A, _A, _A, _P)),
     "connected": (None, (_I, _I, _I, _A, _A)),
     "measures": (None, (_I, _A, _A, _A, _A)),

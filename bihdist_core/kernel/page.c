@@ -130,12 +130,12 @@ EXPORT(page_factor) i32 page_factor(void) {
   for (i64 p = 0; p < n; p++) ordered[p] = order[p] == PIN ? 0 : areas[order[p]];
   double *K = take_doubles(totals[0] + tree.pivot_block[fronts] + 8);
   double *N = take_doubles(totals[1] + tree.row_block[fronts] + 8);
-  factor = (Factor){&tree, ordered, K, N};
+  factor = (Factor){&tree, ordered, K, N, DERIVATIVE};
   diagonal = take_doubles(n), sandwich = take_doubles(n), u = take_doubles(n);
   work = take_doubles((longest + 8) * MOST_NEAR + 8), xy = take_doubles(2 * n), count = take_ints(fronts);
   before = end;
   i64 where[2];
-  i32 status = bih_factor(&factor, &matrix, take_doubles(bih_factor_room(&tree, 1)), diagonal, sandwich, where);
+  i32 status = bih_factor(&factor, &matrix, take_doubles(bih_factor_room(&tree, DERIVATIVE, 1)), diagonal, sandwich, where);
   end = before;
   if (status) return status;
   bih_solve(&factor, 1, 1, areas, 1, u, 1, xy, work);

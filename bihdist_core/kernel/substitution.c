@@ -6,7 +6,10 @@
  * up: y[boundary] += N^T y[pivots] + N1^T x[pivots];  down: y[pivots] = K y[pivots] + K1 x[pivots] + N y[boundary] +
  * N1 x[boundary].  Then a vector is (n, 2 w), x and y beside each other, and one product with N serves both.  Of a leaf,
  * whose y is 0 before, up: y[boundary] += N^T (A K x[pivots]), and, with x as it is after it, down: y[pivots] =
- * K (A x[pivots]) + N y[boundary]. */
+ * K (A x[pivots]) + N y[boundary].
+ *
+ * Of complex numbers x + i y the sweeps are the same, for leaves too, but that what y is multiplied by on the way to y
+ * with e^2 = -1 is taken from x: up: x[boundary] -= N1^T y[pivots], down: x[pivots] -= K1 y[pivots] + N1 y[boundary]. */
 #include "kernel.h"
 
 enum { AHEAD = 256, SOON = 16, LINE = 8 }; /* so many doubles, or rows, are fetched before they are used; a line of the
@@ -148,21 +151,19 @@ API void bih_solve(const Factor *factor, i64 k, i64 w, const double *b, i64 ldb,
 
 /* What several columns send from one front to the places above it; work: (m + c, 2 w). */
 static void send_several(const Factor *factor, Front f, i64 q, i64 w, const double *pivots, double *xy, double *work) {
-  const double *N = block_N(factor, q);
+  const double *N = block_N(factor, q), *N1 = N + f.mp;
   i64 ln = kept(factor, q) * f.mp;
   zero(work, 16 * f.mp * w);
-  if (is_leaf(factor->tree, q)) {
+  add_product(f.m, (is_short(factor, q) ? 1 : 2) * w, f.c, 1, N, 1, ln, pivots, 2 * w, work, 2 * w);
+  if (is_short(factor, q)) {
     double *loads = work + f.mp * 2 * w; /* A K x */
     zero(loads, 8 * f.c * w);
     add_product(f.c, w, f.c, 1, block_K(factor, q), f.cp, 1, pivots, 2 * w, loads, w);
     for (i64 i = 0; i < f.c; i++)
       for (i64 l = 0; l < w; l++) loads[i * w + l] *= factor->areas[f.first + i];
-    add_product(f.m, w, f.c, 1, N, 1, ln, pivots, 2 * w, work, 2 * w);
     add_product(f.m, w, f.c, 1, N, 1, ln, loads, w, work + w, 2 * w);
-  } else {
-    add_product(f.m, 2 * w, f.c, 1, N, 1, ln, pivots, 2 * w, work, 2 * w);
-    add_product(f.m, w, f.c, 1, N + f.mp, 1, ln, pivots, 2 * w, work + w, 2 * w);
-  }
+  } else add_product(f.m, w, f.c, 1, N1, 1, ln, pivots, 2 * w, work + w, 2 * w);
+  if (factor->second == IMAGINARY) add_product(f.m, w, f.c, -1, N1, 1, ln, pivots + w, 2 * w, work, 2 * w);
   for (i64 j = 0; j < f.m; j++)
     for (i64 l = 0; l < 2 * w; l += LANES) *(vec *)(xy + f.rows[j] * 2 * w + l) += *(const vec *)(work + j * 2 * w + l);
 }
@@ -170,21 +171,21 @@ static void send_several(const Factor *factor, Front f, i64 q, i64 w, const doub
 /* The same of one column, the only one here. */
 static void send_one(const Factor *factor, Front f, i64 q, i64 w, i64 column, double *xy, double *work) {
   const double *N = block_N(factor, q), *K = block_K(factor, q), *pivots = xy + f.first * 2 * w + column;
-  i64 leaf = is_leaf(factor->tree, q);
+  int is_complex = factor->second == IMAGINARY;
   double *a = work, *b = a + f.mp;
   zero(work, 16 * f.mp);
   for (i64 i = 0; i < f.c; i++, N += kept(factor, q) * f.mp) {
-    double x = pivots[i * 2 * w], y = pivots[i * 2 * w + w];
-    if (leaf) {
+    double x = pivots[i * 2 * w], y = pivots[i * 2 * w + w], minus = is_complex ? y : 0;
+    if (is_short(factor, q)) {
       for (i64 k = 0; k < f.c; k++) y += K[i * f.cp + k] * pivots[k * 2 * w];
       y *= factor->areas[f.first + i];
     }
     fetch_ahead(N, 2 * f.mp);
     if (x == 0 && y == 0) continue;
-    if (leaf)
+    if (is_short(factor, q))
       for (i64 j = 0; j < f.mp; j++) a[j] += N[j] * x, b[j] += N[j] * y;
     else
-      for (i64 j = 0; j < f.mp; j++) a[j] += N[j] * x, b[j] += N[j] * y + N[f.mp + j] * x;
+      for (i64 j = 0; j < f.mp; j++) a[j] += N[j] * x - N[f.mp + j] * minus, b[j] += N[j] * y + N[f.mp + j] * x;
   }
   for (i64 j = 0; j < f.m; j++) {
     double *to = xy + f.rows[j] * 2 * w + column;
@@ -203,24 +204,15 @@ static i64 front_at(const Tree *t, i64 place) {
   return low;
 }
 
-/* Send unit vectors, at places (k,), up their paths to the root; xy (n, 2 w), w >= k, is set there alone.
- * count (fronts,): on how many paths a front is. */
-API void bih_send_units(const Factor *factor, const i32 *places, i64 k, i64 w, double *xy, i32 *count, double *work) {
+/* Send xy (n, 2 w) up to the root, but for fronts with a count (fronts,) of 0, which are not set; of a count of 1 one
+ * column alone is not 0. */
+API void bih_sweep_up_both(const Factor *factor, i64 w, double *xy, const i32 *count, double *work) {
   const Tree *t = factor->tree;
-  i64 lowest = t->fronts;
-  for (i64 q = 0; q < t->fronts; q++) count[q] = 0;
-  for (i64 l = 0; l < k; l++) {
-    i64 front = front_at(t, places[l]);
-    lowest = least(lowest, front);
-    for (i64 q = front; q >= 0; q = t->parent[q])
-      if (!count[q]++) zero(xy + t->first[q] * 2 * w, 16 * w * (t->first[q + 1] - t->first[q]));
-  }
-  for (i64 l = 0; l < k; l++) xy[places[l] * 2 * w + l] = 1;
-  for (i64 q = lowest; q < t->fronts; q++) {
+  for (i64 q = 0; q < t->fronts; q++) {
     if (!count[q]) continue;
     Front f = front_of(t, q);
     const double *pivots = xy + f.first * 2 * w;
-    if (count[q] > 1) {
+    if (count[q] > 1 && w > 1) {
       send_several(factor, f, q, w, pivots, xy, work);
       continue;
     }
@@ -231,29 +223,43 @@ API void bih_send_units(const Factor *factor, const i32 *places, i64 k, i64 w, d
   }
 }
 
-/* Add the products of one row of N and of N1, or of K and of K1: x += N bx, y += N by, y1 += N1 bx. */
+/* Send unit vectors, at places (k,), up their paths to the root; xy (n, 2 w), w >= k, is set there alone.
+ * count (fronts,): on how many paths a front is. */
+API void bih_send_units(const Factor *factor, const i32 *places, i64 k, i64 w, double *xy, i32 *count, double *work) {
+  const Tree *t = factor->tree;
+  for (i64 q = 0; q < t->fronts; q++) count[q] = 0;
+  for (i64 l = 0; l < k; l++)
+    for (i64 q = front_at(t, places[l]); q >= 0; q = t->parent[q])
+      if (!count[q]++) zero(xy + t->first[q] * 2 * w, 16 * w * (t->first[q + 1] - t->first[q]));
+  for (i64 l = 0; l < k; l++) xy[places[l] * 2 * w + l] = 1;
+  bih_sweep_up_both(factor, w, xy, count, work);
+}
+
+/* Add the products of one row of N and of N1, or of K and of K1: x += N bx, x1 += N1 by, y += N by, y1 += N1 bx. */
 typedef struct {
-  vec x, y, y1;
+  vec x, x1, y, y1;
 } Both;
 static inline void add_row(Both *to, i64 length, const double *N, const double *N1, const double *bx, const double *by) {
   for (i64 j = 0; j < length; j += LANES) {
-    vec n = *(const vec *)(N + j), b = *(const vec *)(bx + j);
-    to->x += n * b, to->y += n * *(const vec *)(by + j), to->y1 += *(const vec *)(N1 + j) * b;
+    vec n = *(const vec *)(N + j), n1 = *(const vec *)(N1 + j), b = *(const vec *)(bx + j), c = *(const vec *)(by + j);
+    to->x += n * b, to->x1 += n1 * c, to->y += n * c, to->y1 += n1 * b;
   }
 }
 
 /* The pivots of one front, of a single column. */
 static void down_one(const Factor *factor, Front f, i64 q, int sent, double *xy, double *work) {
   i64 c = f.c, cp = f.cp, mp = f.mp;
+  int is_complex = factor->second == IMAGINARY;
   const double *K = block_K(factor, q), *K1 = K + c * cp, *N = block_N(factor, q);
   double *pivots = xy + 2 * f.first, *bx = work, *by = bx + mp, *px = by + mp, *py = px + cp;
   for (i64 j = 0; j < mp; j++) bx[j] = j < f.m ? xy[2 * f.rows[j]] : 0, by[j] = j < f.m ? xy[2 * f.rows[j] + 1] : 0;
   for (i64 j = 0; j < cp && sent; j++) px[j] = j < c ? pivots[2 * j] : 0, py[j] = j < c ? pivots[2 * j + 1] : 0;
   for (i64 i = 0; i < c; i++, N += 2 * mp) {
-    Both p = {{0}, {0}, {0}};
+    Both p = {{0}, {0}, {0}, {0}};
     fetch_ahead(N, 2 * mp);
     if (sent) add_row(&p, cp, K + i * cp, K1 + i * cp, px, py);
     add_row(&p, mp, N, N + mp, bx, by);
+    if (is_complex) p.x -= p.x1;
     pivots[2 * i] = sum(p.x), pivots[2 * i + 1] = sum(p.y + p.y1);
   }
 }
@@ -286,11 +292,12 @@ static void down_one_leaf(const Factor *factor, Front f, i64 q, int sent, double
 API i32 bih_sweep_down_both(const Factor *factor, i64 first, i64 last, i64 w, double *xy, const i32 *count, double *work,
                             Watch *watch) {
   const Tree *t = factor->tree;
+  int is_complex = factor->second == IMAGINARY;
   for (i64 q = last; q >= first; q--) {
     if (stopped(watch)) return STOPPED;
     Front f = front_of(t, q);
     if (w == 1) {
-      (is_leaf(t, q) ? down_one_leaf : down_one)(factor, f, q, count[q] > 0, xy, work);
+      (is_short(factor, q) ? down_one_leaf : down_one)(factor, f, q, count[q] > 0, xy, work);
       continue;
     }
     i64 c = f.c, cp = f.cp, ln = kept(factor, q) * f.mp;
@@ -299,16 +306,18 @@ API i32 bih_sweep_down_both(const Factor *factor, i64 first, i64 last, i64 w, do
     gather(f.rows, f.m, 2 * w, xy, b);
     zero(p, 16 * c * w);
     add_product(c, 2 * w, f.m, 1, N, ln, 1, b, 2 * w, p, 2 * w);
-    if (is_leaf(t, q)) {
+    if (is_short(factor, q)) {
       if (count[q]) add_product(c, w, c, 1, K, cp, 1, pivots, 2 * w, p, 2 * w);
       for (i64 i = 0; i < c; i++)
         for (i64 l = 0; l < w; l++) pivots[i * 2 * w + l] = factor->areas[f.first + i] * p[i * 2 * w + l];
       add_product(c, w, c, 1, K, cp, 1, pivots, 2 * w, p + w, 2 * w);
     } else {
       add_product(c, w, f.m, 1, N1, ln, 1, b, 2 * w, p + w, 2 * w);
+      if (is_complex) add_product(c, w, f.m, -1, N1, ln, 1, b + w, 2 * w, p, 2 * w);
       if (count[q]) {
         add_product(c, 2 * w, c, 1, K, cp, 1, pivots, 2 * w, p, 2 * w);
         add_product(c, w, c, 1, K1, cp, 1, pivots, 2 * w, p + w, 2 * w);
+        if (is_complex) add_product(c, w, c, -1, K1, cp, 1, pivots + w, 2 * w, p, 2 * w);
       }
     }
     copy(pivots, p, 16 * c * w);

@@ -1,7 +1,8 @@
 """A factor by the compiled kernel: its blocks, and solves with them; `kernel/kernel.h` has the algebra."""
 
 import ctypes
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import cached_property
 from typing import Any
 
@@ -52,34 +53,49 @@ class Blocks:
 
 
 class CompiledFactor:
-    """The factor of a matrix as `canonical` makes it; `areas` (n,) are needed for derivatives.
+    """The factor of a matrix as `canonical` makes it.
 
-    Raises SolverError if the matrix is not positive definite, ParameterError if it has an entry outside the pattern.
+    `areas` (n,) is a diagonal A, along which there are derivatives; if `is_complex` the matrix is matrix + i A instead.
+    `inverted` says whether `diagonals` will be asked for, as always with areas.
+
+    Raises SolverError if the matrix is not positive definite or, with imaginary parts, singular; ParameterError if it
+    has an entry outside the pattern.
     """
 
-    def __init__(self, tree: CompiledTree, matrix: sp.csr_matrix, areas: FloatArray | None, job: Job) -> None:
+    def __init__(
+        self,
+        tree: CompiledTree,
+        matrix: sp.csr_matrix,
+        areas: FloatArray | None,
+        job: Job,
+        inverted: bool = False,
+        is_complex: bool = False,
+    ) -> None:
         self.tree = tree
         self._areas = None if areas is None else areas.take(tree.order)
+        second = kernel.SINGLE if areas is None else kernel.IMAGINARY if is_complex else kernel.DERIVATIVE
+        self._second = second
+        self._inverted = inverted = inverted or areas is not None
         # Derivatives stand beside all blocks before those of leaves.
         sizes = [
-            size + (0 if areas is None else int(block[-1])) + PADDING
+            size + (0, int(block[-1]), size)[second] + PADDING
             for size, block in zip(tree.factor_size, (tree.pivot_block, tree.row_block), strict=True)
         ]
         self._diagonals: tuple[FloatArray, FloatArray] | None = None
         self._arena: Arena | None = None
         if len(tree.tasks) == 1 and job.is_silent:
-            room = library().bih_factor_room(ctypes.byref(tree.struct), areas is not None)
+            room = library().bih_factor_room(ctypes.byref(tree.struct), second, inverted)
             self._take_memory(sizes, room)
             self._factor_alone(matrix, room)
             return
         self._rooms = {task: (self._elimination_room(task), self._inversion_room(task)) for task in tree.tasks}
         most = max(max(rooms) for rooms in self._rooms.values())
-        handed = tree.blocks_room if areas is not None else tree.blocks_room // 2
+        handed = tree.blocks_room if second or inverted else tree.blocks_room // 2
         room = handed + min(WORKERS, len(self._rooms)) * most
         self._take_memory(sizes, room)
         self._arena = Arena(room)
         self._eliminate(matrix, job)
-        if areas is None:
+        if not inverted:
             self._arena = None
 
     @property
@@ -90,7 +106,7 @@ class CompiledFactor:
     @cached_property
     def _struct(self) -> kernel.Factor:
         blocks = at(self._areas), at(self._pivots), at(self._boundaries)
-        return kernel.Factor(ctypes.pointer(self.tree.struct), *blocks)
+        return kernel.Factor(ctypes.pointer(self.tree.struct), *blocks, self._second)
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in self.__dict__.items() if name != "_struct"}
@@ -104,19 +120,18 @@ class CompiledFactor:
         """Factor by one call, diagonals included."""
         lib, where = library(), np.empty(2, np.int64)
         rows = rows_of(matrix.indptr, matrix.indices, matrix.data)
-        is_dual = self._areas is not None
-        if is_dual:
+        if self._inverted:
             self._diagonals = np.empty(self.tree.n), np.empty(self.tree.n)
         both, work = self._diagonals or (None, None), np.empty(room)
         _check(lib.bih_factor(ctypes.byref(self._struct), ctypes.byref(rows), work, *both, where), where)
 
     def _elimination_room(self, task: tuple[int, int]) -> int:
         room = np.empty(3, np.int64)
-        library().bih_elimination_room(ctypes.byref(self.tree.struct), self._areas is not None, *task, room)
+        library().bih_elimination_room(ctypes.byref(self.tree.struct), self._second, *task, room)
         return int(room[2])
 
     def _inversion_room(self, task: tuple[int, int]) -> int:
-        if self._areas is None:
+        if not self._inverted:
             return 0
         room = np.empty(2, np.int64)
         library().bih_inversion_room(ctypes.byref(self.tree.struct), *task, room)
@@ -131,7 +146,7 @@ class CompiledFactor:
         def eliminate(task: tuple[int, int]) -> None:
             where, q = np.zeros(2, np.int64), task[1]
             m = int(tree.bound[q + 1] - tree.bound[q])
-            schur.take(q, (1 if self._areas is None else 2) * m * padded(m), 1)
+            schur.take(q, (2 if self._second else 1) * m * padded(m), 1)
             with arena.of(self._rooms[task][0]) as work:
                 status = lib.bih_eliminate(
                     factor, ctypes.byref(rows), *task, schur.address, work, where, ctypes.byref(job.watch)
@@ -144,7 +159,7 @@ class CompiledFactor:
         job.run(eliminate, tree.tasks, tree.after)
 
     def diagonals(self, job: Job) -> tuple[FloatArray, FloatArray]:
-        """Return (n,) diag(G) and (n,) diag(G A G); to be called once, after the elimination."""
+        """Return (n,) diag(G) and (n,) diag(G A G), or its imaginary part; to be called once, after the elimination."""
         if self._diagonals is not None:
             found, self._diagonals = self._diagonals, None
             return found
@@ -215,16 +230,57 @@ class CompiledFactor:
     ) -> None:
         """Compute the columns `index` (k,) of G A G in pieces: receive(vertices (r,), values (r, k)), which it may
         change."""
-        width = _width(len(index))
-        with workspaces.of(self.tree.n * 2 * width) as xy:
-            self._sweep_columns(index, run, receive, xy.reshape(self.tree.n, 2 * width))
+        width, tree = _width(len(index)), self.tree
+        count = np.empty(len(tree.parent), np.int32)
+        with workspaces.of(tree.n * 2 * width) as xy:
+            xy = xy.reshape(tree.n, 2 * width)
+            self._send_units(index, xy, count)
 
-    def _sweep_columns(
-        self, index: IntArray, run: Run, receive: Callable[[AnyArray, FloatArray], None], xy: FloatArray
+            def receive_second(rows: AnyArray, both: FloatArray) -> None:
+                # One column is taken from between those of G, among which arithmetic is slow.
+                values = both[:, width : width + len(index)]
+                receive(rows, values.copy() if width == 1 else values)
+
+            self._sweep_down(run, receive_second, xy, count)
+
+    def complex_columns(self, index: IntArray, run: Run, out: AnyArray, workspaces: Workspaces) -> None:
+        """out (n, k) complex: the columns `index` (k,) of the inverse of matrix + i A."""
+        count = np.empty(len(self.tree.parent), np.int32)
+        with self._complex(out, run, count, workspaces) as xy:
+            self._send_units(index, xy, count)
+
+    def complex_solve(self, b: AnyArray, run: Run, out: AnyArray, workspaces: Workspaces) -> None:
+        """out (n, k) complex: the inverse of matrix + i A times b (n, k), real or complex."""
+        tree, count = self.tree, np.full(len(self.tree.parent), 2, np.int32)
+        with self._complex(out, run, count, workspaces) as xy:
+            width, columns = xy.shape[1] // 2, b.shape[1]
+            xy[:] = 0
+            ordered = b[tree.order]
+            xy[:, :columns], xy[:, width : width + columns] = ordered.real, ordered.imag
+            library().bih_sweep_up_both(ctypes.byref(self._struct), width, xy, count, tree.workspace(2 * width))
+
+    @contextmanager
+    def _complex(self, out: AnyArray, run: Run, count: AnyArray, workspaces: Workspaces) -> Iterator[FloatArray]:
+        """Yield room for pairs of real and imaginary parts, to be swept up; then they are swept down, to `out`."""
+        width, columns = _width(out.shape[1]), out.shape[1]
+
+        def put(rows: AnyArray, both: FloatArray) -> None:
+            out.real[rows], out.imag[rows] = both[:, :columns], both[:, width : width + columns]
+
+        with workspaces.of(self.tree.n * 2 * width) as xy:
+            yield xy.reshape(self.tree.n, 2 * width)
+            self._sweep_down(run, put, xy.reshape(self.tree.n, 2 * width), count)
+
+    def _send_units(self, index: IntArray, xy: FloatArray, count: AnyArray) -> None:
+        tree, width = self.tree, xy.shape[1] // 2
+        given = tree.place[index], len(index), width, xy, count, tree.workspace(2 * width)
+        library().bih_send_units(ctypes.byref(self._struct), *given)
+
+    def _sweep_down(
+        self, run: Run, receive: Callable[[AnyArray, FloatArray], None], xy: FloatArray, count: AnyArray
     ) -> None:
         lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
-        places, width, count = tree.place[index], xy.shape[1] // 2, np.empty(len(tree.parent), np.int32)
-        lib.bih_send_units(factor, places, len(index), width, xy, count, tree.workspace(2 * width))
+        width = xy.shape[1] // 2
 
         def down(task: tuple[int, int]) -> None:
             lib.bih_sweep_down_both(factor, *task, width, xy, count, tree.workspace(2 * width), NEVER)
@@ -232,15 +288,13 @@ class CompiledFactor:
         def finish(task: tuple[int, int]) -> None:
             down(task)
             places = slice(tree.first[task[0]], tree.first[task[1] + 1])
-            values = xy[places, width : width + len(index)]
-            # One column is taken from between those of G, among which arithmetic is slow.
-            receive(tree.order[places], values.copy() if width == 1 else values)
+            receive(tree.order[places], xy[places])
 
         for q in reversed(tree.tops):
             down((q, q))
         if len(tree.top_places):
             # A copy: those below need it as it is.
-            receive(tree.order[tree.top_places], xy[tree.top_places, width : width + len(index)])
+            receive(tree.order[tree.top_places], xy[tree.top_places])
         run(finish, tree.branches)
 
 

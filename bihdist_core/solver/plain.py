@@ -228,6 +228,8 @@ def _inverse(F: FloatArray, scale: FloatArray) -> tuple[FloatArray, float]:
     """F^-1 by Cholesky, and the least pivot as a fraction of scale (c,), the matrix' own diagonal there."""
     if not len(F):
         return F, 1.0
+    if np.iscomplexobj(F):
+        return np.asarray(np.linalg.inv(F)), 1.0
     try:
         lower = np.linalg.cholesky(F)
         left = float((lower.diagonal() ** 2 / scale).min()) if (scale > 0).all() else 0.0
@@ -289,6 +291,7 @@ class PlainFactor:
         self.tree = tree
         check_memory(tree.factor_bytes(areas is not None), f"The factor for {tree.n:,} vertices", MEMORY_ADVICE)
         self._blocks: list[Blocks] = []
+        self._dtype = matrix.dtype
         job.run(lambda rows: self._eliminate(rows, areas, job), [matrix[tree.vertices][:, tree.vertices]])
 
     @property
@@ -327,7 +330,7 @@ class PlainFactor:
             i, j = (self.tree.vertices[places[outside[0]]] for places in (row, column))
             raise ParameterError(f"The entry ({i}, {j}) is outside the pattern of the tree.")
         i, j = (np.searchsorted(front.rows, places) for places in (row, column))
-        block = np.zeros((len(front.rows), len(front.rows)))
+        block = np.zeros((len(front.rows), len(front.rows)), matrix.dtype)
         block[i, j] = block[j, i] = value
         return block
 
@@ -339,11 +342,14 @@ class PlainFactor:
 
     def _invert(self, job: Job) -> tuple[FloatArray, FloatArray]:
         """Top down: the boundary's block of the inverse is part of the parent's."""
-        diagonal, sandwich = np.empty((2, self.tree.n))
+        diagonal, sandwich = np.empty((2, self.tree.n), self._dtype)
         fronts = self.tree.fronts
         known = {len(fronts) - 1: (np.empty((0, 0)), np.empty((0, 0)))}
         for q, front in reversed(list(enumerate(fronts))):
-            Z, H = _invert(self._blocks[q], *known.pop(q))
+            blocks = self._blocks[q]
+            if not blocks.K1.size:
+                blocks = blocks._replace(K1=0 * blocks.K, N1=0 * blocks.N)
+            Z, H = _invert(blocks, *known.pop(q))
             vertices = self.tree.vertices[front.pivots]
             diagonal[vertices], sandwich[vertices] = Z.diagonal()[: front.c], H.diagonal()[: front.c]
             for child, up in front.children:
@@ -355,7 +361,7 @@ class PlainFactor:
     @np.errstate(all="ignore")
     def solve(self, b: FloatArray, out: FloatArray, _run: object, _workspaces: object) -> None:
         """out (n, k) = matrix^-1 b, b (n, k): up from the leaves to the root, and down."""
-        x = b[self.tree.vertices]
+        x = b[self.tree.vertices].astype(out.dtype)
         fronts = list(zip(self.tree.fronts, self._blocks, strict=True))
         for front, (_, N, _, _) in fronts:
             x[front.boundary] += N.T @ x[front.pivots]

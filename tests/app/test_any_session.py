@@ -38,7 +38,7 @@ SPECS = st.sampled_from(
         Spec.of("diffusion", t=0.25),
         Spec.of("diffusion"),
         Spec.of("truncated", k=8),
-        Spec.of("power", alpha=3.0, k=5),
+        Spec.of("power", alpha=3.0),
         Spec.of("geodesic", method="dijkstra"),
         Spec.of("geodesic", method="heat"),
         Spec.of("geodesic", method="exact"),

@@ -49,7 +49,7 @@ def test_field_writes_one_column_per_source(mesh, tmp_path, capsys):
         (["diffusion(t=1/4)"], lambda s: DiffusionDistance(s, t=0.25)),
         (["truncated", "--k", "20"], lambda s: TruncatedBiharmonicDistance(s, k=20)),
         (["commute"], CommuteTimeDistance),
-        (["power", "--k", "20", "--alpha", "3"], lambda s: PowerDistance(s, alpha=3, k=20)),
+        (["power", "--alpha", "3"], lambda s: PowerDistance(s, alpha=3)),
         (["commute-time"], CommuteTimeDistance),
         (["diffusion", "--t", "0.25"], lambda s: DiffusionDistance(s, t=0.25)),
         (["geodesic"], lambda s: GeodesicDistance(s, "exact")),

@@ -1,10 +1,10 @@
-"""Rows 5 and 6: eigenpairs and what diffusion needs of them, and geodesic distance by the heat method."""
+"""Rows 5 and 6: eigenpairs, diffusion at four times, and geodesic distance by the heat method."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
-from bihdist_core import DiffusionDistance, GeodesicDistance, Laplacian, Surface
+from bihdist_core import BiharmonicDistance, DiffusionDistance, GeodesicDistance, Surface
 from bihdist_core.distances.diffusion import TOLERANCE
 from bihdist_core.distances.heat_geodesic import heat_matrix, heat_time
 from bihdist_core.solver.spectrum import Spectrum, smallest_eigenpairs
@@ -17,8 +17,6 @@ from .timing import alternate
 
 HEAT = 1e-6
 RESIDUAL, EIGENVALUE = 1e-4, 1e-6
-WEIGHT = 1e-8
-"""Leaving out smaller ones is the obvious rule, and off by up to 1e-4 of the maximum."""
 
 
 def eigenpairs(size: Size) -> Iterator[Line]:
@@ -43,29 +41,27 @@ def eigenpairs(size: Size) -> Iterator[Line]:
             note=f"residuals up to {result.answer.residuals.max():.0e}; peer: scipy eigsh, the same factor",
         )
     surface = case.distance.surface
-    for t in (4.0, 1.0, 1 / 4):
-        result = alternate(lambda t=t: DiffusionDistance(surface, t), lambda t=t: by_weights(surface, t), 1)
+    for t in (1.0, 1 / 4, 1 / 15, 1 / 60):
+        result = alternate(lambda t=t: DiffusionDistance(surface, t), lambda: BiharmonicDistance(surface), 1)
         yield compared(
             5,
-            f"diffusion, t = {t:.3g}, right to {TOLERANCE:.0e}, {case.count}",
+            f"diffusion, t = {t:.3g}, ready for a source, {case.count}",
             result,
-            bound=2.0,
+            bound=6.5,
             error=result.answer.accuracy,
             tolerance=2 * TOLERANCE,  # TOLERANCE for what is left out, and what residuals of eigenpairs may add
-            note=f"{result.answer.pair_count(0)} eigenpairs; peer: the {result.peer_answer} of a weight above "
-            f"{WEIGHT:.0e} of the first",
+            note="peer: the biharmonic distance",
         )
-
-
-def by_weights(surface: Surface, t: float) -> int:
-    """Find the eigenpairs of a weight that is no less than a share of the first; how many there are."""
-    component = Laplacian(surface).components[0]
-    component.factor(diagonals=True)
-    found = component.spectrum(16)
-    last = found.eigenvalues[0] * (1 - np.log(WEIGHT) / t)
-    while (value := found.eigenvalues[-1]) < last:
-        found = component.spectrum(int(1.1 * len(found.eigenvalues) * last / value + 4))
-    return int(np.searchsorted(found.eigenvalues, last))
+    diffusion, biharmonic, times = result.answer, case.distance, iter(np.linspace(1 / 60, 1 / 58, 99))
+    sources = iter(range(99))
+    result = alternate(lambda: diffusion.from_source(next(sources)), lambda: biharmonic.from_source(next(sources)), 3)
+    yield compared(5, f"diffusion, from another source, {case.count}", result, bound=10.0, note="peer: biharmonic")
+    result = alternate(
+        lambda: DiffusionDistance(diffusion.laplacian, float(next(times))).from_source(7),
+        lambda: biharmonic.from_source(7),
+        3,
+    )
+    yield compared(5, f"diffusion, another t, {case.count}", result, bound=4.0, note="peer: biharmonic, a source")
 
 
 def heat_geodesic(size: Size) -> Iterator[Line]:

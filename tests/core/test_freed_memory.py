@@ -20,7 +20,7 @@ from tests.core.every_distance import every_distance
 from tests.garbage import garbage_of
 from tests.shapes import bumpy, two_pieces
 
-SPECS = ("biharmonic", "truncated(k=20)", "power(k=20)", "commute-time", "diffusion", "geodesic(method=exact)",
+SPECS = ("biharmonic", "truncated(k=20)", "power", "commute-time", "diffusion", "geodesic(method=exact)",
          "geodesic(method=heat)", "geodesic(method=dijkstra)")  # fmt: skip
 
 

@@ -31,7 +31,7 @@ TAKES_A_SURFACE = {
     "Pins.of": lambda m: core.Pins.of(m, [3, 40]),
     "Places.of": lambda m: core.Places.of(m, [3, "f7:0.2,0.3"]),
     "Places.split": lambda m: core.Places.of(BUMPY, ["f7:0.2,0.3"]).split(m).surface,
-    "PowerDistance": lambda m: core.PowerDistance(m, k=20).from_source(3),
+    "PowerDistance": lambda m: core.PowerDistance(m).from_source(3),
     "TruncatedBiharmonicDistance": lambda m: core.TruncatedBiharmonicDistance(m, k=20).from_source(3),
     "at_tips": lambda m: core.at_tips(m, [3, 40], [3]),
     "band": lambda m: core.band(m, Z, -0.5, 0.5),

@@ -186,7 +186,7 @@ def test_what_is_no_number_is_refused_in_a_sentence(value):
     distance, field = BiharmonicDistance(surface), surface.vertices[:, 2]
     for ask in (
         lambda: DiffusionDistance(surface, t=value),
-        lambda: PowerDistance(surface, alpha=value, k=5),
+        lambda: PowerDistance(surface, alpha=value),
         lambda: GeodesicDistance(surface, radius=value),
         lambda: ShepardInterpolant(distance, [1], [1.0], exponent=value),
         lambda: ShepardInterpolant(distance, [1], [1.0], smoothness=value),

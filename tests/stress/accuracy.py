@@ -139,7 +139,7 @@ def _distances(surface: Surface, rng: np.random.Generator) -> list[Callable[[Lap
     if k > 3:
         makes.append(lambda laplacian: DiffusionDistance(laplacian, t=t))
         makes.append(lambda laplacian: TruncatedBiharmonicDistance(laplacian, k=k))
-        makes.append(lambda laplacian: PowerDistance(laplacian, alpha=1.5, k=k))
+        makes.append(lambda laplacian: PowerDistance(laplacian, alpha=1.5))
     return makes
 
 

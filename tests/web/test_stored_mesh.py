@@ -12,7 +12,8 @@ from app.web.html_file import packed_contents, whole_scene
 from app.web.modules import VIEWER
 from app.web.stored_mesh import StoredMesh, varints
 from app.web.stored_values import StoredField, StoredPoints
-from bihdist_core import BiharmonicDistance, CommuteTimeDistance, DiffusionDistance, ParameterError, Surface
+from bihdist_core import BiharmonicDistance, CommuteTimeDistance, ParameterError, Surface
+from bihdist_core.distances.diffusion import EigenpairDiffusion
 from bihdist_core.distances.exact_geodesic import ExactGeodesic
 from bihdist_core.distances.spectral import TruncatedBiharmonicDistance
 from bihdist_core.laplacian import Laplacian
@@ -179,7 +180,7 @@ def test_the_latest_question_comes_first():
 def test_points_have_the_distances_of_the_library_to_their_error(name):
     mesh = StoredMesh.of(SURFACES[name])
     laplacian = Laplacian(mesh.surface)
-    distances = {"a": TruncatedBiharmonicDistance(laplacian, 20), "b": DiffusionDistance(laplacian, 1.0)}
+    distances = {"a": TruncatedBiharmonicDistance(laplacian, 20), "b": EigenpairDiffusion(laplacian, 1.0)}
     points = {each: StoredPoints.of(distance) for each, distance in distances.items()}
     sources = some_of(mesh.surface)
     for source, fields in zip(sources, said(mesh, sources, ["a", "b"], points)["answers"], strict=True):
