@@ -27,7 +27,7 @@ LISTED = 20
 """Sentences of a badge's list at most, as a higher menu would go into columns; all of them can be copied."""
 
 WIDEST_PLACE = "−0.00000"
-"""A coordinate of the usual width; wider ones are cut at the left."""
+"""A coordinate of the usual width; those of a surface have the room that its ends need."""
 
 
 class StatusBar(QtWidgets.QStatusBar):
@@ -54,6 +54,7 @@ class StatusBar(QtWidgets.QStatusBar):
         self._row.setSizePolicy(QtWidgets.QSizePolicy.Policy.Ignored, QtWidgets.QSizePolicy.Policy.Fixed)
         self.addPermanentWidget(self._row, 1)
         self._vertices, self._faces = "", ""
+        self._ends: list[list[str]] = []  # the least and the greatest coordinates of the surfaces, as text
         self._holds: Callable[[], bool] | None = None
         self._forget_soon = QtCore.QTimer(self, singleShot=True, interval=SAID_MS, timeout=self._forget)
         LOOK.changed.connect(self._fit)
@@ -88,6 +89,12 @@ class StatusBar(QtWidgets.QStatusBar):
                 [mark + text for mark, each in notes for text in each.repairs],
                 [*(mark + text for mark, each in notes for text in each.facts), *more],
             )
+        shown = [] if surface is None else [surface, *beside]
+        self._ends = [
+            coordinates(end, each.mean_edge_length).split("  ")
+            for each in shown
+            for end in (each.vertices.min(axis=0), each.vertices.max(axis=0))
+        ]
         self.accuracy.show_lists()
         self.show_place(None)
         self._fit()
@@ -159,7 +166,9 @@ class StatusBar(QtWidgets.QStatusBar):
         self.counts.fix(number_width(font, self.counts.text) + 4)
         on = " on B" if "   " in self._vertices else ""
         self.vertex.fix(number_width(font, f"vertex 0000000{on}"))
-        self.place.fix(3 * number_width(font, WIDEST_PLACE) + 2 * number_width(font, "  "))
+        axes = zip([WIDEST_PLACE] * 3, *self._ends, strict=True)
+        widths = [max(number_width(font, text) for text in texts) for texts in axes]
+        self.place.fix(sum(widths) + 2 * number_width(font, "  ") + 2)
         self.place.setVisible(width >= 640 * LOOK.scale)
         self.time.setVisible(width >= 1000 * LOOK.scale)
         self.progress.setMaximumWidth(width // 3)

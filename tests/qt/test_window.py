@@ -19,6 +19,7 @@ from app.drawing.painters.qt import number_width
 from app.qt.acts import ALL
 from app.qt.look.look import LOOK
 from app.qt.main_window import DISCARDED
+from bihdist_core import Surface
 from bihdist_core.distances.distance_types import Spec
 from tests.programs import ROOT, run_python
 from tests.qt.painting import pixels_of
@@ -140,6 +141,24 @@ def test_a_click_selects_the_vertex_under_the_pointer(shared_screen):
     assert parts(s.window).typed_source.box.value() == target
     assert parts(s.window).typed_source.box.text() == str(target)
     assert differ(before, s.pictures(), 0.01)
+
+
+def test_far_from_the_origin_a_click_finds_the_vertex_and_its_position_is_whole(shared_screen):
+    near = bumpy(800)
+    far = Surface(0.1 * near.vertices + np.array([452000.123, 5411000.456, 0.0]), near.faces, name="far")
+    s = shared_screen(far)
+    target = highest(s)
+    QTest.mouseMove(s.panels[2].view, s.point_of(s.panels[2], target))
+    s.until(lambda: parts(s.window).gestures.hovered == target)
+    s.settle()
+    place = s.window.status.place
+    x, y, _ = place.text.split("  ")
+    edge = far.mean_edge_length
+    assert [float(text.replace(",", "")) for text in (x, y)] == pytest.approx(far.vertices[target, :2], abs=edge / 20)
+    assert place.fitting == place.text, "nothing is cut off"
+    QTest.mouseClick(s.panels[2].view, LEFT, pos=s.point_of(s.panels[2], target))
+    s.until(lambda: s.source == target)
+    QTest.mouseMove(s.panels[2].view, QtCore.QPoint(3, 3))
 
 
 def test_a_click_beside_the_surface_does_nothing(shared_screen):
