@@ -60,7 +60,6 @@ DRAWN = {"figure": "vtkmodules", "evaluate": "matplotlib"}
 WORDS = "do the same work on many meshes, into a folder"
 EXAMPLES = (
     "bihdist batch meshes --do fields --sources farthest:10 -o results",
-    "bihdist batch hand beast --do pairs,nearest --sources farthest:50 --k 5 -o results",
     "bihdist batch hand beast --do figure -o pictures",
     "bihdist batch 'sub-*/surf/lh.pial+rh.pial' --do pairs --sources random:100 -o results",
 )

@@ -39,7 +39,10 @@ def folder(tmp_path_factory):
         ),
         ("--do fields --k 100", "--k 100 is not a parameter of biharmonic."),
         ("--do nearest,eigen --sources 3,5 --k 10", "--k 10 could count for nearest or for eigen"),
-        ("--do nearest --sources 3,5 --distance power --k 10", "say how many eigenpairs power has in its words"),
+        (
+            "--do nearest --sources 3,5 --distance truncated --k 10",
+            "say how many eigenpairs truncated has in its words",
+        ),
         ("--do fields --layout dist", "--layout needs --do pairs."),
         ("--do figure --normalise area", "--normalise needs --do fields, pairs, nearest, eigen or fps."),
         ("--do fields --labels x.npy", "--labels needs --do pairs."),
