@@ -172,8 +172,8 @@ class ExactGeodesic(GeodesicFront[GeodesicField]):
     Made once and used by any number of threads; a field of a large surface is computed on all cores, to the same last
     digit on any number of them.  It takes some 0.3 kB a vertex, and a run 0.3 to 0.8 kB more.
 
-    Edges and heights shorter than 2e-13 of the longest edge of their face count as 0.  Held to 70 digits:
-    right to rounding, and to 1e-12 of the maximum where there are such faces.
+    Edges and heights shorter than 2e-13 of the longest edge of their face count as 0.  Against a
+    reference in 70 digits it is right to rounding, and to 1e-12 of the maximum where there are such faces.
 
     Questions raise SolverError where more windows than 2,000 a vertex and 200,000 would be needed.
     """
