@@ -27,6 +27,7 @@ from .machine_memory import check_memory
 from .memo import locked_cached_property
 from .mesh_arrays import check_size
 from .mesh_like import MeshLike, Rows
+from .nodes import Matrices, Nodes, nodes_of
 from .operators import AREAS, operators
 from .progress import Progress, part, turn
 from .scalars import whole_number
@@ -62,11 +63,14 @@ class SurfaceOperators:
         return SurfaceOperators, (self.surface, self.areas_kind)
 
     @locked_cached_property
-    def _assembled(self) -> tuple[sp.csr_matrix, FloatArray]:
-        stiffness, areas = operators(self.surface, self.areas_kind)
+    def _assembled(self) -> Matrices:
+        stiffness, areas = self._assemble()
         for array in (stiffness.data, stiffness.indices, stiffness.indptr, areas):
             array.flags.writeable = False
         return stiffness, areas
+
+    def _assemble(self) -> Matrices:
+        return operators(self.surface, self.areas_kind)
 
     @property
     def stiffness(self) -> sp.csr_matrix:
@@ -83,6 +87,20 @@ class SurfaceOperators:
         """The number of eigenpairs of each component (c,) besides the constant, one less than vertices with an area."""
         label = self.surface.component_of_vertex[self.areas > 0]
         return np.bincount(label[label >= 0], minlength=self.surface.n_components) - 1
+
+
+class GivenOperators(SurfaceOperators):
+    """The matrices that a Laplacian was made of."""
+
+    def __init__(self, nodes: Nodes, matrices: Matrices) -> None:
+        super().__init__(nodes, "given")
+        self._given = matrices
+
+    def __reduce__(self) -> tuple[type[GivenOperators], tuple[Surface, Matrices]]:  # type: ignore[override]
+        return GivenOperators, (self.surface, self._given)
+
+    def _assemble(self) -> Matrices:
+        return self._given
 
 
 class Laplacian:
@@ -136,18 +154,65 @@ class Laplacian:
     def __init__(self, surface: MeshLike, areas: str = "voronoi") -> None:
         if areas not in AREAS:
             raise ParameterError(f"There are no {areas!r} vertex areas; choose one of {', '.join(AREAS)}.")
-        self.surface = Surface.of(surface)
-        check_size(self.surface.vertices, self.surface.faces, self.surface.name)
-        self.areas_kind = areas
-        self._operators = SurfaceOperators(self.surface, areas)
-        self.components = tuple(Component(self._operators, k) for k in range(self.surface.n_components))
+        known = Surface.of(surface)
+        check_size(known.vertices, known.faces, known.name)
+        self._set(SurfaceOperators(known, areas))
+
+    def _set(self, operators: SurfaceOperators) -> None:
+        self._operators, self.surface, self.areas_kind = operators, operators.surface, operators.areas_kind
+        self.components = tuple(Component(operators, k) for k in range(self.surface.n_components))
+
+    @classmethod
+    def from_matrices(
+        cls,
+        stiffness: sp.spmatrix,
+        masses: npt.ArrayLike,
+        positions: npt.ArrayLike | None = None,
+        name: str = "matrix",
+    ) -> Laplacian:
+        """Return the Laplacian A^-1 L of any matrices: of a graph, a point cloud, tetrahedra, your own operator.
+
+        Parameters
+        ----------
+        stiffness : (n, n) sparse matrix
+            L: symmetric, positive semi-definite, with rows of sum 0.  Rows that are joined by entries off the diagonal
+            are a component; a row without any has no distance (NaN).
+        masses : (n,) array_like
+            The diagonal of A, positive.
+        positions : (n, 3) array_like, optional
+            Where the rows are, for an order of elimination.  Without them the order is found from the entries.
+        name : str
+            Name for messages.
+
+        Returns
+        -------
+        Laplacian
+            For every distance but the geodesic one; sources are rows, and sets of rows.
+
+        Raises
+        ------
+        ParameterError
+            For matrices that do not fit or are not symmetric, another kernel, masses that are not positive; the message
+            names the entry.
+
+        Examples
+        --------
+        >>> import bihdist, numpy, scipy.sparse
+        >>> ring = scipy.sparse.csgraph.laplacian(numpy.roll(numpy.eye(6), 1, axis=1), symmetrized=True)
+        >>> laplacian = bihdist.Laplacian.from_matrices(ring, numpy.ones(6))
+        >>> bihdist.BiharmonicDistance(laplacian).from_source(0).round(3).tolist()
+        [0.0, 0.764, 1.19, 1.323, 1.19, 0.764]
+        """
+        laplacian = cls.__new__(cls)
+        laplacian._set(GivenOperators(*nodes_of(stiffness, masses, positions, name)))
+        return laplacian
 
     def __repr__(self) -> str:
         return f"Laplacian({self.surface!r}, {self.areas_kind} areas)"
 
     def __reduce__(self) -> tuple[Callable[..., Laplacian], tuple[object, ...]]:
         computed = tuple(component._computed for component in self.components) if self.pickles_factors else None
-        return _unpickled, (self.surface, self.areas_kind, computed)
+        return _unpickled, (self._operators, computed)
 
     @property
     def stiffness(self) -> sp.csr_matrix:
@@ -285,7 +350,8 @@ class Component:
     @locked_cached_property
     def _cut(self) -> tuple[Surface, IntArray]:
         surface, ids = self._whole.surface.component(self.index)
-        check_size(surface.vertices, surface.faces, surface.name)
+        if len(surface.faces):
+            check_size(surface.vertices, surface.faces, surface.name)
         return surface, ids
 
     @property
@@ -470,8 +536,9 @@ class Component:
             return self._spectrum
 
 
-def _unpickled(surface: Surface, areas: str, computed: tuple[Computed, ...] | None) -> Laplacian:
-    laplacian = Laplacian(surface, areas)
+def _unpickled(operators: SurfaceOperators, computed: tuple[Computed, ...] | None) -> Laplacian:
+    laplacian = Laplacian.__new__(Laplacian)
+    laplacian._set(operators)
     if computed is not None:
         laplacian.pickles_factors = True
         for component, its in zip(laplacian.components, computed, strict=True):

@@ -227,16 +227,16 @@ class Surface:
         if not 0 <= vertex < n:
             raise VertexError(f"{self.name} has no vertex {vertex}; ids run from 0 to {n - 1}.")
         if self.component_of_vertex[vertex] < 0:
-            raise VertexError(
-                f"{self.name}: vertex {vertex} belongs to no face, so no distance is defined from it; the nearest that "
-                f"does is {self._nearest_of_a_face(vertex)}."
-            )
+            raise VertexError(f"{self.name}: {self._without_distances(vertex)}")
         return vertex
 
-    def _nearest_of_a_face(self, vertex: int) -> int:
+    def _without_distances(self, vertex: int) -> str:
+        """Return why no distance is defined from a vertex, and what to take instead."""
         used = np.flatnonzero(self.component_of_vertex >= 0)
-        apart = ((self.vertices[used] - self.vertices[vertex]) ** 2).sum(axis=1)
-        return int(used[int(apart.argmin())])
+        nearest = used[int(((self.vertices[used] - self.vertices[vertex]) ** 2).sum(axis=1).argmin())]
+        return (
+            f"vertex {vertex} belongs to no face, so no distance is defined from it; the nearest that does is {nearest}."
+        )
 
     def check_vertices(self, vertices: npt.ArrayLike | Sequence[object]) -> IntArray:
         """Check vertex ids.
@@ -334,10 +334,7 @@ class Surface:
             return label
         used = np.zeros(n, bool)
         used[f] = True
-        count = np.bincount(label[used])
-        rank = np.empty(len(count), np.int64)
-        rank[np.argsort(-count, kind="stable")] = np.arange(len(count))
-        return np.where(used, rank[np.minimum(label, len(count) - 1)], -1)
+        return ranked_components(label, used)
 
     @property
     def n_vertices(self) -> int:
@@ -906,3 +903,12 @@ def connected(edges: IntArray, n: int) -> IntArray:
         i, j = i.take(apart), j.take(apart)
     # Not counted in booleans, which would hold up other Python threads.
     return (np.cumsum((root == np.arange(n)).astype(np.int64)) - 1).take(root)
+
+
+def ranked_components(label: IntArray, used: BoolArray) -> IntArray:
+    """Return (n,) components, the one with most vertices first (0), of labels (n,); -1 for vertices that are not used
+    (n,)."""
+    count = np.bincount(label[used])
+    rank = np.empty(len(count), np.int64)
+    rank[np.argsort(-count, kind="stable")] = np.arange(len(count))
+    return np.where(used, rank[np.minimum(label, len(count) - 1)], -1)

@@ -124,6 +124,13 @@ class Perturbation:
         self._read = [other - matrices[0] for other in matrices[1:]]
         with np.errstate(divide="ignore"):
             self._uncertain = np.where(height < FLAT_RATIO, 0, 1 / height)
+        if not len(height):
+            # Of a matrix, the ends of its largest entry.
+            entries = component.stiffness.tocoo()
+            most = int(np.where(entries.row == entries.col, 0, -entries.data).argmax())
+            self.shortest = np.array([entries.row[most], entries.col[most]])
+            self.flattest = self.shortest[[0, 1, 1]]
+            return
         # What a convention gives is no place to look for errors.
         height = height.copy()
         height[self._flat.faces[self._flat.loose]] = 1

@@ -6,6 +6,7 @@ own vertices, its pivots, and touches some vertices of its ancestors, its bounda
 
 import numpy as np
 import scipy.sparse as sp
+from scipy.sparse.csgraph import breadth_first_order
 
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
@@ -16,6 +17,9 @@ from .compiled_tree import CompiledTree
 from .plain import PlainTree
 from .worker_threads import WORKERS
 
+LANDMARKS = 12
+"""Vertices from which steps are counted, where vertices have no coordinates."""
+
 
 class EliminationTree:
     """Order and layout for all matrices with one sparsity pattern.
@@ -25,7 +29,7 @@ class EliminationTree:
     pattern : (n, n) sparse matrix
         Symmetric; only the places of its entries off the diagonal matter.
     coordinates : (n, 3) ndarray
-        Finite, used for the ordering only.
+        Finite, used for the ordering only; all the same where there are none, for an order that costs about as much.
     progress : callable, optional
         Called as ``progress(fraction, text)``.
 
@@ -37,6 +41,8 @@ class EliminationTree:
 
     def __init__(self, pattern: sp.spmatrix, coordinates: FloatArray, progress: Progress | None = None) -> None:
         x, matrix = _checked_coordinates(pattern, coordinates), canonical(pattern)
+        if len(x) > LANDMARKS and (x == x[0]).all():
+            x = landmark_coordinates(matrix)
         kind, cores = ("ordering", WORKERS) if library() else ("plain ordering", 1)
         with Expected(kind, len(x), cores, progress) as it:
             self.layout: CompiledTree | PlainTree = (
@@ -90,3 +96,37 @@ def _checked_coordinates(pattern: sp.spmatrix, coordinates: FloatArray) -> Float
     if not np.isfinite(coordinates).all():
         raise ParameterError("The coordinates must be finite numbers.")
     return coordinates
+
+
+def landmark_coordinates(matrix: sp.csr_matrix) -> FloatArray:
+    """Return (n, 3) coordinates of vertices: the three principal components of their numbers of steps from some landmarks,
+    each the farthest from those before (pivot multidimensional scaling, Brandes and Pich 2007).
+
+    Elimination in an order by these costs about what it costs by true coordinates.
+    """
+    n = matrix.shape[0]
+    steps = np.zeros((n, LANDMARKS))
+    nearest, landmark = np.full(n, np.inf), int(_steps_from(matrix, 0).argmax())
+    for column in steps.T:
+        column[:] = _steps_from(matrix, landmark)
+        np.minimum(nearest, column, out=nearest)
+        landmark = int(nearest.argmax())
+    steps -= steps.mean(axis=0)
+    vectors = np.linalg.eigh(steps.T @ steps)[1]
+    coordinates: FloatArray = steps @ vectors[:, : -4 : -1]
+    return coordinates
+
+
+def _steps_from(matrix: sp.csr_matrix, vertex: int) -> FloatArray:
+    """Return (n,) the numbers of steps from a vertex, 2 n to those of other components."""
+    order, before = breadth_first_order(matrix, vertex)
+    n = matrix.shape[0]
+    steps, ahead = np.zeros(n), np.where(before < 0, np.arange(n), before)
+    steps[order[1:]] = 1
+    # Twice as far at a time: each knows the steps to a vertex before it, and that one's.
+    while (ahead[order] != vertex).any():
+        steps += steps[ahead]
+        ahead = ahead[ahead]
+    found = np.full(n, 2.0 * n)
+    found[order] = steps[order]
+    return found

@@ -141,6 +141,9 @@ def _pieces(source: Source, surface: Surface) -> Pieces:
     vertices = [each for each in members if not isinstance(each, SurfacePoint | BoundaryLoop | Curve)]
     if vertices:
         ids = surface.check_vertices(vertices)
+        if not len(surface.faces):
+            weights = np.eye(3)[np.zeros(len(ids), int)]
+            return Pieces(ids, np.repeat(ids[:, None], 3, axis=1), weights, weights, np.zeros(len(ids), bool))
         # Any face of each: the last that is written.
         face = np.zeros(len(surface.vertices), np.int64)
         face[surface.faces.ravel()] = np.repeat(np.arange(len(surface.faces)), 3)

@@ -1,0 +1,116 @@
+"""What the rows of a matrix stand for, where that is no triangle mesh: the nodes of a graph, points, tetrahedra's
+corners."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+import scipy.sparse as sp
+
+from .arrays import FloatArray, IntArray, real_numbers
+from .errors import ParameterError
+from .solver.elimination_tree import canonical
+from .surface import Surface, connected, ranked_components
+
+Matrices = tuple[sp.csr_matrix, FloatArray]
+"""The stiffness matrix (n, n) and the masses (n,)."""
+ROUNDING = 1e-9
+"""What the sum of a row may be off by, or two entries that should be the same, as a share of the row's diagonal."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Nodes(Surface):
+    """The nodes of a graph, or points: a surface without faces, whose components are those of a matrix.
+
+    Attributes
+    ----------
+    vertices : (n, 3) ndarray
+        Positions, all 0 where there are none.
+    component_of_vertex : (n,) ndarray
+        The component of each, the largest first; -1 for one that is joined to no other.
+    """
+
+    faces: IntArray = field(default_factory=lambda: np.empty((0, 3), np.int64))
+    component_of_vertex: IntArray = field(default_factory=lambda: np.empty(0, np.int64))
+
+    def __post_init__(self) -> None:
+        for array in (self.vertices, self.faces, self.component_of_vertex):
+            array.flags.writeable = False
+
+    def __repr__(self) -> str:
+        return f"Nodes({self.name}: {len(self.vertices):,} nodes)"
+
+    def component(self, index: int) -> tuple[Nodes, IntArray]:
+        ids = np.flatnonzero(self.component_of_vertex == index)
+        if len(ids) == len(self.vertices):
+            return self, ids
+        return Nodes(self.vertices[ids], name=self.name, component_of_vertex=np.zeros(len(ids), np.int64)), ids
+
+    def _without_distances(self, vertex: int) -> str:
+        return f"node {vertex} is joined to no other, so no distance is defined from it."
+
+
+def nodes_of(
+    stiffness: sp.spmatrix, masses: npt.ArrayLike, positions: npt.ArrayLike | None, name: str
+) -> tuple[Nodes, Matrices]:
+    """Return the nodes of a Laplacian and its matrices, checked.
+
+    Raises ParameterError, which names entries that do not fit, and what they should be.
+    """
+    if not sp.issparse(stiffness) and not (isinstance(stiffness, np.ndarray) and stiffness.ndim == 2):
+        raise ParameterError(f"The stiffness matrix is a sparse (n, n) matrix, not {type(stiffness).__name__}.")
+    n = stiffness.shape[0]
+    if stiffness.shape != (n, n) or n < 2:
+        raise ParameterError(f"{name}: a stiffness matrix is square, with 2 rows or more, not {stiffness.shape}.")
+    real_numbers(stiffness.data if sp.issparse(stiffness) else stiffness, "Entries of the stiffness matrix")
+    matrix = canonical(sp.csr_matrix(stiffness))
+    weights = real_numbers(masses, "Masses")
+    if weights.shape != (n,):
+        raise ParameterError(f"{name}: {n:,} rows have as many masses, not an array of shape {weights.shape}.")
+    if not (weights > 0).all():
+        i = int(np.argmin(weights))
+        raise ParameterError(f"{name}: masses are positive, and that of row {i} is {weights[i]:g}.")
+    matrix, label = _checked_kernel(matrix, name)
+    places = np.zeros((n, 3)) if positions is None else real_numbers(positions, "Positions").copy()
+    if places.shape != (n, 3) or not np.isfinite(places).all():
+        raise ParameterError(f"{name}: positions of {n:,} rows are (n, 3) finite numbers, not {places.shape}.")
+    for array in (matrix.data, matrix.indices, matrix.indptr):
+        array.flags.writeable = False
+    weights = weights.copy()
+    weights.flags.writeable = False
+    return Nodes(places, name=name, component_of_vertex=label), (matrix, weights)
+
+
+def _checked_kernel(matrix: sp.csr_matrix, name: str) -> tuple[sp.csr_matrix, IntArray]:
+    """Return the matrix, as symmetric as rounding leaves it, and the components; ParameterError for another kernel."""
+    n, diagonal = matrix.shape[0], matrix.diagonal()
+    allowed = ROUNDING * np.abs(diagonal)
+    apart = abs(matrix - matrix.T).tocoo()
+    wrong = np.flatnonzero(apart.data > np.maximum(allowed[apart.row], allowed[apart.col]))
+    if len(wrong):
+        i, j = int(apart.row[wrong[0]]), int(apart.col[wrong[0]])
+        raise ParameterError(
+            f"{name}: a stiffness matrix is symmetric, and here the entry ({i}, {j}) is {matrix[i, j]:g}, "
+            f"but ({j}, {i}) is {matrix[j, i]:g}."
+        )
+    if apart.nnz:
+        matrix = canonical((matrix + matrix.T) / 2)
+    if (diagonal < 0).any():
+        i = int(diagonal.argmin())
+        raise ParameterError(
+            f"{name}: a stiffness matrix is positive semi-definite, and the diagonal entry of row {i} is "
+            f"{diagonal[i]:g}; with the other sign it might be one."
+        )
+    sums = np.abs(np.asarray(matrix.sum(axis=1)).ravel())
+    if (sums > n**0.5 * allowed).any():
+        i = int((sums / np.where(diagonal > 0, diagonal, 1)).argmax())
+        raise ParameterError(
+            f"{name}: the rows of a stiffness matrix have the sum 0, so that constants are its kernel, and that of row "
+            f"{i} is {sums[i]:g}."
+        )
+    rows = np.repeat(np.arange(n), np.diff(matrix.indptr))
+    joined = (rows < matrix.indices) & (matrix.data != 0)
+    label = connected(np.stack([rows[joined], matrix.indices[joined]]).astype(np.int64), n)
+    return matrix, ranked_components(label, diagonal > 0)
