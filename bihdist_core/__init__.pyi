@@ -67,6 +67,7 @@ from .mesh_like import MeshLike
 from .solver.spectrum import Spectrum
 from .sources.source import BoundaryLoop, Curve, SourceSet, SurfacePoint
 from .sources.words import source_from_words
+from .sparse_inverse import SparseFactor, diagonal_of_inverse, inverse_on_pattern
 from .surface import Surface
 
 __all__ = [
@@ -115,6 +116,7 @@ __all__ = [
     "ShepardInterpolant",
     "SolverError",
     "SourceSet",
+    "SparseFactor",
     "Spectrum",
     "Surface",
     "SurfacePath",
@@ -128,6 +130,7 @@ __all__ = [
     "band",
     "correspondence_prediction",
     "cut_out",
+    "diagonal_of_inverse",
     "difference",
     "difference_quality",
     "eigenpairs",
@@ -141,6 +144,7 @@ __all__ = [
     "field_statistics",
     "geodesic_circles",
     "gradient_jumps",
+    "inverse_on_pattern",
     "isolines",
     "isotropy_ratio",
     "map_errors",

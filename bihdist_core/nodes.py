@@ -11,13 +11,11 @@ import scipy.sparse as sp
 
 from .arrays import FloatArray, IntArray, real_numbers
 from .errors import ParameterError
-from .solver.elimination_tree import canonical
+from .sparse_inverse import ROUNDING, checked_symmetric
 from .surface import Surface, connected, ranked_components
 
 Matrices = tuple[sp.csr_matrix, FloatArray]
 """The stiffness matrix (n, n) and the masses (n,)."""
-ROUNDING = 1e-9
-"""What the sum of a row may be off by, or two entries that should be the same, as a share of the row's diagonal."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -59,20 +57,15 @@ def nodes_of(
 
     Raises ParameterError, which names entries that do not fit, and what they should be.
     """
-    if not sp.issparse(stiffness) and not (isinstance(stiffness, np.ndarray) and stiffness.ndim == 2):
-        raise ParameterError(f"The stiffness matrix is a sparse (n, n) matrix, not {type(stiffness).__name__}.")
-    n = stiffness.shape[0]
-    if stiffness.shape != (n, n) or n < 2:
-        raise ParameterError(f"{name}: a stiffness matrix is square, with 2 rows or more, not {stiffness.shape}.")
-    real_numbers(stiffness.data if sp.issparse(stiffness) else stiffness, "Entries of the stiffness matrix")
-    matrix = canonical(sp.csr_matrix(stiffness))
+    matrix = checked_symmetric(stiffness, f"{name}: the stiffness matrix")
+    n = matrix.shape[0]
     weights = real_numbers(masses, "Masses")
     if weights.shape != (n,):
         raise ParameterError(f"{name}: {n:,} rows have as many masses, not an array of shape {weights.shape}.")
     if not (weights > 0).all():
         i = int(np.argmin(weights))
         raise ParameterError(f"{name}: masses are positive, and that of row {i} is {weights[i]:g}.")
-    matrix, label = _checked_kernel(matrix, name)
+    label = _checked_kernel(matrix, name)
     places = np.zeros((n, 3)) if positions is None else real_numbers(positions, "Positions").copy()
     if places.shape != (n, 3) or not np.isfinite(places).all():
         raise ParameterError(f"{name}: positions of {n:,} rows are (n, 3) finite numbers, not {places.shape}.")
@@ -83,20 +76,9 @@ def nodes_of(
     return Nodes(places, name=name, component_of_vertex=label), (matrix, weights)
 
 
-def _checked_kernel(matrix: sp.csr_matrix, name: str) -> tuple[sp.csr_matrix, IntArray]:
-    """Return the matrix, as symmetric as rounding leaves it, and the components; ParameterError for another kernel."""
+def _checked_kernel(matrix: sp.csr_matrix, name: str) -> IntArray:
+    """Return the components; ParameterError for another kernel than constants on each."""
     n, diagonal = matrix.shape[0], matrix.diagonal()
-    allowed = ROUNDING * np.abs(diagonal)
-    apart = abs(matrix - matrix.T).tocoo()
-    wrong = np.flatnonzero(apart.data > np.maximum(allowed[apart.row], allowed[apart.col]))
-    if len(wrong):
-        i, j = int(apart.row[wrong[0]]), int(apart.col[wrong[0]])
-        raise ParameterError(
-            f"{name}: a stiffness matrix is symmetric, and here the entry ({i}, {j}) is {matrix[i, j]:g}, "
-            f"but ({j}, {i}) is {matrix[j, i]:g}."
-        )
-    if apart.nnz:
-        matrix = canonical((matrix + matrix.T) / 2)
     if (diagonal < 0).any():
         i = int(diagonal.argmin())
         raise ParameterError(
@@ -104,7 +86,7 @@ def _checked_kernel(matrix: sp.csr_matrix, name: str) -> tuple[sp.csr_matrix, In
             f"{diagonal[i]:g}; with the other sign it might be one."
         )
     sums = np.abs(np.asarray(matrix.sum(axis=1)).ravel())
-    if (sums > n**0.5 * allowed).any():
+    if (sums > n**0.5 * ROUNDING * diagonal).any():
         i = int((sums / np.where(diagonal > 0, diagonal, 1)).argmax())
         raise ParameterError(
             f"{name}: the rows of a stiffness matrix have the sum 0, so that constants are its kernel, and that of row "
@@ -113,4 +95,4 @@ def _checked_kernel(matrix: sp.csr_matrix, name: str) -> tuple[sp.csr_matrix, In
     rows = np.repeat(np.arange(n), np.diff(matrix.indptr))
     joined = (rows < matrix.indices) & (matrix.data != 0)
     label = connected(np.stack([rows[joined], matrix.indices[joined]]).astype(np.int64), n)
-    return matrix, ranked_components(label, diagonal > 0)
+    return ranked_components(label, diagonal > 0)

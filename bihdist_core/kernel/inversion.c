@@ -72,8 +72,29 @@ static void invert_leaf(const Factor *factor, i64 q, Front f, const double *Z, c
   }
 }
 
+static void put_entries(const Tree *t, Front f, const double *Z, const double *Z1, const Entries *entries) {
+  for (i64 i = 0; i < f.c; i++) {
+    i64 own = f.first + i, v = t->vertices[own];
+    for (i64 k = entries->pattern.start[v]; k < entries->pattern.start[v + 1]; k++) {
+      i64 place = t->place[entries->pattern.index[k]], column = place - f.first;
+      if (place < own) continue;
+      if (column >= f.c) {
+        i64 low = 0, high = f.m;
+        while (high - low > 1) {
+          i64 middle = (low + high) / 2;
+          if (f.rows[middle] <= place) low = middle;
+          else high = middle;
+        }
+        column = f.c + low;
+      }
+      entries->value[k] = Z[i * f.sp + column];
+      if (entries->second) entries->second[k] = Z1[i * f.sp + column];
+    }
+  }
+}
+
 static void invert(const Factor *factor, i64 q, double *const *blocks, double *stack, double *work, double *diagonal,
-                   double *second) {
+                   double *second, const Entries *entries) {
   const Tree *t = factor->tree;
   Front f = front_of(t, q);
   i64 c = f.c, m = f.m, ld = f.sp, cp = f.cp, mp = f.mp, ln = kept(factor, q) * mp, parent = t->parent[q];
@@ -119,17 +140,19 @@ static void invert(const Factor *factor, i64 q, double *const *blocks, double *s
     }
     transpose(c, m, y, mp, z + c * ld, ld);
   }
+  if (entries) put_entries(t, f, Z, Z1, entries);
 }
 
 /* The diagonals (n,) at the pivots of the fronts last to first, one task.  blocks (fronts,): of top fronts, where their
- * blocks of the inverse lie, (2, s, sp); NULL for others, or for all.  work: as much as bih_inversion_room says. */
+ * blocks of the inverse lie, (2, s, sp); NULL for others, or for all.  entries: those that are wanted, or NULL.  work:
+ * as much as bih_inversion_room says. */
 API i32 bih_invert(const Factor *factor, i64 first, i64 last, double *const *blocks, double *work, double *diagonal,
-                   double *second, Watch *watch) {
+                   double *second, const Entries *entries, Watch *watch) {
   i64 room[2];
   bih_inversion_room(factor->tree, first, last, room);
   for (i64 q = last; q >= first; q--) {
     if (stopped(watch)) return STOPPED;
-    invert(factor, q, blocks, work, work + room[0], diagonal, second);
+    invert(factor, q, blocks, work, work + room[0], diagonal, second, entries);
     Front f = front_of(factor->tree, q);
     advance(watch, f.c * f.s * f.s);
   }
@@ -142,7 +165,7 @@ API i32 bih_factor(const Factor *factor, const Rows *matrix, double *work, doubl
   i64 last = factor->tree->fronts - 1;
   i32 status = bih_eliminate(factor, matrix, 0, last, NULL, work, where, &watch);
   if (status || !diagonal) return status;
-  return bih_invert(factor, 0, last, NULL, work, diagonal, second, &watch);
+  return bih_invert(factor, 0, last, NULL, work, diagonal, second, NULL, &watch);
 }
 
 API i64 bih_factor_room(const Tree *t, i64 second, i32 inverted) {

@@ -112,6 +112,13 @@ typedef struct {
   i64 second;
 } Factor;
 
+/* Entries of the inverse on a pattern, and of its second block: those right of or on the diagonal in elimination order;
+ * not of leaves whose second blocks are not kept. */
+typedef struct {
+  Rows pattern;
+  double *value, *second; /* (e,) */
+} Entries;
+
 typedef struct {
   i64 c, m, s; /* pivots, boundary rows, both */
   i64 cp, mp, sp; /* padded */

@@ -51,6 +51,12 @@ class Rows(Structure):
     _fields_ = (("n", c_int64), ("start", c_void_p), ("index", c_void_p), ("value", c_void_p))
 
 
+class Entries(Structure):
+    """Entries of an inverse on a pattern, and of its second block."""
+
+    _fields_ = (("pattern", Rows), ("value", c_void_p), ("second", c_void_p))
+
+
 class Region(Structure):
     """A stretch of a graph's vertices, and of its edges."""
 
@@ -252,7 +258,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "elimination_room": (None, (_P, _I, _I, _I, _A)),
     "eliminate": (c_int32, (_P, _P, _I, _I, _A, _A, _A, _P)),
     "inversion_room": (None, (_P, _I, _I, _A)),
-    "invert": (c_int32, (_P, _I, _I, _A, _A, _A, _A, _P)),
+    "invert": (c_int32, (_P, _I, _I, _A, _A, _A, _A, _P, _P)),
     "factor_room": (c_int64, (_P, _I, c_int32)),
     "factor": (c_int32, (_P, _P, _A, _A, _A, _A)),
     "take_rows": (None, (_P, _I, _I, _I, _I, _P, _I, _A)),

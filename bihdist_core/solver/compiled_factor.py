@@ -88,15 +88,13 @@ class CompiledFactor:
             self._take_memory(sizes, room)
             self._factor_alone(matrix, room)
             return
-        self._rooms = {task: (self._elimination_room(task), self._inversion_room(task)) for task in tree.tasks}
-        most = max(max(rooms) for rooms in self._rooms.values())
+        rooms = [max(self._elimination_room(q), self._inversion_room(q) if inverted else 0) for q in tree.tasks]
         handed = tree.blocks_room if second or inverted else tree.blocks_room // 2
-        room = handed + min(WORKERS, len(self._rooms)) * most
+        room = handed + min(WORKERS, len(rooms)) * max(rooms)
         self._take_memory(sizes, room)
-        self._arena = Arena(room)
-        self._eliminate(matrix, job)
-        if not inverted:
-            self._arena = None
+        arena = Arena(room)
+        self._eliminate(matrix, arena, job)
+        self._arena = arena if inverted else None
 
     @property
     def nbytes(self) -> int:
@@ -131,15 +129,12 @@ class CompiledFactor:
         return int(room[2])
 
     def _inversion_room(self, task: tuple[int, int]) -> int:
-        if not self._inverted:
-            return 0
         room = np.empty(2, np.int64)
         library().bih_inversion_room(ctypes.byref(self.tree.struct), *task, room)
         return int(room[1])
 
-    def _eliminate(self, matrix: sp.csr_matrix, job: Job) -> None:
-        lib, tree, factor, arena = library(), self.tree, ctypes.byref(self._struct), self._arena
-        assert arena is not None
+    def _eliminate(self, matrix: sp.csr_matrix, arena: Arena, job: Job) -> None:
+        lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
         rows = rows_of(matrix.indptr, matrix.indices, matrix.data)
         schur = Blocks(len(tree.parent), arena)
 
@@ -147,7 +142,7 @@ class CompiledFactor:
             where, q = np.zeros(2, np.int64), task[1]
             m = int(tree.bound[q + 1] - tree.bound[q])
             schur.take(q, (2 if self._second else 1) * m * padded(m), 1)
-            with arena.of(self._rooms[task][0]) as work:
+            with arena.of(self._elimination_room(task)) as work:
                 status = lib.bih_eliminate(
                     factor, ctypes.byref(rows), *task, schur.address, work, where, ctypes.byref(job.watch)
                 )
@@ -158,13 +153,26 @@ class CompiledFactor:
 
         job.run(eliminate, tree.tasks, tree.after)
 
-    def diagonals(self, job: Job) -> tuple[FloatArray, FloatArray]:
-        """Return (n,) diag(G) and (n,) diag(G A G), or its imaginary part; to be called once, after the elimination."""
-        if self._diagonals is not None:
+    def diagonals(self, job: Job, pattern: sp.csr_matrix | None = None) -> tuple[FloatArray, FloatArray]:
+        """Return (n,) diag(G) and (n,) diag(G A G), or its imaginary part.
+
+        With a pattern that is part of the tree's, entries (e,) there instead, not of derivatives, and those left of the
+        diagonal in elimination order are 0.
+        """
+        if self._diagonals is not None and pattern is None:
             found, self._diagonals = self._diagonals, None
             return found
-        lib, tree, factor, arena = library(), self.tree, ctypes.byref(self._struct), self._arena
-        assert arena is not None
+        lib, tree, factor = library(), self.tree, ctypes.byref(self._struct)
+        arena, self._arena, wanted = self._arena, None, None
+        if arena is None:
+            rooms = [self._inversion_room(task) for task in tree.tasks]
+            room = tree.blocks_room + min(WORKERS, len(rooms)) * max(rooms)
+            check_memory(8.0 * room, f"The inverse for {tree.n:,} vertices", MEMORY_ADVICE)
+            arena = Arena(room)
+        if pattern is not None:
+            entries = np.zeros((2, pattern.nnz))
+            rows = rows_of(pattern.indptr, pattern.indices)
+            wanted = ctypes.byref(kernel.Entries(rows, at(entries[0]), at(entries[1]) if self._second else None))
         diagonals, inverse = np.empty((2, tree.n)), Blocks(len(tree.parent), arena)
 
         def invert(task: tuple[int, int]) -> None:
@@ -172,15 +180,15 @@ class CompiledFactor:
             if tree.top[q]:
                 s = int(tree.first[q + 1] - tree.first[q] + tree.bound[q + 1] - tree.bound[q])
                 inverse.take(q, 2 * s * padded(s), 2)
-            with arena.of(self._rooms[task][1]) as work:
+            with arena.of(self._inversion_room(task)) as work:
                 watch = ctypes.byref(job.watch)
-                check_stopped(lib.bih_invert(factor, *task, inverse.address, work, *diagonals, watch))
+                check_stopped(lib.bih_invert(factor, *task, inverse.address, work, *diagonals, wanted, watch))
             if tree.parent[q] >= 0:
                 inverse.release(tree.parent[q])
 
         job.run(invert, tree.tasks, tree.before)
-        self._arena = None
-        return diagonals[0], diagonals[1]
+        first, second = diagonals if pattern is None else entries
+        return first, second
 
     def solve(self, b: FloatArray, out: FloatArray, run: Run, workspaces: Workspaces) -> None:
         """out (n, k) = matrix^-1 b, b (n, k): every task up to the top, the top up and down, and every task down.

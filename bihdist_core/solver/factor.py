@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp
 
-from ..arrays import AnyArray, FloatArray
+from ..arrays import AnyArray, FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..expected_time import Expected, expected_seconds
 from ..progress import Progress, silent
@@ -109,6 +109,26 @@ class Factor:
     def sandwich_diagonal(self) -> FloatArray:
         """The diagonal (n,) of matrix^-1 A matrix^-1, read-only; SolverError without areas."""
         return self._with_areas()[1]
+
+    def inverse_diagonal(self, progress: Progress | None = None) -> FloatArray:
+        """Return the diagonal (n,) of matrix^-1; of a factor without areas."""
+        return self._inverse(None, progress)[0]
+
+    def inverse_entries(self, pattern: sp.csr_matrix, progress: Progress | None = None) -> FloatArray:
+        """Return the entries (e,) of matrix^-1 on a symmetric pattern within the tree's, as `canonical` makes it."""
+        values, across = self._inverse(pattern, progress)[0], _transposed(pattern)
+        places, i = self.tree.layout.place, np.repeat(np.arange(self.tree.n), np.diff(pattern.indptr))
+        return np.where(places[pattern.indices] >= places[i], values, values[across])
+
+    def _inverse(self, pattern: sp.csr_matrix | None, progress: Progress | None) -> tuple[FloatArray, FloatArray]:
+        is_compiled = isinstance(self.tree.layout, CompiledTree)
+        kind, cores = ("factor", WORKERS) if is_compiled else ("plain factor", 1)
+        with Expected(kind, self.tree.layout.work, cores, progress) as it:
+            job = Job(it.progress, "Inverting the matrix", self.tree.layout.work)
+            found = self._blocks.diagonals(job, pattern)
+            job.finish()
+        _check_result(found[0])
+        return found
 
     @property
     def nbytes(self) -> int:
@@ -226,3 +246,9 @@ def _checked_areas(tree: EliminationTree, areas: npt.ArrayLike | None) -> FloatA
 def _check_result(x: FloatArray) -> None:
     if not np.isfinite(x).all():
         raise SolverError("The solution has values that are not finite numbers; its scale is too extreme.")
+
+
+def _transposed(pattern: sp.csr_matrix) -> IntArray:
+    """Return (e,) where the entry (j, i) is of each entry (i, j) of a symmetric pattern."""
+    numbers = sp.csr_matrix((np.arange(pattern.nnz), pattern.indices, pattern.indptr), shape=pattern.shape)
+    return np.asarray(numbers.T.tocsr().data, np.int64)

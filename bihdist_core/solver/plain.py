@@ -335,14 +335,16 @@ class PlainFactor:
         return block
 
     @one_blas_thread()
-    def diagonals(self, job: Job) -> tuple[FloatArray, FloatArray]:
-        """Return (n,) diag(G) and (n,) diag(G A G)."""
-        [diagonals] = job.run(self._invert, [job])
-        return diagonals
+    def diagonals(self, job: Job, pattern: sp.csr_matrix | None = None) -> tuple[FloatArray, FloatArray]:
+        """Return (n,) diag(G) and (n,) diag(G A G), or with a pattern entries (e,) there, those right of the diagonal
+        in elimination order."""
+        [found] = job.run(lambda wanted: self._invert(job, wanted), [pattern])
+        return found
 
-    def _invert(self, job: Job) -> tuple[FloatArray, FloatArray]:
+    def _invert(self, job: Job, pattern: sp.csr_matrix | None) -> tuple[FloatArray, FloatArray]:
         """Top down: the boundary's block of the inverse is part of the parent's."""
         diagonal, sandwich = np.empty((2, self.tree.n), self._dtype)
+        entries = None if pattern is None else np.zeros((2, pattern.nnz), self._dtype)
         fronts = self.tree.fronts
         known = {len(fronts) - 1: (np.empty((0, 0)), np.empty((0, 0)))}
         for q, front in reversed(list(enumerate(fronts))):
@@ -351,11 +353,19 @@ class PlainFactor:
                 blocks = blocks._replace(K1=0 * blocks.K, N1=0 * blocks.N)
             Z, H = _invert(blocks, *known.pop(q))
             vertices = self.tree.vertices[front.pivots]
+            if pattern is not None and entries is not None:
+                for i, vertex in enumerate(vertices):
+                    row = np.arange(pattern.indptr[vertex], pattern.indptr[vertex + 1])
+                    places = self.tree.place[pattern.indices[row]]
+                    right = places >= front.pivots[i]
+                    column = np.searchsorted(front.rows, places[right])
+                    entries[:, row[right]] = Z[i, column], H[i, column]
             diagonal[vertices], sandwich[vertices] = Z.diagonal()[: front.c], H.diagonal()[: front.c]
             for child, up in front.children:
                 known[child] = Z[np.ix_(up, up)], H[np.ix_(up, up)]
             job.advance(_work(front))
-        return diagonal, sandwich
+        first, second = (diagonal, sandwich) if entries is None else entries
+        return first, second
 
     @one_blas_thread()
     @np.errstate(all="ignore")
