@@ -35,12 +35,16 @@ from .solver.aside import aside
 from .solver.elimination_tree import EliminationTree
 from .solver.factor import Factor, share_of_ordering, usual_bytes, usual_seconds
 from .solver.resolvents import Resolvents
+from .solver.shifted import ShiftedFactor
 from .solver.spectrum import Spectrum, eigenpair_bytes, eigenpair_work, is_long, smallest_eigenpairs
 from .solver.worker_threads import WORKERS
 from .surface import Surface
 
 Computed = tuple[EliminationTree | None, Factor | None, Spectrum | None]
 """The results of a component that are kept: its tree, its factor, its eigenpairs."""
+
+TINY = 1e-40
+"""A step of which the square is nothing."""
 
 EIGENPAIR_ADVICE = (
     "take fewer of them, simplify the mesh (bihdist perturb --simplify N), or use a larger machine or a cluster."
@@ -452,6 +456,40 @@ class Component:
         columns = self.factor(diagonals=True).sandwich_columns(index)
         columns -= self.u[:, None] * (self.u[index] / self.areas.sum())
         return columns
+
+    @locked_cached_property
+    def edges(self) -> tuple[IntArray, IntArray]:
+        """The ends i < j (e,) of the entries of the stiffness matrix."""
+        rows = np.repeat(np.arange(len(self.areas)), np.diff(self.stiffness.indptr))
+        upper = rows < self.stiffness.indices
+        return rows[upper], self.stiffness.indices[upper].astype(np.int64)
+
+    def commute_time_squares(self) -> FloatArray:
+        """Return (e,) G_ii + G_jj - 2 G_ij at all `edges`; no unit."""
+        matrix = _pinned(self.stiffness, self.pin)
+        return self._squares(Factor(self.tree(), matrix).inverse_entries(matrix))
+
+    def biharmonic_squares(self) -> FloatArray:
+        """Return (e,) C_ii + C_jj - 2 C_ij at all `edges`; unit length squared.
+
+        G A G is the derivative of the inverse along A, minus the imaginary part where a tiny multiple of i A was added,
+        to all digits (Squire and Trapp 1998).
+        """
+        matrix, areas, (i, j) = _pinned(self.stiffness, self.pin), self.areas.copy(), self.edges
+        areas[self.pin] = 0
+        step = TINY / float(np.abs(self.u).max())
+        factor = ShiftedFactor(self.tree(), matrix, areas, -1j * step, inverted=False)
+        squares = self._squares(factor.inverse_entries(matrix).imag / -step)
+        return squares - (self.u[i] - self.u[j]) ** 2 / self.areas.sum()
+
+    def _squares(self, entries: FloatArray) -> FloatArray:
+        """Return (e,) g_ii + g_jj - 2 g_ij for the entries of a matrix g with the pattern of the pinned one."""
+        rows, columns = np.repeat(np.arange(len(self.areas)), np.diff(self.stiffness.indptr)), self.stiffness.indices
+        i, j = self.edges
+        entries = np.where((rows == self.pin) | (columns == self.pin), 0, entries)
+        diagonal, upper = entries[rows == columns], entries[rows < columns]
+        squares: FloatArray = diagonal[i] + diagonal[j] - 2 * upper
+        return squares
 
     @locked_cached_property
     def biharmonic_eccentricity(self) -> FloatArray:

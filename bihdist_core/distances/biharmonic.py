@@ -12,7 +12,7 @@ from .biharmonic_accuracy import MOST_NEAR, accuracy_of_fields, recomputed_below
 from .distance import FactoredDistance
 from .embedding import Embedding, biharmonic_embedding
 from .pair_questions import by_source
-from .squares import writer_of_distances
+from .squares import root, writer_of_distances
 
 SMALL_SET_VERTICES = 64
 PAIRS_PER_FIELD = 1.4
@@ -162,6 +162,13 @@ class BiharmonicDistance(FactoredDistance):
             b[i[some], each] += 1
             b[j[some], each] -= 1
             distances[some] = np.linalg.norm(_half_order(component, component.solve(b, step)), axis=0)
+        return distances
+
+    def _at_edges(self, component: Component, progress: Progress) -> FloatArray:
+        (i, j), largest = component.edges, component.biharmonic_diagonal().max()
+        distances = root(component.biharmonic_squares(), largest)
+        near = np.flatnonzero(distances < recomputed_below(component))
+        distances[near] = self._of_pairs(component, i[near], j[near], "all", progress)
         return distances
 
     def _estimated_accuracy(self, component: Component, progress: Progress) -> float:

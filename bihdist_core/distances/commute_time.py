@@ -105,5 +105,8 @@ class CommuteTimeDistance(FactoredDistance):
         )
         field[near] = np.sqrt(np.maximum(exact, 0))
 
+    def _at_edges(self, component: Component, progress: Progress) -> FloatArray:
+        return root(component.commute_time_squares(), component.green_diagonal().max())
+
     def _estimated_accuracy(self, component: Component, progress: Progress) -> float:
         return accuracy_of_resistances(component, lambda index: self.compute_columns(component, index, None), NEAR)

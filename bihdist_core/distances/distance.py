@@ -7,11 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import SolverError
+from ..arrays import FloatArray, IntArray
+from ..errors import ParameterError, SolverError
 from ..laplacian import Component, Laplacian
 from ..memo import Memo
 from ..mesh_like import MeshLike, Rows
-from ..progress import Progress, silent
+from ..progress import Progress, silent, steps
 from ..sources.pieces import Pieces
 from .accuracy import FINEST_ACCURACY, POOR_ACCURACY, ErrorEstimate, accurate_to, rounded_up
 from .pair_questions import PairQuestions
@@ -261,3 +262,42 @@ class FactoredDistance(Distance):
     ) -> None:
         super().__init__(laplacian, faces)
         self.prepare(self.laplacian.components[0], progress)
+
+    def edge_distances(self, progress: Progress | None = None) -> tuple[IntArray, FloatArray]:
+        """Compute the distance between the ends of every edge, by one selected inversion.
+
+        Parameters
+        ----------
+        progress : callable, optional
+            Called as ``progress(fraction, text)``.
+
+        Returns
+        -------
+        edges : (e, 2) int64 ndarray
+            The vertex ids, smaller first, where the stiffness matrix has an entry.
+        distances : (e,) float64 ndarray
+            In the distance's unit.
+
+        Raises
+        ------
+        ParameterError
+            Unless this is the biharmonic or the commute-time distance.
+
+        Examples
+        --------
+        >>> import bihdist, pyvista
+        >>> edges, distances = bihdist.BiharmonicDistance(pyvista.Icosphere(nsub=3)).edge_distances()
+        >>> edges.shape, distances.max().round(3)
+        ((1920, 2), 0.151)
+        """
+        edges, distances = [], []
+        for step, component in steps(progress, self.laplacian.components):
+            step = self._prepared(component, step)
+            step(0.0, self.label)
+            edges.append(component.vertices[np.stack(component.edges, axis=1)])
+            distances.append(self._at_edges(component, step))
+        return np.concatenate(edges), np.concatenate(distances)
+
+    def _at_edges(self, component: Component, progress: Progress) -> FloatArray:
+        """Return (e,) distances at the edges of a component."""
+        raise ParameterError(f"{self.label} is not known at edges alone; ask of_pairs for some of them.")

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp
 
-from ..arrays import AnyArray, FloatArray, IntArray
+from ..arrays import AnyArray, FloatArray
 from ..errors import ParameterError, SolverError
 from ..expected_time import Expected, expected_seconds
 from ..progress import Progress, silent
@@ -116,9 +116,7 @@ class Factor:
 
     def inverse_entries(self, pattern: sp.csr_matrix, progress: Progress | None = None) -> FloatArray:
         """Return the entries (e,) of matrix^-1 on a symmetric pattern within the tree's, as `canonical` makes it."""
-        values, across = self._inverse(pattern, progress)[0], _transposed(pattern)
-        places, i = self.tree.layout.place, np.repeat(np.arange(self.tree.n), np.diff(pattern.indptr))
-        return np.where(places[pattern.indices] >= places[i], values, values[across])
+        return on_both_sides(self.tree, pattern, self._inverse(pattern, progress)[0])
 
     def _inverse(self, pattern: sp.csr_matrix | None, progress: Progress | None) -> tuple[FloatArray, FloatArray]:
         is_compiled = isinstance(self.tree.layout, CompiledTree)
@@ -248,7 +246,8 @@ def _check_result(x: FloatArray) -> None:
         raise SolverError("The solution has values that are not finite numbers; its scale is too extreme.")
 
 
-def _transposed(pattern: sp.csr_matrix) -> IntArray:
-    """Return (e,) where the entry (j, i) is of each entry (i, j) of a symmetric pattern."""
+def on_both_sides(tree: EliminationTree, pattern: sp.csr_matrix, values: AnyArray) -> AnyArray:
+    """Return values (e,) on a symmetric pattern, of which those left of the diagonal in elimination order are missing."""
+    places, rows = tree.layout.place, np.repeat(np.arange(tree.n), np.diff(pattern.indptr))
     numbers = sp.csr_matrix((np.arange(pattern.nnz), pattern.indices, pattern.indptr), shape=pattern.shape)
-    return np.asarray(numbers.T.tocsr().data, np.int64)
+    return np.where(places[pattern.indices] >= places[rows], values, values[numbers.T.tocsr().data])

@@ -14,7 +14,7 @@ from ..progress import Progress
 from .compiled_factor import CompiledFactor
 from .compiled_tree import CompiledTree
 from .elimination_tree import EliminationTree, canonical
-from .factor import WIDE
+from .factor import WIDE, on_both_sides
 from .plain import PlainFactor
 from .worker_threads import WORKERS, Job, Run, Workspaces, in_turn, side_by_side
 
@@ -87,6 +87,13 @@ class ShiftedFactor:
         if self._is_complex and isinstance(self._blocks, CompiledFactor):
             return diagonal + 1j * second
         return diagonal
+
+    def inverse_entries(self, pattern: sp.csr_matrix) -> AnyArray:
+        """Return the entries (e,) of (L - z A)^-1 on a symmetric pattern within the tree's, as `canonical` makes it."""
+        values, second = self._blocks.diagonals(Job(None, "", 1), pattern)
+        if self._is_complex and isinstance(self._blocks, CompiledFactor):
+            return on_both_sides(self.tree, pattern, values + 1j * second)
+        return on_both_sides(self.tree, pattern, values)
 
     @property
     def nbytes(self) -> int:
