@@ -23,6 +23,7 @@ from .looks import (
     RANGES,
     TWENTY_STEPS,
     UPS,
+    Clip,
     Colours,
     Isolines,
     Shading,
@@ -260,6 +261,8 @@ class Document:
         The colours of the fields.
     shading
         The shading of the surfaces.
+    clip
+        The plane beyond which surfaces are cut away; None for none.
     up
         The axis of the first surface that points up; "auto" as long as it is to be guessed.
     parallel_projection
@@ -296,6 +299,7 @@ class Document:
     fields: tuple[FieldArray, ...] = ()
     colours: Colours = OF_THE_STYLE
     shading: Shading = AS_IT_IS
+    clip: Clip | None = None
     up: str = "auto"
     parallel_projection: bool = False
     axes: bool = False

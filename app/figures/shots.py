@@ -16,10 +16,11 @@ from bihdist_core.progress import Progress, part
 
 from ..document.document import isolines_in
 from ..document.looks import Isolines, Shading
-from ..drawing.line_looks import LineLook
+from ..drawing.line_looks import SECTION, LineLook
 from ..drawing.shapes import Box
 from ..marks.primitives import PointMark
 from ..scene.bands import band_edges
+from ..scene.clipping import clip_plane, is_kept
 from ..scene.drawable import drawable, normals_shading, outward_faces
 from ..scene.levels import levels, too_many
 from ..scene.line_clipping import Line
@@ -162,6 +163,8 @@ def take_shots(
             mesh = render_cache.mesh(surface, shading) if surface is panel.surface else drawable(surface, shading)
             render_window.shown.show_surface(mesh)
             render_window.shown.show_shading(shading)
+            clip = clip_plane(panel.clip, surface)
+            render_window.shown.show_clip(clip)
             render_window.shown.show_selected(selected_colours(panel.areas, len(surface.vertices)))
             if panel.field is not None:
                 render_window.shown.show_field(panel.field, tops[index], panel.signed)
@@ -176,9 +179,10 @@ def take_shots(
                 framed = Framed(view, panel, surface, box, shown)
                 size = (framed.whole.width, framed.whole.height)
                 # Panels of one surface that are seen alike differ in their fields alone.
-                key = (id(mesh), size, framed.projection.view.tobytes(), framed.projection.matrix.tobytes())
+                key = (id(mesh), clip, size, framed.projection.view.tobytes(), framed.projection.matrix.tobytes())
                 if key not in sights:
-                    sights[key] = HiddenLineRemoval(surface, framed.projection, size, outward_faces(mesh))
+                    outward = outward_faces(mesh, is_cut=clip is not None)
+                    sights[key] = HiddenLineRemoval(surface, framed.projection, size, outward, clip)
                 taker = _Taker(figure, index, surface, sights[key], tops[index], framed, layout, render_window, curves)
                 shots.append(taker.take(box, panel.isolines, step))
                 for inset, place in zip(panel.insets, cell.insets, strict=True) if number == 0 else ():
@@ -218,8 +222,10 @@ class _Taker:
         self._outlines: list[Line] | None = None
         panel = self._panel
         self._seen: set[str] = set()
+        section = sight.section()
+        self._lines = {SECTION: SeenLines(section, [])} if section else {}
         looks = sorted(dict.fromkeys(line.look for line in panel.lines), key=lambda look: look.rank)
-        self._lines = {look: self._seen_lines(look) for look in looks}
+        self._lines |= {look: self._seen_lines(look) for look in looks}
         self._marks, self._ghosts = self._placed_marks()
 
     def take(self, box: Box, wanted: Isolines, progress: Progress, source: Box | None = None) -> Shot:
@@ -303,6 +309,8 @@ class _Taker:
         hidden: list[PlacedMark] = []
         for k, mark in enumerate(self._panel.marks):
             point = mark.on(self._surface.vertices)
+            if not is_kept(self._sight.clip, point[None])[0]:
+                continue
             x, y, depth = self._sight.pixels(point[None])[0]
             if not np.isfinite(depth) or not np.isfinite(x):
                 continue
