@@ -24,6 +24,7 @@ from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.picking import Picker
 from ...scene.prepared import Drawn
 from ...session.answering import Shown
+from ...session.base import Greys
 from ...session.isoline_points import IsolinePoint
 from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import Question
@@ -147,6 +148,11 @@ class DistancePanel(QtWidgets.QWidget):
         elif self._height_field is not None and shading != self._shading:
             actor.show_normals(drawable(self._height_field, shading))
         self._shading, self._drawn = shading, drawn
+        self.view.redraw()
+
+    def show_base(self, base: Greys | None, has_coloured_isolines: bool) -> None:
+        """Show greys instead of the field's colours, which isolines may have; or these again."""
+        self._field_actor.show_base(base, has_coloured_isolines)
         self.view.redraw()
 
     def show_insets(self, insets: tuple[Inset, ...]) -> None:
