@@ -18,12 +18,15 @@ from bihdist_core.sources.source import Source, checked_source
 from .camera import SecondMeshView, View, checked_view
 from .looks import (
     AS_IT_IS,
+    CURVATURE,
     LARGEST,
+    NO_BASE,
     OF_THE_STYLE,
     RANGES,
     TWENTY_STEPS,
     UPS,
     Clip,
+    Base,
     Colours,
     Isolines,
     Shading,
@@ -263,6 +266,8 @@ class Document:
         The shading of the surfaces.
     clip
         The plane beyond which surfaces are cut away; None for none.
+    base
+        The scalars in grey under the isolines.
     up
         The axis of the first surface that points up; "auto" as long as it is to be guessed.
     parallel_projection
@@ -300,6 +305,7 @@ class Document:
     colours: Colours = OF_THE_STYLE
     shading: Shading = AS_IT_IS
     clip: Clip | None = None
+    base: Base = NO_BASE
     up: str = "auto"
     parallel_projection: bool = False
     axes: bool = False
@@ -314,6 +320,8 @@ class Document:
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
             object.__setattr__(self, "isolines", Isolines(self.isolines))  # a number of steps does
+        if self.base.scalars not in ("", CURVATURE, *(field.name for field in self.fields)):
+            object.__setattr__(self, "base", NO_BASE)  # its field is gone
         ids = {panel.id for panel in self.panels}
         # Of panels that are gone nothing more is shown.
         parts = {type(part): part.renumbered({id: id for id in ids}) for part in self.parts}

@@ -185,5 +185,28 @@ class Clip:
         return f"{named or ','.join(map(repr, self.normal))}@{self.kept!r}"
 
 
-TWENTY_STEPS, NO_LINES, OF_THE_STYLE, AS_IT_IS = Isolines(), Isolines(count=0), Colours(), Shading()
+CURVATURE = "curvature"
+"""The scalars of a base that are not read but computed: the mean curvature."""
+
+
+@dataclass(frozen=True)
+class Base:
+    """Scalars in grey on the surface, under isolines in the colours of the field.
+
+    Attributes
+    ----------
+    scalars
+        CURVATURE or the name of a field of the user's own, which comes first; "" for none.
+    gradual
+        Whether greys go over into each other; otherwise scalars of both signs have two greys.
+    white_isolines
+        Whether isolines are white instead, or what else stands out from all colours of the style.
+    """
+
+    scalars: str = ""
+    gradual: bool = False
+    white_isolines: bool = False
+
+
+TWENTY_STEPS, NO_LINES, OF_THE_STYLE, AS_IT_IS, NO_BASE = Isolines(), Isolines(count=0), Colours(), Shading(), Base()
 """What holds where nothing is said."""

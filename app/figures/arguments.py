@@ -55,6 +55,12 @@ class LookOptions(TypedDict, total=False):
         Flip the direction of the colour map.
     bands : bool
         Use one colour from each isoline to the next.
+    base : str
+        Draw this in grey under isolines in the colours of the field: ``"curvature"``, or the name of a field.
+    gradual_base : bool
+        Draw the base in all greys, not in two where values have both signs.
+    white_isolines : bool
+        Draw isolines on a base in white, not in the field's colours.
     clim : str, float or sequence
         Where colour bars end: ``"own"`` maximum, ``"shared"`` by all panels of a unit, ``"fraction"`` (0 to 100 % of
         each maximum); a number, also as ``(0, end)``; one for each panel, None for its own; or a session or recipe
@@ -76,6 +82,9 @@ class LookOptions(TypedDict, total=False):
     cmap: str | Colours
     flip_scalars: bool
     bands: bool
+    base: str
+    gradual_base: bool
+    white_isolines: bool
     clim: str | float | Sequence[float | None]
     smooth_shading: bool
     split_sharp_edges: bool

@@ -13,7 +13,8 @@ from ..document.document import Inset
 from ..document.looks import AS_IT_IS, RANGES, TWENTY_STEPS, Clip, Isolines, Shading, one_of
 from ..document.page import TITLES
 from ..marks.primitives import AreaMark, LineMark, PointMark
-from ..scene.style import PAPER, Style
+from ..scene.style import PAPER, IsolineInk, Style
+from ..session.base import Greys
 from .fonts import check_font
 from .size import Size
 
@@ -54,6 +55,10 @@ class FigurePanel:
         Whether the directions of x, y and z are shown, unless they are in a panel before.
     colours
         (n, 3) colours of the surface's own, instead of a field, grey where they are NaN.
+    base
+        (n,) greys instead of the colours of the field, see `session.base.Greys`.
+    has_coloured_isolines
+        Whether isolines on these have the colours of the field.
     are_labels
         Whether the colours stand for labels, between which there are no others.
     largest
@@ -85,6 +90,8 @@ class FigurePanel:
     lines: tuple[LineMark, ...] = ()
     areas: tuple[AreaMark, ...] = ()
     colours: FloatArray | None = None
+    base: Greys | None = None
+    has_coloured_isolines: bool = True
     are_labels: bool = False
     largest: str = ""
     clip: Clip | None = None
@@ -212,6 +219,13 @@ class Figure:
             own[k] if self.is_in_shares(k) else max(end for end, other in zip(own, kinds, strict=True) if other == kind)
             for k, kind in enumerate(kinds)
         ]
+
+    def isoline_ink(self, panel: int, value: float, is_through: bool) -> IsolineInk:
+        """Return the colours of a panel's isoline."""
+        shown = self.panels[panel]
+        on_base = shown.base is not None
+        share = value / self.upper_limits()[panel] if on_base and shown.has_coloured_isolines else None
+        return self.style.isoline_ink(shown.signed, value, is_through, on_base, share)
 
     def is_in_shares(self, panel: int) -> bool:
         """Return whether a bar shows fractions of its end; a difference keeps its unit, and ends as others of it do."""

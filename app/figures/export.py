@@ -22,6 +22,7 @@ from ..scene.levels import in_unit
 from ..scene.style import style_of
 from ..session.array_store import ArrayStore
 from ..session.bar_ends import own_end, typed_end
+from ..session.base import BaseGreys
 from ..session.derived_surfaces import map_to_derived
 from ..session.isoline_points import passed
 from ..session.loaded_mesh import LoadedMesh, open_mesh
@@ -239,6 +240,8 @@ def _figure_panel(
         signed=answer.is_signed,
         largest=answer.largest_words,
         shading=document.shading,
+        base=None if answer.field is None else loaded.memory(BaseGreys).greys(document, panel, loaded),
+        has_coloured_isolines=not document.base.white_isolines,
         up=up,
         source=vertex_at(starts[0], surface) if starts else None,
         is_parallel=document.parallel_projection,

@@ -22,7 +22,7 @@ from ..document.option import (
 from ..document.page import Recipe
 from ..document.settings import AXES, ISOLINE_LABELS, PARALLEL_PROJECTION, SHOW_EDGES
 from ..document.tools import tools
-from .look_options import COLOURS, ISOLINES, RANGE, SHADING, suits_one_bar, with_range
+from .look_options import BASE, COLOURS, ISOLINES, RANGE, SHADING, suits_one_bar, with_range
 from .repair_options import REPAIRS
 from .size import is_column
 from .view_options import CLIP, INSETS, UP, VIEWS
@@ -134,6 +134,7 @@ ROWS = (
         bare=0.35,
     ),
     *COLOURS,
+    *BASE,
     RANGE,
     _layout("hints", "say under each heading what to look for (default: no)"),
     _layout("title", "show names as heading (default), as caption at the bars, or none", "WHERE"),

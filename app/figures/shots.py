@@ -173,6 +173,7 @@ def take_shots(
                 render_window.shown.show_colours(panel.colours, panel.are_labels)
             else:
                 render_window.shown.show_bare(is_plain=not panel.failure)
+            render_window.shown.show_base(panel.base, panel.has_coloured_isolines)
             curves = render_cache.curves or panel.isolines.labels  # which stand on curves
             for number, (view, box, shown) in enumerate(zip(panel.views, cell.views, cell.parts, strict=True)):
                 step = part(progress, len(shots) / count, (len(shots) + 1) / count)

@@ -190,7 +190,7 @@ class StandInActor:
         values
             (n,) of all points of the surface, under the name that they have there.
         tints
-            (n, 4) colours, by the names that the shader knows.
+            (n, 4) colours or (n,) shares, by the names that the shader knows.
         """
         if is_shown and self.stand_in is not None and values is not None:
             self._follow(self.stand_in, values, undefined)
@@ -230,7 +230,7 @@ class StandInActor:
             if self._tints.get(name) is tint:
                 continue
             self._tints[name] = tint
-            means = [stand_in.averaged(each, np.nan) for each in vtk_to_numpy(tint).T]
+            means = [stand_in.averaged(each, np.nan) for each in np.atleast_2d(vtk_to_numpy(tint).T)]
             array = numpy_to_vtk(np.ascontiguousarray(np.stack(means, 1)), deep=True)
             array.SetName(name)
             own = self.mapper.GetInput()

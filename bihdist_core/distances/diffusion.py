@@ -165,9 +165,9 @@ def expected_count(component: Component, t: float) -> int:
 
 def is_faster_by_eigenpairs(component: Component, t: float, progress: Progress | None) -> bool:
     """Return whether the eigenpairs that have a weight at a time are expected to take less time than poles."""
-    have, n = len(component.spectrum(FIRST_EIGENPAIRS, progress).eigenvalues), len(component.areas)
-    count = expected_count(component, t)
-    if t >= LONG_TIME or have == component.most_eigenpairs or count <= have or n <= SMALL:
+    component.spectrum(1, progress)
+    count, n = expected_count(component, t), len(component.areas)
+    if t >= LONG_TIME or count <= max(FIRST_EIGENPAIRS, component.eigenpairs_there) or n <= SMALL:
         return True
     if served(component, t / float(component.spectrum(1).eigenvalues[0])):
         return False

@@ -15,6 +15,7 @@ from ...document.settings import Preferences
 from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.style import PAPER, Style
 from ...session.bar_ends import bar_end, ends_with
+from ...session.base import BaseGreys
 from ...session.session import Session
 from ..look.look import LOOK
 from .camera_controller import CameraController
@@ -228,6 +229,14 @@ class PanelGrid(QtWidgets.QWidget):
         shading, loaded = self._session.document.shading, self._session.loaded(panel.surface)
         if loaded is not None:
             panel.show_shading(shading, self._shading_cache.drawn(loaded.prepared.meshes, shading))
+
+    def show_base(self, document: Document) -> None:
+        """Show the greys of the document's base on all surfaces, or none."""
+        for panel in document.panels:
+            loaded = self._session.loaded(panel.surface)
+            if loaded is not None:
+                greys = loaded.memory(BaseGreys).greys(document, panel, loaded)
+                self._panels[panel.id].show_base(greys, not document.base.white_isolines)
 
     # ------------------------------------------------------------------ answers
     def show_answer(self, id: int) -> None:

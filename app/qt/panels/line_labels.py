@@ -126,8 +126,8 @@ class LineLabels(QtCore.QObject):
             return  # of a picture that is gone
         self._done[panel] = number
         if written and panel.answer is not None:
-            style, signed = view.scene.style, panel.answer.is_signed
-            view.write(painted(view.picture, written, style, signed, view.devicePixelRatioF()))
+            ink_of = view.scene.field_actor.isoline_ink
+            view.write(painted(view.picture, written, view.scene.style, ink_of, view.devicePixelRatioF()))
 
 
 def _found(pictures: Sequence[tuple[DistancePanel, int, LabelRequest]], progress: Progress) -> Iterator[object]:

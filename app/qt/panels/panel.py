@@ -25,6 +25,7 @@ from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.picking import Picker
 from ...scene.prepared import Drawn
 from ...session.answering import Shown
+from ...session.base import Greys
 from ...session.isoline_points import IsolinePoint
 from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import Question
@@ -158,6 +159,11 @@ class DistancePanel(QtWidgets.QWidget):
         self._field_actor.show_clip(None if self.shape is None else clip_plane(clip, self.shape))
         self.view.redraw()
         return self.view.clip != before
+
+    def show_base(self, base: Greys | None, has_coloured_isolines: bool) -> None:
+        """Show greys instead of the field's colours, which isolines may have; or these again."""
+        self._field_actor.show_base(base, has_coloured_isolines)
+        self.view.redraw()
 
     def show_insets(self, insets: tuple[Inset, ...]) -> None:
         """Enlarge these places."""
