@@ -14,8 +14,8 @@ from bihdist_core.arrays import AnyArray, ByteArray, FloatArray
 
 from ..document.looks import MOST_ISOLINES, NO_LINES, TWENTY_STEPS, Isolines, Shading
 from ..drawing.line_looks import SECTION
-from .clipping import ClipPlane
 from ..session.base import Greys
+from .clipping import ClipPlane
 from .drawable import copies_of, has_backs
 from .face_look import map_attribute, pass_on, put_face_look
 from .levels import BOLD, ZERO, Levels, levels, too_many
