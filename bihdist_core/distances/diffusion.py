@@ -40,8 +40,8 @@ TOLERANCE = 1e-7
 LONG_TIME = 2.0
 """From here on eigenpairs are taken: their number is small, and weights fall below the error of rational functions."""
 SMALL, MODERATE = 400, 20_000
-"""All eigenpairs of so few vertices are found at once, and those that count from t = 1 on of so many in less than half a
-second; rounding leaves them more digits of the smallest distances."""
+"""All eigenpairs of so few vertices are found at once, and from t = 1 on those that count of so many in half a second;
+rounding leaves them more digits of the smallest distances."""
 WEIGHED = 32.0
 """Eigenvalues, times t / lambda_1, with a weight that counts."""
 WORTH = 2.0
