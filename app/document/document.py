@@ -26,6 +26,7 @@ from .looks import (
     TWENTY_STEPS,
     UPS,
     Base,
+    Clip,
     Colours,
     Isolines,
     Shading,
@@ -263,6 +264,8 @@ class Document:
         The colours of the fields.
     shading
         The shading of the surfaces.
+    clip
+        The plane beyond which surfaces are cut away; None for none.
     base
         The scalars in grey under the isolines.
     up
@@ -301,6 +304,7 @@ class Document:
     fields: tuple[FieldArray, ...] = ()
     colours: Colours = OF_THE_STYLE
     shading: Shading = AS_IT_IS
+    clip: Clip | None = None
     base: Base = NO_BASE
     up: str = "auto"
     parallel_projection: bool = False

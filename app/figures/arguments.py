@@ -109,6 +109,9 @@ class ViewOptions(TypedDict, total=False):
         Draw without perspective.
     axes : bool
         Show in a corner where x, y and z point.
+    clip : str
+        Plane beyond which the surface is cut away: ``"x"`` or ``"-y@0.3"``, an axis and the fraction to keep, or a
+        normal, ``"0.2,0.1,0.9@0.4"``.
     insets : sequence of int or tuple
         Vertices whose places are enlarged; ``(vertex, factor)`` or ``(vertex, factor, isolines)`` say by how much, and
         with how many isolines.
@@ -119,6 +122,7 @@ class ViewOptions(TypedDict, total=False):
     viewup: str
     parallel_projection: bool
     axes: bool
+    clip: str
     insets: Sequence[int | tuple[int, float] | tuple[int, float, int]]
 
 

@@ -10,7 +10,7 @@ from bihdist_core.arrays import AnyArray, FloatArray
 
 from ..document.camera import View, checked_view
 from ..document.document import Inset
-from ..document.looks import AS_IT_IS, RANGES, TWENTY_STEPS, Isolines, Shading, one_of
+from ..document.looks import AS_IT_IS, RANGES, TWENTY_STEPS, Clip, Isolines, Shading, one_of
 from ..document.page import TITLES
 from ..marks.primitives import AreaMark, LineMark, PointMark
 from ..scene.style import PAPER, IsolineInk, Style
@@ -65,6 +65,8 @@ class FigurePanel:
         Whether the colours stand for labels, between which there are no others.
     largest
         How large a difference is and where, in words.
+    clip
+        The plane beyond which the surface is cut away; None for none.
     """
 
     surface: Surface
@@ -95,6 +97,7 @@ class FigurePanel:
     has_coloured_isolines: bool = True
     are_labels: bool = False
     largest: str = ""
+    clip: Clip | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):

@@ -255,6 +255,7 @@ def _figure_panel(
         source=vertex_at(starts[0], surface) if starts else None,
         is_parallel=document.parallel_projection,
         axes=document.axes,
+        clip=document.clip,
     )
 
 

@@ -25,7 +25,7 @@ from ..document.tools import tools
 from .look_options import BASE, COLOURS, ISOLINES, RANGE, SHADING, suits_one_bar, with_range
 from .repair_options import REPAIRS
 from .size import is_column
-from .view_options import INSETS, UP, VIEWS
+from .view_options import CLIP, INSETS, UP, VIEWS
 
 VERTEX_AREAS = attribute("document.areas", "vertex areas (default: voronoi)", group="", choices=AREAS)
 
@@ -106,6 +106,7 @@ ROWS = (
     VIEWS,
     PARALLEL_PROJECTION.row,
     AXES.row,
+    CLIP,
     Row(
         (
             Option(

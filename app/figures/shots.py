@@ -16,10 +16,11 @@ from bihdist_core.progress import Progress, part
 
 from ..document.document import isolines_in
 from ..document.looks import Isolines, Shading
-from ..drawing.line_looks import LineLook
+from ..drawing.line_looks import SECTION, LineLook
 from ..drawing.shapes import Box
 from ..marks.primitives import PointMark
 from ..scene.bands import band_edges
+from ..scene.clipping import ClipPlane, clip_plane, is_kept
 from ..scene.drawable import drawable, normals_shading, outward_faces
 from ..scene.field_actor import FieldActor
 from ..scene.levels import levels, too_many
@@ -165,14 +166,16 @@ def take_shots(
                 if surface is not shown_now:
                     shown_now, is_own = surface, surface is panel.surface or bool(panel.parts)
                     mesh = render_cache.mesh(surface, panel.shading) if is_own else drawable(surface, panel.shading)
-                    _show(panel, mesh, tops[index], render_window.shown)
+                    clip = clip_plane(panel.clip, panel.surface if panel.parts else surface)
+                    _show(panel, mesh, tops[index], clip, render_window.shown)
                 step = part(progress, len(shots) / count, (len(shots) + 1) / count)
                 framed = Framed(view, panel, surface, box, shown)
                 size = (framed.whole.width, framed.whole.height)
                 # Panels of one surface that are seen alike differ in their fields alone.
-                key = (id(mesh), size, framed.projection.view.tobytes(), framed.projection.matrix.tobytes())
+                key = (id(mesh), clip, size, framed.projection.view.tobytes(), framed.projection.matrix.tobytes())
                 if key not in sights:
-                    sights[key] = HiddenLineRemoval(surface, framed.projection, size, outward_faces(mesh))
+                    outward = outward_faces(mesh, is_cut=clip is not None)
+                    sights[key] = HiddenLineRemoval(surface, framed.projection, size, outward, clip)
                 taker = _Taker(figure, index, surface, sights[key], tops[index], framed, layout, render_window, curves)
                 shots.append(taker.take(box, panel.isolines, step))
                 for inset, place in zip(panel.insets, cell.insets, strict=True) if number == 0 else ():
@@ -182,10 +185,11 @@ def take_shots(
     return shots if figure.dashes_all else [_without_seen(shot, shots) for shot in shots]
 
 
-def _show(panel: FigurePanel, mesh: vtkPolyData, top: float, actor: FieldActor) -> None:
+def _show(panel: FigurePanel, mesh: vtkPolyData, top: float, clip: ClipPlane | None, actor: FieldActor) -> None:
     """Show a panel's field, or what else it has, on a mesh."""
     actor.show_surface(mesh)
     actor.show_shading(panel.shading)
+    actor.show_clip(clip)
     actor.show_selected(selected_colours(panel.areas, len(panel.surface.vertices)))
     if panel.field is not None:
         actor.show_field(panel.field, top, panel.signed)
@@ -227,8 +231,10 @@ class _Taker:
         self._outlines: list[Line] | None = None
         panel = self._panel
         self._seen: set[str] = set()
+        section = sight.section()
+        self._lines = {SECTION: SeenLines(section, [])} if section else {}
         looks = sorted(dict.fromkeys(line.look for line in panel.lines), key=lambda look: look.rank)
-        self._lines = {look: self._seen_lines(look) for look in looks}
+        self._lines |= {look: self._seen_lines(look) for look in looks}
         self._marks, self._ghosts = self._placed_marks()
 
     def take(self, box: Box, wanted: Isolines, progress: Progress, source: Box | None = None) -> Shot:
@@ -315,6 +321,8 @@ class _Taker:
             if self._surface.component_of_vertex[mark.vertex] < 0:
                 continue  # on another part of the surface
             point = mark.on(self._surface.vertices)
+            if not is_kept(self._sight.clip, point[None])[0]:
+                continue
             x, y, depth = self._sight.pixels(point[None])[0]
             if not np.isfinite(depth) or not np.isfinite(x):
                 continue

@@ -8,8 +8,8 @@ from bihdist_core.errors import ParameterError
 
 from ..document.camera import SAME_VIEWS, Camera, View
 from ..document.document import Inset
-from ..document.looks import UPS
-from ..document.option import NotExpressible, Option, Row, attribute, digits, numbers, with_commas
+from ..document.looks import UPS, Clip
+from ..document.option import NotExpressible, Option, Row, attribute, digits, numbers, with_attribute, with_commas
 from ..document.page import Recipe
 from ..document.second_mesh_edits import set_up_axis
 
@@ -83,6 +83,25 @@ UP = replace(
     attribute("document.up", up_meaning("guessed"), "AXIS", name="viewup", group="view", choices=UPS),
     # A camera that comes with a recipe would be askew.
     put=lambda recipe, values: replace(recipe, document=set_up_axis(recipe.document, values["viewup"])),
+)
+
+
+CLIP = Row(
+    (
+        Option(
+            "clip",
+            "cut the surface by a plane and show its inside: an axis or a normal X,Y,Z, beyond which it is cut away, "
+            "and the fraction to keep (without: 0.5), such as x, x@0.3 or 0,1,1@0.7; write --clip=-y for those with a "
+            "sign",
+            "",
+            group="view",
+            metavar="AXIS[@FRACTION]",
+            read=lambda text: str(Clip.from_words(text)),
+        ),
+    ),
+    ("Document.clip",),
+    lambda recipe: {"clip": str(recipe.document.clip)} if recipe.document.clip else {},
+    lambda recipe, values: with_attribute(recipe, "document.clip", Clip.from_words(values["clip"])),
 )
 
 

@@ -13,7 +13,9 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, v
 from bihdist_core.arrays import AnyArray, ByteArray, FloatArray
 
 from ..document.looks import MOST_ISOLINES, NO_LINES, TWENTY_STEPS, Isolines, Shading
+from ..drawing.line_looks import SECTION
 from ..session.base import Greys
+from .clipping import ClipPlane
 from .drawable import copies_of, has_backs
 from .face_look import map_attribute, pass_on, put_face_look
 from .levels import BOLD, ZERO, Levels, levels, too_many
@@ -83,6 +85,15 @@ _PAINT = """
 """.replace("BOLD", str(BOLD)).replace("ZERO", str(ZERO))
 
 
+# Where the surface is cut: VTK has thrown away what is beyond the plane.
+_PAINT_SECTION = """
+  float fromCut = clipDistancesVSOutput[0];
+  float cutPerPixel = max(length(vec2(dFdx(fromCut), dFdy(fromCut))), 1e-12);
+  float section = 1.0 - smoothstep(sectionWidth - 0.6, sectionWidth + 0.6, fromCut / cutPerPixel);
+  fragOutput0.rgb = mix(fragOutput0.rgb, isolineCasingColour, section);
+"""
+
+
 class FieldActor:
     """A surface with a field, for any VTK renderer.
 
@@ -103,6 +114,7 @@ class FieldActor:
         self._own_maximum, self._has_lines = 1.0, True
         self._own = vtkPolyData()
         self._has_edges = False
+        self.clip: ClipPlane | None = None
         self._followed: tuple[object, ...] | None = None
         self._tints: dict[str, AnyArray] = {}
         self._base = (False, False)  # whether it has two greys, and coloured isolines
@@ -129,7 +141,6 @@ class FieldActor:
         own = vtkPolyData()
         own.ShallowCopy(mesh)
         self._copies = copies_of(mesh)
-        self._uniforms.SetUniformf("hasBacks", float(has_backs(mesh)))
         self._values = np.concatenate([values, values[self._copies]])
         self._array = numpy_to_vtk(self._values)
         self._array.SetName("distance")
@@ -202,12 +213,13 @@ class FieldActor:
         self._own = own
         self._mapper.SetInputData(own)
         map_attribute(self._mapper, "isolineAttribute", "distance")
+        self._show_backs()
 
     def follow(self, other: "FieldActor", isolines: Isolines) -> None:
         """Show what another one shows now, from the same memory, with isolines of its own."""
         if self._own is not other._own:
             self._draw(other._own)
-            self._uniforms.SetUniformf("hasBacks", float(has_backs(other._own)))
+        self.show_clip(other.clip)
         self._values, self._array = other._values, other._array
         if self.table is not other.table:
             self.table, self.is_signed = other.table, other.is_signed
@@ -343,6 +355,23 @@ class FieldActor:
             look.SetEdgeVisibility(shading.show_edges)
             self._put_shaders(shading.show_edges)
 
+    def show_clip(self, clip: ClipPlane | None) -> None:
+        """Cut the surface by a plane, or no longer."""
+        if clip == self.clip:
+            return
+        is_other = (clip is None) != (self.clip is None)
+        self.clip = clip
+        for mapper in (self._mapper, self.stand_in.mapper):
+            mapper.RemoveAllClippingPlanes()
+            if clip is not None:
+                mapper.AddClippingPlane(clip.for_vtk)
+        if is_other:
+            self._show_backs()
+            self._put_shaders(self._has_edges)
+
+    def _show_backs(self) -> None:
+        self._uniforms.SetUniformf("hasBacks", float(has_backs(self._own, self.clip is not None)))
+
     def show_stand_in(self, is_shown: bool) -> None:
         """Draw what `stand_in` has taken instead of the surface, if it has anything, or the surface again."""
         data = self._own.GetPointData()
@@ -354,6 +383,7 @@ class FieldActor:
         self._uniforms.SetUniformf("edgeScale", scale)
         self._uniforms.SetUniformf("isolineCasing", CASING * scale * share)
         self._uniforms.SetUniformf("isolineRimWidth", RIM * scale * share)
+        self._uniforms.SetUniformf("sectionWidth", SECTION.strokes[0].width * scale * share)
         self._uniforms.SetUniformf(
             "isolineHalfWidth", self.isoline_ink().width * self.style.isoline_width / 2 * scale * share
         )
@@ -407,6 +437,7 @@ class FieldActor:
         put_face_look(shader, has_edges, bool(names - {"selected", "base"}), "base" in names)
         paint = _PAINT.replace("ISOLINE", "fieldColour" if has_own_colours else "isolineColour")
         paint = (PAINT_SELECTED if "selected" in names else "") + paint
+        paint += _PAINT_SECTION if self.clip is not None else ""
         shader.AddFragmentShaderReplacement(_LIT, False, f"{_LIT}\n{paint}", False)
 
 

@@ -264,6 +264,12 @@ class PanelGrid(QtWidgets.QWidget):
         for panel in self.panels:
             panel.view.over.show_axes(has_axes)
 
+    def show_clip(self) -> None:
+        """Cut all surfaces by the document's plane; large ones are drawn in full once it rests."""
+        changed = [panel.show_clip(self._session.document.clip) for panel in self.panels]
+        if any(changed):
+            self.motion.moved()
+
     def follow_preferences(self, preferences: Preferences) -> None:
         """Turn and zoom as the user prefers."""
         self.wheel_factor = -1.0 if preferences.wheel_reversed else 1.0
