@@ -37,6 +37,8 @@ class FigurePanel:
         Values of further isolines, which stand out.
     views
         Pictures of the panel side by side, each a standard view or a camera.
+    parts
+        What of the surface each view shows, with the vertex ids of the whole; all of it if there are none.
     marks, lines, areas
         Marks on the surface.
     height
@@ -77,6 +79,7 @@ class FigurePanel:
     isolines: Isolines = TWENTY_STEPS
     through: tuple[float, ...] = ()
     views: tuple[View, ...] = ("home",)
+    parts: tuple[Surface, ...] = ()
     marks: tuple[PointMark, ...] = ()
     insets: tuple[Inset, ...] = ()
     warp_factor: float = 0.0
