@@ -27,7 +27,7 @@ from .machine_memory import check_memory
 from .memo import locked_cached_property
 from .mesh_arrays import check_size
 from .mesh_like import MeshLike, Rows
-from .nodes import Matrices, Nodes, nodes_of
+from .nodes import Matrices, Nodes, nodes_of, why_not_factored
 from .operators import AREAS, operators
 from .progress import Progress, part, turn
 from .scalars import whole_number
@@ -419,10 +419,7 @@ class Component:
                 try:
                     self._factor = Factor(tree, matrix, areas if diagonals else None, part(progress, ordered, 1))
                 except SolverError as error:
-                    raise SolverError(
-                        f"The Laplacian of {self.surface.name} cannot be factored: its faces are too thin, or differ "
-                        f"too much in size. Remeshing would help. ({error})"
-                    ) from None
+                    raise SolverError(f"The Laplacian of {why_not_factored(self.surface)} ({error})") from None
             return self._factor
 
     def solve(self, b: FloatArray, progress: Progress | None = None) -> FloatArray:
@@ -512,7 +509,7 @@ class Component:
     @locked_cached_property
     def resolvents(self) -> Resolvents:
         """The inverses of L - z A at the poles z that distances asked for."""
-        return Resolvents(self.tree(), self.stiffness, self.areas, self.surface.name)
+        return Resolvents(self.tree(), self.stiffness, self.areas, why_not_factored(self.surface))
 
     # ------------------------------------------------------------------ the spectrum
     @property

@@ -50,6 +50,15 @@ class Nodes(Surface):
         return f"node {vertex} is joined to no other, so no distance is defined from it."
 
 
+def why_not_factored(surface: Surface) -> str:
+    """Return why a Laplacian cannot be factored, and what would help, in a sentence without its subject."""
+    if not len(surface.faces):
+        return f"{surface.name} cannot be factored: its entries differ too much in size."
+    return (
+        f"{surface.name} cannot be factored: its faces are too thin, or differ too much in size. Remeshing would help."
+    )
+
+
 def nodes_of(
     stiffness: sp.spmatrix, masses: npt.ArrayLike, positions: npt.ArrayLike | None, name: str
 ) -> tuple[Nodes, Matrices]:

@@ -221,6 +221,8 @@ class Distance(PairQuestions):
 
     def _advice(self, components: Sequence[int]) -> str:
         """Return a sentence on what would help where the accuracy on these components is too poor."""
+        if not len(self.surface.faces):
+            return "Its entries differ too much in size."
         mine = np.isin(self.surface.component_of_vertex[self.surface.faces[:, 0]], components)
         heights = np.where(mine, self.surface.face_heights, np.inf)
         flattest = int(heights.argmin())

@@ -93,6 +93,8 @@ class GeodesicDistance(Distance):
             raise ParameterError(f"There is no geodesic method {method!r}; choose one of {', '.join(METHODS)}.")
         check_radius(radius)
         super().__init__(laplacian)
+        if not len(self.surface.faces):
+            raise ParameterError(f"{self.surface.name}: geodesic distance needs faces, and this has nodes only.")
         self.radius = radius
         self._solver = _solver(self.laplacian, method, radius, part(progress, 0, 0.3))
         if radius < np.inf and self.method != "exact":

@@ -37,8 +37,8 @@ class Resolvents:
     twice the real part.  Usable from several threads.
     """
 
-    def __init__(self, tree: EliminationTree, stiffness: sp.csr_matrix, areas: FloatArray, name: str) -> None:
-        self._tree, self._stiffness, self._areas, self._name = tree, stiffness, areas, name
+    def __init__(self, tree: EliminationTree, stiffness: sp.csr_matrix, areas: FloatArray, why: str) -> None:
+        self._tree, self._stiffness, self._areas, self._why = tree, stiffness, areas, why
         self._lock = threading.RLock()
         self._sets: list[tuple[complex, ...]] = []
         self._factors: dict[complex, ShiftedFactor | None] = {}
@@ -80,10 +80,7 @@ class Resolvents:
         try:
             return ShiftedFactor(self._tree, self._stiffness, self._areas, pole, progress, inverted)
         except SolverError as error:
-            raise SolverError(
-                f"The shifted Laplacian of {self._name} cannot be factored: its faces are too thin, or differ too much "
-                f"in size. Remeshing would help. ({error})"
-            ) from None
+            raise SolverError(f"The shifted Laplacian of {self._why} ({error})") from None
 
     def factor(self, pole: complex, progress: Progress | None = None) -> ShiftedFactor:
         """Return the factor at one of the poles, made again if there was no room to keep it."""
