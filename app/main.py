@@ -12,7 +12,7 @@ from typing import Any
 
 from bihdist_core.formats.mesh_names import MESH_FORMATS
 
-from .commands import batch, desktop, field, figure, guide, info, isolines, movie, page, pairs, paper, view
+from .commands import batch, desktop, field, figure, graph, guide, info, isolines, movie, page, pairs, paper, view
 from .commands.mesh import check_mesh
 from .commands.parser import Parser
 from .commands.result import as_json
@@ -22,7 +22,7 @@ from .document.tools import tools
 from .version import disagreement, version
 
 COMMANDS = {
-    **{module.__name__.rpartition(".")[2]: module for module in (view, field, pairs, isolines)},
+    **{module.__name__.rpartition(".")[2]: module for module in (view, field, pairs, isolines, graph)},
     **{word: tool.load(module) for tool in tools() for word, module in tool.commands.items()},
     **{
         module.__name__.rpartition(".")[2]: module
@@ -34,7 +34,7 @@ which returns a `Result`, and `TEXT`, its format on standard output, if it takes
 
 HEADINGS = {
     "look": ("view", "figure", "movie", "page"),
-    "numbers": ("field", "pairs", "isolines", "profile", "statistics", "samples", "regions", "interpolate", "info"),
+    "numbers": ("field", "pairs", "isolines", "profile", "statistics", "samples", "regions", "interpolate", "graph", "info"),
     "compare": ("correspond", "evaluate", "perturb", "paper"),
     "many meshes": ("batch",),
 }

@@ -57,11 +57,13 @@ from .errors import (
     SolverError,
     VertexError,
 )
+from .formats.graph_file import read_graph
 from .formats.mesh_io import read_surface
 from .formats.pins import Pins, read_pins, write_pins
 from .formats.surface_output import write_mesh
 from .formats.vertex_maps import read_map, write_map
 from .formats.vertex_values import read_vertex_values
+from .graphs import Graph, biharmonic_index, kirchhoff_index
 from .laplacian import Laplacian, eigenpairs
 from .mesh_like import MeshLike
 from .solver.spectrum import Spectrum
@@ -96,6 +98,7 @@ __all__ = [
     "GeodesicDistance",
     "GeodesicPaths",
     "GradientJumps",
+    "Graph",
     "Isoline",
     "Laplacian",
     "MeshError",
@@ -128,6 +131,7 @@ __all__ = [
     "apparent_source",
     "at_tips",
     "band",
+    "biharmonic_index",
     "correspondence_prediction",
     "cut_out",
     "diagonal_of_inverse",
@@ -147,6 +151,7 @@ __all__ = [
     "inverse_on_pattern",
     "isolines",
     "isotropy_ratio",
+    "kirchhoff_index",
     "map_errors",
     "nearest",
     "noisy",
@@ -154,6 +159,7 @@ __all__ = [
     "parcel_means",
     "plane_section",
     "rank_correlation",
+    "read_graph",
     "read_map",
     "read_pins",
     "read_surface",
