@@ -34,7 +34,18 @@ which returns a `Result`, and `TEXT`, its format on standard output, if it takes
 
 HEADINGS = {
     "look": ("view", "figure", "movie", "page"),
-    "numbers": ("field", "pairs", "isolines", "profile", "statistics", "samples", "regions", "interpolate", "graph", "info"),
+    "numbers": (
+        "field",
+        "pairs",
+        "isolines",
+        "profile",
+        "statistics",
+        "samples",
+        "regions",
+        "interpolate",
+        "graph",
+        "info",
+    ),
     "compare": ("correspond", "evaluate", "perturb", "paper"),
     "many meshes": ("batch",),
 }

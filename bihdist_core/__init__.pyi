@@ -57,12 +57,12 @@ from .errors import (
     SolverError,
     VertexError,
 )
-from .formats.graph_file import read_graph
 from .formats.mesh_io import read_surface
 from .formats.pins import Pins, read_pins, write_pins
 from .formats.surface_output import write_mesh
 from .formats.vertex_maps import read_map, write_map
 from .formats.vertex_values import read_vertex_values
+from .graph_files import read_graph
 from .graphs import Graph, biharmonic_index, kirchhoff_index
 from .laplacian import Laplacian, eigenpairs
 from .mesh_like import MeshLike

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from .arrays import FloatArray, array_of
+from .arrays import FloatArray
 from .errors import ParameterError
 from .laplacian import Laplacian
 from .progress import Progress
@@ -34,7 +34,7 @@ class Graph:
     Examples
     --------
     >>> import bihdist, scipy.sparse
-    >>> path = scipy.sparse.diags([1, 1], [-1, 1], (3, 3))
+    >>> path = scipy.sparse.diags([[1, 1], [1, 1]], [-1, 1])
     >>> graph = bihdist.Graph.of(path)
     >>> graph.n_edges, graph.number(2)
     (2, 2)
@@ -82,16 +82,16 @@ class Graph:
             nodes = list(graph.nodes)
             number = {node: k for k, node in enumerate(nodes)}
             triples = [(number[i], number[j], w) for i, j, w in graph.edges(data=weight, default=1)]
-            i, j, w = (array_of(each, "Edges") for each in (list(zip(*triples, strict=True)) or ([], [], [])))
-            return cls(joined(i, j, w, nodes, name), nodes, name)
+            table = np.array(triples, float).reshape(-1, 3).T
+            return cls(joined(*table, nodes, name), nodes, name)
         matrix = sp.coo_matrix(graph)
         if matrix.shape[0] != matrix.shape[1]:
             raise ParameterError(f"{name}: the weights of a graph are an (n, n) matrix, not {matrix.shape}.")
-        nodes = range(matrix.shape[0])
+        rows = range(matrix.shape[0])
         there = sp.csr_matrix(matrix)
         if abs(there - there.T).max() > 0:
             raise ParameterError(f"{name}: the weights of an undirected graph are a symmetric matrix.")
-        return cls(joined(matrix.row, matrix.col, matrix.data, nodes, name), nodes, name)
+        return cls(joined(matrix.row, matrix.col, matrix.data, rows, name), rows, name)
 
     @property
     def n_edges(self) -> int:
@@ -103,7 +103,7 @@ class Graph:
         >>> bihdist.Graph.of(networkx.path_graph(5)).n_edges
         4
         """
-        return self.weights.nnz // 2
+        return int(self.weights.nnz) // 2
 
     @cached_property
     def _numbers(self) -> dict[Hashable, int]:
@@ -137,7 +137,7 @@ class Graph:
             return self._numbers[node]
         except KeyError:
             some = ", ".join(str(each) for each in list(self.nodes)[:3])
-            raise ParameterError(f"{self.name} has no node {node!r}; its nodes are {some}, …") from None
+            raise ParameterError(f"{self.name} has no node {node!r}; its nodes begin with {some}.") from None
 
     def with_inverse_weights(self) -> Graph:
         """Return the graph for weights that are lengths: a long edge conducts little.
@@ -150,8 +150,8 @@ class Graph:
         Examples
         --------
         >>> import bihdist, numpy
-        >>> bihdist.Graph.of(numpy.array([[0, 4], [4, 0]])).with_inverse_weights().weights.max()
-        0.25
+        >>> bihdist.Graph.of(numpy.array([[0, 4], [4, 0]])).with_inverse_weights().weights.toarray().tolist()
+        [[0.0, 0.25], [0.25, 0.0]]
         """
         weights = self.weights.copy()
         weights.data = 1 / weights.data

@@ -21,7 +21,7 @@ ROUNDING = 1e-9
 
 
 class SparseFactor:
-    """The factor of a sparse symmetric positive definite matrix, by nested dissection: solves, and parts of the inverse.
+    """The factor of a sparse symmetric positive definite matrix: solutions, and parts of the inverse.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class SparseFactor:
     Examples
     --------
     >>> import bihdist, numpy, scipy.sparse
-    >>> matrix = scipy.sparse.diags([-1, 2.5, -1], [-1, 0, 1], (1000, 1000)).tocsr()
+    >>> matrix = scipy.sparse.diags_array([-1, 2.5, -1], offsets=[-1, 0, 1], shape=(1000, 1000)).tocsr()
     >>> factor = bihdist.SparseFactor(matrix)
     >>> x = factor.solve(numpy.ones(1000))
     >>> float(abs(matrix @ x - 1).max()) < 1e-12
@@ -120,7 +120,7 @@ class SparseFactor:
         Examples
         --------
         >>> import bihdist, scipy.sparse
-        >>> matrix = scipy.sparse.diags([-1, 2, -1], [-1, 0, 1], (3, 3))
+        >>> matrix = scipy.sparse.diags([[-1, -1], [2, 2, 2], [-1, -1]], [-1, 0, 1])
         >>> bihdist.SparseFactor(matrix).diagonal_of_inverse().round(12).tolist()
         [0.75, 1.0, 0.75]
         """
@@ -142,7 +142,7 @@ class SparseFactor:
         Examples
         --------
         >>> import bihdist, scipy.sparse
-        >>> matrix = scipy.sparse.diags([-1, 2, -1], [-1, 0, 1], (3, 3))
+        >>> matrix = scipy.sparse.diags([[-1, -1], [2, 2, 2], [-1, -1]], [-1, 0, 1])
         >>> bihdist.SparseFactor(matrix).inverse_on_pattern().toarray().round(12).tolist()
         [[0.75, 0.5, 0.0], [0.5, 1.0, 0.5], [0.0, 0.5, 0.75]]
         """
@@ -165,7 +165,7 @@ class SparseFactor:
         Examples
         --------
         >>> import bihdist, scipy.sparse
-        >>> factor = bihdist.SparseFactor(scipy.sparse.diags([-1, 2, -1], [-1, 0, 1], (100, 100)))
+        >>> factor = bihdist.SparseFactor(scipy.sparse.diags_array([-1.0, 2, -1], offsets=[-1, 0, 1], shape=(100, 100)))
         >>> factor.error_of(factor.diagonal_of_inverse()) < 1e-12
         True
         """
@@ -176,7 +176,9 @@ class SparseFactor:
         b[rows, np.arange(len(rows))] = 1
         x = self.solve(b)
         x += self.solve(b - self._matrix @ x)
-        return SAFETY_FACTOR * float(np.abs(1 - found[rows] / x[rows, np.arange(len(rows))]).max()) + np.finfo(float).eps
+        return (
+            SAFETY_FACTOR * float(np.abs(1 - found[rows] / x[rows, np.arange(len(rows))]).max()) + np.finfo(float).eps
+        )
 
 
 def diagonal_of_inverse(
@@ -206,7 +208,7 @@ def diagonal_of_inverse(
     Examples
     --------
     >>> import bihdist, scipy.sparse
-    >>> bihdist.diagonal_of_inverse(scipy.sparse.diags([-1, 2, -1], [-1, 0, 1], (3, 3))).round(12).tolist()
+    >>> bihdist.diagonal_of_inverse(scipy.sparse.diags([[-1, -1], [2, 2, 2], [-1, -1]], [-1, 0, 1])).round(12).tolist()
     [0.75, 1.0, 0.75]
     """
     factor = SparseFactor(matrix, positions, part(progress, 0, 0.5))
@@ -240,7 +242,7 @@ def inverse_on_pattern(
     Examples
     --------
     >>> import bihdist, scipy.sparse
-    >>> matrix = scipy.sparse.diags([-1, 2, -1], [-1, 0, 1], (3, 3))
+    >>> matrix = scipy.sparse.diags([[-1, -1], [2, 2, 2], [-1, -1]], [-1, 0, 1])
     >>> bihdist.inverse_on_pattern(matrix).toarray().round(12).tolist()
     [[0.75, 0.5, 0.0], [0.5, 1.0, 0.5], [0.0, 0.5, 0.75]]
     """
@@ -256,7 +258,7 @@ def checked_symmetric(matrix: sp.spmatrix, what: str) -> sp.csr_matrix:
     n = matrix.shape[0]
     if matrix.shape != (n, n) or not n:
         raise ParameterError(f"{what} is to be square, and its shape is {matrix.shape}.")
-    if (matrix.dtype.kind not in "biuf"):
+    if matrix.dtype.kind not in "biuf":
         raise ParameterError(f"{what} has entries of the type {matrix.dtype}; they are to be real numbers.")
     rows = canonical(sp.csr_matrix(matrix))
     if not np.isfinite(rows.data).all():

@@ -234,9 +234,8 @@ class Surface:
         """Return why no distance is defined from a vertex, and what to take instead."""
         used = np.flatnonzero(self.component_of_vertex >= 0)
         nearest = used[int(((self.vertices[used] - self.vertices[vertex]) ** 2).sum(axis=1).argmin())]
-        return (
-            f"vertex {vertex} belongs to no face, so no distance is defined from it; the nearest that does is {nearest}."
-        )
+        why = f"vertex {vertex} belongs to no face, so no distance is defined from it"
+        return f"{why}; the nearest that does is {nearest}."
 
     def check_vertices(self, vertices: npt.ArrayLike | Sequence[object]) -> IntArray:
         """Check vertex ids.

@@ -2,6 +2,8 @@
 
 import argparse
 import csv
+import re
+import sys
 from typing import TYPE_CHECKING
 
 from bihdist_core.counts import counted
@@ -34,9 +36,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     formats = "edge list (.csv, .tsv, .txt) with weights if it has a third column, .mtx, .graph, .graphml or .npz"
     parser.add_argument("graph", metavar="GRAPH", help=f"file of a graph: {formats}")
     which = parser.add_mutually_exclusive_group()
-    which.add_argument("--pairs", metavar="A:B,…", type=as_argument(split_list), help="pairs of nodes, by their names")
+    pairs = "pairs of nodes by their names; or a file with a line for each, @FILE"
+    which.add_argument("--pairs", metavar="I:J,…|@FILE", type=as_argument(_pairs), help=pairs)
     which.add_argument(
-        "--sources", metavar="A,…", type=as_argument(split_list), help="the distance of all nodes from each of these"
+        "--sources",
+        metavar="SOURCES",
+        type=as_argument(split_list),
+        help="the distance of all nodes from each of these",
     )
     which.add_argument("--edges", action="store_true", help="the distances between the ends of all edges")
     add_output(parser, "a .csv file of the distances (default: standard output)", required=False)
@@ -44,8 +50,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--distance",
         metavar="NAME,…",
         type=as_argument(split_list),
-        help="biharmonic, resistance, power(alpha=3) for the k-harmonic one with k = 3, diffusion(t=1/4), commute-time, "
-        "truncated(k=50); with commas: a column each (default: biharmonic,resistance)",
+        help="biharmonic, resistance, power(alpha=3) for the k-harmonic one with k = 3, diffusion(t=1/4), "
+        "commute-time, truncated(k=50); with commas: a column each (default: biharmonic,resistance)",
     )
     parser.add_argument(
         "--lengths", action="store_true", help="weights are lengths: an edge counts by 1 / weight (default: by weight)"
@@ -97,6 +103,8 @@ def _table(
     """Return the header and the rows of what is asked for."""
     import numpy as np
 
+    from bihdist_core.distances.distance import FactoredDistance
+
     def shown(word: str, values: "FloatArray") -> "FloatArray":
         return values**2 if word == RESISTANCE else values
 
@@ -105,19 +113,31 @@ def _table(
         fields = [(word, each.from_sources(numbers)) for word, each in zip(words, made, strict=True)]
         header = [f"{word} from {name}" for word, _ in fields for name in options.sources]
         columns = [column for word, field in fields for column in shown(word, field).T]
-        return ["node", *header], [[name, *row] for name, row in zip(graph.nodes, zip(*columns, strict=True), strict=True)]
+        return ["node", *header], [
+            [name, *row] for name, row in zip(graph.nodes, zip(*columns, strict=True), strict=True)
+        ]
     pairs: IntArray
     if options.edges:
-        found = [each.edge_distances() for each in made]
+        found = [each.edge_distances() for each in made if isinstance(each, FactoredDistance)]
+        if len(found) < len(made):
+            raise ParameterError("--edges goes with biharmonic, resistance and commute-time.")
         pairs, columns = found[0][0], [shown(word, values) for word, (_, values) in zip(words, found, strict=True)]
     else:
-        ends = [each.split(":") for each in options.pairs]
-        if wrong := next((each for each in ends if len(each) != 2), None):
-            raise ParameterError(f"--pairs names two nodes with a colon between, A:B, not {':'.join(wrong)!r}.")
-        pairs = np.array([[_number(graph, end) for end in each] for each in ends])
+        pairs = np.array([[_number(graph, end) for end in each] for each in options.pairs])
         columns = [shown(word, each.of_pairs(pairs, digits="all")) for word, each in zip(words, made, strict=True)]
     names = [(graph.nodes[i], graph.nodes[j]) for i, j in pairs.tolist()]
     return ["a", "b", *words], [[*name, *row] for name, row in zip(names, zip(*columns, strict=True), strict=True)]
+
+
+def _pairs(text: str) -> list[list[str]]:
+    """Return the names of both nodes of pairs, A:B,C:D, or those on the lines of a file, A,B or A:B."""
+    from bihdist_core.file_content import file_text
+
+    each = file_text(text[1:], "file of pairs").split("\n") if text.startswith("@") else split_list(text)
+    found = [re.split("[:,\t]", word.strip()) for word in each if word.strip()]
+    if wrong := next((pair for pair in found if len(pair) != 2), None):
+        raise ParameterError(f"--pairs names two nodes with a colon between, A:B, not {':'.join(wrong)!r}.")
+    return found
 
 
 def _number(graph: "Graph", word: str) -> int:
@@ -128,8 +148,6 @@ def _number(graph: "Graph", word: str) -> int:
 
 
 def _write(output: str | None, header: list[str], rows: list[list[object]]) -> None:
-    import sys
-
     from bihdist_core.file_output import atomic_write
 
     if not output:

@@ -99,8 +99,8 @@ def _checked_coordinates(pattern: sp.spmatrix, coordinates: FloatArray) -> Float
 
 
 def landmark_coordinates(matrix: sp.csr_matrix) -> FloatArray:
-    """Return (n, 3) coordinates of vertices: the three principal components of their numbers of steps from some landmarks,
-    each the farthest from those before (pivot multidimensional scaling, Brandes and Pich 2007).
+    """Return (n, 3) coordinates of vertices: the principal components of their numbers of steps from landmarks, each the
+    farthest from those before (pivot multidimensional scaling, Brandes and Pich 2007).
 
     Elimination in an order by these costs about what it costs by true coordinates.
     """
@@ -113,7 +113,7 @@ def landmark_coordinates(matrix: sp.csr_matrix) -> FloatArray:
         landmark = int(nearest.argmax())
     steps -= steps.mean(axis=0)
     vectors = np.linalg.eigh(steps.T @ steps)[1]
-    coordinates: FloatArray = steps @ vectors[:, : -4 : -1]
+    coordinates: FloatArray = steps @ vectors[:, :-4:-1]
     return coordinates
 
 

@@ -247,7 +247,7 @@ def _check_result(x: FloatArray) -> None:
 
 
 def on_both_sides(tree: EliminationTree, pattern: sp.csr_matrix, values: AnyArray) -> AnyArray:
-    """Return values (e,) on a symmetric pattern, of which those left of the diagonal in elimination order are missing."""
+    """Return values (e,) on a symmetric pattern; those left of the diagonal in elimination order are missing."""
     places, rows = tree.layout.place, np.repeat(np.arange(tree.n), np.diff(pattern.indptr))
     numbers = sp.csr_matrix((np.arange(pattern.nnz), pattern.indices, pattern.indptr), shape=pattern.shape)
     return np.where(places[pattern.indices] >= places[rows], values, values[numbers.T.tocsr().data])

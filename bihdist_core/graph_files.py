@@ -14,13 +14,13 @@ import numpy as np
 import scipy.io
 import scipy.sparse as sp
 
-from ..arrays import FloatArray, IntArray
-from ..counts import counted
-from ..errors import ParameterError
-from ..file_content import file_text
-from ..graphs import Graph, joined
-from ..sentences import shortened
-from .whole_numbers import numbered_lines
+from .arrays import FloatArray, IntArray
+from .counts import counted
+from .errors import ParameterError
+from .file_content import file_text
+from .formats.whole_numbers import numbered_lines
+from .graphs import Graph, joined
+from .sentences import shortened
 
 Edges = tuple[Sequence[Hashable], IntArray, IntArray, FloatArray]
 """The nodes, and of each edge the numbers of its ends, and its weight."""
@@ -111,7 +111,8 @@ def _named(text: str, mark: str | None, path: Path) -> Edges:
         except ValueError:
             shown = shortened(repr(words[2]), 40)
             raise ParameterError(f"{path}, line {place}: the weight {shown} is not a number.") from None
-        rows.append((*(number.setdefault(word, len(number)) for word in words[:2]), weight))
+        i, j = (number.setdefault(word, len(number)) for word in words[:2])
+        rows.append((i, j, weight))
     return list(number), *_columns(rows)
 
 
