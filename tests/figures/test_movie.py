@@ -123,7 +123,7 @@ def test_movies_that_make_no_sense_are_refused(recipe, mesh_file, tmp_path, caps
             Movie(recipe, **wrong)
     mesh = mesh_file(bumpy(200))
     assert main(["movie", mesh, "-o", str(tmp_path / "m.avi")]) == 2
-    assert ".mp4, .gif" in capsys.readouterr().err
+    assert ".mp4, .webm, .gif, .png" in capsys.readouterr().err
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     assert main(["movie", mesh, "-o", str(tmp_path / "m.mp4")]) == 2
     assert f"{sys.executable} -m pip install imageio-ffmpeg" in capsys.readouterr().err
@@ -203,11 +203,11 @@ def test_an_encoder_that_gives_up_is_said(recipe, tmp_path, monkeypatch):
 def test_the_source_is_seen_in_the_first_frame():
     surface = bumpy(400)
     for vertex in range(0, 400, 37):
-        camera, axis = start_and_axis("home", surface, 360.0, 0.0, [vertex])
+        camera, axis = start_and_axis("home", surface, (0.0, 360.0), 0.0, [(0.0, vertex)])
         sight = HiddenLineRemoval(surface, Projection(camera, 1.0, surface.vertices), (300, 300))
         away = abs(surface.vertices[vertex] @ axis) / np.linalg.norm(surface.vertices[vertex])
         assert sight.sees(surface.vertices[vertex]) or away > 0.9  # from above the poles alone
-    front = start_and_axis("front", surface, 360.0, 0.0, [5])[0]
+    front = start_and_axis("front", surface, (0.0, 360.0), 0.0, [(0.0, 5)])[0]
     assert np.allclose(np.subtract(front.position, front.focal_point)[:2], 0)  # as it was asked for
 
 
@@ -215,7 +215,7 @@ def test_a_frame_is_as_large_as_what_turns_and_no_larger():
     long = Surface(bumpy(400).vertices * [0.3, 3, 0.2], bumpy(400).faces, "")
     for surface in (bumpy(400), long):
         for turn, size in ((360.0, Size(600)), (90.0, Size())):
-            camera, axis = start_and_axis("home", surface, turn, 0.0, [5])
+            camera, axis = start_and_axis("home", surface, (0.0, turn), 0.0, [(0.0, 5)])
             figure = Figure((FigurePanel(surface, np.linspace(0, 1, 400)),), size=size)
             figure = replace(figure, size=fitted_size(figure, camera.extent))
             box = lay_out(figure).cells[0].views[0]
