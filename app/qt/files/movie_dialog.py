@@ -82,7 +82,7 @@ class MovieDialog(LooksDialog):
         self.check_size(self.chosen())
 
     def work(self, path: str) -> Callable[..., object]:
-        check_movie(path)
+        check_movie(path, self.frames.value())
         return partial(write_movie, self._movie(), path, given=self._given)
 
     def _movie(self) -> Movie:
