@@ -13,7 +13,6 @@ from .terminal import progress_line, report_answers
 
 WORDS = "draw a figure that turns, whose source moves or whose parameter changes, as MP4, WebM, GIF or PNG frames"
 EXAMPLES = (
-    "bihdist movie hand -o turn.gif --frames 40",
     "bihdist movie hand --path 12,900 --distance biharmonic -o walk.gif",
     "bihdist movie hand --sweep t=4..1/60 --distance diffusion --swing -o times.gif",
     "bihdist movie --recipe hand.json -o turn.gif --fps 10",
