@@ -18,11 +18,15 @@ from bihdist_core.sources.source import Source, checked_source
 from .camera import SecondMeshView, View, checked_view
 from .looks import (
     AS_IT_IS,
+    CURVATURE,
     LARGEST,
+    NO_BASE,
     OF_THE_STYLE,
     RANGES,
     TWENTY_STEPS,
     UPS,
+    Base,
+    Clip,
     Colours,
     Isolines,
     Shading,
@@ -260,6 +264,10 @@ class Document:
         The colours of the fields.
     shading
         The shading of the surfaces.
+    clip
+        The plane beyond which surfaces are cut away; None for none.
+    base
+        The scalars in grey under the isolines.
     up
         The axis of the first surface that points up; "auto" as long as it is to be guessed.
     parallel_projection
@@ -296,6 +304,8 @@ class Document:
     fields: tuple[FieldArray, ...] = ()
     colours: Colours = OF_THE_STYLE
     shading: Shading = AS_IT_IS
+    clip: Clip | None = None
+    base: Base = NO_BASE
     up: str = "auto"
     parallel_projection: bool = False
     axes: bool = False
@@ -310,6 +320,8 @@ class Document:
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
             object.__setattr__(self, "isolines", Isolines(self.isolines))  # a number of steps does
+        if self.base.scalars not in ("", CURVATURE, *(field.name for field in self.fields)):
+            object.__setattr__(self, "base", NO_BASE)  # its field is gone
         ids = {panel.id for panel in self.panels}
         # Of panels that are gone nothing more is shown.
         parts = {type(part): part.renumbered({id: id for id in ids}) for part in self.parts}

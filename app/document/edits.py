@@ -26,6 +26,7 @@ KEPT_OF_CLOSED = (
     "areas",
     "colours",
     "shading",
+    "base",
     "parallel_projection",
     "axes",
     "extrema",

@@ -130,9 +130,9 @@ def _draw_shot(axes: Axes, page: ComposedPage, number: int, shot: Shot, vector: 
     for k, line in enumerate(sorted(contours, key=lambda line: line.is_through)):
         if not line.parts:
             continue
-        ink = style.isoline_ink(panel.signed, line.value, line.is_through)
+        ink = page.figure.isoline_ink(shot.panel, line.value, line.is_through)
         wider = BOLD if line.is_through else width_of(panel.isolines, line.is_bold, panel.signed and line.value == 0)
-        width = wider * style.isoline_width * stroke
+        width = wider * ink.width * style.isoline_width * stroke
         strokes = [(ink.rim, width + 2 * ink.rim_width * stroke)] if ink.rim is not None else []
         for colour, across in (*strokes, (ink.colour, width)):
             # The stroke is cut where the shape ends, which its middle line does already.

@@ -16,6 +16,7 @@ from ..document.quantities import Quantity
 from ..document.settings import THEME, Preferences, Setting
 from ..document.tools import tools
 from ..scene.colour_file import read_stops
+from ..session.base import no_scalars
 from .context import Context
 from .files.taken_ends import TakenEnds
 from .look.canvas import map_word
@@ -147,6 +148,18 @@ class Choices:
             self._colour(Colours(Path(path).stem, read_stops(path), now.reversed, now.bands))
         except ParameterError as error:
             self._context.fail(error)
+
+    def base(self, scalars: str) -> None:
+        """Draw scalars in grey under the isolines, or nothing."""
+        session = self._context.session
+        document = session.document
+        field = next((each for each in document.fields if each.name == scalars), None)
+        loaded = None if field is None else session.loaded(field.surface)
+        if field is not None and loaded is not None and loaded.own_field(field).field is None:
+            self._context.fail(ParameterError(no_scalars(scalars)))
+        elif scalars != document.base.scalars:
+            session.show(replace(document, base=replace(document.base, scalars=scalars)))
+        self._context.choice_changed.emit()
 
     # ------------------------------------------------------------------ ranges
     def end_at(self, panel: int, end: float | None) -> None:

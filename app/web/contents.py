@@ -134,6 +134,7 @@ def notes_on(document: Document, page_views: int) -> list[str]:
         "bold isolines": bool(lines.bold),
         "the values of isolines": lines.labels,
         "bands of one colour": colours.bands,
+        "the base in grey": bool(document.base.scalars),
         "insets": bool(document.insets),
         "the triangles at extrema": document.extrema,
         "the height of a height field": bool(document.warp_factor),

@@ -15,6 +15,7 @@ from ...document.settings import Preferences
 from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.style import PAPER, Style
 from ...session.bar_ends import bar_end, ends_with
+from ...session.base import BaseGreys
 from ...session.session import Session
 from ..look.look import LOOK
 from .camera_controller import CameraController
@@ -229,6 +230,14 @@ class PanelGrid(QtWidgets.QWidget):
         if loaded is not None:
             panel.show_shading(shading, self._shading_cache.drawn(loaded.prepared.meshes, shading))
 
+    def show_base(self, document: Document) -> None:
+        """Show the greys of the document's base on all surfaces, or none."""
+        for panel in document.panels:
+            loaded = self._session.loaded(panel.surface)
+            if loaded is not None:
+                greys = loaded.memory(BaseGreys).greys(document, panel, loaded)
+                self._panels[panel.id].show_base(greys, not document.base.white_isolines)
+
     # ------------------------------------------------------------------ answers
     def show_answer(self, id: int) -> None:
         """Show the answer that the session has now for a panel."""
@@ -254,6 +263,12 @@ class PanelGrid(QtWidgets.QWidget):
         """Show in all panels which way the axes point, or no longer."""
         for panel in self.panels:
             panel.view.over.show_axes(has_axes)
+
+    def show_clip(self) -> None:
+        """Cut all surfaces by the document's plane; large ones are drawn in full once it rests."""
+        changed = [panel.show_clip(self._session.document.clip) for panel in self.panels]
+        if any(changed):
+            self.motion.moved()
 
     def follow_preferences(self, preferences: Preferences) -> None:
         """Turn and zoom as the user prefers."""
