@@ -29,7 +29,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="DEGREES",
         help="how far the shape turns, in degrees (default: 360; 90 with --swing, else 0 with --path or --sweep)",
     )
-    parser.add_argument("--swing", action="store_true", help="turn the shape to and fro, with the source in view")
+    parser.add_argument("--swing", action="store_true", help="turn the shape back and forth, with the source in view")
     parser.add_argument(
         "--path",
         type=_path,
@@ -62,6 +62,7 @@ def run(options: argparse.Namespace) -> Result:
         (options.path and options.sources, "--sources beside --path, whose first vertex is the source"),
         (options.transparent, "--transparent"),
         (options.crop, "--crop"),
+        (options.layout, "--layout"),
         (len(options.cpos or ()) > 1, "more than one view"),
     ):
         if given:

@@ -54,7 +54,7 @@ class Movie:
     turn
         Degrees by which the shape turns in all; None for a whole turn, unless something else moves.
     is_swing
-        Whether it turns to and fro, with the source in view.
+        Whether it turns back and forth, with the source in view.
     path
         Vertices that the source goes through, along edges.
     sweep
@@ -238,7 +238,8 @@ class _Fields:
         document = self.documents[frame]
         panels = tuple(replace(p, maximum=p.maximum or self._tops.get(p.id)) for p in document.panels)
         recipe = Recipe(
-            replace(document, panels=panels), replace(self._recipe.page, views=(), crop=False, transparent=False)
+            replace(document, panels=panels),
+            replace(self._recipe.page, views=(), crop=False, transparent=False, layout=""),
         )
         answers = [self._answers[q] for q in questions(document).values()]
         figure = figure_of(recipe, self.surfaces, answers)

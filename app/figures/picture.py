@@ -102,7 +102,7 @@ class Picture:
             Angle in degrees by which the mesh turns, by default 360; 90 with `swing`, else 0 if the source moves or a
             parameter changes.
         swing : bool
-            Turn to and fro, with the source in view.
+            Turn back and forth, with the source in view.
         source_path : sequence of int
             Move the source along edges through these vertices.
         sweep : str

@@ -48,11 +48,11 @@ class MovieDialog(LooksDialog):
         self.length = quiet_label()
         self.form.row("&Turn by", self.turn, "Rotation from the first frame to the last; 0 for none")
         tip = "Turn to one side and back to the other, with the source in view"
-        self.swing = self.form.tick("To an&d fro", False, tip)
+        self.swing = self.form.tick("Back an&d forth", False, tip)
         self.swing.toggled.connect(lambda is_on: self.turn.setValue(round(SWING) if is_on else 360))
         self.form.row("Source &path", self.path_text, "Ids of the vertices that the source moves through, along edges")
         tip = "Values that a parameter of the distances takes: a range such as t=4..1/60, or several, k=10,50,200"
-        self.form.row("P&arameter", self.sweep_text, tip)
+        self.form.row("Para&meter", self.sweep_text, tip)
         self.form.row("&Frames", self.frames, "Number of frames")
         self.form.row("Frames per &second", self.fps, "Frame rate")
         self.form.row("Length", self.length, "How long the movie lasts")
