@@ -122,10 +122,12 @@ def _named(specs: Iterable[Spec]) -> dict[str, Spec]:
     found: dict[str, Spec] = {}
     for spec in specs:
         name = spec.word.replace("-", "_")
+        count = sum(each.word == spec.word for each in found.values())
         if spec.distance_type.on_pages == "poles":
             name += f"@{spec.values[0][1]}"
-        count = sum(each.word == spec.word for each in found.values())
-        found[f"{name}_{count + 1}" if count else name] = spec
+        elif count:
+            name += f"_{count + 1}"
+        found[name] = spec
     return found
 
 

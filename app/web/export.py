@@ -156,7 +156,7 @@ def page_of(
     contents = Contents.of(document)
     loaded = surfaces[document.surfaces[0].name]
     check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path)
-    _check_eigenpairs(contents, loaded.surface, eigenpairs)
+    _check_eigenpairs(contents, len(loaded.surface.vertices), eigenpairs)
     recipe = replace(recipe, document=contents.document)
     answers = compute(contents.document, surfaces, part(progress, 0, 0.4))
     mesh = StoredMesh.of(loaded.surface, precision)
@@ -209,9 +209,9 @@ def check_size(name: str, vertices: int, path: str = "") -> None:
         )
 
 
-def needed_eigenpairs(contents: Contents, surface: Surface) -> dict[str, int]:
+def needed_eigenpairs(contents: Contents) -> dict[str, int]:
     """Return the numbers of eigenpairs of the distances that need them, by the distances' names."""
-    return {name: int(spec.limited_to(surface)["k"]) for name, spec in contents.by_eigenpairs.items()}
+    return {name: int(spec["k"]) for name, spec in contents.by_eigenpairs.items()}
 
 
 def eigenpair_bytes(count: int, vertices: int) -> int:
@@ -253,9 +253,9 @@ def _offered(
     return found
 
 
-def _check_eigenpairs(contents: Contents, surface: Surface, allowed: int | None) -> None:
-    count, room = len(surface.vertices), EIGENPAIR_BYTES
-    for name, needed in needed_eigenpairs(contents, surface).items():
+def _check_eigenpairs(contents: Contents, count: int, allowed: int | None) -> None:
+    room = EIGENPAIR_BYTES
+    for name, needed in needed_eigenpairs(contents).items():
         room -= eigenpair_bytes(needed, count)
         if room < 0 if allowed is None else needed > allowed:
             raise ParameterError(

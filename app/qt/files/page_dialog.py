@@ -42,7 +42,7 @@ class PageDialog(JobDialog):
         contents = Contents.of(document)
         loaded = self._surfaces[document.surfaces[0].name]
         check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path)
-        needed = needed_eigenpairs(contents, loaded.surface).values()
+        needed = needed_eigenpairs(contents).values()
         size = eigenpair_bytes(sum(needed), len(loaded.surface.vertices))
         self._allowed = None if size <= EIGENPAIR_BYTES else max(needed)
         self.carried.setText(f"{counted(sum(needed), 'eigenpair')} in the file, about {size_words(size)}")

@@ -50,21 +50,21 @@ function work() {
     }
     /** R_vv + R_ss - 2 R_vs for each v and the source s, R the resolvent at a pole in units of the first eigenvalue. */
     resolvent(name, [real, imaginary], vertex, names) {
-      const isComplex = Number(imaginary !== 0);
+      const isComplex = imaginary ? 1 : 0;
       this.order();
-      let block = this.blocks.get(name)?.block;
-      if (!block) {
+      let held = this.blocks.get(name);
+      if (!held) {
         postMessage({ words: "Factoring" });
-        const isFree = ([each, { isComplex: other }]) => other === isComplex && !names.includes(each);
+        const isFree = ([other, { isLarge }]) => isLarge >= isComplex && !names.includes(other);
         const isFull = this.kernel.memory.buffer.byteLength > scene.room;
-        const [old, { block: room }] = (isFull && [...this.blocks].find(isFree)) || ["", { block: 0 }];
+        const [old, { block, isLarge }] = (isFull && [...this.blocks].find(isFree)) || ["", { block: 0, isLarge: isComplex }];
         this.blocks.delete(old);
-        block = this.kernel.page_shift(real * this.unit, imaginary * this.unit, room);
-        if (!block) throw new Error(TOO_THIN);
+        held = { block: this.kernel.page_shift(real * this.unit, imaginary * this.unit, block), isLarge };
+        if (!held.block) throw new Error(TOO_THIN);
       }
       this.blocks.delete(name);
-      this.blocks.set(name, { block, isComplex });
-      this.kernel.page_resolvent(block, isComplex, vertex - this.first);
+      this.blocks.set(name, held);
+      this.kernel.page_resolvent(held.block, isComplex, vertex - this.first);
       return this.doubles(RESOLVENT, (1 + isComplex) * this.n).slice();
     }
     unfold() {
