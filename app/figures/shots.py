@@ -74,6 +74,8 @@ class Shot:
         Names of lines of which something is seen.
     lines
         By their looks, those of a higher rank last.
+    per_unit
+        How long a unit of the mesh is on the page, in the plane that the camera looks at.
     """
 
     panel: int
@@ -87,6 +89,7 @@ class Shot:
     source: Box | None = None
     seen: frozenset[str] = frozenset()
     lines: dict[LineLook, SeenLines] = field(default_factory=dict)
+    per_unit: float = 0.0
 
     def alpha_at(self, points: FloatArray) -> AnyArray:
         """Return the opacity of the picture, 0 to 255, at points (k, 2) of the page; 0 outside of it."""
@@ -226,6 +229,7 @@ class _Taker:
         self._surface, self._top, self._box, self._render_window = surface, top, framed.whole, render_window
         self._scale, self._stroke, self._lift = layout.scale, layout.stroke, layout.mark / 2
         self._projection = framed.projection
+        self._per_unit = 1 / framed.projection.pixel_at(framed.depth, framed.whole.width)
         self._sight, self._curves = sight, curves
         self._found: dict[Isolines, list[Contour]] = {}
         self._outlines: list[Line] | None = None
@@ -277,6 +281,7 @@ class _Taker:
             source,
             frozenset(self._seen),
             {look: SeenLines(moved_lines(of.seen), moved_lines(of.course)) for look, of in self._lines.items()},
+            self._per_unit,
         )
 
     # ------------------------------------------------------------------ what is seen
