@@ -247,6 +247,7 @@ def _figure_panel(
         is_parallel=document.parallel_projection,
         axes=document.axes,
         clip=document.clip,
+        opacity=document.opacity,
     )
 
 

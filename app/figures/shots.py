@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import chain
 
 import numpy as np
@@ -73,6 +74,8 @@ class Shot:
         Names of lines of which something is seen.
     lines
         By their looks, those of a higher rank last.
+    opacity
+        Of the surface.
     """
 
     panel: int
@@ -86,15 +89,22 @@ class Shot:
     source: Box | None = None
     seen: frozenset[str] = frozenset()
     lines: dict[LineLook, SeenLines] = field(default_factory=dict)
+    opacity: float = 1.0
 
-    def alpha_at(self, points: FloatArray) -> AnyArray:
-        """Return the opacity of the picture, 0 to 255, at points (k, 2) of the page; 0 outside of it."""
+    @cached_property
+    def cover(self) -> AnyArray:
+        """How much of each pixel (h, w) the surface takes, 0 to 255."""
+        alpha = self.image[..., 3]
+        return alpha if self.opacity == 1 else np.minimum(np.rint(alpha / self.opacity), 255).astype(np.uint8)
+
+    def cover_at(self, points: FloatArray) -> AnyArray:
+        """Return how much the surface takes of the picture, 0 to 255, at points (k, 2) of the page; 0 outside of it."""
         rows, columns, _ = self.image.shape
         column, row = np.floor(self.box.shares(points) * (columns, rows)).astype(int).T
         is_inside = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
-        alpha = np.zeros(len(points), np.uint8)
-        alpha[is_inside] = self.image[row[is_inside], column[is_inside], 3]
-        return alpha
+        cover = np.zeros(len(points), np.uint8)
+        cover[is_inside] = self.cover[row[is_inside], column[is_inside]]
+        return cover
 
 
 class RenderCache:
@@ -164,7 +174,10 @@ def take_shots(
             render_window.shown.show_surface(mesh)
             render_window.shown.show_shading(shading)
             clip = clip_plane(panel.clip, surface)
-            render_window.shown.show_clip(clip)
+            # Behind a translucent surface lines are painted; before it they are curves, like all of an opaque one.
+            is_translucent = panel.opacity < 1
+            render_window.shown.show_clip(clip, paints_section=is_translucent)
+            render_window.shown.show_opacity(panel.opacity)
             render_window.shown.show_selected(selected_colours(panel.areas, len(surface.vertices)))
             if panel.field is not None:
                 render_window.shown.show_field(panel.field, tops[index], panel.signed)
@@ -180,9 +193,16 @@ def take_shots(
                 framed = Framed(view, panel, surface, box, shown)
                 size = (framed.whole.width, framed.whole.height)
                 # Panels of one surface that are seen alike differ in their fields alone.
-                key = (id(mesh), clip, size, framed.projection.view.tobytes(), framed.projection.matrix.tobytes())
+                key = (
+                    id(mesh),
+                    clip,
+                    is_translucent,
+                    size,
+                    framed.projection.view.tobytes(),
+                    framed.projection.matrix.tobytes(),
+                )
                 if key not in sights:
-                    outward = outward_faces(mesh, is_cut=clip is not None)
+                    outward = outward_faces(mesh, clip is not None, panel.opacity)
                     sights[key] = HiddenLineRemoval(surface, framed.projection, size, outward, clip)
                 taker = _Taker(figure, index, surface, sights[key], tops[index], framed, layout, render_window, curves)
                 shots.append(taker.take(box, panel.isolines, step))
@@ -218,7 +238,7 @@ class _Taker:
         self._surface, self._top, self._box, self._render_window = surface, top, framed.whole, render_window
         self._scale, self._stroke, self._lift = layout.scale, layout.stroke, layout.mark / 2
         self._projection = framed.projection
-        self._sight, self._curves = sight, curves
+        self._sight, self._curves, self._is_translucent = sight, curves, figure.panels[index].opacity < 1
         self._found: dict[Isolines, list[Contour]] = {}
         self._outlines: list[Line] | None = None
         panel = self._panel
@@ -232,7 +252,9 @@ class _Taker:
     def take(self, box: Box, wanted: Isolines, progress: Progress, source: Box | None = None) -> Shot:
         """Take what a box of the page shows: the view or, for an inset, a part of it enlarged, with these isolines."""
         _, _, width, height = box.pixels(self._scale)
-        self._render_window.shown.show_isolines(Isolines(0) if self._curves else wanted, self._panel.through)
+        # Labels would stand on painted ones.
+        is_painted = not self._curves or (self._is_translucent and not wanted.labels)
+        self._render_window.shown.show_isolines(wanted if is_painted else Isolines(0), self._panel.through)
         image = self._render_window.shade(
             self._projection,
             (width, height),
@@ -269,6 +291,7 @@ class _Taker:
             source,
             frozenset(self._seen),
             {look: SeenLines(moved_lines(of.seen), moved_lines(of.course)) for look, of in self._lines.items()},
+            self._panel.opacity,
         )
 
     # ------------------------------------------------------------------ what is seen
@@ -298,11 +321,12 @@ class _Taker:
         """Return the panel's lines of a look; the names of those of which something is seen are kept."""
         lines, x = [line for line in self._panel.lines if line.look == look], self._surface.vertices
         curves = [Curve(line.positions(x), line.spans, line.is_closed) for line in lines]
-        seen = self._sight.visible(curves)
+        outlined = [self._sight.outlined([curve]) for curve in curves if look.hidden or self._is_translucent]
+        seen = outlined if self._is_translucent else self._sight.visible(curves)
         self._seen |= {
             line.name for line, parts in zip(lines, seen, strict=True) if sum(map(_length, parts)) > LEAST_SEEN
         }
-        return SeenLines(list(chain.from_iterable(seen)), self._sight.outlined(curves) if look.hidden else [])
+        return SeenLines(list(chain.from_iterable(seen)), list(chain.from_iterable(outlined)) if look.hidden else [])
 
     def _placed_marks(self) -> tuple[list[PlacedMark], list[PlacedMark]]:
         """Return the marks that are seen, and those that the shape hides."""
@@ -318,7 +342,7 @@ class _Taker:
             # A mark stands out of the surface: at a silhouette it is seen a little longer than its vertex.
             per_unit = self._projection.pixel_at(depth, self._box.width)
             nearer = point + self._normal(mark) * per_unit * 0.67 * self._lift
-            is_seen = self._sight.sees(point) or self._sight.sees(nearer)
+            is_seen = self._is_translucent or self._sight.sees(point) or self._sight.sees(nearer)
             if is_seen or mark.glyph.hidden is not None:
                 (seen if is_seen else hidden).append((k, float(x), float(y)))
         return seen, hidden
