@@ -183,6 +183,8 @@ class LayoutOptions(TypedDict, total=False):
         Style of the page: ``"paper"``, ``"uniform"``, ``"lines"`` or ``"dark"``.
     columns : int
         Number of panels side by side; by default all, or a row for each source.
+    layout : str
+        ``"hemispheres"``: lateral and medial views of each hemisphere in a row, a row for each distance.
     title : str
         Write names as ``"heading"``, as ``"caption"`` at the colour bars, or ``"none"``.
     hints : bool
@@ -200,6 +202,7 @@ class LayoutOptions(TypedDict, total=False):
     size: str
     style: str
     columns: int | None
+    layout: str
     title: str
     hints: bool
     font_family: str

@@ -37,6 +37,8 @@ class FigurePanel:
         Values of further isolines, which stand out.
     views
         Pictures of the panel side by side, each a standard view or a camera.
+    parts
+        What of the surface each view shows, with the vertex ids of the whole; all of it if there are none.
     marks, lines, areas
         Marks on the surface.
     height
@@ -79,6 +81,7 @@ class FigurePanel:
     isolines: Isolines = TWENTY_STEPS
     through: tuple[float, ...] = ()
     views: tuple[View, ...] = ("home",)
+    parts: tuple[Surface, ...] = ()
     marks: tuple[PointMark, ...] = ()
     insets: tuple[Inset, ...] = ()
     warp_factor: float = 0.0
@@ -167,7 +170,7 @@ class Figure:
     remarks
         Sentences on what could not be shown.
     legend
-        Entries under all panels, on a page whose height follows from them.
+        Entries under all panels, on a page whose height follows from them; in a movie the height is that without them.
     dashes_all
         Whether marks that the shape hides are dashed even if another view of their panel shows them.
     """
@@ -193,7 +196,7 @@ class Figure:
             raise ParameterError("A figure needs at least one panel.")
         if self.columns is not None and self.columns < 1:
             raise ParameterError(f"A figure has at least one column, not {self.columns}.")
-        if self.legend and self.size.height is not None:
+        if self.legend and self.size.height is not None and not self.is_moving:
             raise ParameterError("The height of a page with a legend follows from what is on it; give its width only.")
         one_of(self.range, RANGES, "range")
         one_of(self.title, TITLES, "title")

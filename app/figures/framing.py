@@ -48,6 +48,11 @@ def shown_surface(panel: FigurePanel, top: float) -> Surface:
     return warp_by_scalar(panel.surface, panel.field, top, up)
 
 
+def shown_surfaces(panel: FigurePanel, top: float) -> tuple[Surface, ...]:
+    """Return what each view of a panel shows."""
+    return panel.parts or (shown_surface(panel, top),) * len(panel.views)
+
+
 def camera_of(view: View, panel: FigurePanel, surface: Surface, aspect: float) -> Camera:
     """Return the camera of a view of a panel in a picture of width / height `aspect`."""
     if isinstance(view, Camera):

@@ -141,6 +141,12 @@ ROWS = (
     *PAGE_ROWS,
     _layout("transparent", "draw no background"),
     CROP,
+    _layout(
+        "layout",
+        "hemispheres: lateral and medial views of each hemisphere in a row, a row for each distance",
+        "hemispheres",
+        choices=("hemispheres",),
+    ),
     SHADING,
     SHOW_EDGES.row,
     OPACITY,

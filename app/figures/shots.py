@@ -21,15 +21,16 @@ from ..drawing.line_looks import SECTION, LineLook
 from ..drawing.shapes import Box
 from ..marks.primitives import PointMark
 from ..scene.bands import band_edges
-from ..scene.clipping import clip_plane, is_kept
+from ..scene.clipping import ClipPlane, clip_plane, is_kept
 from ..scene.drawable import drawable, normals_shading, outward_faces
+from ..scene.field_actor import FieldActor
 from ..scene.levels import levels, too_many
 from ..scene.line_clipping import Line
 from ..scene.line_labels import Contour
 from ..scene.selected import selected_colours
 from ..scene.style import Style
-from .description import Figure
-from .framing import Framed, shown_surface
+from .description import Figure, FigurePanel
+from .framing import Framed, shown_surfaces
 from .hidden_lines import Curve, HiddenLineRemoval, contours_seen
 from .inset_places import source_of
 from .outlines import outlines
@@ -165,42 +166,24 @@ def take_shots(
     count = sum(len(p.views) + len(p.insets) for p in figure.panels)
     sights: dict[Hashable, HiddenLineRemoval] = {}
     with RenderCache() if render_cache is None else nullcontext(render_cache) as render_cache:
-        render_cache.keep(panel.surface for panel in figure.panels)
+        render_cache.keep(each for panel in figure.panels for each in (panel.surface, *panel.parts))
         render_window = render_cache.render_window(figure.style)
         for index, (panel, cell) in enumerate(zip(figure.panels, layout.cells, strict=True)):
-            surface = shown_surface(panel, tops[index])
-            shading = panel.shading
-            mesh = render_cache.mesh(surface, shading) if surface is panel.surface else drawable(surface, shading)
-            render_window.shown.show_surface(mesh)
-            render_window.shown.show_shading(shading)
-            clip = clip_plane(panel.clip, surface)
-            # Behind a translucent surface lines are painted; before it they are curves, like all of an opaque one.
-            is_translucent = panel.opacity < 1
-            render_window.shown.show_clip(clip, paints_section=is_translucent)
-            render_window.shown.show_opacity(panel.opacity)
-            render_window.shown.show_selected(selected_colours(panel.areas, len(surface.vertices)))
-            if panel.field is not None:
-                render_window.shown.show_field(panel.field, tops[index], panel.signed)
-                render_window.shown.show_bands(band_edges(panel.isolines, tops[index], panel.signed))
-            elif panel.colours is not None:
-                render_window.shown.show_colours(panel.colours, panel.are_labels)
-            else:
-                render_window.shown.show_bare(is_plain=not panel.failure)
-            render_window.shown.show_base(panel.base, panel.has_coloured_isolines)
+            surfaces, shown_now = shown_surfaces(panel, tops[index]), None
             curves = render_cache.curves or panel.isolines.labels  # which stand on curves
-            for number, (view, box, shown) in enumerate(zip(panel.views, cell.views, cell.parts, strict=True)):
+            views = zip(panel.views, cell.views, cell.parts, surfaces, strict=True)
+            for number, (view, box, shown, surface) in enumerate(views):
+                if surface is not shown_now:
+                    shown_now, is_own = surface, surface is panel.surface or bool(panel.parts)
+                    mesh = render_cache.mesh(surface, panel.shading) if is_own else drawable(surface, panel.shading)
+                    clip = clip_plane(panel.clip, panel.surface if panel.parts else surface)
+                    _show(panel, mesh, tops[index], clip, render_window.shown)
                 step = part(progress, len(shots) / count, (len(shots) + 1) / count)
                 framed = Framed(view, panel, surface, box, shown)
                 size = (framed.whole.width, framed.whole.height)
                 # Panels of one surface that are seen alike differ in their fields alone.
-                key = (
-                    id(mesh),
-                    clip,
-                    is_translucent,
-                    size,
-                    framed.projection.view.tobytes(),
-                    framed.projection.matrix.tobytes(),
-                )
+                seen_by = framed.projection.view.tobytes(), framed.projection.matrix.tobytes()
+                key = (id(mesh), clip, panel.opacity < 1, size, *seen_by)
                 if key not in sights:
                     outward = outward_faces(mesh, clip is not None, panel.opacity)
                     sights[key] = HiddenLineRemoval(surface, framed.projection, size, outward, clip)
@@ -211,6 +194,24 @@ def take_shots(
                     source = source_of(framed, surface, inset.vertex, place.width, inset.factor, box)
                     shots.append(taker.take(place, isolines_in(inset, panel.isolines), step, source))
     return shots if figure.dashes_all else [_without_seen(shot, shots) for shot in shots]
+
+
+def _show(panel: FigurePanel, mesh: vtkPolyData, top: float, clip: ClipPlane | None, actor: FieldActor) -> None:
+    """Show a panel's field, or what else it has, on a mesh."""
+    actor.show_surface(mesh)
+    actor.show_shading(panel.shading)
+    # Behind a translucent surface lines are painted; before it they are curves, like all of an opaque one.
+    actor.show_clip(clip, paints_section=panel.opacity < 1)
+    actor.show_opacity(panel.opacity)
+    actor.show_selected(selected_colours(panel.areas, len(panel.surface.vertices)))
+    if panel.field is not None:
+        actor.show_field(panel.field, top, panel.signed)
+        actor.show_bands(band_edges(panel.isolines, top, panel.signed))
+    elif panel.colours is not None:
+        actor.show_colours(panel.colours, panel.are_labels)
+    else:
+        actor.show_bare(is_plain=not panel.failure)
+    actor.show_base(panel.base, panel.has_coloured_isolines)
 
 
 def _without_seen(shot: Shot, shots: Sequence[Shot]) -> Shot:
@@ -319,7 +320,8 @@ class _Taker:
 
     def _seen_lines(self, look: LineLook) -> SeenLines:
         """Return the panel's lines of a look; the names of those of which something is seen are kept."""
-        lines, x = [line for line in self._panel.lines if line.look == look], self._surface.vertices
+        x, component = self._surface.vertices, self._surface.component_of_vertex
+        lines = [line for line in self._panel.lines if line.look == look and (component[line.spans] >= 0).all()]
         curves = [Curve(line.positions(x), line.spans, line.is_closed) for line in lines]
         outlined = [self._sight.outlined([curve]) for curve in curves if look.hidden or self._is_translucent]
         seen = outlined if self._is_translucent else self._sight.visible(curves)
@@ -333,6 +335,8 @@ class _Taker:
         seen: list[PlacedMark] = []
         hidden: list[PlacedMark] = []
         for k, mark in enumerate(self._panel.marks):
+            if self._surface.component_of_vertex[mark.vertex] < 0:
+                continue  # on another part of the surface
             point = mark.on(self._surface.vertices)
             if not is_kept(self._sight.clip, point[None])[0]:
                 continue

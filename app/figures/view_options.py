@@ -6,7 +6,7 @@ from typing import Any
 
 from bihdist_core.errors import ParameterError
 
-from ..document.camera import Camera, View
+from ..document.camera import SAME_VIEWS, Camera, View
 from ..document.document import Inset
 from ..document.looks import UPS, Clip
 from ..document.option import NotExpressible, Option, Row, attribute, digits, numbers, with_attribute, with_commas
@@ -29,6 +29,7 @@ def _views_of(recipe: Recipe) -> dict[str, Any]:
 def _with_views(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
     asked = values.get("cpos", ())
     views: list[View] = [asked] if isinstance(asked, str | Camera) else list(asked)
+    views = [SAME_VIEWS.get(view, view) if isinstance(view, str) else view for view in views]
     if "camera" in values:
         x = [float(number) for number in values["camera"]]
         if len(x) != 11:
@@ -50,8 +51,8 @@ VIEWS = Row(
         Option(
             "cpos",
             "camera position: home and high, each also with -right, -back or -left, front, back, left, right, top, "
-            "bottom, source, or auto, the one of the first eight that shows most of the shape (default); with "
-            "commas for several",
+            "bottom, source, or auto, the one of the first eight that shows most of the shape (default); of brains "
+            "lateral, medial, dorsal, ventral, anterior, posterior; with commas for several",
             "auto",
             group="view",
             metavar="NAME,…",

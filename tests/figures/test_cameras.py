@@ -80,7 +80,7 @@ def test_the_highest_vertex_is_along_what_is_up():
 def test_a_movie_turns_about_what_is_up():
     surface = bumpy(200)
     for up in ("y", "z", "-x"):
-        camera, axis = start_and_axis("home", surface, 360.0, 0.0, [], up)
+        camera, axis = start_and_axis("home", surface, (0.0, 360.0), 0.0, [], up)
         assert np.allclose(axis / np.linalg.norm(axis), axis_of(up))
         assert np.dot(camera.up, axis_of(up)) > 0.9
 
