@@ -112,6 +112,10 @@ class ViewOptions(TypedDict, total=False):
         Draw without perspective.
     axes : bool
         Show in a corner where x, y and z point.
+    scale_bar : bool
+        Show a round length; exact everywhere in parallel projection only.
+    unit : str
+        Unit of the mesh's lengths, such as ``"mm"``.
     clip : str
         Plane beyond which the surface is cut away: ``"x"`` or ``"-y@0.3"``, an axis and the fraction to keep, or a
         normal, ``"0.2,0.1,0.9@0.4"``.
@@ -125,6 +129,8 @@ class ViewOptions(TypedDict, total=False):
     viewup: str
     parallel_projection: bool
     axes: bool
+    scale_bar: bool
+    unit: str
     clip: str
     insets: Sequence[int | tuple[int, float] | tuple[int, float, int]]
 

@@ -55,6 +55,8 @@ class FigurePanel:
         Whether the projection is parallel.
     axes
         Whether the directions of x, y and z are shown, unless they are in a panel before.
+    scale_unit
+        Unit of the scale bar; "" for no bar.
     colours
         (n, 3) colours of the surface's own, instead of a field, grey where they are NaN.
     base
@@ -92,6 +94,7 @@ class FigurePanel:
     source: int | None = None
     is_parallel: bool = False
     axes: bool = False
+    scale_unit: str = ""
     lines: tuple[LineMark, ...] = ()
     areas: tuple[AreaMark, ...] = ()
     colours: FloatArray | None = None

@@ -20,7 +20,7 @@ from ..document.option import (
     with_attribute,
 )
 from ..document.page import Recipe
-from ..document.settings import AXES, ISOLINE_LABELS, PARALLEL_PROJECTION, SHOW_EDGES
+from ..document.settings import AXES, ISOLINE_LABELS, PARALLEL_PROJECTION, SCALE_BAR, SHOW_EDGES
 from ..document.tools import tools
 from .look_options import BASE, COLOURS, ISOLINES, OPACITY, RANGE, SHADING, suits_one_bar, with_range
 from .repair_options import REPAIRS
@@ -106,6 +106,8 @@ ROWS = (
     VIEWS,
     PARALLEL_PROJECTION.row,
     AXES.row,
+    SCALE_BAR.row,
+    attribute("document.unit", "unit of the mesh's lengths, such as mm (default: mesh units)", "UNIT", group="view"),
     CLIP,
     Row(
         (

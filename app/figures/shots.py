@@ -77,6 +77,8 @@ class Shot:
         By their looks, those of a higher rank last.
     opacity
         Of the surface.
+    per_unit
+        How long a unit of the mesh is on the page, in the plane that the camera looks at.
     """
 
     panel: int
@@ -91,6 +93,7 @@ class Shot:
     seen: frozenset[str] = frozenset()
     lines: dict[LineLook, SeenLines] = field(default_factory=dict)
     opacity: float = 1.0
+    per_unit: float = 0.0
 
     @cached_property
     def cover(self) -> AnyArray:
@@ -239,6 +242,7 @@ class _Taker:
         self._surface, self._top, self._box, self._render_window = surface, top, framed.whole, render_window
         self._scale, self._stroke, self._lift = layout.scale, layout.stroke, layout.mark / 2
         self._projection = framed.projection
+        self._per_unit = 1 / framed.projection.pixel_at(framed.depth, framed.whole.width)
         self._sight, self._curves, self._is_translucent = sight, curves, figure.panels[index].opacity < 1
         self._found: dict[Isolines, list[Contour]] = {}
         self._outlines: list[Line] | None = None
@@ -293,6 +297,7 @@ class _Taker:
             frozenset(self._seen),
             {look: SeenLines(moved_lines(of.seen), moved_lines(of.course)) for look, of in self._lines.items()},
             self._panel.opacity,
+            self._per_unit,
         )
 
     # ------------------------------------------------------------------ what is seen

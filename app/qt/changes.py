@@ -89,7 +89,7 @@ class Changes(QtCore.QObject):
             if other_panels or row.of(document) != row.of(before):
                 row.show(context)
         is_raised = document.warp_factor != before.warp_factor
-        if other_panels or is_raised or document.range != before.range:
+        if other_panels or is_raised or (document.range, document.unit) != (before.range, before.unit):
             for panel in document.panels:
                 if session.is_answered(panel.id) or (has_other_style and panel.id in session.shown):
                     self.answered.emit(panel.id)

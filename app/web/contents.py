@@ -140,6 +140,7 @@ def notes_on(document: Document, page_views: int) -> list[str]:
         "the height of a height field": bool(document.warp_factor),
         "the wireframe": shading.show_edges,
         "directions of axes": document.axes,
+        "the scale bar": document.scale_bar,
         "views but the first": page_views > 1,
         "what tools mark, but for pins": any(not isinstance(part, Pins | Hidden) for part in document.parts),
         "that the source is hidden": SOURCE in document[Hidden].hidden,

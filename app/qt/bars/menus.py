@@ -129,7 +129,10 @@ class Menus:
         self._fill(edit, ["copy camera", "paste camera", None, "clear by-products", "clear surface", None])
         self._fill(edit, ["preferences"])
         # What the tool bar's menu shows one below the other has submenus here, so that all is seen on small screens.
-        self._fill(view, ["reset", standard, self.up, keys, None, *cameras, None, *at_pointer, None])
+        self._fill(
+            view,
+            ["reset", standard, self.up, keys, None, *cameras, *switches_in("scale"), "unit", None, *at_pointer, None],
+        )
         self._fill(view, [*docks("View"), None])
         self._fill(view, [self.isolines, self.colours, self.range, self.shading, None, self.theme, "full screen"])
         edits = (f"panel {word}" for word in panel_edits() if word != ADD)
