@@ -69,6 +69,8 @@ class FigurePanel:
         How large a difference is and where, in words.
     clip
         The plane beyond which the surface is cut away; None for none.
+    opacity
+        Of the surface, more than 0 and at most 1.
     """
 
     surface: Surface
@@ -101,6 +103,7 @@ class FigurePanel:
     are_labels: bool = False
     largest: str = ""
     clip: Clip | None = None
+    opacity: float = 1.0
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
