@@ -58,6 +58,8 @@ class FigurePanel:
         Whether the colours stand for labels, between which there are no others.
     largest
         How large a difference is and where, in words.
+    ground
+        Whether there is a shadow on the ground, beneath what is not flat.
     """
 
     surface: Surface
@@ -85,6 +87,7 @@ class FigurePanel:
     colours: FloatArray | None = None
     are_labels: bool = False
     largest: str = ""
+    ground: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):

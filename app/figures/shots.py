@@ -27,12 +27,13 @@ from ..scene.line_labels import Contour
 from ..scene.selected import selected_colours
 from ..scene.style import Style
 from .description import Figure
-from .framing import Framed, shown_surface
+from .framing import Framed, has_ground, shown_surface
 from .hidden_lines import Curve, HiddenLineRemoval, contours_seen
 from .inset_places import source_of
 from .outlines import outlines
 from .page_layout import PageLayout
 from .raster import FINER, SAMPLES, Rectangle, RenderWindow
+from .shadows import Shadows
 
 LEAST_SEEN = 3.0
 """Units of a line; where less of it is seen, nobody will find it."""
@@ -152,7 +153,7 @@ def take_shots(
     shots: list[Shot] = []
     tops = figure.upper_limits()
     count = sum(len(p.views) + len(p.insets) for p in figure.panels)
-    sights: dict[Hashable, HiddenLineRemoval] = {}
+    sights: dict[Hashable, tuple[HiddenLineRemoval, Shadows | None]] = {}
     with RenderCache() if render_cache is None else nullcontext(render_cache) as render_cache:
         render_cache.keep(panel.surface for panel in figure.panels)
         render_window = render_cache.render_window(figure.style)
@@ -178,8 +179,12 @@ def take_shots(
                 # Panels of one surface that are seen alike differ in their fields alone.
                 key = (id(mesh), size, framed.projection.view.tobytes(), framed.projection.matrix.tobytes())
                 if key not in sights:
-                    sights[key] = HiddenLineRemoval(surface, framed.projection, size, outward_faces(mesh))
-                taker = _Taker(figure, index, surface, sights[key], tops[index], framed, layout, render_window, curves)
+                    sight = HiddenLineRemoval(surface, framed.projection, size, outward_faces(mesh))
+                    ground = has_ground(panel)
+                    is_cast = figure.style.occlusion > 0 or ground
+                    shadows = Shadows(mesh, framed.projection, panel.up, ground) if is_cast else None
+                    sights[key] = sight, shadows
+                taker = _Taker(figure, index, surface, *sights[key], tops[index], framed, layout, render_window, curves)
                 shots.append(taker.take(box, panel.isolines, step))
                 for inset, place in zip(panel.insets, cell.insets, strict=True) if number == 0 else ():
                     step = part(progress, len(shots) / count, (len(shots) + 1) / count)
@@ -203,6 +208,7 @@ class _Taker:
         index: int,
         surface: Surface,
         sight: HiddenLineRemoval,
+        shadows: Shadows | None,
         top: float,
         framed: Framed,
         layout: PageLayout,
@@ -213,7 +219,7 @@ class _Taker:
         self._surface, self._top, self._box, self._render_window = surface, top, framed.whole, render_window
         self._scale, self._stroke, self._lift = layout.scale, layout.stroke, layout.mark / 2
         self._projection = framed.projection
-        self._sight, self._curves = sight, curves
+        self._sight, self._shadows, self._curves = sight, shadows, curves
         self._found: dict[Isolines, list[Contour]] = {}
         self._outlines: list[Line] | None = None
         panel = self._panel
@@ -226,13 +232,12 @@ class _Taker:
         """Take what a box of the page shows: the view or, for an inset, a part of it enlarged, with these isolines."""
         _, _, width, height = box.pixels(self._scale)
         self._render_window.shown.show_isolines(Isolines(0) if self._curves else wanted, self._panel.through)
+        seen = self._part(source or box)
         image = self._render_window.shade(
-            self._projection,
-            (width, height),
-            self._scale * self._stroke,
-            self._part(source or box),
-            part(progress, 0, 0.7),
+            self._projection, (width, height), self._scale * self._stroke, seen, part(progress, 0, 0.7)
         )
+        if self._shadows is not None:
+            image = self._shadows.cast(image, seen, self._style.occlusion)
         progress(0.7, "finding hidden marks")
         contours = self._contours(wanted) if self._curves else []
         if self._style.outline and self._outlines is None:

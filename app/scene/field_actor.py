@@ -32,6 +32,10 @@ TINTS = {"selected": ("selectedAt", "vec4"), "colours": ("coloursAt", "vec4"), "
 Those of labels are flat, as between two labels there is no third."""
 
 _LIT = "//VTK::Light::Impl"
+
+# Light from behind, where the surface turns away: form is seen in dark colours, too.
+_RIM = "  fragOutput0.rgb += {} * pow(1.0 - clamp(normalVCVSOutput.z, 0.0, 1.0), 3.0);\n"
+
 MOST_LINES = 2 * MOST_ISOLINES + 64
 """That the shader has room for: on both sides of 0, and through points."""
 
@@ -374,7 +378,8 @@ class FieldActor:
         pass_on(shader, *attributes)
         put_face_look(shader, has_edges, bool(self._passed_on - {"selected"}))
         paint = (PAINT_SELECTED if "selected" in self._passed_on else "") + _PAINT
-        shader.AddFragmentShaderReplacement(_LIT, False, f"{_LIT}\n{paint}", False)
+        rim = _RIM.format(self.style.rim) if self.style.rim else ""
+        shader.AddFragmentShaderReplacement(_LIT, False, f"{_LIT}\n{rim}{paint}", False)
 
 
 def _turned(mesh: vtkPolyData, colours: ByteArray) -> vtkCellArray:
