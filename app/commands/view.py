@@ -13,7 +13,7 @@ from ..document.second_mesh_edits import open_second_mesh
 from ..figures.look_options import COLOURS
 from ..figures.options import VERTEX_AREAS, tool_rows, with_rows
 from ..figures.repair_options import MERGE, REPAIRS
-from ..figures.view_options import UP, up_meaning
+from ..figures.view_options import CLIP, UP, up_meaning
 from .mesh import found_mesh
 from .mesh_sources import one_source, sources_of_document, sources_of_two
 from .options import (
@@ -58,7 +58,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def _rows() -> list[Row]:
     """Return the options of figures that are tools', as far as they are not about the page, and some more."""
     of_pages = [row for row in tool_rows() if row.is_late or any(part.startswith("Page.") for part in row.parts)]
-    return [VERTEX_AREAS, REPAIRS, *COLOURS, UP, *(row for row in tool_rows() if row not in of_pages)]
+    return [VERTEX_AREAS, REPAIRS, *COLOURS, UP, CLIP, *(row for row in tool_rows() if row not in of_pages)]
 
 
 def run(options: argparse.Namespace) -> Result:

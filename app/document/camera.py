@@ -8,11 +8,23 @@ from bihdist_core.errors import ParameterError
 
 from .looks import UPS, one_of
 
-VIEWS = ("auto", *OBLIQUE_VIEWS, "front", "back", "left", "right", "top", "bottom", "source", "relief")
+ANATOMICAL = (
+    *("lateral", "medial", "dorsal", "ventral", "anterior", "posterior"),
+    *("lateral-left", "medial-left", "lateral-right", "medial-right"),
+)
+"""Views of a brain, or of anything else where x points to the right, y to the front and z up (RAS)."""
+
+VIEWS = (
+    "auto", *OBLIQUE_VIEWS, "front", "back", "left", "right", "top", "bottom", "source", "relief", *ANATOMICAL
+)  # fmt: skip
 """Standard views; `auto` is the first view that shows most of the shape, as long as it is to be chosen.
 
-`source` looks at the first source from outside, `relief` is for height fields over x and y.
+`source` looks at the first source from outside, `relief` is for height fields over x and y.  `lateral` and `medial`
+become those of the mesh's hemisphere.
 """
+
+SAME_VIEWS = {"superior": "dorsal", "inferior": "ventral"}
+"""Other names of views."""
 
 LARGEST = 1e100
 """No number of a camera is larger, and no direction shorter than one over this: then nothing overflows."""
@@ -94,7 +106,7 @@ class SecondMeshView:
 
 def view_alike(view: View) -> View:
     """Return the view for another shape or up axis: "auto" for views that depend on the shape."""
-    is_of_all = isinstance(view, str) and view not in (*OBLIQUE_VIEWS, "source", "relief")
+    is_of_all = isinstance(view, str) and view not in (*OBLIQUE_VIEWS, "source", "relief", *ANATOMICAL)
     return view if is_of_all else "auto"
 
 

@@ -18,11 +18,15 @@ from bihdist_core.sources.source import Source, checked_source
 from .camera import SecondMeshView, View, checked_view
 from .looks import (
     AS_IT_IS,
+    CURVATURE,
     LARGEST,
+    NO_BASE,
     OF_THE_STYLE,
     RANGES,
     TWENTY_STEPS,
     UPS,
+    Base,
+    Clip,
     Colours,
     Isolines,
     Shading,
@@ -42,8 +46,12 @@ COMPARISON = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
 AREAS = ("voronoi", "barycentric")
 CORNERS = ("auto", "top right", "top left", "bottom right", "bottom left")
 
+MESH_UNITS = "mesh units"
+"""What lengths are in as long as nobody says it."""
+
 MOST_PANELS = 1000
 LONGEST_NAME = 60
+LONGEST_UNIT = 20
 
 
 @dataclass(frozen=True)
@@ -260,12 +268,20 @@ class Document:
         The colours of the fields.
     shading
         The shading of the surfaces.
+    clip
+        The plane beyond which surfaces are cut away; None for none.
+    base
+        The scalars in grey under the isolines.
     up
         The axis of the first surface that points up; "auto" as long as it is to be guessed.
     parallel_projection
         Whether the picture has no perspective.
     axes
         Whether a cross of the coordinate axes is shown.
+    scale_bar
+        Whether a scale bar is shown.
+    unit
+        The unit of the meshes' lengths, "" where it is not known.
     extrema
         Whether the extrema of the fields are marked.
     docks
@@ -296,9 +312,13 @@ class Document:
     fields: tuple[FieldArray, ...] = ()
     colours: Colours = OF_THE_STYLE
     shading: Shading = AS_IT_IS
+    clip: Clip | None = None
+    base: Base = NO_BASE
     up: str = "auto"
     parallel_projection: bool = False
     axes: bool = False
+    scale_bar: bool = False
+    unit: str = ""
     extrema: bool = False
     docks: tuple[str, ...] = ()
     dock_places: DockPlaces | None = None
@@ -310,6 +330,8 @@ class Document:
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
             object.__setattr__(self, "isolines", Isolines(self.isolines))  # a number of steps does
+        if self.base.scalars not in ("", CURVATURE, *(field.name for field in self.fields)):
+            object.__setattr__(self, "base", NO_BASE)  # its field is gone
         ids = {panel.id for panel in self.panels}
         # Of panels that are gone nothing more is shown.
         parts = {type(part): part.renumbered({id: id for id in ids}) for part in self.parts}
@@ -329,6 +351,8 @@ class Document:
             raise ParameterError(f"There are no areas {self.areas!r}; choose one of {', '.join(AREAS)}.")
         one_of(self.range, RANGES, "range")
         one_of(self.up, UPS, "direction")
+        if len(self.unit) > LONGEST_UNIT or not self.unit.isprintable() or self.unit != self.unit.strip():
+            raise ParameterError(f"A unit is a word such as mm, not {self.unit!r}.")
         if not 0 <= self.warp_factor <= 10:
             raise ParameterError(
                 f"The warp factor of a height field is a fraction of the surface's extent, not {self.warp_factor:g}."
@@ -394,6 +418,15 @@ class Document:
             if panel.id == id:
                 return panel
         raise ParameterError(f"There is no panel {id}.")
+
+    def unit_of(self, unit: str) -> str:
+        """Return a unit of an answer, such as "mesh units^2", with the meshes' own unit where that is known."""
+        return unit.replace(MESH_UNITS, self.unit) if self.unit else unit
+
+    @property
+    def scale_unit(self) -> str:
+        """The unit of the scale bar; "" where there is no bar."""
+        return (self.unit or MESH_UNITS) * self.scale_bar
 
     def camera_of(self, surface: str) -> View:
         """Return the camera of a surface; that of the first one if it has none of its own."""

@@ -11,6 +11,16 @@ LARGEST = 1e100
 RANGES = ("own", "shared", "fraction")
 """Where colour bars end: at the field's own maximum, at the largest of all panels of a unit, or all at 100 %."""
 
+AXES: dict[str, tuple[float, float, float]] = {
+    "x": (1.0, 0.0, 0.0),
+    "-x": (-1.0, 0.0, 0.0),
+    "y": (0.0, 1.0, 0.0),
+    "-y": (0.0, -1.0, 0.0),
+    "z": (0.0, 0.0, 1.0),
+    "-z": (0.0, 0.0, -1.0),
+}
+"""Directions (x, y, z) by the names of the axes."""
+
 NORMALS = ("auto", "smooth", "creased", "flat")
 UPS = ("auto", "x", "-x", "y", "-y", "z", "-z")
 
@@ -136,5 +146,67 @@ class Shading:
             raise ParameterError(f"The feature angle is between 0 and 180 degrees, not {self.feature_angle:g}.")
 
 
-TWENTY_STEPS, NO_LINES, OF_THE_STYLE, AS_IT_IS = Isolines(), Isolines(count=0), Colours(), Shading()
+@dataclass(frozen=True)
+class Clip:
+    """A plane beyond which surfaces are cut away.
+
+    Attributes
+    ----------
+    normal
+        The direction in which they are.
+    kept
+        The fraction of a surface's extent along the normal that is left.
+    """
+
+    normal: tuple[float, float, float] = (1.0, 0.0, 0.0)
+    kept: float = 0.5
+
+    def __post_init__(self) -> None:
+        if not all(abs(part) <= LARGEST for part in self.normal) or not any(self.normal):
+            raise ParameterError(f"The normal of a clip plane is a direction, not {self.normal}.")
+        if not 0 <= self.kept <= 1:
+            raise ParameterError(f"A clip plane keeps a fraction of the surface from 0 to 1, not {self.kept:g}.")
+
+    @classmethod
+    def from_words(cls, words: str) -> "Clip":
+        """Return the plane that is written as "x", "-y@0.3" or "0.2,0.1,0.9@0.4"."""
+        along, _, kept = words.partition("@")
+        try:
+            x, y, z = AXES[along] if along in AXES else map(float, along.split(","))
+            return cls((x, y, z), float(kept or 0.5))
+        except ValueError:
+            raise ParameterError(
+                f"{words!r} is not a clip plane: write an axis such as x or -y, or a normal such as 0.2,0.1,0.9, and "
+                "perhaps the fraction to keep: x@0.3"
+            ) from None
+
+    def __str__(self) -> str:
+        named = next((word for word, normal in AXES.items() if normal == self.normal), "")
+        return f"{named or ','.join(map(repr, self.normal))}@{self.kept!r}"
+
+
+CURVATURE = "curvature"
+"""The scalars of a base that are not read but computed: the mean curvature."""
+
+
+@dataclass(frozen=True)
+class Base:
+    """Scalars in grey on the surface, under isolines in the colours of the field.
+
+    Attributes
+    ----------
+    scalars
+        CURVATURE or the name of a field of the user's own, which comes first; "" for none.
+    gradual
+        Whether greys go over into each other; otherwise scalars of both signs have two greys.
+    white_isolines
+        Whether isolines are white instead, or what else stands out from all colours of the style.
+    """
+
+    scalars: str = ""
+    gradual: bool = False
+    white_isolines: bool = False
+
+
+TWENTY_STEPS, NO_LINES, OF_THE_STYLE, AS_IT_IS, NO_BASE = Isolines(), Isolines(count=0), Colours(), Shading(), Base()
 """What holds where nothing is said."""

@@ -14,6 +14,9 @@ FORMATS = ("png", "pdf", "svg", "eps")
 TITLES = ("heading", "caption", "none")
 """Over the panel, under its colour bar, or not at all."""
 
+LAYOUTS = ("", "hemispheres")
+"""The usual one, and lateral and medial views of each hemisphere in a row."""
+
 
 @dataclass(frozen=True)
 class Page:
@@ -27,6 +30,8 @@ class Page:
         The name of a style.
     format
         The format of the file, "" where there is none, as for a session.
+    layout
+        How pictures are arranged, one of LAYOUTS.
     views
         The pictures of each panel, side by side; the document's camera if empty.
     columns
@@ -52,6 +57,7 @@ class Page:
     size: str = ""
     style: str = "paper"
     format: str = ""
+    layout: str = ""
     views: tuple[View, ...] = ()
     columns: int | None = None
     hints: bool = False
@@ -69,6 +75,7 @@ class Page:
         if self.columns is not None and self.columns < 1:
             raise ParameterError(f"A figure has at least one column, not {self.columns}.")
         one_of(self.title, TITLES, "title")
+        one_of(self.layout, LAYOUTS, "layout")
         if self.font_size is not None and not 2 <= self.font_size <= 72:
             raise ParameterError(f"The font size is 2 to 72 points, not {self.font_size:g}.")
         for view in self.views:

@@ -30,7 +30,7 @@ class Setting:
         What menus call it, with ``&`` before the letter of its key there; the dialog of preferences, where it is only
         there.
     menu : str
-        Which menu has its switch: "camera", "shading", "colours" or "isolines".
+        Which menu has its switch: "camera", "scale", "shading", "colours", "base" or "isolines".
     tip : str
         A sentence; without a capital it is the help of the option.
     keys : tuple of str
@@ -113,6 +113,10 @@ AXES = Setting(
     "document.axes", "A&xes", "Show in a corner where x, y and z point", ("X",), "coordinates xyz gizmo",
     menu="camera", group="view",
 )  # fmt: skip
+SCALE_BAR = Setting(
+    "document.scale_bar", "Scale bar", "Show a round length; exact everywhere in parallel projection only",
+    menu="scale", group="view", synonyms="ruler length unit mm",
+)  # fmt: skip
 FLIP_SCALARS = Setting(
     "document.colours.reversed", "Reversed", "Flip the direction of the colour map", synonyms="flip", menu="colours",
     group="look", name="flip_scalars",
@@ -120,6 +124,14 @@ FLIP_SCALARS = Setting(
 BANDS = Setting(
     "document.colours.bands", "Bands", "Use one colour from each isoline to the next", menu="colours", group="look"
 )
+GRADUAL_BASE = Setting(
+    "document.base.gradual", "Gradual greys", "Draw the base in all greys, not in two where values have both signs",
+    menu="base", group="look", name="gradual_base", synonyms="curvature sulci binarise threshold",
+)  # fmt: skip
+WHITE_ISOLINES = Setting(
+    "document.base.white_isolines", "White isolines", "Draw isolines on a base in white, not in the field's colours",
+    menu="base", group="look",
+)  # fmt: skip
 EQUAL_STEPS = Setting(
     "document.isolines.round", "Equal steps", "Put isolines at equal steps from 0 to each panel's maximum",
     menu="isolines", name="equal_isolines", on=False, off=True,
@@ -155,7 +167,8 @@ SHADING = Setting(
     name="shading",
 )
 SETTINGS = (
-    *(SHOW_EDGES, PARALLEL_PROJECTION, AXES, FLIP_SCALARS, BANDS, EQUAL_STEPS, BOLD_ISOLINES, ISOLINE_LABELS),
+    *(SHOW_EDGES, PARALLEL_PROJECTION, AXES, SCALE_BAR, FLIP_SCALARS, BANDS, GRADUAL_BASE, WHITE_ISOLINES),
+    *(EQUAL_STEPS, BOLD_ISOLINES, ISOLINE_LABELS),
     *(RANGE, SHADING),
 )
 """Those of what is shown."""

@@ -55,6 +55,12 @@ class LookOptions(TypedDict, total=False):
         Flip the direction of the colour map.
     bands : bool
         Use one colour from each isoline to the next.
+    base : str
+        Draw this in grey under isolines in the colours of the field: ``"curvature"``, or the name of a field.
+    gradual_base : bool
+        Draw the base in all greys, not in two where values have both signs.
+    white_isolines : bool
+        Draw isolines on a base in white, not in the field's colours.
     clim : str, float or sequence
         Where colour bars end: ``"own"`` maximum, ``"shared"`` by all panels of a unit, ``"fraction"`` (0 to 100 % of
         each maximum); a number, also as ``(0, end)``; one for each panel, None for its own; or a session or recipe
@@ -76,6 +82,9 @@ class LookOptions(TypedDict, total=False):
     cmap: str | Colours
     flip_scalars: bool
     bands: bool
+    base: str
+    gradual_base: bool
+    white_isolines: bool
     clim: str | float | Sequence[float | None]
     smooth_shading: bool
     split_sharp_edges: bool
@@ -100,6 +109,13 @@ class ViewOptions(TypedDict, total=False):
         Draw without perspective.
     axes : bool
         Show in a corner where x, y and z point.
+    scale_bar : bool
+        Show a round length; exact everywhere in parallel projection only.
+    unit : str
+        Unit of the mesh's lengths, such as ``"mm"``.
+    clip : str
+        Plane beyond which the surface is cut away: ``"x"`` or ``"-y@0.3"``, an axis and the fraction to keep, or a
+        normal, ``"0.2,0.1,0.9@0.4"``.
     insets : sequence of int or tuple
         Vertices whose places are enlarged; ``(vertex, factor)`` or ``(vertex, factor, isolines)`` say by how much, and
         with how many isolines.
@@ -110,6 +126,9 @@ class ViewOptions(TypedDict, total=False):
     viewup: str
     parallel_projection: bool
     axes: bool
+    scale_bar: bool
+    unit: str
+    clip: str
     insets: Sequence[int | tuple[int, float] | tuple[int, float, int]]
 
 
@@ -167,6 +186,8 @@ class LayoutOptions(TypedDict, total=False):
         Style of the page: ``"paper"``, ``"uniform"``, ``"lines"``, ``"dark"`` or ``"cover"``.
     columns : int
         Number of panels side by side; by default all, or a row for each source.
+    layout : str
+        ``"hemispheres"``: lateral and medial views of each hemisphere in a row, a row for each distance.
     title : str
         Write names as ``"heading"``, as ``"caption"`` at the colour bars, or ``"none"``.
     hints : bool
@@ -186,6 +207,7 @@ class LayoutOptions(TypedDict, total=False):
     size: str
     style: str
     columns: int | None
+    layout: str
     title: str
     hints: bool
     font_family: str

@@ -19,7 +19,7 @@ from ..drawing.shapes import RGBA
 from ..scene.levels import BOLD, width_of
 from ..scene.line_clipping import Line
 from ..scene.style import Colour
-from .captions import caption_shapes, cross_shapes
+from .captions import caption_shapes, cross_shapes, scale_shapes
 from .fonts import families, has_cff_outlines
 from .isoline_labels import label_shapes
 from .legend import legend_shapes
@@ -88,7 +88,7 @@ def drawn(page: ComposedPage, vector: bool, shots: bool = True, words: bool = Tr
     for number, shot in enumerate(page.shots if shots else ()):
         _draw_shot(axes, page, number, shot, vector)
     if shots:  # axes turn with them
-        paint(axes, cross_shapes(page), 10 * len(page.shots), page.is_opaque)
+        paint(axes, [*cross_shapes(page), *scale_shapes(page)], 10 * len(page.shots), page.is_opaque)
     if words:
         paint(axes, [*caption_shapes(page), *legend_shapes(page)], is_opaque=page.is_opaque)
     return canvas
@@ -130,9 +130,9 @@ def _draw_shot(axes: Axes, page: ComposedPage, number: int, shot: Shot, vector: 
     for k, line in enumerate(sorted(contours, key=lambda line: line.is_through)):
         if not line.parts:
             continue
-        ink = style.isoline_ink(panel.signed, line.value, line.is_through)
+        ink = page.figure.isoline_ink(shot.panel, line.value, line.is_through)
         wider = BOLD if line.is_through else width_of(panel.isolines, line.is_bold, panel.signed and line.value == 0)
-        width = wider * style.isoline_width * stroke
+        width = wider * ink.width * style.isoline_width * stroke
         strokes = [(ink.rim, width + 2 * ink.rim_width * stroke)] if ink.rim is not None else []
         for colour, across in (*strokes, (ink.colour, width)):
             # The stroke is cut where the shape ends, which its middle line does already.

@@ -10,10 +10,11 @@ from bihdist_core.arrays import AnyArray, FloatArray
 
 from ..document.camera import View, checked_view
 from ..document.document import Inset
-from ..document.looks import AS_IT_IS, RANGES, TWENTY_STEPS, Isolines, Shading, one_of
+from ..document.looks import AS_IT_IS, RANGES, TWENTY_STEPS, Clip, Isolines, Shading, one_of
 from ..document.page import TITLES
 from ..marks.primitives import AreaMark, LineMark, PointMark
-from ..scene.style import PAPER, Style
+from ..scene.style import PAPER, IsolineInk, Style
+from ..session.base import Greys
 from .fonts import check_font
 from .size import Size
 
@@ -36,6 +37,8 @@ class FigurePanel:
         Values of further isolines, which stand out.
     views
         Pictures of the panel side by side, each a standard view or a camera.
+    parts
+        What of the surface each view shows, with the vertex ids of the whole; all of it if there are none.
     marks, lines, areas
         Marks on the surface.
     height
@@ -52,12 +55,20 @@ class FigurePanel:
         Whether the projection is parallel.
     axes
         Whether the directions of x, y and z are shown, unless they are in a panel before.
+    scale_unit
+        Unit of the scale bar; "" for no bar.
     colours
         (n, 3) colours of the surface's own, instead of a field, grey where they are NaN.
+    base
+        (n,) greys instead of the colours of the field, see `session.base.Greys`.
+    has_coloured_isolines
+        Whether isolines on these have the colours of the field.
     are_labels
         Whether the colours stand for labels, between which there are no others.
     largest
         How large a difference is and where, in words.
+    clip
+        The plane beyond which the surface is cut away; None for none.
     ground
         Whether there is a shadow on the ground, beneath what is not flat.
     """
@@ -72,6 +83,7 @@ class FigurePanel:
     isolines: Isolines = TWENTY_STEPS
     through: tuple[float, ...] = ()
     views: tuple[View, ...] = ("home",)
+    parts: tuple[Surface, ...] = ()
     marks: tuple[PointMark, ...] = ()
     insets: tuple[Inset, ...] = ()
     warp_factor: float = 0.0
@@ -82,11 +94,15 @@ class FigurePanel:
     source: int | None = None
     is_parallel: bool = False
     axes: bool = False
+    scale_unit: str = ""
     lines: tuple[LineMark, ...] = ()
     areas: tuple[AreaMark, ...] = ()
     colours: FloatArray | None = None
+    base: Greys | None = None
+    has_coloured_isolines: bool = True
     are_labels: bool = False
     largest: str = ""
+    clip: Clip | None = None
     ground: bool = False
 
     def __post_init__(self) -> None:
@@ -157,7 +173,7 @@ class Figure:
     remarks
         Sentences on what could not be shown.
     legend
-        Entries under all panels, on a page whose height follows from them.
+        Entries under all panels, on a page whose height follows from them; in a movie the height is that without them.
     dashes_all
         Whether marks that the shape hides are dashed even if another view of their panel shows them.
     """
@@ -183,7 +199,7 @@ class Figure:
             raise ParameterError("A figure needs at least one panel.")
         if self.columns is not None and self.columns < 1:
             raise ParameterError(f"A figure has at least one column, not {self.columns}.")
-        if self.legend and self.size.height is not None:
+        if self.legend and self.size.height is not None and not self.is_moving:
             raise ParameterError("The height of a page with a legend follows from what is on it; give its width only.")
         one_of(self.range, RANGES, "range")
         one_of(self.title, TITLES, "title")
@@ -212,6 +228,13 @@ class Figure:
             own[k] if self.is_in_shares(k) else max(end for end, other in zip(own, kinds, strict=True) if other == kind)
             for k, kind in enumerate(kinds)
         ]
+
+    def isoline_ink(self, panel: int, value: float, is_through: bool) -> IsolineInk:
+        """Return the colours of a panel's isoline."""
+        shown = self.panels[panel]
+        on_base = shown.base is not None
+        share = value / self.upper_limits()[panel] if on_base and shown.has_coloured_isolines else None
+        return self.style.isoline_ink(shown.signed, value, is_through, on_base, share)
 
     def is_in_shares(self, panel: int) -> bool:
         """Return whether a bar shows fractions of its end; a difference keeps its unit, and ends as others of it do."""

@@ -2,11 +2,11 @@
 
 import os
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 from pathlib import Path
 
-from bihdist_core import OutputError, ParameterError, SolverError
+from bihdist_core import OutputError, ParameterError, SolverError, Surface
 from bihdist_core.distances.answers import Answer
 from bihdist_core.file_output import atomic_write, check_output
 from bihdist_core.progress import Progress, part
@@ -22,7 +22,9 @@ from ..scene.levels import in_unit
 from ..scene.style import style_of
 from ..session.array_store import ArrayStore
 from ..session.bar_ends import own_end, typed_end
+from ..session.base import BaseGreys
 from ..session.derived_surfaces import map_to_derived
+from ..session.hemispheres import LATERAL_AND_MEDIAL, Hemispheres
 from ..session.isoline_points import passed
 from ..session.loaded_mesh import LoadedMesh, open_mesh
 from ..session.questions import questions, source_at, vertex_at
@@ -32,6 +34,11 @@ from .draw import FIGURE_FORMATS, check_offscreen, check_room, check_transparenc
 from .legend import legend_of_labels
 from .size import Size
 from .tex import tex_path, tex_snippet
+
+DEPTHS = (
+    "The scale bar holds for what is as far away as the middle of the view; with --parallel-projection it holds "
+    "everywhere."
+)
 
 Surfaces = dict[str, LoadedMesh]
 """The surfaces of a document, by their names in it."""
@@ -111,7 +118,11 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
         )
         for panel, answer, marks in zip(document.panels, answers, marked, strict=True)
     )
-    remarks = [mark.text for marks in marked for mark in marks if isinstance(mark, Remark)]
+    remarks = [DEPTHS] if document.scale_bar and not document.parallel_projection else []
+    remarks += [mark.text for marks in marked for mark in marks if isinstance(mark, Remark)]
+    if any(str(view).startswith(("lateral", "medial")) for panel in panels for view in panel.views):
+        with suppress(ParameterError):  # the user has named the side
+            remarks += [loaded.memory(Hemispheres).sentence(loaded) for loaded in surfaces.values()]
     size = Size.parse(page.size) if page.size else Size()
     legend, left_out = legend_of_labels(answers)
     if legend and size.height is not None:
@@ -120,7 +131,7 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
         panels,
         remarks=tuple(dict.fromkeys([*remarks, left_out] if left_out else remarks)),
         legend=legend,
-        columns=page.columns or (COLUMNS if changed_mesh(document) is not None else None),
+        columns=page.columns or (1 if page.layout else COLUMNS if changed_mesh(document) is not None else None),
         size=size,
         style=style,
         range=document.range,
@@ -218,7 +229,11 @@ def _figure_panel(
     through = passed(document, panel.surface, loaded, answer)
     up = document.up_of(panel.surface)
     up = up if up != "auto" else loaded.up
-    views = recipe.page.views or (document.camera_of(panel.surface),)
+    views, parts = recipe.page.views or (document.camera_of(panel.surface),), tuple[Surface, ...]()
+    if recipe.page.layout == "hemispheres":
+        sides = loaded.memory(Hemispheres).of(loaded)
+        views = tuple(view for side in sides for view in LATERAL_AND_MEDIAL[side])
+        parts = tuple(sides[side] for side in sides for _ in LATERAL_AND_MEDIAL[side])
     return FigurePanel(
         surface,
         answer.field,
@@ -227,11 +242,12 @@ def _figure_panel(
         heading=heading,
         hint=hint,
         label="" if answer.failure else answer.label,
-        unit=answer.unit,
+        unit=document.unit_of(answer.unit),
         failure=answer.failure,
         isolines=NO_LINES if answer.is_rough else _isolines(document, answer),
         through=tuple(point.value for point in through),
         views=tuple(loaded.view_of(view, up) for view in views),
+        parts=parts,
         marks=tuple(_with_value(mark, recipe) for mark in marks if isinstance(mark, PointMark)),
         lines=tuple(mark for mark in marks if isinstance(mark, LineMark)),
         areas=tuple(mark for mark in marks if isinstance(mark, AreaMark)),
@@ -240,10 +256,14 @@ def _figure_panel(
         signed=answer.is_signed,
         largest=answer.largest_words,
         shading=document.shading,
+        base=None if answer.field is None else loaded.memory(BaseGreys).greys(document, panel, loaded),
+        has_coloured_isolines=not document.base.white_isolines,
         up=up,
         source=vertex_at(starts[0], surface) if starts else None,
         is_parallel=document.parallel_projection,
         axes=document.axes,
+        scale_unit=document.scale_unit,
+        clip=document.clip,
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,6 +49,11 @@ def shown_surface(panel: FigurePanel, top: float) -> Surface:
         return panel.surface
     up = rise(bounds_of(_used(panel.surface)), panel.warp_factor)
     return warp_by_scalar(panel.surface, panel.field, top, up)
+
+
+def shown_surfaces(panel: FigurePanel, top: float) -> tuple[Surface, ...]:
+    """Return what each view of a panel shows."""
+    return panel.parts or (shown_surface(panel, top),) * len(panel.views)
 
 
 def camera_of(view: View, panel: FigurePanel, surface: Surface, aspect: float) -> Camera:
@@ -124,12 +130,15 @@ class Framed:
     ----------
     whole
         The box that the whole of the camera's picture takes, which may be larger.
+    depth
+        The distance from the camera to what it looks at.
     """
 
     def __init__(self, view: View, panel: FigurePanel, surface: Surface, box: Box, part: Seen | None) -> None:
+        camera = camera_of(view, panel, surface, box.width / box.height if part is None else 1.0)
+        self.depth = math.dist(camera.position, camera.focal_point)
         if part is None:
             self.whole = box
-            camera = camera_of(view, panel, surface, box.width / box.height)
             self.projection = Projection(camera, box.width / box.height, surface.vertices, FREE, panel.is_parallel)
             return
         room = box.without(EDGE)
@@ -137,9 +146,7 @@ class Framed:
         x = box.middle[0] - half * (1 + (part.left + part.right) / 2)
         y = box.middle[1] - half * (1 - (part.bottom + part.top) / 2)
         self.whole = Box(x, y, 2 * half, 2 * half)
-        self.projection = Projection(
-            camera_of(view, panel, surface, 1.0), 1.0, surface.vertices, 0.0, panel.is_parallel
-        )
+        self.projection = Projection(camera, 1.0, surface.vertices, 0.0, panel.is_parallel)
 
     def places(self, points: FloatArray) -> FloatArray:
         """Return the positions (k, 2) of points (k, 3) on the page; NaN behind the camera."""

@@ -11,6 +11,7 @@ from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
 
 from ..drawing.shapes import Box
 from ..scene.camera import Projection, SeenNow
+from ..scene.clipping import ClipPlane
 from ..scene.levels import Levels
 from ..scene.line_clipping import Line, clipped
 from ..scene.line_labels import Contour
@@ -52,6 +53,15 @@ class HiddenLineRemoval:
         Width and height of the picture in pixels.
     outward
         (m, 3) faces, wound as seen from outside, whose insides show no curves; None to show them on both sides.
+    clip
+        The plane beyond which the surface is cut away.
+
+    Attributes
+    ----------
+    faces
+        (t, 3) of what is left of the surface.
+    at
+        (k, 3) their corners in pixels, see `pixels`: the surface's vertices, and points where its edges are cut.
     """
 
     def __init__(
@@ -60,14 +70,18 @@ class HiddenLineRemoval:
         projection: Projection | SeenNow,
         size: tuple[float, float],
         outward: IntArray | None = None,
+        clip: ClipPlane | None = None,
     ) -> None:
-        self.surface = surface
+        self.surface, self.clip = surface, clip
         self._projection = projection
         self._size = size
         extent = np.ptp(surface.vertices[np.unique(surface.faces)], axis=0)
         self.extent = float(np.linalg.norm(extent))
-        self.at = self.pixels(surface.vertices)
-        self.occlusion = Occlusion(*self._before_the_eye())
+        x, self.faces, of = surface.vertices, surface.faces, np.arange(len(surface.faces))
+        if clip is not None:
+            x, self.faces, of = cut_faces(x, self.faces, of, clip.depths(x))
+        self.at = self.pixels(x)
+        self.occlusion = Occlusion(*self._before_the_eye(x, of))
         self._backs = None if outward is None else self._face_keys(outward[self._from_inside(outward)])
 
     def pixels(self, points: FloatArray) -> FloatArray:
@@ -85,10 +99,10 @@ class HiddenLineRemoval:
         """Return whether points (k, 2) of the picture are on the shape, (k,)."""
         return np.isfinite(self.occlusion.nearest(points))
 
-    def visible(self, curves: Iterable[Curve]) -> list[list[Line]]:
-        """Return the visible parts of each curve, in the picture and about it."""
+    def visible(self, curves: Iterable[Curve], is_section: bool = False) -> list[list[Line]]:
+        """Return the visible parts of each curve, in the picture and about it; those of a section lie on the plane."""
         whole = list(curves)
-        kept = [(k, part) for k, curve in enumerate(whole) for part in self._before_the_camera(curve)]
+        kept = [(k, part) for k, curve in enumerate(whole) for part in self._before_the_camera(curve, is_section)]
         result: list[list[Line]] = [[] for _ in whole]
         if not kept:
             return result
@@ -98,7 +112,8 @@ class HiddenLineRemoval:
         edges = np.concatenate([c.edges[r] for c, r in zip(curves, rings, strict=True)])
         stops = np.cumsum([len(r) for r in rings])
         segments = np.setdiff1d(np.arange(len(at) - 1), stops - 1)
-        hidden, start, stop = self._hidden(at, segments, np.concatenate([edges[segments], edges[segments + 1]], axis=1))
+        on = np.concatenate([edges[segments], edges[segments + 1]], axis=1)
+        hidden, start, stop = self._hidden(at, segments, on, is_section)
         length = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(at[:, :2], axis=0), axis=1)))
         step = length[hidden + 1] - length[hidden]
         bounds = np.stack([length[hidden] + start * step, length[hidden] + stop * step], 1)
@@ -107,6 +122,14 @@ class HiddenLineRemoval:
             inside = np.s_[np.searchsorted(hidden, first) : np.searchsorted(hidden, end - 1)]
             result[k] += self._about(_parts(at[first:end, :2], length[first:end], bounds[inside], curve.closed))
         return result
+
+    def section(self) -> list[Line]:
+        """Return the visible parts of the line where the plane cuts the surface."""
+        if self.clip is None:
+            return []
+        lines = isolines(self.surface, self.clip.depths(self.surface.vertices), [0.0])
+        curves = [Curve(line.points, line.edges, line.closed) for line in lines]
+        return [part for parts in self.visible(curves, is_section=True) for part in parts]
 
     def outlined(self, curves: Iterable[Curve]) -> list[Line]:
         """Return curves in the picture, seen or not."""
@@ -121,7 +144,9 @@ class HiddenLineRemoval:
         width, height = self._size
         return [part for line in lines for part in clipped(line, Box(-width, -height, 3 * width, 3 * height))]
 
-    def _hidden(self, at: FloatArray, segments: IntArray, on: IntArray) -> tuple[AnyArray, ...]:
+    def _hidden(
+        self, at: FloatArray, segments: IntArray, on: IntArray, shows_insides: bool = False
+    ) -> tuple[AnyArray, ...]:
         """Return segments (k,), in order, and from where to where (k,) in the picture, 0 to 1, each is hidden.
 
         Segment s goes from place s to place s + 1 of places (n, 3) in pixels; `on` is as `Occlusion.intervals` takes
@@ -129,7 +154,7 @@ class HiddenLineRemoval:
         """
         lifted = self.lifted(at)
         hidden, start, stop = self.occlusion.intervals(np.stack([lifted[segments], lifted[segments + 1]], 1), on)
-        if self._backs is not None:
+        if self._backs is not None and not shows_insides:
             ids = np.sort(on, axis=1)
             is_new = np.append(np.ones((len(ids), 1), bool), ids[:, 1:] != ids[:, :-1], axis=1)
             in_face = np.flatnonzero(is_new.sum(axis=1) == 3)
@@ -172,41 +197,95 @@ class HiddenLineRemoval:
         near = 1 / np.where(depth > 0, depth, np.nan) if self._projection.matrix[3, 2] else -depth
         return np.column_stack([at[:, :2], near])
 
-    def _before_the_eye(self) -> tuple[FloatArray, IntArray]:
-        """Return x, y and nearness of the faces' corners (t, 3, 3), and their ids (t, 3).
+    def _before_the_eye(self, x: FloatArray, of: IntArray) -> tuple[FloatArray, IntArray]:
+        """Return x, y and nearness of what is left of the faces, corners (t, 3, 3), and the vertices of these (t, 3).
 
-        Faces that pass the eye are cut.
+        Those that pass the eye are cut.
+
+        Parameters
+        ----------
+        x
+            (k, 3) points of which `faces` are.
+        of
+            (t,) faces of the surface of which these are.
         """
-        faces, depth = self.surface.faces, self.at[:, 2]
+        depth = self.at[:, 2]
         least = NEAREST * max(float(depth.max(initial=0.0)), 1e-300)
-        ahead = depth[faces] > least
-        whole, count = self._near(self.at)[faces], ahead.sum(axis=1)
-        found, ids = [whole[count == 3]], [faces[count == 3]]
-        for several, lone in ((1, True), (2, False)):
-            face = faces[count == several]
-            if not len(face):
-                continue
-            # The one corner that is on its own side of the eye, and where the two sides from it pass the least depth.
-            first = (ahead[count == several] == lone).argmax(axis=1)
-            tip, left, right = (face[np.arange(len(face)), (first + k) % 3] for k in range(3))
-            x = self.surface.vertices
-            cuts = []
-            for end in (left, right):
-                share = (depth[tip] - least) / (depth[tip] - depth[end])
-                cuts.append(self._near(self.pixels(x[tip] + share[:, None] * (x[end] - x[tip]))))
-            a, b, c = (self._near(self.at[id]) for id in (tip, left, right))
-            pieces = [(a, *cuts)] if lone else [(cuts[0], b, c), (cuts[0], c, cuts[1])]
-            found += [np.stack(piece, 1) for piece in pieces]
-            ids += [face] * len(pieces)
-        return np.concatenate(found), np.concatenate(ids)
+        points, faces, of = cut_faces(x, self.faces, of, depth - least)
+        near = self._near(self.at if points is x else self.pixels(points))
+        return near[faces], self.surface.faces[of]
 
-    def _before_the_camera(self, curve: Curve) -> list[Curve]:
-        """Return the curve, or what is left of it without the points behind the camera."""
+    def _before_the_camera(self, curve: Curve, is_section: bool = False) -> list[Curve]:
+        """Return what is left of the curve, without the points behind the camera."""
+        parts = [curve] if self.clip is None or is_section else _cut_curve(curve, self.clip.depths(curve.points))
+        return [piece for part in parts for piece in self._ahead(part)]
+
+    def _ahead(self, curve: Curve) -> list[Curve]:
         before = self.pixels(curve.points)[:, 2] > 0
         if before.all():
             return [curve]
-        ends = np.flatnonzero(np.diff(np.concatenate([[0], before.astype(int), [0]])))
-        return [Curve(curve.points[a:b], curve.edges[a:b]) for a, b in ends.reshape(-1, 2) if b - a >= 2]
+        return [Curve(curve.points[a:b], curve.edges[a:b]) for a, b in _runs(before) if b - a >= 2]
+
+
+def cut_faces(
+    x: FloatArray, faces: IntArray, of: IntArray, depths: FloatArray
+) -> tuple[FloatArray, IntArray, IntArray]:
+    """Cut faces (m, 3) of points (n, 3) where depths (n,) are 0.
+
+    Returns the points with those of the cut, what is left of the faces (t, 3), and of which (t,) each is, named by
+    `of` (m,).
+    """
+    is_left = depths[faces] > 0
+    count = is_left.sum(axis=1)
+    if (count == 3).all():
+        return x, faces, of
+    # Of each face, the one corner that is on its own side, and the others.
+    parted = np.flatnonzero((count == 1) | (count == 2))
+    first = (is_left[parted] == (count[parted] == 1)[:, None]).argmax(axis=1)
+    tip, left, right = (faces[parted, (first + k) % 3] for k in range(3))
+    edges = np.sort(np.concatenate([np.stack([tip, left], 1), np.stack([tip, right], 1)]), axis=1)
+    edges, where = np.unique(edges, axis=0, return_inverse=True)
+    a, b = edges.T
+    share = depths[a] / (depths[a] - depths[b])
+    points = np.concatenate([x, x[a] + share[:, None] * (x[b] - x[a])])
+    on_left, on_right = len(x) + where.reshape(2, -1)
+    is_lone = count[parted] == 1
+    pieces = [
+        (is_lone, (tip, on_left, on_right)),
+        (~is_lone, (on_left, left, right)),
+        (~is_lone, (on_left, right, on_right)),
+    ]
+    found = [faces[count == 3], *(np.stack(corners, 1)[mask] for mask, corners in pieces)]
+    kept = [of[count == 3], *(of[parted[mask]] for mask, _ in pieces)]
+    return points, np.concatenate(found), np.concatenate(kept)
+
+
+def _cut_curve(curve: Curve, depths: FloatArray) -> list[Curve]:
+    """Return the parts of a curve where depths (k,) are more than 0, up to where they are 0."""
+    is_left = depths > 0
+    if is_left.all():
+        return [curve]
+    order = np.arange(len(depths))
+    if curve.closed:
+        order = np.roll(order, -int(is_left.argmin()))
+        order = np.append(order, order[0])
+    parts = []
+    for start, stop in _runs(is_left[order]):
+        # With the neighbours beyond, which come up to the plane; what they lie on says which face the way there is in.
+        rows = order[max(start - 1, 0) : stop + 1]
+        points = curve.points[rows].copy()
+        for end, before in ((0, 1), (-1, -2)):
+            if not is_left[rows[end]]:
+                share = depths[rows[before]] / (depths[rows[before]] - depths[rows[end]])
+                points[end] = points[before] + share * (points[end] - points[before])
+        parts.append(Curve(points, curve.edges[rows]))
+    return [part for part in parts if len(part.points) >= 2]
+
+
+def _runs(mask: BoolArray) -> IntArray:
+    """Return where each run of True begins, and the index behind its last (k, 2)."""
+    bounds: IntArray = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype(int), [0]]))).reshape(-1, 2)
+    return bounds
 
 
 def contours_seen(sight: HiddenLineRemoval, field: FloatArray, levels: Levels) -> list[Contour]:

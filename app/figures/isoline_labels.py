@@ -90,7 +90,7 @@ def label_shapes(figure: Figure, layout: PageLayout, shot: Shot) -> tuple[list[C
     shapes: list[Shape] = []
     for label in labels:
         line = contours[label.contour]
-        ink = figure.style.isoline_ink(figure.panels[shot.panel].signed, line.value, line.is_through)
+        ink = figure.isoline_ink(shot.panel, line.value, line.is_through)
         shapes.append(
             Text(
                 label.text,

@@ -7,7 +7,7 @@ from ..scene.corners import SIDE
 from ..scene.style import PAPER
 from . import bars
 from .description import Figure
-from .framing import Seen, height_for, seen, shown_surface
+from .framing import Seen, height_for, seen, shown_surfaces
 from .grid import VIEW_HEIGHT, Grid, grid_of, most_views, view_width
 from .inset_places import insets_of
 from .legend import with_legend
@@ -108,8 +108,8 @@ def _shapes(figure: Figure, panel: int) -> list[tuple[float, float, Seen | None]
     each = figure.panels[panel]
     if not figure.crop:
         return [(view_width(figure) / VIEW_HEIGHT, 1.0, None)] * len(each.views)
-    surface = shown_surface(each, figure.upper_limits()[panel])
-    parts = [seen(view, each, surface) for view in each.views]
+    shown = shown_surfaces(each, figure.upper_limits()[panel])
+    parts = [seen(view, each, surface) for view, surface in zip(each.views, shown, strict=True)]
     # Marks at the edges of two views meet between them; pages without a legend stay as they were.
     more = BETWEEN_VIEWS if figure.legend and len(parts) > 1 else 0.0
     found: list[tuple[float, float, Seen | None]] = [
@@ -130,9 +130,9 @@ def _tallest(figure: Figure, room: float) -> float:
         return float("inf")
     tops = figure.upper_limits()
     return max(
-        height_for(room / len(panel.views), view, panel, shown_surface(panel, top))
+        height_for(room / len(panel.views), view, panel, surface)
         for panel, top in zip(figure.panels, tops, strict=True)
-        for view in panel.views
+        for view, surface in zip(panel.views, shown_surfaces(panel, top), strict=True)
     )
 
 
@@ -350,7 +350,7 @@ def _cell(figure: Figure, k: int, box: Box, texts: _Texts, sizes: _Sizes, scale:
     parts = tuple(part for _, _, part in shapes)
     insets: tuple[Box, ...] = ()
     if panel.insets:
-        surface = shown_surface(panel, figure.upper_limits()[k])
+        surface = shown_surfaces(panel, figure.upper_limits()[k])[0]
         views[0], insets = insets_of(figure, k, surface, views[0], parts[0], scale)
     bar = None
     if texts.bars[k]:

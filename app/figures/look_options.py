@@ -9,7 +9,7 @@ from bihdist_core.progress import Progress
 
 from ..document.document import Document
 from ..document.edits import pass_through, pass_through_none
-from ..document.looks import Colours, Isolines
+from ..document.looks import CURVATURE, Colours, Isolines
 from ..document.option import (
     USUAL,
     NotExpressible,
@@ -22,7 +22,7 @@ from ..document.option import (
     with_commas,
 )
 from ..document.page import Recipe
-from ..document.settings import BANDS, FLIP_SCALARS
+from ..document.settings import BANDS, FLIP_SCALARS, GRADUAL_BASE, WHITE_ISOLINES
 from .size import is_column
 
 
@@ -174,6 +174,41 @@ COLOURS = (
     ),
     FLIP_SCALARS.row,
     BANDS.row,
+)
+
+
+def _with_base(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
+    document, page, name = recipe.document, recipe.page, values["base"]
+    known = [field.name for field in document.fields]
+    if name not in ("", CURVATURE, *known):
+        raise ParameterError(
+            f"There is no base {name!r}; choose {' or '.join([CURVATURE, *known])}, or name a file: "
+            f"--field {name}=FILE."
+        )
+    # A field that is the base needs no panel of its own.
+    kept = tuple(panel for panel in document.panels if str(panel.shows) != name) or document.panels
+    columns = page.columns and max(page.columns - (len(document.panels) - len(kept)), 1)
+    document = replace(document, panels=kept, base=replace(document.base, scalars=name))
+    return replace(recipe, document=document, page=replace(page, columns=columns))
+
+
+BASE = (
+    Row(
+        (
+            Option(
+                "base",
+                "draw this in grey under isolines in the colours of the field: curvature, or the name of a field",
+                "",
+                group="look",
+                metavar="curvature|NAME",
+            ),
+        ),
+        ("Document.base", "Base.scalars"),
+        lambda recipe: {"base": recipe.document.base.scalars} if recipe.document.base.scalars else {},
+        _with_base,
+    ),
+    GRADUAL_BASE.row,
+    WHITE_ISOLINES.row,
 )
 
 

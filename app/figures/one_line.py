@@ -127,6 +127,8 @@ def _panels_of(recipe: Recipe) -> dict[str, Any]:
     if not document.surfaces[0].path:
         raise NotExpressible("The mesh was given from Python as arrays, which no line can hold.")
     used = dict.fromkeys(part.name for panel in document.panels for part in own_fields(panel.shows))
+    shown_alone = list(used)
+    used |= {field.name: None for field in document.fields if field.name == document.base.scalars}
     fields = [document.field(name) for name in used]
     if not all(field.path for field in (*fields, *document.fields)):
         raise NotExpressible("User-defined fields were given from Python as arrays, which no line can hold.")
@@ -144,7 +146,7 @@ def _panels_of(recipe: Recipe) -> dict[str, Any]:
         raise NotExpressible("One of several sources has not been placed.")
     starts = [Starts(at) for at in places if at is not None]
     words = [str(each) for each in shows]
-    usual = words in ([*map(str, COMPARISON), *used], [*map(str, COMPARISON)])
+    usual = words in ([*map(str, COMPARISON), *shown_alone], [*map(str, COMPARISON)])
     values: dict[str, Any] = {} if usual else {"distances": words}
     if fields:
         values["fields"] = {

@@ -20,12 +20,12 @@ from ..document.option import (
     with_attribute,
 )
 from ..document.page import Recipe
-from ..document.settings import AXES, ISOLINE_LABELS, PARALLEL_PROJECTION, SHOW_EDGES
+from ..document.settings import AXES, ISOLINE_LABELS, PARALLEL_PROJECTION, SCALE_BAR, SHOW_EDGES
 from ..document.tools import tools
-from .look_options import COLOURS, ISOLINES, RANGE, SHADING, suits_one_bar, with_range
+from .look_options import BASE, COLOURS, ISOLINES, RANGE, SHADING, suits_one_bar, with_range
 from .repair_options import REPAIRS
 from .size import is_column
-from .view_options import INSETS, UP, VIEWS
+from .view_options import CLIP, INSETS, UP, VIEWS
 
 VERTEX_AREAS = attribute("document.areas", "vertex areas (default: voronoi)", group="", choices=AREAS)
 
@@ -106,6 +106,9 @@ ROWS = (
     VIEWS,
     PARALLEL_PROJECTION.row,
     AXES.row,
+    SCALE_BAR.row,
+    attribute("document.unit", "unit of the mesh's lengths, such as mm (default: mesh units)", "UNIT", group="view"),
+    CLIP,
     Row(
         (
             Option(
@@ -133,6 +136,7 @@ ROWS = (
         bare=0.35,
     ),
     *COLOURS,
+    *BASE,
     RANGE,
     _layout("hints", "say under each heading what to look for (default: no)"),
     _layout("title", "show names as heading (default), as caption at the bars, or none", "WHERE"),
@@ -140,6 +144,12 @@ ROWS = (
     _layout("transparent", "draw no background"),
     _layout("ground", "draw a soft shadow on the ground"),
     CROP,
+    _layout(
+        "layout",
+        "hemispheres: lateral and medial views of each hemisphere in a row, a row for each distance",
+        "hemispheres",
+        choices=("hemispheres",),
+    ),
     SHADING,
     SHOW_EDGES.row,
     unsaid("for panels that are still to come", "Document.next_id"),

@@ -46,7 +46,7 @@ def outlines(sight: HiddenLineRemoval) -> list[Line]:
 def _folds(sight: HiddenLineRemoval) -> tuple[AnyArray, AnyArray]:
     """Return edges (k, 2) at which the surface turns away, ends, or meets more than one other face, and a vertex of a
     face at each (k,), on the side where the surface is; -1 where that is both sides."""
-    f, at = sight.surface.faces, sight.at[:, :2]
+    f, at = sight.faces, sight.at[:, :2]
     half = np.stack([f, np.roll(f, -1, axis=1)], -1).reshape(-1, 2)
     opposite = np.roll(f, -2, axis=1).ravel()
     half.sort(axis=1)

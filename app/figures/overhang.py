@@ -3,7 +3,7 @@
 import numpy as np
 
 from .description import Figure
-from .framing import Framed, shown_surface
+from .framing import Framed, shown_surface, shown_surfaces
 from .page_layout import PageLayout
 
 EDGE = 1.3
@@ -24,7 +24,8 @@ def overhang(figure: Figure, layout: PageLayout) -> tuple[float, float]:
         at = np.array([mark.on(surface.vertices) for mark in marks])
         reach = np.array([mark.glyph.reach_of(layout.mark, layout.label) for mark in marks])
         rise = reach * [mark.glyph.rise for mark in marks]
-        for view, box, part in zip(panel.views, cell.views, cell.parts, strict=True):
+        shown = shown_surfaces(panel, top)
+        for view, box, part, surface in zip(panel.views, cell.views, cell.parts, shown, strict=True):
             x, y = Framed(view, panel, surface, box, part).places(at).T
             is_there = (x >= box.x) & (x <= box.right) & (y >= box.y) & (y <= box.bottom)
             tips = np.full(len(y), box.y) if figure.is_moving else y

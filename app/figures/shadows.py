@@ -9,8 +9,10 @@ from bihdist_core.analysis.upright import axis_of
 from bihdist_core.arrays import AnyArray, ByteArray, FloatArray, IntArray
 
 from ..scene.camera import Projection
+from ..scene.clipping import ClipPlane
 from ..scene.creases import face_normals, to_length_one
 from ..scene.drawable import faces_of
+from .hidden_lines import cut_faces
 from .raster import Rectangle
 
 AT_ONCE = 2_000_000
@@ -61,15 +63,22 @@ class Shadows:
         The axis that is up.
     has_ground
         Whether there is ground beneath it, which is only seen from above.
+    clip
+        The plane beyond which nothing is left.
     """
 
-    def __init__(self, mesh: vtkPolyData, projection: Projection, up: str, has_ground: bool) -> None:
+    def __init__(
+        self, mesh: vtkPolyData, projection: Projection, up: str, has_ground: bool, clip: ClipPlane | None = None
+    ) -> None:
         self._projection, self._up = projection, axis_of(up)
-        self._x: FloatArray = vtk_to_numpy(mesh.GetPoints().GetData()).astype(float)
+        points, normals = mesh.GetPoints().GetData(), mesh.GetPointData().GetNormals()
+        both = np.concatenate([vtk_to_numpy(points).astype(float), vtk_to_numpy(normals)], axis=1)
         self._own = faces_of(mesh)
-        used = self._x[np.unique(self._own)]
+        if clip is not None:
+            both, self._own, _ = cut_faces(both, self._own, np.arange(len(self._own)), clip.depths(both[:, :3]))
+        self._x, self._normals = np.split(both, 2, axis=1)
+        used = both[np.unique(faces_of(mesh)), :3]
         self._low, self._high = used.min(axis=0), used.max(axis=0)
-        self._normals = vtk_to_numpy(mesh.GetPointData().GetNormals())
         self._found: dict[tuple[object, ...], tuple[AnyArray, AnyArray]] = {}
         x, faces = self._x, self._own
         if has_ground and projection.back @ self._up > 0:
@@ -79,9 +88,9 @@ class Shadows:
             corner = len(self._x) + (np.arange(GRID)[:, None] * (GRID + 1) + np.arange(GRID)).ravel()
             for second, third in ((1, GRID + 2), (GRID + 2, GRID + 1)):
                 faces = np.concatenate([faces, np.stack([corner, corner + second, corner + third], 1)])
-        normals = face_normals(x, faces)
-        to_length_one(normals)
-        self._shown, self._faces, self._facing = x, faces, np.stack(normals, axis=1)
+        facing = face_normals(x, faces)
+        to_length_one(facing)
+        self._shown, self._faces, self._facing = x, faces, np.stack(facing, axis=1)
 
     def cast(self, image: ByteArray, part: Rectangle, strength: float) -> ByteArray:
         """Return a picture (h, w, 4) uint8, with premultiplied alpha, of a part of the view with the shadows in it.

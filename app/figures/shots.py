@@ -16,18 +16,20 @@ from bihdist_core.progress import Progress, part
 
 from ..document.document import isolines_in
 from ..document.looks import Isolines, Shading
-from ..drawing.line_looks import LineLook
+from ..drawing.line_looks import SECTION, LineLook
 from ..drawing.shapes import Box
 from ..marks.primitives import PointMark
 from ..scene.bands import band_edges
+from ..scene.clipping import ClipPlane, clip_plane, is_kept
 from ..scene.drawable import drawable, normals_shading, outward_faces
+from ..scene.field_actor import FieldActor
 from ..scene.levels import levels, too_many
 from ..scene.line_clipping import Line
 from ..scene.line_labels import Contour
 from ..scene.selected import selected_colours
 from ..scene.style import Style
-from .description import Figure
-from .framing import Framed, has_ground, shown_surface
+from .description import Figure, FigurePanel
+from .framing import Framed, has_ground, shown_surfaces
 from .hidden_lines import Curve, HiddenLineRemoval, contours_seen
 from .inset_places import source_of
 from .outlines import outlines
@@ -73,6 +75,8 @@ class Shot:
         Names of lines of which something is seen.
     lines
         By their looks, those of a higher rank last.
+    per_unit
+        How long a unit of the mesh is on the page, in the plane that the camera looks at.
     """
 
     panel: int
@@ -86,6 +90,7 @@ class Shot:
     source: Box | None = None
     seen: frozenset[str] = frozenset()
     lines: dict[LineLook, SeenLines] = field(default_factory=dict)
+    per_unit: float = 0.0
 
     def alpha_at(self, points: FloatArray) -> AnyArray:
         """Return the opacity of the picture, 0 to 255, at points (k, 2) of the page; 0 outside of it."""
@@ -155,35 +160,30 @@ def take_shots(
     count = sum(len(p.views) + len(p.insets) for p in figure.panels)
     sights: dict[Hashable, tuple[HiddenLineRemoval, Shadows | None]] = {}
     with RenderCache() if render_cache is None else nullcontext(render_cache) as render_cache:
-        render_cache.keep(panel.surface for panel in figure.panels)
+        render_cache.keep(each for panel in figure.panels for each in (panel.surface, *panel.parts))
         render_window = render_cache.render_window(figure.style)
         for index, (panel, cell) in enumerate(zip(figure.panels, layout.cells, strict=True)):
-            surface = shown_surface(panel, tops[index])
-            shading = panel.shading
-            mesh = render_cache.mesh(surface, shading) if surface is panel.surface else drawable(surface, shading)
-            render_window.shown.show_surface(mesh)
-            render_window.shown.show_shading(shading)
-            render_window.shown.show_selected(selected_colours(panel.areas, len(surface.vertices)))
-            if panel.field is not None:
-                render_window.shown.show_field(panel.field, tops[index], panel.signed)
-                render_window.shown.show_bands(band_edges(panel.isolines, tops[index], panel.signed))
-            elif panel.colours is not None:
-                render_window.shown.show_colours(panel.colours, panel.are_labels)
-            else:
-                render_window.shown.show_bare(is_plain=not panel.failure)
+            surfaces, shown_now = shown_surfaces(panel, tops[index]), None
             curves = render_cache.curves or panel.isolines.labels  # which stand on curves
-            for number, (view, box, shown) in enumerate(zip(panel.views, cell.views, cell.parts, strict=True)):
+            views = zip(panel.views, cell.views, cell.parts, surfaces, strict=True)
+            for number, (view, box, shown, surface) in enumerate(views):
+                if surface is not shown_now:
+                    shown_now, is_own = surface, surface is panel.surface or bool(panel.parts)
+                    mesh = render_cache.mesh(surface, panel.shading) if is_own else drawable(surface, panel.shading)
+                    clip = clip_plane(panel.clip, panel.surface if panel.parts else surface)
+                    _show(panel, mesh, tops[index], clip, render_window.shown)
                 step = part(progress, len(shots) / count, (len(shots) + 1) / count)
                 framed = Framed(view, panel, surface, box, shown)
                 size = (framed.whole.width, framed.whole.height)
                 # Panels of one surface that are seen alike differ in their fields alone.
-                key = (id(mesh), size, framed.projection.view.tobytes(), framed.projection.matrix.tobytes())
+                key = (id(mesh), clip, size, framed.projection.view.tobytes(), framed.projection.matrix.tobytes())
                 if key not in sights:
-                    sight = HiddenLineRemoval(surface, framed.projection, size, outward_faces(mesh))
-                    ground = has_ground(panel)
+                    outward, ground = outward_faces(mesh, is_cut=clip is not None), has_ground(panel)
                     is_cast = figure.style.occlusion > 0 or ground
-                    shadows = Shadows(mesh, framed.projection, panel.up, ground) if is_cast else None
-                    sights[key] = sight, shadows
+                    sights[key] = (
+                        HiddenLineRemoval(surface, framed.projection, size, outward, clip),
+                        Shadows(mesh, framed.projection, panel.up, ground, clip) if is_cast else None,
+                    )
                 taker = _Taker(figure, index, surface, *sights[key], tops[index], framed, layout, render_window, curves)
                 shots.append(taker.take(box, panel.isolines, step))
                 for inset, place in zip(panel.insets, cell.insets, strict=True) if number == 0 else ():
@@ -191,6 +191,22 @@ def take_shots(
                     source = source_of(framed, surface, inset.vertex, place.width, inset.factor, box)
                     shots.append(taker.take(place, isolines_in(inset, panel.isolines), step, source))
     return shots if figure.dashes_all else [_without_seen(shot, shots) for shot in shots]
+
+
+def _show(panel: FigurePanel, mesh: vtkPolyData, top: float, clip: ClipPlane | None, actor: FieldActor) -> None:
+    """Show a panel's field, or what else it has, on a mesh."""
+    actor.show_surface(mesh)
+    actor.show_shading(panel.shading)
+    actor.show_clip(clip)
+    actor.show_selected(selected_colours(panel.areas, len(panel.surface.vertices)))
+    if panel.field is not None:
+        actor.show_field(panel.field, top, panel.signed)
+        actor.show_bands(band_edges(panel.isolines, top, panel.signed))
+    elif panel.colours is not None:
+        actor.show_colours(panel.colours, panel.are_labels)
+    else:
+        actor.show_bare(is_plain=not panel.failure)
+    actor.show_base(panel.base, panel.has_coloured_isolines)
 
 
 def _without_seen(shot: Shot, shots: Sequence[Shot]) -> Shot:
@@ -219,13 +235,16 @@ class _Taker:
         self._surface, self._top, self._box, self._render_window = surface, top, framed.whole, render_window
         self._scale, self._stroke, self._lift = layout.scale, layout.stroke, layout.mark / 2
         self._projection = framed.projection
+        self._per_unit = 1 / framed.projection.pixel_at(framed.depth, framed.whole.width)
         self._sight, self._shadows, self._curves = sight, shadows, curves
         self._found: dict[Isolines, list[Contour]] = {}
         self._outlines: list[Line] | None = None
         panel = self._panel
         self._seen: set[str] = set()
+        section = sight.section()
+        self._lines = {SECTION: SeenLines(section, [])} if section else {}
         looks = sorted(dict.fromkeys(line.look for line in panel.lines), key=lambda look: look.rank)
-        self._lines = {look: self._seen_lines(look) for look in looks}
+        self._lines |= {look: self._seen_lines(look) for look in looks}
         self._marks, self._ghosts = self._placed_marks()
 
     def take(self, box: Box, wanted: Isolines, progress: Progress, source: Box | None = None) -> Shot:
@@ -267,6 +286,7 @@ class _Taker:
             source,
             frozenset(self._seen),
             {look: SeenLines(moved_lines(of.seen), moved_lines(of.course)) for look, of in self._lines.items()},
+            self._per_unit,
         )
 
     # ------------------------------------------------------------------ what is seen
@@ -294,7 +314,8 @@ class _Taker:
 
     def _seen_lines(self, look: LineLook) -> SeenLines:
         """Return the panel's lines of a look; the names of those of which something is seen are kept."""
-        lines, x = [line for line in self._panel.lines if line.look == look], self._surface.vertices
+        x, component = self._surface.vertices, self._surface.component_of_vertex
+        lines = [line for line in self._panel.lines if line.look == look and (component[line.spans] >= 0).all()]
         curves = [Curve(line.positions(x), line.spans, line.is_closed) for line in lines]
         seen = self._sight.visible(curves)
         self._seen |= {
@@ -307,7 +328,11 @@ class _Taker:
         seen: list[PlacedMark] = []
         hidden: list[PlacedMark] = []
         for k, mark in enumerate(self._panel.marks):
+            if self._surface.component_of_vertex[mark.vertex] < 0:
+                continue  # on another part of the surface
             point = mark.on(self._surface.vertices)
+            if not is_kept(self._sight.clip, point[None])[0]:
+                continue
             x, y, depth = self._sight.pixels(point[None])[0]
             if not np.isfinite(depth) or not np.isfinite(x):
                 continue

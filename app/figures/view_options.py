@@ -6,10 +6,10 @@ from typing import Any
 
 from bihdist_core.errors import ParameterError
 
-from ..document.camera import Camera, View
+from ..document.camera import SAME_VIEWS, Camera, View
 from ..document.document import Inset
-from ..document.looks import UPS
-from ..document.option import NotExpressible, Option, Row, attribute, digits, numbers, with_commas
+from ..document.looks import UPS, Clip
+from ..document.option import NotExpressible, Option, Row, attribute, digits, numbers, with_attribute, with_commas
 from ..document.page import Recipe
 from ..document.second_mesh_edits import set_up_axis
 
@@ -29,6 +29,7 @@ def _views_of(recipe: Recipe) -> dict[str, Any]:
 def _with_views(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
     asked = values.get("cpos", ())
     views: list[View] = [asked] if isinstance(asked, str | Camera) else list(asked)
+    views = [SAME_VIEWS.get(view, view) if isinstance(view, str) else view for view in views]
     if "camera" in values:
         x = [float(number) for number in values["camera"]]
         if len(x) != 11:
@@ -50,8 +51,8 @@ VIEWS = Row(
         Option(
             "cpos",
             "camera position: home and high, each also with -right, -back or -left, front, back, left, right, top, "
-            "bottom, source, or auto, the one of the first eight that shows most of the shape (default); with "
-            "commas for several",
+            "bottom, source, or auto, the one of the first eight that shows most of the shape (default); of brains "
+            "lateral, medial, dorsal, ventral, anterior, posterior; with commas for several",
             "auto",
             group="view",
             metavar="NAME,…",
@@ -82,6 +83,25 @@ UP = replace(
     attribute("document.up", up_meaning("guessed"), "AXIS", name="viewup", group="view", choices=UPS),
     # A camera that comes with a recipe would be askew.
     put=lambda recipe, values: replace(recipe, document=set_up_axis(recipe.document, values["viewup"])),
+)
+
+
+CLIP = Row(
+    (
+        Option(
+            "clip",
+            "cut the surface by a plane and show its inside: an axis or a normal X,Y,Z, beyond which it is cut away, "
+            "and the fraction to keep (without: 0.5), such as x, x@0.3 or 0,1,1@0.7; write --clip=-y for those with a "
+            "sign",
+            "",
+            group="view",
+            metavar="AXIS[@FRACTION]",
+            read=lambda text: str(Clip.from_words(text)),
+        ),
+    ),
+    ("Document.clip",),
+    lambda recipe: {"clip": str(recipe.document.clip)} if recipe.document.clip else {},
+    lambda recipe, values: with_attribute(recipe, "document.clip", Clip.from_words(values["clip"])),
 )
 
 

@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
+from bihdist_core import ParameterError
+
+from ..document.camera import ANATOMICAL, SAME_VIEWS
 from ..document.document import Document
 from ..document.on_surface import SOURCE, SurfaceItem, by_products, clear_surface, remove_items, surface_items
 from ..document.panel_edits import ADD, panel_edits
@@ -31,6 +34,9 @@ from .views import Views
 VIEWS = ("front", "back", "left", "right", "top", "bottom", "source")
 VIEW_TEXTS = {"right": "Ri&ght", "bottom": "Botto&m", "source": "From the &source"}
 """Where not the first letter is the key in a menu."""
+
+BRAIN_VIEWS = ANATOMICAL[:6]
+BRAIN_SYNONYMS = {new: old for old, new in SAME_VIEWS.items()}
 
 if TYPE_CHECKING:
     from .docks.docks import Docks
@@ -104,7 +110,10 @@ def _on_view(method: str, *numbers: float) -> Callable[[Context], object]:
 
 
 def _see_from(name: str, context: Context) -> None:
-    context[Views].reset(name)
+    try:
+        context[Views].reset(name)
+    except ParameterError as error:  # a side of which hemisphere?
+        context.fail(error)
 
 
 def _edit_panel(word: str, context: Context) -> None:
@@ -254,6 +263,11 @@ VIEW = (
         Action(f"view {name}", VIEW_TEXTS.get(name, f"&{name.capitalize()}"), partial(_see_from, name), (str(number),))
         for number, name in enumerate(VIEWS, 1)
     ),
+    *(
+        Action(f"view {name}", name.capitalize(), partial(_see_from, name), tip="Where z points up and y to the front",
+            synonyms=f"brain cortex RAS {BRAIN_SYNONYMS.get(name, '')}")
+        for name in BRAIN_VIEWS
+    ),
     Action("centre", "&Centre view here", lambda c: _gestures(c).centre_here(), ("C",),
         "Centre what is under the pointer, and turn about it", synonyms="middle pivot focus look at"),
     Action("zoom to", "&Zoom in here", lambda c: _gestures(c).zoom_here(), ("Z",), "Enlarge what is under the pointer",
@@ -266,6 +280,8 @@ VIEW = (
     Action("view after", "Next vie&w", lambda c: c[Views].on(), ("Ctrl+]",), synonyms="forward camera redo"),
     Action("feature angle", "Feature &angle…", lambda c: c[Choices].ask_feature_angle(),
         tip="Choose from which angle on edges are sharp", synonyms="crease sharp edges normals"),
+    Action("unit", "Unit of lengths…", lambda c: c[Choices].ask_unit(), tip="Name the unit of the mesh, such as mm",
+        synonyms="scale bar millimetres metres"),
     Action("full screen", "&Full screen for talks", lambda c: c[Choices].toggle_full_screen(), ("F11",),
         "Show panels and bars only, in larger text", needs_mesh=False,
         is_on=lambda c: c[Choices].is_full_screen, synonyms="fullscreen presentation present maximise"),

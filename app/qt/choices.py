@@ -16,6 +16,7 @@ from ..document.quantities import Quantity
 from ..document.settings import THEME, Preferences, Setting
 from ..document.tools import tools
 from ..scene.colour_file import read_stops
+from ..session.base import no_scalars
 from .context import Context
 from .files.taken_ends import TakenEnds
 from .look.canvas import map_word
@@ -108,6 +109,18 @@ class Choices:
             shading = replace(shading, feature_angle=angle, normals="creased")
             session.show(replace(session.document, shading=shading))
 
+    def ask_unit(self) -> None:
+        """Ask for the unit of the meshes' lengths."""
+        session = self._context.session
+        words = "Unit of the mesh's lengths, such as mm; empty if it is not known:"
+        now, edit = session.document.unit, QtWidgets.QLineEdit.EchoMode.Normal
+        unit, chosen = QtWidgets.QInputDialog.getText(self._context.widget, "Unit of lengths", words, edit, now)
+        if chosen:
+            try:
+                session.show(replace(session.document, unit=unit.strip()))
+            except ParameterError as error:
+                self._context.fail(error)
+
     def style(self, word: str) -> None:
         """Choose a style for panels and later figures; the colour map stays as it is."""
         context = self._context
@@ -147,6 +160,18 @@ class Choices:
             self._colour(Colours(Path(path).stem, read_stops(path), now.reversed, now.bands))
         except ParameterError as error:
             self._context.fail(error)
+
+    def base(self, scalars: str) -> None:
+        """Draw scalars in grey under the isolines, or nothing."""
+        session = self._context.session
+        document = session.document
+        field = next((each for each in document.fields if each.name == scalars), None)
+        loaded = None if field is None else session.loaded(field.surface)
+        if field is not None and loaded is not None and loaded.own_field(field).field is None:
+            self._context.fail(ParameterError(no_scalars(scalars)))
+        elif scalars != document.base.scalars:
+            session.show(replace(document, base=replace(document.base, scalars=scalars)))
+        self._context.choice_changed.emit()
 
     # ------------------------------------------------------------------ ranges
     def end_at(self, panel: int, end: float | None) -> None:

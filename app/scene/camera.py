@@ -14,7 +14,7 @@ from bihdist_core.analysis.view_directions import OBLIQUE_VIEWS
 from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.surface import connected
 
-from ..document.camera import Camera, Vector, checked_view
+from ..document.camera import ANATOMICAL, Camera, Vector, checked_view
 
 VIEW_ANGLE = 25.0
 
@@ -26,6 +26,13 @@ DIRECTIONS = {
     "right": ((1, 0, 0), (0, 1, 0)),
     "top": ((0, 1, 0), (0, 0, -1)),
     "bottom": ((0, -1, 0), (0, 0, 1)),
+    # Of a brain in RAS, whose z is up and whose front is on the other side, see `directions`.
+    "anterior": ((0, 0, -1), (0, 1, 0)),
+    "posterior": ((0, 0, 1), (0, 1, 0)),
+    "dorsal": ((0, 1, 0), (0, 0, -1)),
+    "ventral": ((0, -1, 0), (0, 0, -1)),
+    **dict.fromkeys(("lateral-left", "medial-right"), ((-1, 0, 0), (0, 1, 0))),
+    **dict.fromkeys(("medial-left", "lateral-right"), ((1, 0, 0), (0, 1, 0))),
     "relief": ((-0.35, -1.0, 0.75), (0, 0, 1)),
 }
 """Of the standard views where y is up: from the shape to the camera, and which way is up."""
@@ -184,7 +191,7 @@ def directions(view: str, up: str = "y", outwards: FloatArray | None = None) -> 
     checked_view(view)
     if view == "relief":
         return np.array(DIRECTIONS[view][0], float), np.array(DIRECTIONS[view][1], float)
-    turn = axes_of(up)
+    turn = axes_of("z" if view in ANATOMICAL else up)
     _, upright, front = turn.T
     if view == "source" and outwards is not None:
         # From above or below, what is at the back is up, as in the views from there.

@@ -42,7 +42,7 @@ def drawable(surface: Surface, shading: Shading = AS_IT_IS) -> vtkPolyData:
     copies = numpy_to_vtkIdTypeArray(drawn.copies, deep=True)
     copies.SetName(_COPIES)
     mesh.GetFieldData().AddArray(copies)
-    backs = numpy_to_vtk(np.array([wound.has_backs], np.int8), deep=True)
+    backs = numpy_to_vtk(np.array([wound.has_backs, wound.has_inside], np.int8), deep=True)
     backs.SetName(_BACKS)
     mesh.GetFieldData().AddArray(backs)
     return mesh
@@ -112,15 +112,15 @@ def with_backs_of(mesh: vtkPolyData, other: vtkPolyData) -> None:
         mesh.GetFieldData().AddArray(array)
 
 
-def has_backs(mesh: vtkPolyData) -> bool:
-    """Return whether the inside of a body can be seen."""
+def has_backs(mesh: vtkPolyData, is_cut: bool = False) -> bool:
+    """Return whether the inside of a body can be seen, or could be if it is cut."""
     array = mesh.GetFieldData().GetArray(_BACKS)
-    return array is not None and bool(array.GetValue(0))
+    return array is not None and bool(array.GetValue(int(is_cut)))
 
 
-def outward_faces(mesh: vtkPolyData) -> IntArray | None:
+def outward_faces(mesh: vtkPolyData, is_cut: bool = False) -> IntArray | None:
     """Return the vertices (m, 3) of faces, counter-clockwise seen from outside; None if no inside can be seen."""
-    return vertex_faces(mesh) if has_backs(mesh) else None
+    return vertex_faces(mesh) if has_backs(mesh, is_cut) else None
 
 
 def vertex_faces(mesh: vtkPolyData) -> IntArray:

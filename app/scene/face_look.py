@@ -27,6 +27,15 @@ _CARRIED = """//VTK::Color::Impl
   diffuseColor = (1.0 - coloursAt.a) * diffuseColor + diffuseIntensity * coloursAt.rgb;
 """
 
+# Greys under isolines.  The field's own colour is kept for these.
+_BASE = """//VTK::Color::Impl
+  vec3 fieldColour = ambientColor / max(ambientIntensity, 1e-3);
+  float grey = baseIsOfTwo > 0.5 ? (baseAt - 0.5) / max(fwidth(baseAt), 1e-9) + 0.5 : baseAt;
+  vec3 baseColour = mix(baseLight, baseDark, clamp(grey, 0.0, 1.0));
+  ambientColor = ambientIntensity * baseColour;
+  diffuseColor = diffuseIntensity * baseColour;
+"""
+
 # Where vertices' normals lean away from the eye although their face is seen, at silhouettes and on rough scans, light
 # from the eye's side would miss it, and leave a dark speck.
 _TOWARDS_THE_EYE = """//VTK::Normal::Impl
@@ -60,10 +69,13 @@ def map_attribute(mapper: vtkPolyDataMapper, attribute: str, array: str) -> None
     mapper.MapDataArrayToVertexAttribute(attribute, array, vtkDataObject.FIELD_ASSOCIATION_POINTS, -1)
 
 
-def put_face_look(shader: vtkShaderProperty, has_edges: bool, has_colours: bool = False) -> None:
+def put_face_look(
+    shader: vtkShaderProperty, has_edges: bool, has_colours: bool = False, has_base: bool = False
+) -> None:
     """Add the look of faces to a shader.
 
-    Its uniforms are `hasBacks`, `backColour`, `edgeColour`, `edgeOnDark` and `edgeScale`.
+    Its uniforms are `hasBacks`, `backColour`, `edgeColour`, `edgeOnDark` and `edgeScale`, with a base also `baseLight`,
+    `baseDark` and `baseIsOfTwo`.
 
     Parameters
     ----------
@@ -71,8 +83,11 @@ def put_face_look(shader: vtkShaderProperty, has_edges: bool, has_colours: bool 
         Whether edges are drawn; the property needs EdgeVisibilityOn, and EdgeOpacity 0 to hide VTK's own edges.
     has_colours
         Whether there is an attribute `coloursAt`, of colours multiplied by alpha.
+    has_base
+        Whether there is an attribute `baseAt`, of shares from light to dark; then `fieldColour` is that of the field.
     """
-    own = (_CARRIED if has_colours else f"{_COLOUR}\n") + _BACK.removeprefix(f"{_COLOUR}\n")
+    pieces = [_BASE] * has_base + [_CARRIED] * has_colours + [_BACK]
+    own = f"{_COLOUR}\n" + "".join(piece.removeprefix(f"{_COLOUR}\n") for piece in pieces)
     shader.AddFragmentShaderReplacement(_COLOUR, True, own, False)
     shader.AddFragmentShaderReplacement(_NORMAL, False, _TOWARDS_THE_EYE + (_EDGES if has_edges else ""), False)
 

@@ -13,12 +13,15 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, v
 from bihdist_core.arrays import AnyArray, ByteArray, FloatArray
 
 from ..document.looks import MOST_ISOLINES, NO_LINES, TWENTY_STEPS, Isolines, Shading
+from ..drawing.line_looks import SECTION
+from ..session.base import Greys
+from .clipping import ClipPlane
 from .drawable import copies_of, has_backs
 from .face_look import map_attribute, pass_on, put_face_look
 from .levels import BOLD, ZERO, Levels, levels, too_many
 from .selected import PAINT_SELECTED
 from .stand_in import StandInActor
-from .style import CASING, RIM, Style
+from .style import CASING, RIM, IsolineInk, Style
 
 UNDEFINED = -1000.0
 """Stands for NaN in the scalars: shares are never negative, and the shader needs a number.  As far from them as VTK
@@ -27,9 +30,12 @@ allows, so that a face with an undefined corner is undefined up to the others, w
 FINE = 8192
 """Colours of a table with bands, so that each ends where its isoline is."""
 
-TINTS = {"selected": ("selectedAt", "vec4"), "colours": ("coloursAt", "vec4"), "labels": ("coloursAt", "flat vec4")}
+TINTS = {
+    "selected": ("selectedAt", "vec4"), "colours": ("coloursAt", "vec4"), "labels": ("coloursAt", "flat vec4"),
+    "base": ("baseAt", "float"),
+}  # fmt: skip
 """Colours of vertices besides those of the field, each with an attribute of the shader: its name there and its type.
-Those of labels are flat, as between two labels there is no third."""
+Those of labels are flat, as between two labels there is no third; the base has shares of greys."""
 
 _LIT = "//VTK::Light::Impl"
 
@@ -77,10 +83,19 @@ _PAINT = """
         float under = drawn * fade * (1.0 - smoothstep(rim - 0.6, rim + 0.6, fromLine));
         fragOutput0.rgb = mix(fragOutput0.rgb, isolineRimColour, isolineRimOpacity * under);
       }
-      fragOutput0.rgb = mix(fragOutput0.rgb, isZero ? isolineZeroColour : isolineColour, paint);
+      fragOutput0.rgb = mix(fragOutput0.rgb, isZero ? isolineZeroColour : ISOLINE, paint);
     }
   }
 """.replace("BOLD", str(BOLD)).replace("ZERO", str(ZERO))
+
+
+# Where the surface is cut: VTK has thrown away what is beyond the plane.
+_PAINT_SECTION = """
+  float fromCut = clipDistancesVSOutput[0];
+  float cutPerPixel = max(length(vec2(dFdx(fromCut), dFdy(fromCut))), 1e-12);
+  float section = 1.0 - smoothstep(sectionWidth - 0.6, sectionWidth + 0.6, fromCut / cutPerPixel);
+  fragOutput0.rgb = mix(fragOutput0.rgb, isolineCasingColour, section);
+"""
 
 
 class FieldActor:
@@ -103,9 +118,11 @@ class FieldActor:
         self._own_maximum, self._has_lines = 1.0, True
         self._own = vtkPolyData()
         self._has_edges = False
+        self.clip: ClipPlane | None = None
         self._followed: tuple[object, ...] | None = None
         self._tints: dict[str, AnyArray] = {}
-        self._passed_on: set[str] = set()  # of these, what reaches the shader
+        self._base = (False, False)  # whether it has two greys, and coloured isolines
+        self._passed_on = (set[str](), self._base)  # of these, what reaches the shader
         self._make()
         self.stand_in = StandInActor(self.actor)
         self.show_isolines(self.isolines, self._through)
@@ -128,7 +145,6 @@ class FieldActor:
         own = vtkPolyData()
         own.ShallowCopy(mesh)
         self._copies = copies_of(mesh)
-        self._uniforms.SetUniformf("hasBacks", float(has_backs(mesh)))
         self._values = np.concatenate([values, values[self._copies]])
         self._array = numpy_to_vtk(self._values)
         self._array.SetName("distance")
@@ -156,16 +172,26 @@ class FieldActor:
         self._tint("labels" if are_labels else "colours", tint)
 
     def _drop_colours(self) -> None:
-        for name in self._tints.keys() - {"selected"}:
+        for name in self._tints.keys() - {"selected", "base"}:
             self._tint(name, None)
 
-    def _tint(self, name: str, colours: ByteArray | None) -> None:
-        """Let vertices have these colours (n, 4) uint8, multiplied by alpha, for one of TINTS; None for none."""
+    def show_base(self, base: Greys | None, has_coloured_isolines: bool = True) -> None:
+        """Show greys instead of the field's colours, which the isolines may have, or these again."""
+        shares = None if base is None else base.shares
+        is_of_two = base is not None and base.are_two
+        self._base = is_of_two, has_coloured_isolines and self.style.coloured and base is not None
+        if shares is not self._tints.get("base"):
+            self._tint("base", shares)
+        self._pass_tints(set(self._tints))
+
+    def _tint(self, name: str, colours: ByteArray | FloatArray | None) -> None:
+        """Let vertices have colours (n, 4) uint8, multiplied by alpha, or shares (n,) of a base; None for none."""
         self._tints.pop(name, None)
         if colours is not None:
             self._tints[name] = colours
             # Multiplied by alpha 0, what has none has no colour to lend.
-            array = numpy_to_vtk(np.concatenate([colours, colours[self._copies]]).astype(np.float32) / 255, deep=True)
+            whole = 1 if name == "base" else 255
+            array = numpy_to_vtk(np.concatenate([colours, colours[self._copies]]).astype(np.float32) / whole, deep=True)
             array.SetName(name)
             self._own.GetPointData().AddArray(array)
             if name == "labels":
@@ -180,20 +206,24 @@ class FieldActor:
                 map_attribute(self._mapper, f"{name}Attribute", name)
             else:
                 self._mapper.RemoveVertexAttributeMapping(f"{name}Attribute")
-        if names != self._passed_on:
-            self._passed_on = names
+        if (names, self._base) != self._passed_on:
+            self._passed_on = names, self._base
+            self._uniforms.SetUniformf("baseIsOfTwo", float(self._base[0]))
             self._put_shaders(self._has_edges)
+            self._take_table()
+            self.set_scale(*self._scale)
 
     def _draw(self, own: vtkPolyData) -> None:
         self._own = own
         self._mapper.SetInputData(own)
         map_attribute(self._mapper, "isolineAttribute", "distance")
+        self._show_backs()
 
     def follow(self, other: "FieldActor", isolines: Isolines) -> None:
         """Show what another one shows now, from the same memory, with isolines of its own."""
         if self._own is not other._own:
             self._draw(other._own)
-            self._uniforms.SetUniformf("hasBacks", float(has_backs(other._own)))
+        self.show_clip(other.clip)
         self._values, self._array = other._values, other._array
         if self.table is not other.table:
             self.table, self.is_signed = other.table, other.is_signed
@@ -204,7 +234,8 @@ class FieldActor:
             self.stand_in.actor.SetProperty(look)
             self._put_shaders(bool(look.GetEdgeVisibility()))
         if self._passed_on != other._passed_on:
-            self._pass_tints(other._passed_on)
+            names, self._base = other._passed_on
+            self._pass_tints(names)
         if self.stand_in.stand_in is not other.stand_in.stand_in:
             self.stand_in.take(other.stand_in.stand_in)
         self.show_stand_in(other.stand_in.is_shown)
@@ -291,7 +322,7 @@ class FieldActor:
 
     def _take_table(self) -> None:
         self._mapper.SetLookupTable(self.table)
-        rim = self.style.isoline_ink(self.is_signed).rim or (0.0, 0.0, 0.0, 0.0)
+        rim = self.isoline_ink().rim or (0.0, 0.0, 0.0, 0.0)
         self._uniforms.SetUniform3f("isolineColour", self.style.isoline)
         self._uniforms.SetUniform3f("isolineZeroColour", self.style.isoline_ink(self.is_signed, 0.0).colour[:3])
         self._uniforms.SetUniform3f("isolineRimColour", rim[:3])
@@ -299,6 +330,12 @@ class FieldActor:
         self._uniforms.SetUniform3f("isolineThroughColour", self.style.source)
         self._uniforms.SetUniform3f("isolineCasingColour", self.style.mark_edge)
         self._uniforms.SetUniformf("isolineSigned", float(self.is_signed))
+
+    def isoline_ink(self, value: float = 1.0, is_through: bool = False) -> IsolineInk:
+        """Return the ink of an isoline, which on a base may have the colour of the field there."""
+        names, (_, has_own_colour) = self._passed_on
+        share = value / (self.maximum or 1.0) if has_own_colour else None
+        return self.style.isoline_ink(self.is_signed, value, is_through, "base" in names, share)
 
     @property
     def levels(self) -> Levels:
@@ -322,17 +359,38 @@ class FieldActor:
             look.SetEdgeVisibility(shading.show_edges)
             self._put_shaders(shading.show_edges)
 
+    def show_clip(self, clip: ClipPlane | None) -> None:
+        """Cut the surface by a plane, or no longer."""
+        if clip == self.clip:
+            return
+        is_other = (clip is None) != (self.clip is None)
+        self.clip = clip
+        for mapper in (self._mapper, self.stand_in.mapper):
+            mapper.RemoveAllClippingPlanes()
+            if clip is not None:
+                mapper.AddClippingPlane(clip.for_vtk)
+        if is_other:
+            self._show_backs()
+            self._put_shaders(self._has_edges)
+
+    def _show_backs(self) -> None:
+        self._uniforms.SetUniformf("hasBacks", float(has_backs(self._own, self.clip is not None)))
+
     def show_stand_in(self, is_shown: bool) -> None:
         """Draw what `stand_in` has taken instead of the surface, if it has anything, or the surface again."""
         data = self._own.GetPointData()
-        self.stand_in.show(is_shown, self._array, UNDEFINED, {name: data.GetArray(name) for name in self._passed_on})
+        self.stand_in.show(is_shown, self._array, UNDEFINED, {name: data.GetArray(name) for name in self._passed_on[0]})
 
     def set_scale(self, scale: float, share: float = 1.0) -> None:
         """Set the device pixels per pixel of line widths, and the fraction of their usual width that isolines have."""
+        self._scale = scale, share
         self._uniforms.SetUniformf("edgeScale", scale)
         self._uniforms.SetUniformf("isolineCasing", CASING * scale * share)
         self._uniforms.SetUniformf("isolineRimWidth", RIM * scale * share)
-        self._uniforms.SetUniformf("isolineHalfWidth", self.style.isoline_width / 2 * scale * share)
+        self._uniforms.SetUniformf("sectionWidth", SECTION.strokes[0].width * scale * share)
+        self._uniforms.SetUniformf(
+            "isolineHalfWidth", self.isoline_ink().width * self.style.isoline_width / 2 * scale * share
+        )
 
     def set_origin(self, x: float, y: float) -> None:
         """Set where the picture begins in a whole of which it is a part, so that hatching goes on from part to part."""
@@ -366,6 +424,9 @@ class FieldActor:
         self._uniforms.SetUniform3f("backColour", self.style.back)
         self._uniforms.SetUniform3f("edgeColour", self.style.edge)
         self._uniforms.SetUniform3f("edgeOnDark", self.style.edge_on_dark)
+        self._uniforms.SetUniformf("baseIsOfTwo", 0.0)
+        self._uniforms.SetUniform3f("baseLight", self.style.base_light)
+        self._uniforms.SetUniform3f("baseDark", self.style.base_dark)
         self._set_colours()
         self._put_shaders(False)
 
@@ -374,10 +435,13 @@ class FieldActor:
         shader = self.actor.GetShaderProperty()
         shader.ClearAllShaderReplacements()
         attributes = [("isolineAttribute", "isolineValue", "float")]
-        attributes += [(f"{name}Attribute", *TINTS[name]) for name in TINTS if name in self._passed_on]
+        names, (_, has_own_colours) = self._passed_on
+        attributes += [(f"{name}Attribute", *TINTS[name]) for name in TINTS if name in names]
         pass_on(shader, *attributes)
-        put_face_look(shader, has_edges, bool(self._passed_on - {"selected"}))
-        paint = (PAINT_SELECTED if "selected" in self._passed_on else "") + _PAINT
+        put_face_look(shader, has_edges, bool(names - {"selected", "base"}), "base" in names)
+        paint = _PAINT.replace("ISOLINE", "fieldColour" if has_own_colours else "isolineColour")
+        paint = (PAINT_SELECTED if "selected" in names else "") + paint
+        paint += _PAINT_SECTION if self.clip is not None else ""
         rim = _RIM.format(self.style.rim) if self.style.rim else ""
         shader.AddFragmentShaderReplacement(_LIT, False, f"{_LIT}\n{rim}{paint}", False)
 

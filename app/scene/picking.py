@@ -9,6 +9,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 from bihdist_core import Surface
 from bihdist_core.arrays import FloatArray
 
+from .clipping import ClipPlane, is_kept
 from .face_blocks import FaceBlocks
 
 
@@ -43,20 +44,27 @@ class Picker:
         """The faces in blocks, made when they are first asked for, on any thread."""
         return FaceBlocks(self._surface)
 
-    def pick(self, renderer: vtkRenderer, x: float, y: float) -> Hit | None:
-        """Return the hit on the surface at device pixel (x, y), y up; None beside the surface."""
-        ends = _ray(renderer, x, y)
+    def pick(self, renderer: vtkRenderer, x: float, y: float, clip: ClipPlane | None = None) -> Hit | None:
+        """Return the hit on what is left of the surface at device pixel (x, y), y up; None beside it.
+
+        The corner is one that is left, too, if there is any.
+        """
+        ends = _ray(renderer, x, y, clip)
         hit = None if ends is None else self.blocks.first_hit(*ends)
         if hit is None:
             return None
         face, weights, position = hit
         ids = self._surface.faces[face]
-        nearest = np.linalg.norm(self._surface.vertices[ids] - position, axis=1).argmin()
+        corners = self._surface.vertices[ids]
+        away = np.linalg.norm(corners - position, axis=1)
+        nearest = np.lexsort((away, ~is_kept(clip, corners)))[0]
         return Hit(face, weights, position, int(ids[nearest]))
 
-    def sees(self, renderer: vtkRenderer, point: FloatArray) -> bool:
-        """Return whether nothing but faces about it stands before a point (3,) of the surface."""
-        ends = _ray(renderer, *pixel_of(renderer, point))
+    def sees(self, renderer: vtkRenderer, point: FloatArray, clip: ClipPlane | None = None) -> bool:
+        """Return whether nothing but faces about it stands before a point (3,) of the surface that is left."""
+        if not is_kept(clip, point[None])[0]:
+            return False
+        ends = _ray(renderer, *pixel_of(renderer, point), clip)
         return ends is None or self.blocks.sees(ends[0], point, 2 * self._surface.mean_edge_length)
 
 
@@ -68,8 +76,13 @@ def pixel_of(renderer: vtkRenderer, point: FloatArray) -> tuple[float, float]:
     return x, y
 
 
-def _ray(renderer: vtkRenderer, x: float, y: float) -> tuple[FloatArray, FloatArray] | None:
-    """Return the ends (3,) of the line of sight through a device pixel, the near one first; None if there is none."""
+def _ray(
+    renderer: vtkRenderer, x: float, y: float, clip: ClipPlane | None = None
+) -> tuple[FloatArray, FloatArray] | None:
+    """Return the ends (3,) of the line of sight through a device pixel, the near one first; None if there is none.
+
+    Of one that a plane clips they are those of what is left.
+    """
     ends = []
     for depth in (0.0, 1.0):
         renderer.SetDisplayPoint(x, y, depth)
@@ -78,4 +91,4 @@ def _ray(renderer: vtkRenderer, x: float, y: float) -> tuple[FloatArray, FloatAr
         if weight == 0:
             return None
         ends.append(np.array(point) / weight)
-    return ends[0], ends[1]
+    return (ends[0], ends[1]) if clip is None else clip.segment(ends[0], ends[1])

@@ -150,9 +150,9 @@ class StandInActor:
         self._array = numpy_to_vtk(self._values)
         self._tints: dict[str, vtkDataArray] = {}
         self._averaged: tuple[int, int] | None = None  # of which array, and when that was last changed
-        self._mapper = vtkPolyDataMapper()
+        self.mapper = vtkPolyDataMapper()
         self.actor = vtkActor()
-        self.actor.SetMapper(self._mapper)
+        self.actor.SetMapper(self.mapper)
         self.actor.SetProperty(full.GetProperty())
         self.actor.SetShaderProperty(full.GetShaderProperty())
         self.actor.VisibilityOff()
@@ -162,14 +162,14 @@ class StandInActor:
         self.show(False)
         self.stand_in, self._averaged, self._tints = stand_in, None, {}
         if stand_in is None:
-            self._mapper.SetInputData(vtkPolyData())
+            self.mapper.SetInputData(vtkPolyData())
             return
         own = vtkPolyData()
         own.ShallowCopy(stand_in.mesh)
         self._values = np.empty(own.GetNumberOfPoints(), np.float32)
         self._array = numpy_to_vtk(self._values)
         own.GetPointData().AddArray(self._array)
-        self._mapper.SetInputData(own)
+        self.mapper.SetInputData(own)
 
     @property
     def is_shown(self) -> bool:
@@ -190,7 +190,7 @@ class StandInActor:
         values
             (n,) of all points of the surface, under the name that they have there.
         tints
-            (n, 4) colours, by the names that the shader knows.
+            (n, 4) colours or (n,) shares, by the names that the shader knows.
         """
         if is_shown and self.stand_in is not None and values is not None:
             self._follow(self.stand_in, values, undefined)
@@ -204,19 +204,19 @@ class StandInActor:
     def _follow(self, stand_in: StandIn, values: vtkDataArray, undefined: float) -> None:
         """Show the values of now, in the colours of now."""
         full = self._full.GetMapper()
-        if self._mapper.GetLookupTable() is not full.GetLookupTable():
-            self._mapper.SetLookupTable(full.GetLookupTable())
+        if self.mapper.GetLookupTable() is not full.GetLookupTable():
+            self.mapper.SetLookupTable(full.GetLookupTable())
         state = (id(values), values.GetMTime())
         if state == self._averaged:
             return
         if self._averaged is None:
             name = values.GetName()
             self._array.SetName(name)
-            self._mapper.UseLookupTableScalarRangeOn()
-            self._mapper.SetScalarModeToUsePointFieldData()
-            self._mapper.SelectColorArray(name)
-            self._mapper.InterpolateScalarsBeforeMappingOn()
-            map_attribute(self._mapper, "isolineAttribute", name)
+            self.mapper.UseLookupTableScalarRangeOn()
+            self.mapper.SetScalarModeToUsePointFieldData()
+            self.mapper.SelectColorArray(name)
+            self.mapper.InterpolateScalarsBeforeMappingOn()
+            map_attribute(self.mapper, "isolineAttribute", name)
         self._averaged = state
         self._values[:] = stand_in.averaged(vtk_to_numpy(values), undefined)
         self._array.Modified()
@@ -225,15 +225,15 @@ class StandInActor:
         """Give each cluster the mean colour of its points, so that it is selected by the fraction of them that are."""
         for name in [name for name in self._tints if name not in tints]:
             del self._tints[name]
-            self._mapper.RemoveVertexAttributeMapping(f"{name}Attribute")
+            self.mapper.RemoveVertexAttributeMapping(f"{name}Attribute")
         for name, tint in tints.items():
             if self._tints.get(name) is tint:
                 continue
             self._tints[name] = tint
-            means = [stand_in.averaged(each, np.nan) for each in vtk_to_numpy(tint).T]
+            means = [stand_in.averaged(each, np.nan) for each in np.atleast_2d(vtk_to_numpy(tint).T)]
             array = numpy_to_vtk(np.ascontiguousarray(np.stack(means, 1)), deep=True)
             array.SetName(name)
-            own = self._mapper.GetInput()
+            own = self.mapper.GetInput()
             own.GetPointData().AddArray(array)
             own.Modified()
-            map_attribute(self._mapper, f"{name}Attribute", name)
+            map_attribute(self.mapper, f"{name}Attribute", name)

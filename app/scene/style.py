@@ -27,17 +27,22 @@ RIM_OPACITY, RIM = 0.6, 0.8
 CASING = 1.2
 """Pixels, at scale 1, of the dark rim on each side of an isoline through a point."""
 
+COLOURED = 1.4
+"""Times the usual width that isolines have whose colour is to be read."""
+
 STANDS_OUT = 0.12
 """Distances in Oklab from which on a line is seen well."""
 
 
 @dataclass(frozen=True)
 class IsolineInk:
-    """The colour of an isoline and, if it has one, of the rim on each side, so wide in pixels at scale 1."""
+    """The colour of an isoline and, if it has one, of the rim on each side, so wide in pixels at scale 1; the line is
+    `width` times as wide as usual."""
 
     colour: RGBA
     rim: RGBA | None = None
     rim_width: float = 0.0
+    width: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -52,6 +57,8 @@ class Style:
         Whether surfaces are lit; if not, colours are drawn as they are.
     coloured
         Whether surfaces are coloured; if not, isolines alone show the field.
+    base_light, base_dark
+        The greys of a base.
     plain
         Colour of a surface that is meant to have no field.
     back
@@ -78,6 +85,8 @@ class Style:
     outline_colour: Colour = (0, 0, 0)
     shading: bool = True
     coloured: bool = True
+    base_light: Colour = (0.80, 0.80, 0.80)
+    base_dark: Colour = (0.56, 0.56, 0.56)
     undefined: Colour = (0.72, 0.72, 0.7)
     plain: Colour = (0.66, 0.68, 0.70)
     back: Colour = (0.80, 0.74, 0.62)
@@ -134,15 +143,26 @@ class Style:
         """Return `named` for a mark whose own colour is meant by "own"."""
         return lambda name: self.named(own if name == "own" else name)
 
-    def isoline_ink(self, signed: bool = False, value: float = 1.0, is_through: bool = False) -> IsolineInk:
+    def isoline_ink(
+        self,
+        signed: bool = False,
+        value: float = 1.0,
+        is_through: bool = False,
+        on_base: bool = False,
+        share: float | None = None,
+    ) -> IsolineInk:
         """Return the colours of an isoline; of its value it only matters whether it is 0.
 
         Isolines have one colour in all panels, but for that at 0 of a signed field and those through points.  On a
-        signed field, which is light in its middle, they have a faint rim.
+        signed field, which is light in its middle, and on a base they have a faint rim.  With a `share` of the maximum
+        they have the colour of the map there.
         """
         if is_through:
             return IsolineInk(opaque(self.source), opaque(self.mark_edge), CASING)
-        if not signed or value == 0:
+        if share is not None and self.coloured and not (signed and value == 0):
+            colour = self.colours_at(np.clip([share], -1, 1), signed)[0]
+            return IsolineInk(opaque(tuple(colour.tolist())), opaque(INK, RIM_OPACITY), RIM, COLOURED)
+        if not (signed or on_base) or (signed and value == 0):
             return IsolineInk(opaque(self.signed_isoline if signed else self.isoline))
         if not self.coloured:
             return IsolineInk(opaque(self.isoline))

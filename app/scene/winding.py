@@ -35,6 +35,8 @@ class Winding:
         (e,) whether these are still wound against each other, as somewhere on a Möbius strip.
     has_backs
         Whether an inside can be seen.
+    has_inside
+        Whether it can be seen once the surface is cut.
     """
 
     turn: BoolArray
@@ -43,6 +45,7 @@ class Winding:
     right: IntArray
     is_turned: BoolArray
     has_backs: bool
+    has_inside: bool
 
     def faces(self, faces: IntArray) -> IntArray:
         """Return faces (m, 3), turned over where they are to be."""
@@ -77,8 +80,8 @@ def winding(surface: Surface, normals: list[FloatArray]) -> Winding:
         turn, patch, is_turned = _alike(left % m, right % m, is_turned, m)
     else:
         turn, patch = np.zeros(m, bool), surface.component_of_vertex.take(faces[:, 0])
-    inward, has_backs = _insides(surface, normals, turn, patch, np.unique(patch[left[is_turned] % m]))
-    return Winding(turn ^ inward, edges, left, right, is_turned, has_backs)
+    inward, *insides = _insides(surface, normals, turn, patch, np.unique(patch[left[is_turned] % m]))
+    return Winding(turn ^ inward, edges, left, right, is_turned, *insides)
 
 
 def _alike(one: IntArray, other: IntArray, is_turned: BoolArray, m: int) -> tuple[AnyArray, ...]:
@@ -99,8 +102,8 @@ def _alike(one: IntArray, other: IntArray, is_turned: BoolArray, m: int) -> tupl
 
 def _insides(
     surface: Surface, normals: list[FloatArray], turn: BoolArray, patch: IntArray, one_sided: IntArray
-) -> tuple[BoolArray, bool]:
-    """Return the faces (m,) of patches that are wound inwards, and whether the inside of a patch can be seen.
+) -> tuple[BoolArray, bool, bool]:
+    """Return the faces (m,) of patches that are wound inwards, whether an inside can be seen, and whether in a cut.
 
     The patches `one_sided` (k,) have only one side.
     """
@@ -126,4 +129,5 @@ def _insides(
     open_area = float(area[(is_body | is_shell) & (holes > 0)].sum())
     # A loose sheet beside a body has sides that nobody can tell apart, and beside many the body would not be seen.
     has_backs = open_area > 0 and open_area > 0.5 * float(area[holes > 0].sum())
-    return (is_body & (volume < 0))[patch], bool(has_backs)
+    is_hollow = has_backs or float(area[is_body & (holes == 0)].sum()) > 0.5 * float(area.sum())
+    return (is_body & (volume < 0))[patch], bool(has_backs), bool(is_hollow)

@@ -31,6 +31,7 @@ from ..document.file import checksum
 from ..samples import mesh_path
 from .array_store import ArrayStore
 from .derived_surfaces import map_to_derived
+from .hemispheres import Hemispheres
 from .questions import Question, source_at
 from .repaired_surface import repaired
 
@@ -114,7 +115,12 @@ class LoadedMesh:
         return self._looks[up]
 
     def view_of(self, view: View, up: str) -> View:
-        """Return the view, or that which "auto" stands for with an axis up."""
+        """Return the view, or that which "auto" stands for with an axis up; a lateral view is of a hemisphere.
+
+        ParameterError where the hemisphere is not known.
+        """
+        if view in ("lateral", "medial"):
+            return f"{view}-{self.memory(Hemispheres).side(self)}"
         return self.first_look(up).view if view == "auto" else view
 
     def distances(self, areas: str) -> Distances:

@@ -11,6 +11,7 @@ TOOLS = (
     "interpolation",
     "correspondence",
     "robustness",
+    "inside",
     "surface_list",
 )
 """The folders, in the order of their gestures and marks."""

@@ -176,7 +176,8 @@ def page_of(
     fields = {each.word: _values(loaded.own_field(document.field(each.name))) for each in contents.own}
     own = {word: StoredField.of(values, mesh.ids) for word, values in fields.items()}
     differs |= {word: each.error for word, each in own.items()}
-    stored = {"bits": 24 if precision == "24" else precision, "backs": mesh.has_backs, "differs": differs}
+    backs = mesh.has_backs if document.clip is None else mesh.has_inside
+    stored = {"bits": 24 if precision == "24" else precision, "backs": backs, "differs": differs}
     stored["sources"] = min(SOURCES, len(mesh.ids))
     scene = scene_of(recipe, contents, surfaces, answers, stored, credit)
     named = contents.with_offered(spec for spec, _, _ in offered)

@@ -7,7 +7,19 @@ USUAL = ("biharmonic", "geodesic")
 """The panels by default; neither distance needs eigenpairs."""
 
 NAMES = (
-    *("areas", "cut", "isolines", "viewup", "cpos", "parallel_projection", "cmap", "flip_scalars", "bands", "clim"),
+    *(
+        "areas",
+        "cut",
+        "isolines",
+        "viewup",
+        "cpos",
+        "parallel_projection",
+        "clip",
+        "cmap",
+        "flip_scalars",
+        "bands",
+        "clim",
+    ),
     *("style", "pins"),
 )
 """The first option of each row."""

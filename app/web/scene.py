@@ -31,6 +31,7 @@ from ..drawing.shapes import RGBA, opaque
 from ..figures.description import Figure, FigurePanel
 from ..figures.export import Surfaces, figure_of
 from ..scene.camera import outwards_at, standard_camera
+from ..scene.clipping import clip_plane
 from ..scene.drawable import crease_of
 from ..scene.style import PINS, Style, style_of
 from ..session.questions import first_source, vertex_at
@@ -94,6 +95,7 @@ def scene_of(
         notes.append(f"Colour bars of one unit end at their largest maximum from vertex {source}.")
     first = next((each for each in figure.panels if not each.signed), figure.panels[0])
     style = style_of(recipe.page.style, document.colours)
+    clip = clip_plane(document.clip, surface)
     scene = {
         "title": f"Distances on {_text(surface.name)}",
         "credit": _text(credit),
@@ -117,6 +119,7 @@ def scene_of(
         "colours": _colours(recipe.page.style, document.colours),
         "isolines": {**_isolines(first), "colour": _bytes(style.isoline), "width": style.isoline_width},
         "crease": crease_of(surface, document.shading),
+        "clip": None if clip is None else [*clip.normal, clip.offset],
         "areas": document.areas,
         "notes": [*_of_surface(surface), *notes_on(document, len(figure.panels[0].views)), *notes],
     }

@@ -46,6 +46,8 @@ class StoredMesh:
         Where each component begins, then n and m.
     has_backs : bool
         Whether the inside of the surface can be seen.
+    has_inside : bool
+        Whether it can be seen once the surface is cut.
     """
 
     surface: Surface
@@ -56,6 +58,7 @@ class StoredMesh:
     first_vertices: IntArray
     first_faces: IntArray
     has_backs: bool
+    has_inside: bool
 
     @classmethod
     def of(cls, surface: Surface, precision: str = "24") -> StoredMesh:
@@ -77,7 +80,7 @@ class StoredMesh:
         face_counts = np.bincount(component[order][faces[:, 0]])
         first_vertices, first_faces = (np.concatenate([[0], np.cumsum(c)]) for c in (counts, face_counts))
         kept = Surface(stored, faces, name=surface.name)
-        return cls(kept, order, precision, low, step, first_vertices, first_faces, wound.has_backs)
+        return cls(kept, order, precision, low, step, first_vertices, first_faces, wound.has_backs, wound.has_inside)
 
     @cached_property
     def packed(self) -> bytes:

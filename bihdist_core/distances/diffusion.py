@@ -39,8 +39,9 @@ TOLERANCE = 1e-7
 """Of the maximum: how exact distances are by eigenpairs."""
 LONG_TIME = 2.0
 """From here on eigenpairs are taken: their number is small, and weights fall below the error of rational functions."""
-SMALL = 400
-"""All eigenpairs of so few vertices are found at once."""
+SMALL, MODERATE = 400, 20_000
+"""All eigenpairs of so few vertices are found at once, and from t = 1 on those that count of so many in half a second;
+rounding leaves them more digits of the smallest distances."""
 WEIGHED = 32.0
 """Eigenvalues, times t / lambda_1, with a weight that counts."""
 WORTH = 2.0
@@ -165,9 +166,10 @@ def expected_count(component: Component, t: float) -> int:
 
 def is_faster_by_eigenpairs(component: Component, t: float, progress: Progress | None) -> bool:
     """Return whether the eigenpairs that have a weight at a time are expected to take less time than poles."""
-    have, n = len(component.spectrum(FIRST_EIGENPAIRS, progress).eigenvalues), len(component.areas)
-    count = expected_count(component, t)
-    if t >= LONG_TIME or have == component.most_eigenpairs or count <= have or n <= SMALL:
+    component.spectrum(1, progress)
+    count, n = expected_count(component, t), len(component.areas)
+    few = max(FIRST_EIGENPAIRS, component.eigenpairs_there)
+    if t >= LONG_TIME or count <= few or n <= (MODERATE if t >= 1 else SMALL):
         return True
     if served(component, t / float(component.spectrum(1).eigenvalues[0])):
         return False

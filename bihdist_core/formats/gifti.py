@@ -23,6 +23,7 @@ from ..arrays import AnyArray
 from ..errors import MeshError
 from ..file_content import bytes_beside
 from .compression import MOST_BYTES
+from .mesh_names import hemisphere_of
 from .polygons import Polygons, checked_corners
 from .text_lines import parsed_numbers, xml_root
 
@@ -203,15 +204,10 @@ def _decoded(text: bytes, packed_size: int | None, where: str) -> bytes:
 
 
 # ---------------------------------------------------------------------- output
-_LEFT, _RIGHT = (
-    re.compile(rf"(^|[._-])({words})(?=[._-]|$)", re.IGNORECASE) for words in ("lh|l|left|hemi-l", "rh|r|right|hemi-r")
-)
-
-
 def write_gifti_values(file: BinaryIO, surface_name: str, columns: Mapping[str, AnyArray]) -> None:
     """Write an array (n,) for each name; the structure is that of the hemisphere that the surface's name says."""
-    hemisphere = "CortexLeft" if _LEFT.search(surface_name) else "CortexRight" if _RIGHT.search(surface_name) else ""
-    about = _meta_data({"AnatomicalStructurePrimary": hemisphere} if hemisphere else {})
+    side = hemisphere_of(surface_name)
+    about = _meta_data({"AnatomicalStructurePrimary": f"Cortex{side.capitalize()}"} if side else {})
     arrays = "".join(_data_array(name, values) for name, values in columns.items())
     file.write(
         '<?xml version="1.0" encoding="UTF-8"?>\n'

@@ -71,6 +71,9 @@ SHARED = (".gii", FREESURFER, *ARRAY_FILES)
 """The formats of files that may hold something else than a mesh."""
 
 _HEMISPHERE = re.compile(r"(^|[._-])[lr]h\.[a-z]", re.IGNORECASE)
+_LEFT, _RIGHT = (
+    re.compile(rf"(^|[._-])({words})(?=[._-]|$)", re.IGNORECASE) for words in ("lh|l|left|hemi-l", "rh|r|right|hemi-r")
+)
 _OTHER_GIFTI = re.compile(r"\.(func|shape|label|time|rgba|vector|tensor|coord|topo)\.gii(\.gz)?$", re.IGNORECASE)
 _SURFACE = re.compile(rb"\xff\xff\xfe|#!ascii(?! *label)")
 _MNI = re.compile(rb"\s*[FLMPQTX]\s|[flmpqtx](?!\s)[^\0]{0,40}\0")
@@ -111,6 +114,11 @@ def beginning(path: str | os.PathLike[str], count: int = 200) -> bytes:
 def has_hemisphere(name: str) -> bool:
     """Return whether a file is named as FreeSurfer names those of a hemisphere: lh.pial, sub-01_rh.thickness."""
     return bool(_HEMISPHERE.search(name))
+
+
+def hemisphere_of(name: str) -> str:
+    """Return "left" or "right" for the name of a surface that says it, such as lh.pial or sub-01_hemi-R; else ""."""
+    return "left" if _LEFT.search(name) else "right" if _RIGHT.search(name) else ""
 
 
 def files_of(path: str | os.PathLike[str]) -> list[str]:

@@ -20,7 +20,7 @@ from app.document.edits import (
 )
 from app.document.form import document_data, document_from
 from app.document.history import LONGEST, History
-from app.document.looks import Colours, Isolines, Shading
+from app.document.looks import Clip, Colours, Isolines, Shading
 from app.document.quantities import DistanceFrom, quantity
 from app.tools.interpolation.part import Anchor, Anchors
 from bihdist_core import ParameterError, SurfacePoint
@@ -131,6 +131,7 @@ def test_another_mesh_leaves_behind_what_was_tied_to_the_old_one(document):
 TASTE = (
     {"colours": Colours("ember", reversed=True, bands=True)},
     {"shading": Shading("flat", show_edges=True)},
+    {"clip": Clip((0.0, -1.0, 0.5), 0.25)},
     {"parallel_projection": True, "axes": True, "extrema": True, "areas": "barycentric", "snap": False},
 )
 

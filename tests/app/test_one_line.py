@@ -14,7 +14,7 @@ import app
 from app.commands.figure_options import add_figure_options, chosen_recipe
 from app.document.camera import VIEWS, Camera
 from app.document.document import Document, FieldArray, Inset, MeshFile, Panel, Point, comparison
-from app.document.looks import UPS, Colours, Isolines, Shading
+from app.document.looks import UPS, Clip, Colours, Isolines, Shading
 from app.document.on_surface import Hidden
 from app.document.page import Page, Recipe
 from app.document.quantities import Difference, DistanceFrom, OwnField, quantity
@@ -155,6 +155,7 @@ EXAMPLES = {
     "Pin.colour": lambda d, p: (d.with_part(Pins((Pin("source", colour=4),))), p),
     "Document.colours": lambda d, p: (replace(d, colours=Colours(reversed=True)), p),
     "Document.shading": lambda d, p: (replace(d, shading=Shading("flat")), p),
+    "Document.clip": lambda d, p: (replace(d, clip=Clip((0.0, -1.0, 1 / 3), 0.1 + 0.2)), p),
     "Document.up": lambda d, p: (replace(d, up="-x"), p),
     "Document.parallel_projection": lambda d, p: (replace(d, parallel_projection=True), p),
     "Document.axes": lambda d, p: (replace(d, axes=True), p),

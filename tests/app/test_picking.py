@@ -5,6 +5,8 @@ import pytest
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (makes render windows)
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
+from app.document.looks import Clip
+from app.scene.clipping import clip_plane
 from app.scene.face_blocks import BLOCK, BLOCKS_AT_ONCE, FaceBlocks
 from app.scene.picking import Picker
 from bihdist_core import Surface
@@ -137,6 +139,38 @@ def test_a_pixel_has_the_nearest_corner_of_the_face_in_front(renderer, parallel)
             assert np.isclose(found.weights.sum(), 1)
             assert np.allclose(found.weights @ surface.vertices[corners], found.position)
     assert 100 < beside < 300
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+def test_what_is_cut_away_is_not_hit_but_what_is_seen_behind_it(renderer, parallel):
+    renderer.GetActiveCamera().SetParallelProjection(parallel)
+    surface = torus(40, 20)
+    picker = Picker(surface)
+    # Of the ring's front, and of all that is on one side.
+    for clip in (Clip((0.2, 0.3, 1.0), 0.5), Clip((1.0, 0.0, 0.0), 0.3)):
+        plane = clip_plane(clip, surface)
+        behind = beside = 0
+        for x, y in np.random.default_rng(0).uniform(0, SIZE, (300, 2)):
+            ends = ray(renderer, x, y)
+            # The slow way: from hit to hit, until one is of what is left.
+            hit = first_hit(surface, *ends)
+            was = hit
+            while hit is not None and plane.depths(hit[1]) < 0:
+                hit = first_hit(surface, hit[1] + 1e-7 * (ends[1] - ends[0]), ends[1])
+            found = picker.pick(renderer, x, y, plane)
+            assert (found is None) == (hit is None)
+            if found is None:
+                beside += was is not None
+                continue
+            behind += hit is not was
+            assert found.face == hit[0]
+            corners = surface.faces[hit[0]]
+            left = plane.depths(surface.vertices[corners]) >= 0
+            assert plane.depths(surface.vertices[found.vertex]) >= 0 or not left.any()
+            assert picker.sees(renderer, found.position, plane)
+            if hit is not was:
+                assert not picker.sees(renderer, was[1], plane)
+        assert behind + beside > 30
 
 
 def test_a_vertex_in_front_is_found_where_it_is_seen_and_one_behind_is_not(renderer):

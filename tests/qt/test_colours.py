@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from qtpy import QtCore
 
-from app.document.looks import Colours
+from app.document.looks import CURVATURE, Base, Colours
 from app.document.page import Recipe
 from app.document.quantities import quantity
 from app.document.settings import BANDS, RANGE
@@ -270,3 +270,27 @@ def test_a_panel_that_waits_to_be_drawn_anew_shows_what_it_did(shown, monkeypatc
     shown.until(lambda: not shown.panels[0].view.is_stale)
     assert view.is_stale
     assert colours() == before
+
+
+def test_a_base_is_chosen_in_the_menu_shown_in_grey_and_undone(shown):
+    def base(text):
+        menu = next(each.menu() for each in shown.window.menus.colours.actions() if each.text() == "Base in grey")
+        menu.aboutToShow.emit()
+        next(action for action in menu.actions() if action.text() == text).trigger()
+        shown.settle()
+
+    def coloured():
+        return [(np.ptp(picture[..., :3].astype(int), axis=2) > 40).mean() for picture in pixels(shown)]
+
+    before = coloured()
+    base("Mean curvature")
+    assert shown.document.base == Base(CURVATURE)
+    assert all(now < 0.5 * then for now, then in zip(coloured(), before, strict=True))
+    with_lines = coloured()
+    shown.window.actions_by_word["white_isolines"].trigger()
+    shown.settle()
+    assert all(now < 0.2 * then for now, then in zip(coloured(), with_lines, strict=True))
+    for _ in range(2):
+        shown.window.actions_by_word["undo"].trigger()
+        shown.settle()
+    assert coloured() == before

@@ -10,7 +10,7 @@ import pytest
 import app as bihdist
 from app.document.camera import Camera
 from app.document.document import Inset, MeshFile, comparison
-from app.document.looks import Colours, Isolines, Shading
+from app.document.looks import Clip, Colours, Isolines, Shading
 from app.document.on_surface import Hidden
 from app.document.page import Page, Recipe
 from app.document.quantities import quantity
@@ -251,6 +251,14 @@ def test_a_map_that_stays_at_night_is_there_once(scene):
 @pytest.mark.parametrize(("shading", "crease"), [("auto", None), ("smooth", None), ("creased", 30.0), ("flat", 0.0)])
 def test_creases_are_the_documents(scene, shading, crease):
     assert scene(edit=lambda document: replace(document, shading=Shading(shading, 30.0)))["crease"] == crease
+
+
+def test_a_clip_plane_is_the_documents(scene):
+    assert scene()["clip"] is None
+    x, y, z, offset = scene(edit=lambda document: replace(document, clip=Clip((0.0, -2.0, 0.0), 0.25)))["clip"]
+    assert (x, y, z) == (0, -1, 0)
+    heights = scene.surface.vertices[:, 1]
+    assert offset == pytest.approx(-(heights.max() - 0.25 * np.ptp(heights)))
 
 
 def test_a_chosen_map_is_that_of_the_page(scene):

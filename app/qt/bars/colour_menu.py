@@ -3,7 +3,7 @@
 import numpy as np
 from qtpy import QtCore, QtGui, QtWidgets
 
-from ...document.looks import Colours, Stops
+from ...document.looks import CURVATURE, Colours, Stops
 from ...document.settings import switches_in
 from ...scene.colour_maps import MAPS, backwards, colours_at
 from ...scene.style import map_of, style_of
@@ -20,6 +20,34 @@ LONGEST = 14
 
 FAINT = 0.35
 """Of a strip that cannot be chosen: its opacity."""
+
+
+class BaseMenu(QtWidgets.QMenu):
+    """What is drawn in grey under isolines: curvature, or a field of the user's own."""
+
+    def __init__(self, context: Context) -> None:
+        super().__init__("Base in grey", context.widget)
+        self.menuAction().setToolTip("Grey surface with isolines in the colours of the field")
+        self._context = context
+        self._group = QtWidgets.QActionGroup(self)
+        self.aboutToShow.connect(self._fill)
+
+    def _fill(self) -> None:
+        document = self._context.document
+        self.clear()
+        names = {field.name: field.name.replace("&", "&&") for field in document.fields}
+        for name, text in ({"": "None", CURVATURE: "Mean curvature"} | names).items():
+            action = self.addAction(text)
+            action.setCheckable(True)
+            action.setChecked(name == document.base.scalars)
+            action.setData(name)
+            action.setProperty("synonyms", "sulci sulcal depth thickness brain cortex anatomy background underlay")
+            self._group.addAction(action)
+            action.triggered.connect(lambda *_, name=name: self._context[Choices].base(name))
+        self.addSeparator()
+        for word in switches_in("base"):
+            self._context.actions[word].setEnabled(bool(document.base.scalars))
+            self.addAction(self._context.actions[word])
 
 
 class ColourMenu(QtWidgets.QMenu):
@@ -50,6 +78,8 @@ class ColourMenu(QtWidgets.QMenu):
         self._file.setToolTip("Rows of red, green and blue, or ParaView's .json")
         self.addSeparator()
         self.addActions([context.actions[word] for word in switches_in("colours")])
+        self.addSeparator()
+        self.addMenu(BaseMenu(context))
 
     def show_choice(self, style: str, colours: Colours) -> None:
         """Tick what is chosen, in its colours."""

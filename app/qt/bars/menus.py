@@ -8,6 +8,7 @@ from qtpy import QtGui, QtWidgets
 
 from bihdist_core.analysis.upright import DIRECTIONS
 
+from ...document.camera import ANATOMICAL
 from ...document.panel_edits import ADD, panel_edits
 from ...document.settings import RANGE, SHADING, THEME, Setting, switches_in
 from ...document.tools import docked_tools
@@ -88,13 +89,15 @@ class Menus:
         named, at_pointer = [f"view {name}" for name in VIEWS], ["centre", "zoom to"]
         cameras, walked = [*switches_in("camera"), "link"], ["view before", "view after"]
         self._fill(keys, TURNS)
-        self._fill(standard, [*named, None, *walked])
+        brain = QtWidgets.QMenu("Brain (RAS)", context.widget)
+        self._fill(brain, [f"view {name}" for name in ANATOMICAL[:6]])
+        self._fill(standard, [*named, brain, None, *walked])
         self._fill(self.open, ["open", "open beside", None, self.recent, self.samples])
         self.up = self._choices(
             "&Up", lambda word: context[Views].set_up_axis(word), [(up, up.replace("-", MINUS)) for up in DIRECTIONS]
         )
         self._fill(self.up, [None, "next up", "other end up"])
-        self._fill(self.views, ["reset", *named, None, self.up, *cameras, None, *at_pointer, None, *walked])
+        self._fill(self.views, ["reset", *named, brain, None, self.up, *cameras, None, *at_pointer, None, *walked])
         self._fill(self.source, ["source id", "save curve", "snap", "live", None, "source before", "source after"])
         self._fill(self.source, [None, *(act.word for act in actions_of_tools())])
         self._fill(self.tools, docks("Tools"))
@@ -126,7 +129,10 @@ class Menus:
         self._fill(edit, ["copy camera", "paste camera", None, "clear by-products", "clear surface", None])
         self._fill(edit, ["preferences"])
         # What the tool bar's menu shows one below the other has submenus here, so that all is seen on small screens.
-        self._fill(view, ["reset", standard, self.up, keys, None, *cameras, None, *at_pointer, None])
+        self._fill(
+            view,
+            ["reset", standard, self.up, keys, None, *cameras, *switches_in("scale"), "unit", None, *at_pointer, None],
+        )
         self._fill(view, [*docks("View"), None])
         self._fill(view, [self.isolines, self.colours, self.range, self.shading, None, self.theme, "full screen"])
         edits = (f"panel {word}" for word in panel_edits() if word != ADD)

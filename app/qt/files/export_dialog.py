@@ -82,6 +82,8 @@ class ExportDialog(LooksDialog):
         self.form.row("&Names", self.names, "Where the name of each panel stands", "title")
         self.add_shares()
         self.both = self.form.tick("&Front and back", recipe.page.views == BOTH, "Each panel from both sides")
+        tip = "Lateral and medial views of each hemisphere of a brain"
+        self.hemispheres = self.form.tick("&Hemispheres", recipe.page.layout == "hemispheres", tip)
         page = recipe.page
         tip = "Transparent where nothing is drawn"
         self.transparent = self.form.tick("Transparent &background", page.transparent, tip, "transparent")
@@ -112,7 +114,10 @@ class ExportDialog(LooksDialog):
         views = recipe.page.views
         if self.both.isChecked() != (views == BOTH):
             views = BOTH if self.both.isChecked() else ()
-        page = replace(recipe.page, views=views, font_size=self._font_size(), format=self.kinds.choice().lower())
+        layout = "hemispheres" if self.hemispheres.isChecked() else ""
+        page = replace(
+            recipe.page, views=views, layout=layout, font_size=self._font_size(), format=self.kinds.choice().lower()
+        )
         return replace(recipe, page=page)
 
     def beside_kinds(self) -> list[QtWidgets.QWidget]:

@@ -3,6 +3,7 @@
 Shows what a session knows; decides nothing."""
 
 from collections.abc import Callable, Collection
+from dataclasses import replace
 
 from qtpy import QtCore, QtGui, QtWidgets
 
@@ -14,7 +15,9 @@ from ...document.second_mesh_edits import MOST_SHOWN, letter_of
 from ...document.settings import Preferences
 from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.style import PAPER, Style
+from ...session.answering import Shown
 from ...session.bar_ends import bar_end, ends_with
+from ...session.base import BaseGreys
 from ...session.session import Session
 from ..look.look import LOOK
 from .camera_controller import CameraController
@@ -197,6 +200,7 @@ class PanelGrid(QtWidgets.QWidget):
         panel.view.wheel_factor = self.wheel_factor
         panel.view.upright = controller.upright
         panel.view.over.show_axes(self._session.document.axes)
+        panel.view.over.show_scale_bar(self._session.document.scale_unit)
         self.marks.begin(panel)
         panel.show()
 
@@ -229,6 +233,14 @@ class PanelGrid(QtWidgets.QWidget):
         if loaded is not None:
             panel.show_shading(shading, self._shading_cache.drawn(loaded.prepared.meshes, shading))
 
+    def show_base(self, document: Document) -> None:
+        """Show the greys of the document's base on all surfaces, or none."""
+        for panel in document.panels:
+            loaded = self._session.loaded(panel.surface)
+            if loaded is not None:
+                greys = loaded.memory(BaseGreys).greys(document, panel, loaded)
+                self._panels[panel.id].show_base(greys, not document.base.white_isolines)
+
     # ------------------------------------------------------------------ answers
     def show_answer(self, id: int) -> None:
         """Show the answer that the session has now for a panel."""
@@ -236,14 +248,19 @@ class PanelGrid(QtWidgets.QWidget):
         for other in ends_with(document, shown, id):
             if other in self._panels:
                 end, in_shares = bar_end(document, shown, other, self._session.loaded), document.range == "fraction"
-                self._panels[other].show_answer(shown[other], end, document.warp_factor, in_shares)
+                self._panels[other].show_answer(self._in_unit(shown[other]), end, document.warp_factor, in_shares)
                 self.marks.show_isolines_again(document, other)
                 self.marks.show_in(document, other)
         self.pointing.show_again_soon()
 
     def show_error_estimate(self, id: int) -> None:
         """Show in a panel's head how accurate its answer is."""
-        self._panels[id].show_error_estimate(self._session.shown[id])
+        self._panels[id].show_error_estimate(self._in_unit(self._session.shown[id]))
+
+    def _in_unit(self, shown: Shown) -> Shown:
+        """Return an answer in the unit that the document names."""
+        unit = self._session.document.unit_of(shown.answer.unit)
+        return shown if unit == shown.answer.unit else replace(shown, answer=replace(shown.answer, unit=unit))
 
     # ------------------------------------------------------------------ the camera
     def _placed(self) -> None:
@@ -254,6 +271,17 @@ class PanelGrid(QtWidgets.QWidget):
         """Show in all panels which way the axes point, or no longer."""
         for panel in self.panels:
             panel.view.over.show_axes(has_axes)
+
+    def show_scale_bar(self, document: Document) -> None:
+        """Show in all panels how long a round length is, or no longer."""
+        for panel in self.panels:
+            panel.view.over.show_scale_bar(document.scale_unit)
+
+    def show_clip(self) -> None:
+        """Cut all surfaces by the document's plane; large ones are drawn in full once it rests."""
+        changed = [panel.show_clip(self._session.document.clip) for panel in self.panels]
+        if any(changed):
+            self.motion.moved()
 
     def follow_preferences(self, preferences: Preferences) -> None:
         """Turn and zoom as the user prefers."""

@@ -1,6 +1,6 @@
 """Values painted on isolines of a picture, each in a gap of its line."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,8 +12,11 @@ from ...drawing.painters.qt import paint
 from ...drawing.shapes import Pen, Text
 from ...scene.levels import BOLD
 from ...scene.line_labels import PAD, STRAIGHT
-from ...scene.style import CASING, Style
+from ...scene.style import CASING, IsolineInk, Style
 from ..look.look import LOOK
+
+Ink = Callable[[float, bool], IsolineInk]
+"""The ink of an isoline of a value, and whether it passes through a point."""
 
 FONT_SIZE = 11.0
 """Logical pixels."""
@@ -32,7 +35,7 @@ class PlacedLabel:
     is_through: bool
 
 
-def painted(picture: AnyArray, written: Sequence[PlacedLabel], style: Style, signed: bool, ratio: float) -> AnyArray:
+def painted(picture: AnyArray, written: Sequence[PlacedLabel], style: Style, ink_of: Ink, ratio: float) -> AnyArray:
     """Return a copy of a picture (h, w, 4) with labels; `ratio` is the number of device pixels in a pixel."""
     result = picture.copy()
     for label in written:
@@ -41,14 +44,14 @@ def painted(picture: AnyArray, written: Sequence[PlacedLabel], style: Style, sig
     image = QtGui.QImage(result.data, width, height, 4 * width, QtGui.QImage.Format.Format_RGBX8888)
     painter = QtGui.QPainter(image)
     painter.setRenderHint(QtGui.QPainter.RenderHint.Antialiasing)
-    paint(painter, [_shape(label, style, signed, ratio) for label in written])
+    paint(painter, [_shape(label, ink_of, ratio) for label in written])
     painter.end()
     return _pixels(image)
 
 
-def _shape(label: PlacedLabel, style: Style, signed: bool, ratio: float) -> Text:
+def _shape(label: PlacedLabel, ink_of: Ink, ratio: float) -> Text:
     """Return a label in device pixels, in the colour of its line."""
-    ink = style.isoline_ink(signed, label.value, label.is_through)
+    ink = ink_of(label.value, label.is_through)
     halo = ink.rim and Pen(ink.rim, 2 * ink.rim_width * ratio, cap="round", join="round")
     (x, y), size = (ratio * place for place in label.middle), ratio * round(FONT_SIZE * LOOK.scale)
     return Text(label.text, x, y, size, ink.colour, True, "centre", "capitals", label.angle, halo)

@@ -16,6 +16,7 @@ from bihdist_core.progress import Progress
 from ...drawing.painters.qt import text_width
 from ...drawing.shapes import Box
 from ...scene.camera import SeenNow
+from ...scene.clipping import ClipPlane
 from ...scene.drawable import outward_faces
 from ...scene.levels import Levels
 from ...scene.line_clipping import Line, clipped
@@ -48,8 +49,8 @@ class LabelRequest:
 
     Attributes
     ----------
-    outward
-        (m, 3) faces, see `HiddenLineRemoval`.
+    outward, clip
+        (m, 3) faces, and a plane, see `HiddenLineRemoval`.
     field
         (n,) values.
     parts
@@ -64,6 +65,7 @@ class LabelRequest:
 
     surface: Surface
     outward: AnyArray | None
+    clip: ClipPlane | None
     field: FloatArray
     projection: SeenNow
     picture: tuple[float, float]
@@ -77,7 +79,7 @@ class LabelRequest:
     def sight_key(self) -> tuple[object, ...]:
         """A key that is equal for what is seen alike."""
         projection = self.projection
-        return id(self.surface), self.picture, projection.view.tobytes(), projection.matrix.tobytes()
+        return id(self.surface), self.clip, self.picture, projection.view.tobytes(), projection.matrix.tobytes()
 
 
 class LineLabels(QtCore.QObject):
@@ -124,8 +126,8 @@ class LineLabels(QtCore.QObject):
             return  # of a picture that is gone
         self._done[panel] = number
         if written and panel.answer is not None:
-            style, signed = view.scene.style, panel.answer.is_signed
-            view.write(painted(view.picture, written, style, signed, view.devicePixelRatioF()))
+            ink_of = view.scene.field_actor.isoline_ink
+            view.write(painted(view.picture, written, view.scene.style, ink_of, view.devicePixelRatioF()))
 
 
 def _found(pictures: Sequence[tuple[DistancePanel, int, LabelRequest]], progress: Progress) -> Iterator[object]:
@@ -156,7 +158,8 @@ def label_request(panel: DistancePanel) -> LabelRequest | None:
     texts = {value_text(value) for part in parts for value in part.levels.values}
     return LabelRequest(
         panel.shape,
-        outward_faces(scene.field_actor.mesh),
+        outward_faces(scene.field_actor.mesh, is_cut=view.clip is not None),
+        view.clip,
         answer.field,
         SeenNow(view.camera, width / max(height, 1)),
         (width, height),
@@ -182,7 +185,9 @@ class LabelFinder:
 
         sight, covers = self._sight, self._covers
         if sight is None or self._key != request.sight_key:
-            sight = HiddenLineRemoval(request.surface, request.projection, request.picture, request.outward)
+            sight = HiddenLineRemoval(
+                request.surface, request.projection, request.picture, request.outward, request.clip
+            )
             covers = {}
             self._key, self._sight, self._covers = request.sight_key, sight, covers
         marked = sight.pixels(request.marked)[:, :2]

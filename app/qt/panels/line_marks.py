@@ -9,6 +9,7 @@ from qtpy import QtCore, QtGui
 from ...drawing.line_looks import LineLook, Stroke
 from ...drawing.painters import qt
 from ...drawing.shapes import Box, Pen, opaque
+from ...scene.clipping import is_kept
 from ...scene.line_clipping import clipped
 from ...scene.lines_of_sight import seen_in
 from ...scene.style import Style
@@ -31,7 +32,7 @@ class LineMarks:
     points
         (k, 3) points of all lines, one line after another.
     pixels
-        (k, 2) device pixels of these in the last picture, y down, or NaN.
+        (k, 2) device pixels of these in the last picture, y down; NaN for what is not in it.
     is_seen
         (k,) whether the surface does not hide them.
     """
@@ -64,6 +65,7 @@ class LineMarks:
         for renderer, region, (left, top, width, height) in view.parts():
             pixels, is_seen = seen_in(renderer, self.points, depths[top : top + height, left : left + width])
             pixels += left, top
+            pixels[~is_kept(view.clip, self.points)] = np.nan
             if renderer is view.scene.renderer:
                 self.pixels, self.is_seen = pixels, is_seen
             self._paths.append((region, list(self._strokes(pixels / view.devicePixelRatioF(), is_seen))))

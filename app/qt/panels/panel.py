@@ -12,11 +12,12 @@ from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.distances.answers import Answer
 
 from ...document.document import COMPARISON, Inset
-from ...document.looks import AS_IT_IS, TWENTY_STEPS, Isolines, Shading
+from ...document.looks import AS_IT_IS, TWENTY_STEPS, Clip, Isolines, Shading
 from ...document.quantities import DistanceFrom
 from ...marks.field_marks import label_rows
 from ...marks.primitives import Caption
 from ...scene.bands import band_edges, beyond
+from ...scene.clipping import clip_plane
 from ...scene.drawable import drawable, rise, warp_by_scalar
 from ...scene.field_actor import FieldActor
 from ...scene.levels import in_unit, with_kept_step
@@ -24,6 +25,7 @@ from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.picking import Picker
 from ...scene.prepared import Drawn
 from ...session.answering import Shown
+from ...session.base import Greys
 from ...session.isoline_points import IsolinePoint
 from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import Question
@@ -74,6 +76,7 @@ class DistancePanel(QtWidgets.QWidget):
         self._raised: tuple[int, float, float] | None = None  # its field, where that ends, and its height
         self._shading, self._drawn = AS_IT_IS, NOTHING  # of the surface as it lies
         self._insets: tuple[Inset, ...] = ()
+        self._clip: Clip | None = None
         self.isolines = TWENTY_STEPS  # of the document
         self._top = 0.0  # where the colours of the answer end
         self.answer: Answer | None = None
@@ -135,6 +138,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.view.scene.show_surface(self._drawn.mesh, loaded.prepared.bounds)
         self._field_actor.stand_in.take(self._drawn.stand_in)
         self._field_actor.show_bare()
+        self.show_clip(self._clip)
         self.view.show_empty(False)
 
     def show_shading(self, shading: Shading, drawn: Drawn) -> None:
@@ -147,6 +151,18 @@ class DistancePanel(QtWidgets.QWidget):
         elif self._height_field is not None and shading != self._shading:
             actor.show_normals(drawable(self._height_field, shading))
         self._shading, self._drawn = shading, drawn
+        self.view.redraw()
+
+    def show_clip(self, clip: Clip | None) -> bool:
+        """Cut the surface as it is drawn by a plane, or no longer; return whether it is another one."""
+        self._clip, before = clip, self.view.clip
+        self._field_actor.show_clip(None if self.shape is None else clip_plane(clip, self.shape))
+        self.view.redraw()
+        return self.view.clip != before
+
+    def show_base(self, base: Greys | None, has_coloured_isolines: bool) -> None:
+        """Show greys instead of the field's colours, which isolines may have; or these again."""
+        self._field_actor.show_base(base, has_coloured_isolines)
         self.view.redraw()
 
     def show_insets(self, insets: tuple[Inset, ...]) -> None:
@@ -291,6 +307,7 @@ class DistancePanel(QtWidgets.QWidget):
             self.view.picker = Picker(shape)  # whose blocks are made when somebody points at it
             scene.show_shape(drawable(shape, self._shading), (*others, low - up, high + up))
             scene.field_actor.stand_in.take(None)
+        self.show_clip(self._clip)
         self.marks.follow(shape)
         self.show_insets(self._insets)
         self.settle_insets()

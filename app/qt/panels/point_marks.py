@@ -10,6 +10,7 @@ from qtpy import QtCore, QtGui
 from ...drawing.painters.qt import box_of, paint
 from ...drawing.shapes import Box, Point, Shape
 from ...marks.primitives import PointMark
+from ...scene.clipping import is_kept
 from ...scene.picking import pixel_of
 from . import overlay
 from .mark_shapes import MarkText, box_of_glyph, covers, mark_shapes, point_of
@@ -108,12 +109,15 @@ class PointMarks(QtCore.QObject):
         return self._groups.get(key, MarkGroup()).positions
 
     def placed(self, key: str = "") -> list[PlacedMark]:
-        """Return the marks of a tool, or all."""
+        """Return the marks of a tool, or all, without those that are cut away."""
         groups = self._groups if not key else {key: self._groups.get(key, MarkGroup())}
         return [
             PlacedMark(name, mark, position, bool(is_seen), bool(mark.point) and mark.point in group.highlighted)
             for name, group in groups.items()
-            for mark, position, is_seen in zip(group.marks, group.positions, self._seen(group), strict=True)
+            for mark, position, is_seen, is_there in zip(
+                group.marks, group.positions, self._seen(group), is_kept(self._view.clip, group.positions), strict=True
+            )
+            if is_there
         ]
 
     # ------------------------------------------------------------------ what is hidden

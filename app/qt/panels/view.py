@@ -9,6 +9,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 from bihdist_core.arrays import AnyArray, FloatArray
 
 from ...scene import moves
+from ...scene.clipping import ClipPlane
 from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.panel_scene import proportion
 from ...scene.picking import Hit, Picker, pixel_of
@@ -75,6 +76,11 @@ class View(QtWidgets.QWidget):
     def camera(self) -> vtkCamera:
         """The camera of the view's scene."""
         return self.scene.renderer.GetActiveCamera()
+
+    @property
+    def clip(self) -> ClipPlane | None:
+        """The plane beyond which the surface is cut away."""
+        return self.scene.field_actor.clip
 
     @property
     def pixels(self) -> tuple[int, int]:
@@ -232,11 +238,11 @@ class View(QtWidgets.QWidget):
             return None
         pixel = self._pixel(position)
         self.offscreen.fit(self.pixels)
-        return self.picker.pick(self.scene.insets.renderer_at(*pixel), *pixel)
+        return self.picker.pick(self.scene.insets.renderer_at(*pixel), *pixel, self.clip)
 
     def sees(self, point: FloatArray) -> bool:
-        """Return whether no part of the surface is before a point (3,) of it."""
-        return self.picker is None or self.picker.sees(self.renderer, point)
+        """Return whether no part of the surface is before a point (3,) of it, and it is not cut away."""
+        return self.picker is None or self.picker.sees(self.renderer, point, self.clip)
 
     def _pixel(self, position: QtCore.QPoint) -> tuple[float, float]:
         """Return the device pixel, y up, at a point of the view."""

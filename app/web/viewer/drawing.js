@@ -21,14 +21,15 @@ export class Drawing {
   /** All that the graphics hold; anew where they were lost. */
   #prepare(panels) {
     const { gl, shape } = this;
-    const program = linked(gl);
+    const program = linked(gl, shape.clip !== null);
     gl.useProgram(program);
     this.at = new Proxy({}, { get: (known, name) => (known[name] ??= gl.getUniformLocation(program, name)) });
     gl.uniform1i(this.at.levels, 1);
+    gl.uniform4fv(this.at.clip, shape.clip ?? [0, 0, 0, 1]);
     gl.enable(gl.DEPTH_TEST);
     gl.enable(gl.SCISSOR_TEST);
     // What is behind a closed surface costs as much as the rest.
-    const side = this.isSoftware ? outside(shape) : 0;
+    const side = this.isSoftware && !shape.clip ? outside(shape) : 0;
     gl.cullFace(side < 0 ? gl.FRONT : gl.BACK);
     if (side) gl.enable(gl.CULL_FACE);
     const { places, normals, corners: drawn } = shape.drawn;
@@ -168,14 +169,14 @@ function sampled(gl) {
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
 }
 
-function linked(gl) {
+function linked(gl, isClipped) {
   const program = gl.createProgram();
   for (const [kind, text] of [
     [gl.VERTEX_SHADER, VERTEX_SHADER],
     [gl.FRAGMENT_SHADER, FRAGMENT_SHADER],
   ]) {
     const shader = gl.createShader(kind);
-    gl.shaderSource(shader, text);
+    gl.shaderSource(shader, isClipped ? text.replace("\n", "\n#define CLIPPED\n") : text);
     gl.compileShader(shader);
     gl.attachShader(program, shader);
   }

@@ -38,10 +38,10 @@ export class FaceTree {
   }
 
   /**
-   * The first face met and its corner nearest to the point, or null.
+   * The first face met and its corner nearest to the point, of those that are left if there are any; or null.
    * @returns {{vertex: number, point: number[], away: number} | null}
    */
-  hit({ origin, direction }) {
+  hit({ origin, direction }, isLeft = () => true) {
     const inverse = direction.map((x) => 1 / (x || 1e-30)), waiting = [1];
     let away = Infinity, face = -1;
     while (waiting.length) {
@@ -62,7 +62,7 @@ export class FaceTree {
     }
     if (face < 0) return null;
     const point = origin.map((x, axis) => x + away * direction[axis]);
-    return { vertex: this.#nearest(face, point), point, away };
+    return { vertex: this.#nearest(face, point, isLeft), point, away };
   }
 
   /** How far off the box of a node is entered; Infinity if it is missed. */
@@ -93,9 +93,10 @@ export class FaceTree {
     return s >= -1e-9 && t >= -1e-9 && s + t <= 1 + 1e-9 && away > 0 ? away : Infinity;
   }
 
-  #nearest(face, point) {
+  #nearest(face, point, isLeft) {
     const off = (vertex) => Math.hypot(...point.map((x, axis) => x - this.places[3 * vertex + axis]));
-    return [...this.faces.subarray(3 * face, 3 * face + 3)].reduce((best, v) => (off(v) < off(best) ? v : best));
+    const corners = [...this.faces.subarray(3 * face, 3 * face + 3)], left = corners.filter(isLeft);
+    return (left.length ? left : corners).reduce((best, v) => (off(v) < off(best) ? v : best));
   }
 }
 

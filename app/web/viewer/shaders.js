@@ -7,7 +7,8 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in float value;
 uniform mat4 view, picture;
 uniform float parallel;
-out float valueAt, lightAt, shineAt;
+uniform vec4 clip;
+out float clipAt, valueAt, lightAt, shineAt;
 const vec3 KEY = normalize(vec3(-0.5, 0.6, 1.0)), FILL = normalize(vec3(0.8, -0.2, 0.7));
 void main() {
   vec4 local = view * vec4(place, 1.0);
@@ -20,12 +21,13 @@ void main() {
   lightAt = 0.26 + 0.8 * (0.85 * max(dot(n, KEY), 0.0) + 0.42 * max(dot(n, FILL), 0.0));
   shineAt = 0.05 * pow(max(dot(reflect(-KEY, n), toEye), 0.0), 20.0);
   valueAt = value;
+  clipAt = dot(clip, vec4(place, 1.0));
 }`;
 
 /** Values go from 0 to 1 over the colours; below -900 they are undefined. */
 export const FRAGMENT_SHADER = `#version 300 es
 precision highp float;
-in float valueAt, lightAt, shineAt;
+in float clipAt, valueAt, lightAt, shineAt;
 uniform sampler2D colours, levels;
 uniform vec3 undefinedColour, backColour, lineColour;
 uniform float hasBacks, lineFirst, lineStep, halfWidth, zeroAt;
@@ -49,6 +51,9 @@ int nearestLine() {
 float painted(float fromLine, float reach) { return 1.0 - smoothstep(reach - 0.6, reach + 0.6, fromLine); }
 
 void main() {
+#ifdef CLIPPED
+  if (clipAt < 0.0) discard;
+#endif
   float perPixel = length(vec2(dFdx(valueAt), dFdy(valueAt)));
   bool isUndefined = valueAt < -900.0, isBack = hasBacks > 0.5 && !gl_FrontFacing;
   int along = int(0.5 + 255.0 * clamp(valueAt, 0.0, 1.0));
@@ -67,5 +72,8 @@ void main() {
       shown = mix(shown, isZero ? INK : lineColour, seen * painted(fromLine, wide));
     }
   }
+#ifdef CLIPPED
+  shown = mix(shown, INK, painted(clipAt / max(length(vec2(dFdx(clipAt), dFdy(clipAt))), 1e-9), 2.4 * halfWidth));
+#endif
   colour = vec4(shown, 1.0);
 }`;

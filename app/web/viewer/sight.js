@@ -1,6 +1,7 @@
 /** How panels see the shape: by one camera, with what is under a place of a view and what is hidden. */
 import { Camera, FARTHEST } from "./camera.js";
 import { FaceTree } from "./picking.js";
+import { plus, dot } from "./vectors.js";
 
 const TURN = 3.5;
 
@@ -55,14 +56,25 @@ export class Sight {
 
   /** What is met at a place of a view, see `FaceTree.hit`. */
   hit(k, x, y) {
-    return this.tree.hit(this.camera.ray(...this.#inView(k, x, y), this.#aspect(k)));
+    return this.#met(this.camera.ray(...this.#inView(k, x, y), this.#aspect(k)));
+  }
+
+  /** What a line of sight meets of what the clip plane leaves. */
+  #met({ origin, direction }) {
+    const { shape } = this, depth = shape.depth(origin);
+    const gain = shape.clip ? dot(shape.clip, direction) : 0, start = depth < 0 ? -depth / gain : 0;
+    if (!(start >= 0 && start < Infinity)) return null;
+    const isLeft = (vertex) => shape.depth(shape.place(vertex)) >= 0;
+    const hit = this.tree.hit({ origin: plus(origin, direction, start), direction }, isLeft);
+    return hit && shape.depth(hit.point) > -1e-6 ? { ...hit, away: hit.away + start } : null;
   }
 
   /** Whether the surface leaves a vertex in sight. */
   isSeen(vertex) {
     if (!this.seen.has(vertex)) {
-      const place = this.shape.place(vertex), ray = this.camera.rayTo(place), hit = this.tree.hit(ray);
-      this.seen.set(vertex, !hit || hit.away > Math.hypot(...place.map((x, axis) => x - ray.origin[axis])) - 0.01);
+      const place = this.shape.place(vertex), ray = this.camera.rayTo(place), hit = this.#met(ray);
+      const isLeft = this.shape.depth(place) >= 0;
+      this.seen.set(vertex, isLeft && (!hit || hit.away > Math.hypot(...place.map((x, axis) => x - ray.origin[axis])) - 0.01));
     }
     return this.seen.get(vertex);
   }

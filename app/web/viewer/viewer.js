@@ -52,7 +52,7 @@ export class Viewer {
     this.ended = new AbortController();
     root.classList.toggle("embedded", isEmbedded);
     root.dataset.lmSuppressShortcuts = ""; // JupyterLab's, of the keys that views take
-    const shape = new Shape(mesh, { crease: scene.crease, backs: scene.mesh.backs });
+    const shape = new Shape(mesh, { crease: scene.crease, backs: scene.mesh.backs, clip: scene.clip });
     this.#build();
     try {
       this.stage.start(shape);
