@@ -270,6 +270,8 @@ class Document:
         The shading of the surfaces.
     clip
         The plane beyond which surfaces are cut away; None for none.
+    opacity
+        Of surfaces, more than 0 and at most 1.
     base
         The scalars in grey under the isolines.
     up
@@ -313,6 +315,7 @@ class Document:
     colours: Colours = OF_THE_STYLE
     shading: Shading = AS_IT_IS
     clip: Clip | None = None
+    opacity: float = 1.0
     base: Base = NO_BASE
     up: str = "auto"
     parallel_projection: bool = False
@@ -357,6 +360,8 @@ class Document:
             raise ParameterError(
                 f"The warp factor of a height field is a fraction of the surface's extent, not {self.warp_factor:g}."
             )
+        if not 0 < self.opacity <= 1:
+            raise ParameterError(f"The opacity of surfaces is more than 0 and at most 1, not {self.opacity:g}.")
         checked_view(self.camera)
         fitted = tuple(part.fitted(self) for part in self.parts)
         object.__setattr__(self, "parts", tuple(part for part in fitted if part != type(part)()))

@@ -111,7 +111,7 @@ PARALLEL_PROJECTION = Setting(
 )  # fmt: skip
 AXES = Setting(
     "document.axes", "A&xes", "Show in a corner where x, y and z point", ("X",), "coordinates xyz gizmo",
-    menu="camera", group="view",
+    menu="scale", group="view",
 )  # fmt: skip
 SCALE_BAR = Setting(
     "document.scale_bar", "Scale bar", "Show a round length; exact everywhere in parallel projection only",

@@ -73,6 +73,8 @@ class LookOptions(TypedDict, total=False):
         Angle in degrees from which on an edge is sharp.
     show_edges : bool
         Show the edges of the mesh.
+    opacity : float
+        Opacity of the surface, more than 0; below 1 what is behind it is seen.
     warp_factor : float
         Raise a flat mesh to a height field whose highest point is at this fraction of its extent.
     extrema : bool
@@ -90,6 +92,7 @@ class LookOptions(TypedDict, total=False):
     split_sharp_edges: bool
     feature_angle: float
     show_edges: bool
+    opacity: float
     warp_factor: float
     extrema: bool
 

@@ -282,7 +282,7 @@ def _silhouette(shot: Shot, scale: float, wider: int = 0) -> Path | None:
     """Return the edge of the shape in the picture, or of what lies so many pixels around it; None for none."""
     from contourpy import contour_generator
 
-    alpha = np.pad(shot.image[..., 3].astype(np.float32), 1 + wider)
+    alpha = np.pad(shot.cover.astype(np.float32), 1 + wider)
     if not alpha.any():
         return None
     at = [(np.arange(-1 - wider, side + 1 + wider) + 0.5) / scale for side in shot.image.shape[1::-1]]

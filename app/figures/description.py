@@ -69,6 +69,8 @@ class FigurePanel:
         How large a difference is and where, in words.
     clip
         The plane beyond which the surface is cut away; None for none.
+    opacity
+        Of the surface, more than 0 and at most 1.
     ground
         Whether there is a shadow on the ground, beneath what is not flat.
     """
@@ -103,6 +105,7 @@ class FigurePanel:
     are_labels: bool = False
     largest: str = ""
     clip: Clip | None = None
+    opacity: float = 1.0
     ground: bool = False
 
     def __post_init__(self) -> None:

@@ -264,6 +264,7 @@ def _figure_panel(
         axes=document.axes,
         scale_unit=document.scale_unit,
         clip=document.clip,
+        opacity=document.opacity,
     )
 
 

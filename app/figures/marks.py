@@ -152,7 +152,7 @@ def _taken(main: Shot, insets: list[Shot], shot: Shot, points: FloatArray) -> Bo
     """Return which of points (k, 2) of the page lie on the shape, on another inset, or on what that enlarges."""
     others = [_upright(box) for other in insets if other is not shot for box in _boxes(other)]
     on_others = (inside(points * (1, -1), box) for box in others)
-    is_taken: BoolArray = np.any([main.alpha_at(points) > 127, *on_others], axis=0)
+    is_taken: BoolArray = np.any([main.cover_at(points) > 127, *on_others], axis=0)
     return is_taken
 
 

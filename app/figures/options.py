@@ -22,7 +22,7 @@ from ..document.option import (
 from ..document.page import Recipe
 from ..document.settings import AXES, ISOLINE_LABELS, PARALLEL_PROJECTION, SCALE_BAR, SHOW_EDGES
 from ..document.tools import tools
-from .look_options import BASE, COLOURS, ISOLINES, RANGE, SHADING, suits_one_bar, with_range
+from .look_options import BASE, COLOURS, ISOLINES, OPACITY, RANGE, SHADING, suits_one_bar, with_range
 from .repair_options import REPAIRS
 from .size import is_column
 from .view_options import CLIP, INSETS, UP, VIEWS
@@ -152,6 +152,7 @@ ROWS = (
     ),
     SHADING,
     SHOW_EDGES.row,
+    OPACITY,
     unsaid("for panels that are still to come", "Document.next_id"),
     unsaid("where instruments stand in the window", "Document.dock_places"),
     unsaid("what the pointer does in the window", "Document.snap"),

@@ -40,7 +40,7 @@ TABLE = (
         lambda c: c.grid.marks.show_isolines(c.document),
     ),
     Row(lambda d: d.shading, lambda c: c.grid.show_shading()),
-    Row(lambda d: d.clip, lambda c: c.grid.show_clip()),
+    Row(lambda d: (d.clip, d.opacity), lambda c: c.grid.show_inside()),
     Row(lambda d: d.base, lambda c: c.grid.show_base(c.document)),
 )
 """What panels show besides their fields."""

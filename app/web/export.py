@@ -176,7 +176,7 @@ def page_of(
     fields = {each.word: _values(loaded.own_field(document.field(each.name))) for each in contents.own}
     own = {word: StoredField.of(values, mesh.ids) for word, values in fields.items()}
     differs |= {word: each.error for word, each in own.items()}
-    backs = mesh.has_backs if document.clip is None else mesh.has_inside
+    backs = mesh.has_backs and document.opacity == 1 if document.clip is None else mesh.has_inside
     stored = {"bits": 24 if precision == "24" else precision, "backs": backs, "differs": differs}
     stored["sources"] = min(SOURCES, len(mesh.ids))
     scene = scene_of(recipe, contents, surfaces, answers, stored, credit)

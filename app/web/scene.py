@@ -120,6 +120,7 @@ def scene_of(
         "isolines": {**_isolines(first), "colour": _bytes(style.isoline), "width": style.isoline_width},
         "crease": crease_of(surface, document.shading),
         "clip": None if clip is None else [*clip.normal, clip.offset],
+        "opacity": document.opacity,
         "areas": document.areas,
         "notes": [*_of_surface(surface), *notes_on(document, len(figure.panels[0].views)), *notes],
     }

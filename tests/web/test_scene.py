@@ -254,7 +254,8 @@ def test_creases_are_the_documents(scene, shading, crease):
 
 
 def test_a_clip_plane_is_the_documents(scene):
-    assert scene()["clip"] is None
+    assert (scene()["clip"], scene()["opacity"]) == (None, 1)
+    assert scene(edit=lambda document: replace(document, opacity=0.4))["opacity"] == 0.4
     x, y, z, offset = scene(edit=lambda document: replace(document, clip=Clip((0.0, -2.0, 0.0), 0.25)))["clip"]
     assert (x, y, z) == (0, -1, 0)
     heights = scene.surface.vertices[:, 1]

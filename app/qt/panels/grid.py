@@ -277,9 +277,10 @@ class PanelGrid(QtWidgets.QWidget):
         for panel in self.panels:
             panel.view.over.show_scale_bar(document.scale_unit)
 
-    def show_clip(self) -> None:
-        """Cut all surfaces by the document's plane; large ones are drawn in full once it rests."""
-        changed = [panel.show_clip(self._session.document.clip) for panel in self.panels]
+    def show_inside(self) -> None:
+        """Cut all surfaces by the document's plane, and let them be translucent; large ones are drawn in full later."""
+        document = self._session.document
+        changed = [panel.show_inside(document.clip, document.opacity) for panel in self.panels]
         if any(changed):
             self.motion.moved()
 

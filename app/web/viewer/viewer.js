@@ -52,7 +52,12 @@ export class Viewer {
     this.ended = new AbortController();
     root.classList.toggle("embedded", isEmbedded);
     root.dataset.lmSuppressShortcuts = ""; // JupyterLab's, of the keys that views take
-    const shape = new Shape(mesh, { crease: scene.crease, backs: scene.mesh.backs, clip: scene.clip });
+    const shape = new Shape(mesh, {
+      crease: scene.crease,
+      backs: scene.mesh.backs,
+      clip: scene.clip,
+      opacity: scene.opacity,
+    });
     this.#build();
     try {
       this.stage.start(shape);
