@@ -55,6 +55,8 @@ class FigurePanel:
         Whether the projection is parallel.
     axes
         Whether the directions of x, y and z are shown, unless they are in a panel before.
+    scale_unit
+        Unit of the scale bar; "" for no bar.
     colours
         (n, 3) colours of the surface's own, instead of a field, grey where they are NaN.
     base
@@ -67,6 +69,10 @@ class FigurePanel:
         How large a difference is and where, in words.
     clip
         The plane beyond which the surface is cut away; None for none.
+    opacity
+        Of the surface, more than 0 and at most 1.
+    ground
+        Whether there is a shadow on the ground, beneath what is not flat.
     """
 
     surface: Surface
@@ -90,6 +96,7 @@ class FigurePanel:
     source: int | None = None
     is_parallel: bool = False
     axes: bool = False
+    scale_unit: str = ""
     lines: tuple[LineMark, ...] = ()
     areas: tuple[AreaMark, ...] = ()
     colours: FloatArray | None = None
@@ -98,6 +105,8 @@ class FigurePanel:
     are_labels: bool = False
     largest: str = ""
     clip: Clip | None = None
+    opacity: float = 1.0
+    ground: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
