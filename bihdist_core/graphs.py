@@ -83,7 +83,7 @@ class Graph:
             number = {node: k for k, node in enumerate(nodes)}
             triples = [(number[i], number[j], w) for i, j, w in graph.edges(data=weight, default=1)]
             table = np.array(triples, float).reshape(-1, 3).T
-            return cls(joined(*table, nodes, name), nodes, name)
+            return cls(joined(table[0], table[1], table[2], nodes, name), nodes, name)
         matrix = sp.coo_matrix(graph)
         if matrix.shape[0] != matrix.shape[1]:
             raise ParameterError(f"{name}: the weights of a graph are an (n, n) matrix, not {matrix.shape}.")

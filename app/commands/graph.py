@@ -42,7 +42,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--sources",
         metavar="SOURCES",
         type=as_argument(split_list),
-        help="the distance of all nodes from each of these",
+        help="the distances of all nodes from these",
     )
     which.add_argument("--edges", action="store_true", help="the distances between the ends of all edges")
     add_output(parser, "a .csv file of the distances (default: standard output)", required=False)

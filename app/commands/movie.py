@@ -11,29 +11,38 @@ from .options import add_workers
 from .result import Result, panel_facts
 from .terminal import progress_line, report_answers
 
-WORDS = "draw a figure that turns, or whose source moves, as MP4 or GIF"
+WORDS = "draw a figure that turns, whose source moves or whose parameter changes, as MP4, WebM, GIF or PNG frames"
 EXAMPLES = (
-    "bihdist movie hand -o turn.gif --frames 40",
     "bihdist movie hand --path 12,900 --distance biharmonic -o walk.gif",
+    "bihdist movie hand --sweep t=4..1/60 --distance diffusion --swing -o times.gif",
     "bihdist movie --recipe hand.json -o turn.gif --fps 10",
 )
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `movie` to its parser."""
-    add_figure_options(parser, "a .mp4 or .gif file", usual=".gif")
+    files = "a .mp4, .webm or .gif file, or names for a .png file of each frame, such as frames/%%04d.png"
+    add_figure_options(parser, files, usual=".gif")
     parser.add_argument(
         "--turn",
         type=float,
         metavar="DEGREES",
-        help="how far the shape turns, in degrees (default: 360, or 0 with --path)",
+        help="how far the shape turns, in degrees (default: 360; 90 with --swing, else 0 with --path or --sweep)",
     )
+    parser.add_argument("--swing", action="store_true", help="turn the shape back and forth, with the source in view")
     parser.add_argument(
         "--path",
         type=_path,
         default=(),
         metavar="V,…",
         help="move the source through these vertices, instead of --sources",
+    )
+    parser.add_argument(
+        "--sweep",
+        default="",
+        metavar="NAME=RANGE",
+        help="change a parameter: over a range, t=4..1/60 or there and back alpha=1.05..3..1.05, or through values, "
+        "k=10,50,200",
     )
     parser.add_argument("--frames", type=int, default=120, metavar="N", help="number of frames (default: 120)")
     parser.add_argument("--fps", type=float, default=25.0, metavar="N", help="frames per second (default: 25)")
@@ -42,24 +51,25 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> Result:
     """Draw the movie and write its recipe; the exit status is 1 if a panel failed."""
-    from ..figures.movie import Movie, check_movie, write_movie
+    from ..figures.movie import Movie, write_movie
+    from ..figures.movie_files import check_movie
     from ..figures.raster import check_offscreen
 
     if options.output:
-        check_movie(options.output)
+        check_movie(options.output, options.frames)
     check_offscreen()
     for given, name in (
         (options.path and options.sources, "--sources beside --path, whose first vertex is the source"),
         (options.transparent, "--transparent"),
         (options.crop, "--crop"),
+        (options.layout, "--layout"),
         (len(options.cpos or ()) > 1, "more than one view"),
     ):
         if given:
             raise ParameterError(f"A movie takes no {name.removeprefix('no ')}.")
-    turn = options.turn if options.turn is not None else 0.0 if options.path else 360.0
     recipe = chosen_recipe(options)
     options.output = options.output or usual_output(recipe.document.surfaces[0].path, options.usual_output)
-    movie = Movie(recipe, turn, options.path, options.frames, options.fps)
+    movie = Movie(recipe, options.turn, options.swing, options.path, options.sweep, options.frames, options.fps)
     with progress_line() as progress:
         answers = write_movie(movie, options.output, progress, workers=options.workers)
     print(f"{options.output}: {movie.frames:,} frames, {movie.frames / movie.fps:.3g} s")

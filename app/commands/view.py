@@ -10,7 +10,7 @@ from ..document.document import COMPARISON, Document, MeshFile, comparison
 from ..document.option import Row
 from ..document.page import Recipe
 from ..document.second_mesh_edits import open_second_mesh
-from ..figures.look_options import COLOURS
+from ..figures.look_options import COLOURS, OPACITY
 from ..figures.options import VERTEX_AREAS, tool_rows, with_rows
 from ..figures.repair_options import MERGE, REPAIRS
 from ..figures.view_options import CLIP, UP, up_meaning
@@ -58,7 +58,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def _rows() -> list[Row]:
     """Return the options of figures that are tools', as far as they are not about the page, and some more."""
     of_pages = [row for row in tool_rows() if row.is_late or any(part.startswith("Page.") for part in row.parts)]
-    return [VERTEX_AREAS, REPAIRS, *COLOURS, UP, CLIP, *(row for row in tool_rows() if row not in of_pages)]
+    return [VERTEX_AREAS, REPAIRS, *COLOURS, UP, CLIP, OPACITY, *(row for row in tool_rows() if row not in of_pages)]
 
 
 def run(options: argparse.Namespace) -> Result:

@@ -46,8 +46,12 @@ COMPARISON = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
 AREAS = ("voronoi", "barycentric")
 CORNERS = ("auto", "top right", "top left", "bottom right", "bottom left")
 
+MESH_UNITS = "mesh units"
+"""What lengths are in as long as nobody says it."""
+
 MOST_PANELS = 1000
 LONGEST_NAME = 60
+LONGEST_UNIT = 20
 
 
 @dataclass(frozen=True)
@@ -266,6 +270,8 @@ class Document:
         The shading of the surfaces.
     clip
         The plane beyond which surfaces are cut away; None for none.
+    opacity
+        Of surfaces, more than 0 and at most 1.
     base
         The scalars in grey under the isolines.
     up
@@ -274,6 +280,10 @@ class Document:
         Whether the picture has no perspective.
     axes
         Whether a cross of the coordinate axes is shown.
+    scale_bar
+        Whether a scale bar is shown.
+    unit
+        The unit of the meshes' lengths, "" where it is not known.
     extrema
         Whether the extrema of the fields are marked.
     docks
@@ -305,10 +315,13 @@ class Document:
     colours: Colours = OF_THE_STYLE
     shading: Shading = AS_IT_IS
     clip: Clip | None = None
+    opacity: float = 1.0
     base: Base = NO_BASE
     up: str = "auto"
     parallel_projection: bool = False
     axes: bool = False
+    scale_bar: bool = False
+    unit: str = ""
     extrema: bool = False
     docks: tuple[str, ...] = ()
     dock_places: DockPlaces | None = None
@@ -341,10 +354,14 @@ class Document:
             raise ParameterError(f"There are no areas {self.areas!r}; choose one of {', '.join(AREAS)}.")
         one_of(self.range, RANGES, "range")
         one_of(self.up, UPS, "direction")
+        if len(self.unit) > LONGEST_UNIT or not self.unit.isprintable() or self.unit != self.unit.strip():
+            raise ParameterError(f"A unit is a word such as mm, not {self.unit!r}.")
         if not 0 <= self.warp_factor <= 10:
             raise ParameterError(
                 f"The warp factor of a height field is a fraction of the surface's extent, not {self.warp_factor:g}."
             )
+        if not 0 < self.opacity <= 1:
+            raise ParameterError(f"The opacity of surfaces is more than 0 and at most 1, not {self.opacity:g}.")
         checked_view(self.camera)
         fitted = tuple(part.fitted(self) for part in self.parts)
         object.__setattr__(self, "parts", tuple(part for part in fitted if part != type(part)()))
@@ -406,6 +423,15 @@ class Document:
             if panel.id == id:
                 return panel
         raise ParameterError(f"There is no panel {id}.")
+
+    def unit_of(self, unit: str) -> str:
+        """Return a unit of an answer, such as "mesh units^2", with the meshes' own unit where that is known."""
+        return unit.replace(MESH_UNITS, self.unit) if self.unit else unit
+
+    @property
+    def scale_unit(self) -> str:
+        """The unit of the scale bar; "" where there is no bar."""
+        return (self.unit or MESH_UNITS) * self.scale_bar
 
     def camera_of(self, surface: str) -> View:
         """Return the camera of a surface; that of the first one if it has none of its own."""

@@ -29,6 +29,8 @@ KEPT_OF_CLOSED = (
     "base",
     "parallel_projection",
     "axes",
+    "scale_bar",
+    "unit",
     "extrema",
     "docks",
     "snap",

@@ -40,6 +40,8 @@ class Page:
         Whether sentences under the headings say what to look for.
     transparent
         Whether the background is transparent.
+    ground
+        Whether there is a shadow on the ground.
     crop
         Whether empty margins are cut off.
     title
@@ -60,6 +62,7 @@ class Page:
     columns: int | None = None
     hints: bool = False
     transparent: bool = False
+    ground: bool = False
     crop: bool = False
     title: str = "heading"
     font_family: str = ""

@@ -30,7 +30,7 @@ class Setting:
         What menus call it, with ``&`` before the letter of its key there; the dialog of preferences, where it is only
         there.
     menu : str
-        Which menu has its switch: "camera", "shading", "colours", "base" or "isolines".
+        Which menu has its switch: "camera", "scale", "shading", "colours", "base" or "isolines".
     tip : str
         A sentence; without a capital it is the help of the option.
     keys : tuple of str
@@ -111,7 +111,11 @@ PARALLEL_PROJECTION = Setting(
 )  # fmt: skip
 AXES = Setting(
     "document.axes", "A&xes", "Show in a corner where x, y and z point", ("X",), "coordinates xyz gizmo",
-    menu="camera", group="view",
+    menu="scale", group="view",
+)  # fmt: skip
+SCALE_BAR = Setting(
+    "document.scale_bar", "Scale bar", "Show a round length; exact everywhere in parallel projection only",
+    menu="scale", group="view", synonyms="ruler length unit mm",
 )  # fmt: skip
 FLIP_SCALARS = Setting(
     "document.colours.reversed", "Reversed", "Flip the direction of the colour map", synonyms="flip", menu="colours",
@@ -163,7 +167,7 @@ SHADING = Setting(
     name="shading",
 )
 SETTINGS = (
-    *(SHOW_EDGES, PARALLEL_PROJECTION, AXES, FLIP_SCALARS, BANDS, GRADUAL_BASE, WHITE_ISOLINES),
+    *(SHOW_EDGES, PARALLEL_PROJECTION, AXES, SCALE_BAR, FLIP_SCALARS, BANDS, GRADUAL_BASE, WHITE_ISOLINES),
     *(EQUAL_STEPS, BOLD_ISOLINES, ISOLINE_LABELS),
     *(RANGE, SHADING),
 )

@@ -73,6 +73,8 @@ class LookOptions(TypedDict, total=False):
         Angle in degrees from which on an edge is sharp.
     show_edges : bool
         Show the edges of the mesh.
+    opacity : float
+        Opacity of the surface, more than 0; below 1 what is behind it is seen.
     warp_factor : float
         Raise a flat mesh to a height field whose highest point is at this fraction of its extent.
     extrema : bool
@@ -90,6 +92,7 @@ class LookOptions(TypedDict, total=False):
     split_sharp_edges: bool
     feature_angle: float
     show_edges: bool
+    opacity: float
     warp_factor: float
     extrema: bool
 
@@ -109,6 +112,10 @@ class ViewOptions(TypedDict, total=False):
         Draw without perspective.
     axes : bool
         Show in a corner where x, y and z point.
+    scale_bar : bool
+        Show a round length; exact everywhere in parallel projection only.
+    unit : str
+        Unit of the mesh's lengths, such as ``"mm"``.
     clip : str
         Plane beyond which the surface is cut away: ``"x"`` or ``"-y@0.3"``, an axis and the fraction to keep, or a
         normal, ``"0.2,0.1,0.9@0.4"``.
@@ -122,6 +129,8 @@ class ViewOptions(TypedDict, total=False):
     viewup: str
     parallel_projection: bool
     axes: bool
+    scale_bar: bool
+    unit: str
     clip: str
     insets: Sequence[int | tuple[int, float] | tuple[int, float, int]]
 
@@ -177,7 +186,7 @@ class LayoutOptions(TypedDict, total=False):
         ``"85mm"``, ``"3.5in"``, ``"1680x640"``, ``"160mm@300dpi"``, ``"column"`` (85 mm, cropped, and distances have
         one colour bar in percent unless `crop` and `clim` say otherwise), ``"double"`` (178 mm), ``"slide"``.
     style : str
-        Style of the page: ``"paper"``, ``"uniform"``, ``"lines"`` or ``"dark"``.
+        Style of the page: ``"paper"``, ``"uniform"``, ``"lines"``, ``"dark"`` or ``"cover"``.
     columns : int
         Number of panels side by side; by default all, or a row for each source.
     layout : str
@@ -192,6 +201,8 @@ class LayoutOptions(TypedDict, total=False):
         Size of labels in points; other text is in proportion.
     transparent : bool
         Leave the background transparent.
+    ground : bool
+        Draw a soft shadow on the ground.
     crop : bool
         Cut off empty margins.
     """
@@ -205,6 +216,7 @@ class LayoutOptions(TypedDict, total=False):
     font_family: str
     font_size: float | None
     transparent: bool
+    ground: bool
     crop: bool
 
 

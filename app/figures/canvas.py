@@ -19,7 +19,7 @@ from ..drawing.shapes import RGBA
 from ..scene.levels import BOLD, width_of
 from ..scene.line_clipping import Line
 from ..scene.style import Colour
-from .captions import caption_shapes, cross_shapes
+from .captions import caption_shapes, cross_shapes, scale_shapes
 from .fonts import families, has_cff_outlines
 from .isoline_labels import label_shapes
 from .legend import legend_shapes
@@ -88,7 +88,7 @@ def drawn(page: ComposedPage, vector: bool, shots: bool = True, words: bool = Tr
     for number, shot in enumerate(page.shots if shots else ()):
         _draw_shot(axes, page, number, shot, vector)
     if shots:  # axes turn with them
-        paint(axes, cross_shapes(page), 10 * len(page.shots), page.is_opaque)
+        paint(axes, [*cross_shapes(page), *scale_shapes(page)], 10 * len(page.shots), page.is_opaque)
     if words:
         paint(axes, [*caption_shapes(page), *legend_shapes(page)], is_opaque=page.is_opaque)
     return canvas
@@ -282,7 +282,7 @@ def _silhouette(shot: Shot, scale: float, wider: int = 0) -> Path | None:
     """Return the edge of the shape in the picture, or of what lies so many pixels around it; None for none."""
     from contourpy import contour_generator
 
-    alpha = np.pad(shot.image[..., 3].astype(np.float32), 1 + wider)
+    alpha = np.pad(shot.cover.astype(np.float32), 1 + wider)
     if not alpha.any():
         return None
     at = [(np.arange(-1 - wider, side + 1 + wider) + 0.5) / scale for side in shot.image.shape[1::-1]]

@@ -7,11 +7,18 @@ import numpy as np
 from bihdist_core.arrays import AnyArray
 
 from ..drawing.axes import LETTER, axes_shapes, middle
+from ..drawing.scale_bar import corner_of_bar, scale_bar_shapes
 from ..drawing.shapes import Box, Path, Shape, opaque, rectangle
 from .bars import line_spacing, shapes_of_bar
 from .page_layout import ComposedPage, PanelLayout
 from .shots import Shot
 from .words import LINE, TextLines
+
+BAR_WIDTH = 1.3
+"""The same of the scale bar's line."""
+
+UNDER = 0.7
+"""Opacity of the ground under it."""
 
 ARM_WIDTH = 1.1
 """Pixels of the width of the axes' arms, where letters are LETTER high."""
@@ -60,10 +67,33 @@ def cross_shapes(page: ComposedPage) -> list[Shape]:
     return shapes
 
 
-def _cross(page: ComposedPage, shot: Shot) -> list[Shape]:
-    unit, box = page.layout.label / LETTER, shot.box
+def scale_shapes(page: ComposedPage) -> list[Shape]:
+    """Return a scale bar for each panel that has one, and for further views of it at another scale."""
+    shown: dict[int, list[float]] = {}
+    shapes: list[Shape] = []
+    style, letter = page.figure.style, page.layout.label
+    for shot in page.shots:
+        panel, known = page.figure.panels[shot.panel], shown.setdefault(shot.panel, [])
+        if panel.scale_unit and shot.source is None and not np.isclose(shot.per_unit, known, rtol=0.01).any():
+            known.append(shot.per_unit)
+            words = "" if panel.is_parallel else "≈ ", panel.scale_unit
+            ink, ground = opaque(style.text), opaque(style.background, UNDER)
+            width = BAR_WIDTH * letter / LETTER
+            shapes += scale_bar_shapes(shot.box, shot.per_unit, words, _taken(page, shot), letter, width, ink, ground)
+    return shapes
+
+
+def _taken(page: ComposedPage, shot: Shot) -> set[str]:
+    """Return the corners of a picture that insets take."""
+    box = shot.box
     insets = [inset.box for inset in page.insets_of(shot.panel)]
-    taken = {_corner(inset, box) for inset in insets if box.x <= inset.x < box.right}
+    return {_corner(inset, box) for inset in insets if box.x <= inset.x < box.right}
+
+
+def _cross(page: ComposedPage, shot: Shot) -> list[Shape]:
+    unit, box, taken = page.layout.label / LETTER, shot.box, _taken(page, shot)
+    if page.figure.panels[shot.panel].scale_unit:
+        taken.add(corner_of_bar(taken))
     x, y = middle(box.width / unit, box.height / unit, taken)
     at = box.x + unit * x, box.y + unit * y
     return axes_shapes(shot.frame, at, page.layout.label, ARM_WIDTH * unit, page.figure.style.quiet_text)

@@ -55,6 +55,8 @@ class FigurePanel:
         Whether the projection is parallel.
     axes
         Whether the directions of x, y and z are shown, unless they are in a panel before.
+    scale_unit
+        Unit of the scale bar; "" for no bar.
     colours
         (n, 3) colours of the surface's own, instead of a field, grey where they are NaN.
     base
@@ -67,6 +69,10 @@ class FigurePanel:
         How large a difference is and where, in words.
     clip
         The plane beyond which the surface is cut away; None for none.
+    opacity
+        Of the surface, more than 0 and at most 1.
+    ground
+        Whether there is a shadow on the ground, beneath what is not flat.
     """
 
     surface: Surface
@@ -90,6 +96,7 @@ class FigurePanel:
     source: int | None = None
     is_parallel: bool = False
     axes: bool = False
+    scale_unit: str = ""
     lines: tuple[LineMark, ...] = ()
     areas: tuple[AreaMark, ...] = ()
     colours: FloatArray | None = None
@@ -98,6 +105,8 @@ class FigurePanel:
     are_labels: bool = False
     largest: str = ""
     clip: Clip | None = None
+    opacity: float = 1.0
+    ground: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
@@ -167,7 +176,7 @@ class Figure:
     remarks
         Sentences on what could not be shown.
     legend
-        Entries under all panels, on a page whose height follows from them.
+        Entries under all panels, on a page whose height follows from them; in a movie the height is that without them.
     dashes_all
         Whether marks that the shape hides are dashed even if another view of their panel shows them.
     """
@@ -193,7 +202,7 @@ class Figure:
             raise ParameterError("A figure needs at least one panel.")
         if self.columns is not None and self.columns < 1:
             raise ParameterError(f"A figure has at least one column, not {self.columns}.")
-        if self.legend and self.size.height is not None:
+        if self.legend and self.size.height is not None and not self.is_moving:
             raise ParameterError("The height of a page with a legend follows from what is on it; give its width only.")
         one_of(self.range, RANGES, "range")
         one_of(self.title, TITLES, "title")

@@ -35,6 +35,11 @@ from .legend import legend_of_labels
 from .size import Size
 from .tex import tex_path, tex_snippet
 
+DEPTHS = (
+    "The scale bar holds for what is as far away as the middle of the view; with --parallel-projection it holds "
+    "everywhere."
+)
+
 Surfaces = dict[str, LoadedMesh]
 """The surfaces of a document, by their names in it."""
 
@@ -109,10 +114,12 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
                 if document.range == "own"
                 else typed_end(document, panel.id, answer)
             ),
+            ground=page.ground,
         )
         for panel, answer, marks in zip(document.panels, answers, marked, strict=True)
     )
-    remarks = [mark.text for marks in marked for mark in marks if isinstance(mark, Remark)]
+    remarks = [DEPTHS] if document.scale_bar and not document.parallel_projection else []
+    remarks += [mark.text for marks in marked for mark in marks if isinstance(mark, Remark)]
     if any(str(view).startswith(("lateral", "medial")) for panel in panels for view in panel.views):
         with suppress(ParameterError):  # the user has named the side
             remarks += [loaded.memory(Hemispheres).sentence(loaded) for loaded in surfaces.values()]
@@ -235,7 +242,7 @@ def _figure_panel(
         heading=heading,
         hint=hint,
         label="" if answer.failure else answer.label,
-        unit=answer.unit,
+        unit=document.unit_of(answer.unit),
         failure=answer.failure,
         isolines=NO_LINES if answer.is_rough else _isolines(document, answer),
         through=tuple(point.value for point in through),
@@ -255,7 +262,9 @@ def _figure_panel(
         source=vertex_at(starts[0], surface) if starts else None,
         is_parallel=document.parallel_projection,
         axes=document.axes,
+        scale_unit=document.scale_unit,
         clip=document.clip,
+        opacity=document.opacity,
     )
 
 

@@ -51,7 +51,7 @@ def labelled(
     marked = np.array([[x, y] for _, x, y in shot.marks]).reshape(-1, 2)
 
     def is_covered(places: FloatArray) -> BoolArray:
-        return shot.alpha_at(places) > 250
+        return shot.cover_at(places) > 250
 
     return labelled_lines(shot.isolines, shot.box, size, width, is_covered, marked, marks, written, clear)
 

@@ -15,6 +15,7 @@ from ..document.option import (
     NotExpressible,
     Option,
     Row,
+    attribute,
     digits,
     numbers,
     vertex,
@@ -342,4 +343,12 @@ SHADING = Row(
     ("Document.shading", "Shading.normals", "Shading.feature_angle"),
     _shading_of,
     _with_shading,
+)
+
+OPACITY = attribute(
+    "document.opacity",
+    "opacity of the surface, from more than 0 to 1; below 1 marks, paths and isolines behind it are seen (default: 1)",
+    "FRACTION",
+    group="look",
+    read=float,
 )

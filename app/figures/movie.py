@@ -1,22 +1,20 @@
-"""Moving figures: the shape turning, the source wandering along a path, or both; as MP4 or GIF."""
+"""Moving figures: the shape turning, the source wandering along a path, a parameter changing, or all of these."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Generator, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
-from itertools import chain, pairwise
-from pathlib import Path
-from typing import TYPE_CHECKING
+from itertools import pairwise
 
 import numpy as np
 
-from bihdist_core import BihdistError, OutputError, ParameterError, Surface
-from bihdist_core.arrays import AnyArray, ByteArray
+from bihdist_core import ParameterError, Surface
+from bihdist_core.arrays import AnyArray
 from bihdist_core.distances.answers import Answer
+from bihdist_core.distances.distance_types import Spec, Value
 from bihdist_core.distances.edge_geodesic import EdgeGeodesic
-from bihdist_core.file_output import atomic_write, check_output
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
@@ -24,19 +22,19 @@ from ..document.camera import View
 from ..document.document import Document, Panel
 from ..document.edits import put_point
 from ..document.page import Recipe
+from ..document.quantities import Quantity
 from ..scene.camera import turned
 from ..session.array_store import ArrayStore
 from ..session.questions import Question, questions, vertex_at
-from ..version import install_command
 from .description import Figure
 from .export import Surfaces, check_drawable, figure_of, open_document, refuse_if_nothing
 from .frames import drawn_frames
+from .motion import Sweep, angles, span, way, with_digits
+from .movie_files import check_movie, picture_mode, write_frames
 from .turning import fitted_size, start_and_axis
 
-if TYPE_CHECKING:
-    from PIL.Image import Image
-
-MOVIE_FORMATS = (".mp4", ".gif")
+SWING = 90.0
+"""Degrees of a swing, if nothing else is said: the source at its edge is seen half from the side."""
 
 PLACES = 12
 """Places of a source's way that are looked for in the picture."""
@@ -49,19 +47,27 @@ SETTING_UP = 0.03
 class Movie:
     """A figure in motion.
 
+    What ends as it began, to be shown again and again, goes on evenly; anything else starts and ends slowly.
+
     Attributes
     ----------
     turn
-        Degrees by which the shape turns in all.
+        Degrees by which the shape turns in all; None for a whole turn, unless something else moves.
+    is_swing
+        Whether it turns back and forth, with the source in view.
     path
         Vertices that the source goes through, along edges.
+    sweep
+        Values that a parameter of the distances takes, as `Sweep.parse` reads them.
     frames, fps
         Number of pictures, and how many of them a second shows.
     """
 
     recipe: Recipe
-    turn: float = 360.0
+    turn: float | None = None
+    is_swing: bool = False
     path: tuple[int, ...] = ()
+    sweep: str = ""
     frames: int = 120
     fps: float = 25.0
 
@@ -70,31 +76,33 @@ class Movie:
             raise ParameterError(f"A movie has 2 to 10,000 frames, not {self.frames}.")
         if not 1 <= self.fps <= 50:
             raise ParameterError(f"A movie shows 1 to 50 frames a second, not {self.fps:g}.")
-        if not np.isfinite(self.turn):
+        if not np.isfinite(self.degrees):
             raise ParameterError(f"A turn is a number of degrees, not {self.turn}.")
         if len(self.path) == 1:
             raise ParameterError("A path needs at least two vertices.")
-        if self.turn == 0 and not self.path:
-            raise ParameterError("Nothing would move: give a turn or a path.")
+        if self.degrees == 0 and not self.path and not self.sweep:
+            raise ParameterError("Nothing would move: give a turn, a path or a sweep.")
+        if self.sweep:
+            self.values()
 
+    @property
+    def degrees(self) -> float:
+        """Degrees by which the shape turns."""
+        if self.turn is not None:
+            return self.turn
+        return SWING if self.is_swing else 0.0 if self.path or self.sweep else 360.0
 
-def check_movie(path: str | os.PathLike[str]) -> None:
-    """Raise BihdistError, with what to install, before long work if a movie cannot be written there."""
-    if check_output(path, MOVIE_FORMATS) == ".mp4" and (lack := mp4_lack()):
-        raise BihdistError(f"A GIF needs no further package. {lack}")
+    def values(self) -> list[Value]:
+        """Return the value of the parameter in each frame.
 
-
-def mp4_lack() -> str:
-    """Return a sentence on the package that MP4 lacks, with the line that installs it; "" if none does."""
-    try:
-        from imageio_ffmpeg import get_ffmpeg_exe
-
-        get_ffmpeg_exe()
-    except ImportError:
-        return f"MP4 needs the package imageio-ffmpeg: {install_command('imageio-ffmpeg')}"
-    except RuntimeError:  # the package has come without it
-        return "MP4 needs the program ffmpeg, which was not found."
-    return ""
+        ParameterError if the distances have no such parameter, or for a value that is not allowed.
+        """
+        sweep = Sweep.parse(self.sweep)
+        kinds = {spec.word: spec.distance_type for panel in self.recipe.document.panels for spec in panel.shows.specs}
+        found = [p for kind in kinds.values() for p in kind.parameters if p.name == sweep.name]
+        if not found:
+            raise ParameterError(f"{sweep.name} is not a parameter of {', '.join(kinds) or 'what is shown'}.")
+        return sweep.values(found[0], self.frames)
 
 
 def write_movie(
@@ -104,7 +112,7 @@ def write_movie(
     given: ArrayStore | None = None,
     workers: int | None = None,
 ) -> list[Answer]:
-    """Compute and draw a movie into a .mp4 or .gif file, whole or not at all; return an answer of each panel.
+    """Compute and draw a movie, and write all of its frames or none; return an answer of each panel.
 
     Parameters
     ----------
@@ -113,20 +121,19 @@ def write_movie(
     workers
         How many processes draw, one for each processor if None.
     """
-    check_movie(path)
+    check_movie(path, movie.frames)
     if not movie.recipe.document.panels:
         raise ParameterError("The recipe has no panels.")
     document, surfaces = open_document(movie.recipe, given or ArrayStore.read(movie.recipe))
+    if movie.sweep and document.range == "own" and not any(panel.maximum for panel in document.panels):
+        # Maxima change with the parameter, and isolines at round values would jump.
+        document = replace(document, range="fraction")
     movie = replace(movie, recipe=replace(movie.recipe, document=document))
     check_drawable(movie.recipe, surfaces)
     fields = _Fields(movie, surfaces, part(progress, 0.0, SETTING_UP))
-    with atomic_write(path) as temporary:
-        is_mp4 = temporary.suffix.lower() == ".mp4"
-        frames = drawn_frames(
-            _figures(movie, fields), movie.frames, "RGB" if is_mp4 else "P", workers, part(progress, SETTING_UP, 1.0)
-        )
-        with closing(frames):
-            (_write_mp4 if is_mp4 else _write_gif)(temporary, frames, movie)
+    figures, mode = _figures(movie, fields), picture_mode(path)
+    with closing(drawn_frames(figures, movie.frames, mode, workers, part(progress, SETTING_UP, 1.0))) as frames:
+        write_frames(path, frames, movie.fps)
     return fields.examples
 
 
@@ -140,15 +147,18 @@ def route(surface: Surface, stops: tuple[int, ...]) -> AnyArray:
 # ---------------------------------------------------------------------- what each frame shows
 def _documents(movie: Movie, surface: Surface) -> list[Document]:
     """Return the document of each frame, but for the cameras."""
-    document = movie.recipe.document
-    if not movie.path:
-        return [document] * movie.frames
-    way = route(surface, movie.path)
-    steps = np.linalg.norm(np.diff(surface.vertices[way], axis=0), axis=1)
-    at = np.append(0.0, np.cumsum(steps))
-    places = np.linspace(0, at[-1], movie.frames)
-    nearest = np.abs(at[None] - places[:, None]).argmin(axis=1)
-    return [_from(document, int(vertex)) for vertex in way[nearest]]
+    documents = [movie.recipe.document] * movie.frames
+    if movie.path:
+        vertices = route(surface, movie.path)
+        steps = np.linalg.norm(np.diff(surface.vertices[vertices], axis=0), axis=1)
+        at = np.append(0.0, np.cumsum(steps))
+        places = at[-1] * way(movie.frames, movie.path[0] == movie.path[-1])
+        nearest = np.abs(at[None] - places[:, None]).argmin(axis=1)
+        documents = [_from(documents[0], int(vertex)) for vertex in vertices[nearest]]
+    if movie.sweep:
+        name = Sweep.parse(movie.sweep).name
+        documents = [_at(each, name, value) for each, value in zip(documents, movie.values(), strict=True)]
+    return documents
 
 
 def _from(document: Document, vertex: int) -> Document:
@@ -159,8 +169,24 @@ def _from(document: Document, vertex: int) -> Document:
     return document
 
 
+def _at(document: Document, name: str, value: Value) -> Document:
+    """Return the document with another value of a parameter in all distances that have it."""
+
+    def changed(shows: Quantity) -> Quantity:
+        if len(shows.parts) > 1:
+            return shows.with_parts(tuple(map(changed, shows.parts)))
+        return next((shows.with_spec(spec.changed(**{name: value})) for spec in shows.specs if _has(spec, name)), shows)
+
+    panels = tuple(replace(panel, shows=changed(panel.shows)) for panel in document.panels)
+    return replace(document, panels=panels)
+
+
+def _has(spec: Spec, name: str) -> bool:
+    return any(name == known for known, _ in spec.values)
+
+
 class _Fields:
-    """The answers that all frames need, and one upper colour limit for all of them.
+    """The answers that all frames need, and where their colours end.
 
     Attributes
     ----------
@@ -170,10 +196,11 @@ class _Fields:
 
     def __init__(self, movie: Movie, surfaces: Surfaces, progress: Progress) -> None:
         self._recipe, self.surfaces = movie.recipe, surfaces
+        self._parameter = Sweep.parse(movie.sweep).name if movie.sweep else ""
         self.surface = surfaces[movie.recipe.document.panels[0].surface].surface
         self.documents = _documents(movie, self.surface)
         self._answers: dict[Question, Answer] = {}
-        self._tops: dict[int, float] = {}
+        self._tops: dict[int, float | None] = {}
         self.examples: list[Answer] = []
         panels = movie.recipe.document.panels
         for k, panel in enumerate(panels):
@@ -185,86 +212,73 @@ class _Fields:
 
     def _answer(self, panel: Panel, wanted: list[Question], progress: Progress) -> None:
         answers = {}
-        for number, question in enumerate(wanted):
+        swept = next((s for question in wanted for s in question.specs if _has(s, self._parameter)), None)
+        # The other end first: what it needs of eigenpairs serves all between.
+        for number, question in enumerate([*wanted[-1:], *wanted[:-1]]):
             step = part(progress, number / len(wanted), (number + 1) / len(wanted))
-            answer = question.answer(self.surfaces[panel.surface], step)
+            loaded = self.surfaces[panel.surface]
+            # How accurate each of many distances is would take longer than they do.
+            answer = question.answer(loaded, step, (lambda _: True) if swept else None)
             if answer.field is not None:
                 answer = replace(answer, field=answer.field.astype(np.float32))
+            if swept:
+                (value,) = {spec[self._parameter] for spec in question.specs if _has(spec, self._parameter)}
+                answer = replace(answer, label=with_digits(answer.label, value))
+                loaded.keep(question.areas, question.specs)
             answers[question] = answer
         # One failure is that of all: the distance could not be made.
         failed = next((answer for answer in answers.values() if answer.failure), None)
         self._answers |= answers if failed is None else dict.fromkeys(answers, failed)
-        self._tops[panel.id] = max(self._answers[question].maximum for question in wanted)
+        # With the parameter maxima change, and units may: a common end is for those who ask for it.
+        if not swept or self._recipe.document.range == "shared":
+            self._tops[panel.id] = max(answer.maximum for answer in answers.values()) or None
 
     def figure(self, frame: int, cameras: Mapping[str, View]) -> Figure:
         """Return the figure of a frame; `cameras` has those of the surfaces, by their names in the document."""
         document = self.documents[frame]
-        panels = tuple(replace(p, maximum=p.maximum or self._tops[p.id] or None) for p in document.panels)
+        panels = tuple(replace(p, maximum=p.maximum or self._tops.get(p.id)) for p in document.panels)
         recipe = Recipe(
-            replace(document, panels=panels), replace(self._recipe.page, views=(), crop=False, transparent=False)
+            replace(document, panels=panels),
+            replace(self._recipe.page, views=(), crop=False, transparent=False, layout=""),
         )
         answers = [self._answers[q] for q in questions(document).values()]
         figure = figure_of(recipe, self.surfaces, answers)
         drawn = zip(figure.panels, document.panels, strict=True)
         seen = tuple(replace(each, views=(cameras[panel.surface],)) for each, panel in drawn)
-        # A frame has the height that turning shapes need, and no room for a legend.
-        return replace(figure, panels=seen, is_moving=True, legend=())
+        return replace(figure, panels=seen, is_moving=True)
 
 
 def _figures(movie: Movie, fields: _Fields) -> Iterator[Figure]:
     """Return the figure of each frame."""
-    document = fields.documents[0]
-    # What turns shows its source at first; what stands, as much as may be of the source's way.
-    seen = fields.documents[:1] if movie.turn else fields.documents[:: max(len(fields.documents) // PLACES, 1)]
+    document, turns = fields.documents[0], angles(movie.degrees, movie.is_swing, movie.frames)
+    ends = span(movie.degrees, movie.is_swing)
+    # What turns round shows its source at first; anything else, as often as may be.
+    step = max(movie.frames // PLACES, 1) if ends[1] - ends[0] < 360 else movie.frames
     starts = {}
     for name in dict.fromkeys(panel.surface for panel in document.panels):
         loaded = fields.surfaces[name]
         surface = loaded.surface
-        sources = [vertex_at(at, surface) for each in seen for at in _sources_on(each, name)]
+        looks = [
+            (float(turns[k]), vertex_at(at, surface))
+            for k in range(0, movie.frames, step)
+            for at in _sources_on(fields.documents[k], name)
+        ]
         view = movie.recipe.page.views[0] if movie.recipe.page.views else document.camera_of(name)
         up = document.up_of(name)
         view = loaded.view_of(view, up)
         starts[name] = start_and_axis(
-            view, surface, movie.turn, document.warp_factor, sources, up, document.parallel_projection
+            view, surface, ends, document.warp_factor, looks, up, document.parallel_projection
         )
     first, _ = starts[document.panels[0].surface]
-    size = fitted_size(fields.figure(0, {name: camera for name, (camera, _) in starts.items()}), first.extent)
-    for k in range(movie.frames):
-        # A whole turn ends one step before where it began: shown again and again, it does not halt.
-        angle = movie.turn * k / movie.frames
+    figure = fields.figure(0, {name: camera for name, (camera, _) in starts.items()})
+    # The height that turning shapes need, and under it the legend.
+    size = fitted_size(replace(figure, legend=()), first.extent)
+    for k, angle in enumerate(turns):
         cameras = {name: turned(camera, angle, axis) for name, (camera, axis) in starts.items()}
-        yield replace(fields.figure(k, cameras), size=size)
+        yield replace(fields.figure(k, cameras), size=size, legend=figure.legend)
 
 
 def _sources_on(document: Document, surface: str) -> list[Source | None]:
     """Return the sources of a surface's fields, each once, in order."""
     names = [name for panel in document.panels_of(surface) for name in panel.shows.points]
     return list(dict.fromkeys(document.point(name).at for name in names))
-
-
-# ---------------------------------------------------------------------- files
-def _write_mp4(path: Path, frames: Iterator[AnyArray], movie: Movie) -> None:
-    import imageio_ffmpeg
-
-    first = next(frames)
-    height, width, _ = first.shape
-    writer = imageio_ffmpeg.write_frames(str(path), (width, height), fps=movie.fps, quality=8, macro_block_size=2)
-    try:
-        _send(writer, None)
-        for frame in chain([first], frames):
-            _send(writer, np.ascontiguousarray(frame))
-    finally:
-        writer.close()
-
-
-def _send(writer: Generator[None, ByteArray | None, None], frame: ByteArray | None) -> None:
-    try:
-        writer.send(frame)
-    except (OSError, StopIteration) as error:
-        words = next((line for line in reversed(str(error).splitlines()) if line.strip()), type(error).__name__)
-        raise OutputError(f"The movie could not be encoded: {words.strip()[:200]}") from error
-
-
-def _write_gif(path: Path, frames: Iterator[Image], movie: Movie) -> None:
-    first = next(frames)
-    first.save(path, save_all=True, append_images=frames, duration=round(1000 / movie.fps), loop=0)

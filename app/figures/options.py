@@ -20,9 +20,9 @@ from ..document.option import (
     with_attribute,
 )
 from ..document.page import Recipe
-from ..document.settings import AXES, ISOLINE_LABELS, PARALLEL_PROJECTION, SHOW_EDGES
+from ..document.settings import AXES, ISOLINE_LABELS, PARALLEL_PROJECTION, SCALE_BAR, SHOW_EDGES
 from ..document.tools import tools
-from .look_options import BASE, COLOURS, ISOLINES, RANGE, SHADING, suits_one_bar, with_range
+from .look_options import BASE, COLOURS, ISOLINES, OPACITY, RANGE, SHADING, suits_one_bar, with_range
 from .repair_options import REPAIRS
 from .size import is_column
 from .view_options import CLIP, INSETS, UP, VIEWS
@@ -47,7 +47,7 @@ PAGE_ROWS = (
         "such as 85mm, 3.5in, 1680x640, 160mm@300dpi; or column (85 mm, cropped), double (178 mm), slide, A0",
         "SIZE",
     ),
-    _layout("style", "paper, uniform, lines or dark (default: paper)", "NAME"),
+    _layout("style", "paper, uniform, lines, dark or cover (default: paper)", "NAME"),
 )
 """Of a page, with panels or with a chart."""
 
@@ -106,6 +106,8 @@ ROWS = (
     VIEWS,
     PARALLEL_PROJECTION.row,
     AXES.row,
+    SCALE_BAR.row,
+    attribute("document.unit", "unit of the mesh's lengths, such as mm (default: mesh units)", "UNIT", group="view"),
     CLIP,
     Row(
         (
@@ -140,6 +142,7 @@ ROWS = (
     _layout("title", "show names as heading (default), as caption at the bars, or none", "WHERE"),
     *PAGE_ROWS,
     _layout("transparent", "draw no background"),
+    _layout("ground", "draw a soft shadow on the ground"),
     CROP,
     _layout(
         "layout",
@@ -149,6 +152,7 @@ ROWS = (
     ),
     SHADING,
     SHOW_EDGES.row,
+    OPACITY,
     unsaid("for panels that are still to come", "Document.next_id"),
     unsaid("where instruments stand in the window", "Document.dock_places"),
     unsaid("what the pointer does in the window", "Document.snap"),

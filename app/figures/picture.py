@@ -84,19 +84,29 @@ class Picture:
     def save_movie(
         self,
         path: str | os.PathLike[str],
-        turn: float = 360.0,
+        turn: float | None = None,
+        swing: bool = False,
+        source_path: Sequence[int] = (),
+        sweep: str = "",
         frames: int = 120,
         fps: float = 25.0,
         progress: Progress | None = None,
     ) -> Path:
-        """Save a movie that turns around the mesh, as `bihdist movie` draws it.
+        """Save a movie of the mesh turning, the source moving or a parameter changing, as `bihdist movie` draws it.
 
         Parameters
         ----------
         path : str or path
-            A .gif or .mp4 file.
-        turn : float
-            Angle in degrees.
+            A .gif, .mp4 or .webm file, or names for a .png file of each frame, such as ``"frames/%04d.png"``.
+        turn : float, optional
+            Angle in degrees by which the mesh turns, by default 360; 90 with `swing`, else 0 if the source moves or a
+            parameter changes.
+        swing : bool
+            Turn back and forth, with the source in view.
+        source_path : sequence of int
+            Move the source along edges through these vertices.
+        sweep : str
+            Change a parameter of the distances: over a range, ``"t=4..1/60"``, or through values, ``"k=10,50,200"``.
         frames : int
             How many pictures.
         fps : float
@@ -114,10 +124,10 @@ class Picture:
         BihdistError
             If it cannot be drawn or written.
         """
-        from .movie import Movie, check_movie, write_movie
+        from .movie import Movie, write_movie
 
-        check_movie(path)
-        write_movie(Movie(self._recipe, turn, frames=frames, fps=fps), path, progress, self._given)
+        movie = Movie(self._recipe, turn, swing, tuple(source_path), sweep, frames, fps)
+        write_movie(movie, path, progress, self._given)
         return Path(path)
 
     @property

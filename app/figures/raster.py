@@ -46,7 +46,7 @@ class RenderWindow:
         from ..scene.field_actor import FieldActor, light
         from ..scene.render_window import offscreen_window
 
-        self._finer = finer
+        self._finer, self._samples = finer, samples
         self._window = offscreen_window()
         self.shown = FieldActor(style)
         self._renderer = vtkRenderer()
@@ -55,7 +55,6 @@ class RenderWindow:
         self._renderer.AddActor(self.shown.actor)
         light(self._renderer)
         self._window.SetAlphaBitPlanes(True)
-        self._window.SetMultiSamples(samples)
         self._window.AddRenderer(self._renderer)
 
     def close(self) -> None:
@@ -83,12 +82,16 @@ class RenderWindow:
         """
         report = progress or silent
         width, height = size
-        self.shown.set_scale(scale * self._finer)
+        # What is blended by depth has no samples, but more pixels instead.
+        is_translucent = self.shown.opacity < 1
+        finer = self._finer * (2 if is_translucent and self._samples else 1)
+        self._window.SetMultiSamples(0 if is_translucent else self._samples)
+        self.shown.set_scale(scale * finer)
         # Of equal size, so that the window keeps its own.
         tile = tuple(-(-side // -(-side // TILE)) for side in size)
         across, down = (-(-side // step) for side, step in zip(size, tile, strict=True))
         picture = np.zeros((down * tile[1], across * tile[0], 4), np.uint8)
-        self._window.SetSize(tile[0] * self._finer, tile[1] * self._finer)
+        self._window.SetSize(tile[0] * finer, tile[1] * finer)
         left, right, bottom, top = part
         per_x, per_y = (right - left) / width, (top - bottom) / height
         for row in range(down):
@@ -103,13 +106,13 @@ class RenderWindow:
                 )
                 if projection.meets(seen):
                     # From below, as OpenGL counts.
-                    self.shown.set_origin(x * self._finer, -(y + tile[1]) * self._finer)
-                    picture[y : y + tile[1], x : x + tile[0]] = self._draw(projection, seen)
+                    self.shown.set_origin(x * finer, -(y + tile[1]) * finer)
+                    picture[y : y + tile[1], x : x + tile[0]] = self._draw(projection, seen, finer)
         report(1.0, "drawing")
         return picture[:height, :width]
 
-    def _draw(self, projection: Projection, part: Rectangle) -> ByteArray:
-        """Draw one tile, averaged down to the picture's pixels."""
+    def _draw(self, projection: Projection, part: Rectangle, finer: int) -> ByteArray:
+        """Draw one tile, `finer` along each side, averaged down to the picture's pixels."""
         from vtkmodules.util.numpy_support import vtk_to_numpy
         from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 
@@ -124,11 +127,11 @@ class RenderWindow:
         read = vtkUnsignedCharArray()
         self._window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, read, 0)
         fine = vtk_to_numpy(read).reshape(height, width, 4)
-        total = np.full((height // self._finer, width // self._finer, 4), self._finer**2 // 2, np.uint16)
-        for row in range(self._finer):
-            for column in range(self._finer):
-                total += fine[row :: self._finer, column :: self._finer]
-        return (total // self._finer**2).astype(np.uint8)[::-1]
+        total = np.full((height // finer, width // finer, 4), finer**2 // 2, np.uint16)
+        for row in range(finer):
+            for column in range(finer):
+                total += fine[row::finer, column::finer]
+        return (total // finer**2).astype(np.uint8)[::-1]
 
 
 def check_offscreen() -> None:

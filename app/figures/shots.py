@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import chain
 
 import numpy as np
@@ -29,12 +30,13 @@ from ..scene.line_labels import Contour
 from ..scene.selected import selected_colours
 from ..scene.style import Style
 from .description import Figure, FigurePanel
-from .framing import Framed, shown_surfaces
+from .framing import Framed, has_ground, shown_surfaces
 from .hidden_lines import Curve, HiddenLineRemoval, contours_seen
 from .inset_places import source_of
 from .outlines import outlines
 from .page_layout import PageLayout
 from .raster import FINER, SAMPLES, Rectangle, RenderWindow
+from .shadows import Shadows
 
 LEAST_SEEN = 3.0
 """Units of a line; where less of it is seen, nobody will find it."""
@@ -74,6 +76,10 @@ class Shot:
         Names of lines of which something is seen.
     lines
         By their looks, those of a higher rank last.
+    opacity
+        Of the surface.
+    per_unit
+        How long a unit of the mesh is on the page, in the plane that the camera looks at.
     """
 
     panel: int
@@ -87,15 +93,23 @@ class Shot:
     source: Box | None = None
     seen: frozenset[str] = frozenset()
     lines: dict[LineLook, SeenLines] = field(default_factory=dict)
+    opacity: float = 1.0
+    per_unit: float = 0.0
 
-    def alpha_at(self, points: FloatArray) -> AnyArray:
-        """Return the opacity of the picture, 0 to 255, at points (k, 2) of the page; 0 outside of it."""
+    @cached_property
+    def cover(self) -> AnyArray:
+        """How much of each pixel (h, w) the surface takes, 0 to 255."""
+        alpha = self.image[..., 3]
+        return alpha if self.opacity == 1 else np.minimum(np.rint(alpha / self.opacity), 255).astype(np.uint8)
+
+    def cover_at(self, points: FloatArray) -> AnyArray:
+        """Return how much the surface takes of the picture, 0 to 255, at points (k, 2) of the page; 0 outside of it."""
         rows, columns, _ = self.image.shape
         column, row = np.floor(self.box.shares(points) * (columns, rows)).astype(int).T
         is_inside = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
-        alpha = np.zeros(len(points), np.uint8)
-        alpha[is_inside] = self.image[row[is_inside], column[is_inside], 3]
-        return alpha
+        cover = np.zeros(len(points), np.uint8)
+        cover[is_inside] = self.cover[row[is_inside], column[is_inside]]
+        return cover
 
 
 class RenderCache:
@@ -154,7 +168,7 @@ def take_shots(
     shots: list[Shot] = []
     tops = figure.upper_limits()
     count = sum(len(p.views) + len(p.insets) for p in figure.panels)
-    sights: dict[Hashable, HiddenLineRemoval] = {}
+    sights: dict[Hashable, tuple[HiddenLineRemoval, Shadows | None]] = {}
     with RenderCache() if render_cache is None else nullcontext(render_cache) as render_cache:
         render_cache.keep(each for panel in figure.panels for each in (panel.surface, *panel.parts))
         render_window = render_cache.render_window(figure.style)
@@ -172,11 +186,16 @@ def take_shots(
                 framed = Framed(view, panel, surface, box, shown)
                 size = (framed.whole.width, framed.whole.height)
                 # Panels of one surface that are seen alike differ in their fields alone.
-                key = (id(mesh), clip, size, framed.projection.view.tobytes(), framed.projection.matrix.tobytes())
+                seen_by = framed.projection.view.tobytes(), framed.projection.matrix.tobytes()
+                key = (id(mesh), clip, panel.opacity < 1, size, *seen_by)
                 if key not in sights:
-                    outward = outward_faces(mesh, is_cut=clip is not None)
-                    sights[key] = HiddenLineRemoval(surface, framed.projection, size, outward, clip)
-                taker = _Taker(figure, index, surface, sights[key], tops[index], framed, layout, render_window, curves)
+                    outward, ground = outward_faces(mesh, clip is not None, panel.opacity), has_ground(panel)
+                    is_cast = figure.style.occlusion > 0 or ground
+                    sights[key] = (
+                        HiddenLineRemoval(surface, framed.projection, size, outward, clip),
+                        Shadows(mesh, framed.projection, panel.up, ground, clip) if is_cast else None,
+                    )
+                taker = _Taker(figure, index, surface, *sights[key], tops[index], framed, layout, render_window, curves)
                 shots.append(taker.take(box, panel.isolines, step))
                 for inset, place in zip(panel.insets, cell.insets, strict=True) if number == 0 else ():
                     step = part(progress, len(shots) / count, (len(shots) + 1) / count)
@@ -189,7 +208,9 @@ def _show(panel: FigurePanel, mesh: vtkPolyData, top: float, clip: ClipPlane | N
     """Show a panel's field, or what else it has, on a mesh."""
     actor.show_surface(mesh)
     actor.show_shading(panel.shading)
-    actor.show_clip(clip)
+    # Behind a translucent surface lines are painted; before it they are curves, like all of an opaque one.
+    actor.show_clip(clip, paints_section=panel.opacity < 1)
+    actor.show_opacity(panel.opacity)
     actor.show_selected(selected_colours(panel.areas, len(panel.surface.vertices)))
     if panel.field is not None:
         actor.show_field(panel.field, top, panel.signed)
@@ -216,6 +237,7 @@ class _Taker:
         index: int,
         surface: Surface,
         sight: HiddenLineRemoval,
+        shadows: Shadows | None,
         top: float,
         framed: Framed,
         layout: PageLayout,
@@ -226,7 +248,9 @@ class _Taker:
         self._surface, self._top, self._box, self._render_window = surface, top, framed.whole, render_window
         self._scale, self._stroke, self._lift = layout.scale, layout.stroke, layout.mark / 2
         self._projection = framed.projection
-        self._sight, self._curves = sight, curves
+        self._per_unit = 1 / framed.projection.pixel_at(framed.depth, framed.whole.width)
+        self._sight, self._shadows, self._curves = sight, shadows, curves
+        self._is_translucent = figure.panels[index].opacity < 1
         self._found: dict[Isolines, list[Contour]] = {}
         self._outlines: list[Line] | None = None
         panel = self._panel
@@ -240,14 +264,15 @@ class _Taker:
     def take(self, box: Box, wanted: Isolines, progress: Progress, source: Box | None = None) -> Shot:
         """Take what a box of the page shows: the view or, for an inset, a part of it enlarged, with these isolines."""
         _, _, width, height = box.pixels(self._scale)
-        self._render_window.shown.show_isolines(Isolines(0) if self._curves else wanted, self._panel.through)
+        # Labels would stand on painted ones.
+        is_painted = not self._curves or (self._is_translucent and not wanted.labels)
+        self._render_window.shown.show_isolines(wanted if is_painted else Isolines(0), self._panel.through)
+        seen = self._part(source or box)
         image = self._render_window.shade(
-            self._projection,
-            (width, height),
-            self._scale * self._stroke,
-            self._part(source or box),
-            part(progress, 0, 0.7),
+            self._projection, (width, height), self._scale * self._stroke, seen, part(progress, 0, 0.7)
         )
+        if self._shadows is not None:
+            image = self._shadows.cast(image, seen, self._style.occlusion * self._panel.opacity)
         progress(0.7, "finding hidden marks")
         contours = self._contours(wanted) if self._curves else []
         if self._style.outline and self._outlines is None:
@@ -277,6 +302,8 @@ class _Taker:
             source,
             frozenset(self._seen),
             {look: SeenLines(moved_lines(of.seen), moved_lines(of.course)) for look, of in self._lines.items()},
+            self._panel.opacity,
+            self._per_unit,
         )
 
     # ------------------------------------------------------------------ what is seen
@@ -307,11 +334,12 @@ class _Taker:
         x, component = self._surface.vertices, self._surface.component_of_vertex
         lines = [line for line in self._panel.lines if line.look == look and (component[line.spans] >= 0).all()]
         curves = [Curve(line.positions(x), line.spans, line.is_closed) for line in lines]
-        seen = self._sight.visible(curves)
+        outlined = [self._sight.outlined([curve]) for curve in curves if look.hidden or self._is_translucent]
+        seen = outlined if self._is_translucent else self._sight.visible(curves)
         self._seen |= {
             line.name for line, parts in zip(lines, seen, strict=True) if sum(map(_length, parts)) > LEAST_SEEN
         }
-        return SeenLines(list(chain.from_iterable(seen)), self._sight.outlined(curves) if look.hidden else [])
+        return SeenLines(list(chain.from_iterable(seen)), list(chain.from_iterable(outlined)) if look.hidden else [])
 
     def _placed_marks(self) -> tuple[list[PlacedMark], list[PlacedMark]]:
         """Return the marks that are seen, and those that the shape hides."""
@@ -329,7 +357,7 @@ class _Taker:
             # A mark stands out of the surface: at a silhouette it is seen a little longer than its vertex.
             per_unit = self._projection.pixel_at(depth, self._box.width)
             nearer = point + self._normal(mark) * per_unit * 0.67 * self._lift
-            is_seen = self._sight.sees(point) or self._sight.sees(nearer)
+            is_seen = self._is_translucent or self._sight.sees(point) or self._sight.sees(nearer)
             if is_seen or mark.glyph.hidden is not None:
                 (seen if is_seen else hidden).append((k, float(x), float(y)))
         return seen, hidden

@@ -35,20 +35,22 @@ SEEN_ALSO_DEG = 15
 def start_and_axis(
     view: View,
     surface: Surface,
-    turn: float,
+    span: tuple[float, float],
     height: float,
-    sources: Sequence[int],
+    looks: Sequence[tuple[float, int]],
     up: str = "y",
     is_parallel: bool = False,
 ) -> tuple[Camera, FloatArray]:
-    """Return the camera of the first frame, whose extent holds the shape while it turns, and the axis (3,) of the turn.
+    """Return the camera at 0 degrees, whose extent holds the shape while it turns, and the axis (3,) of the turn.
 
     Parameters
     ----------
+    span
+        The least and the largest angle of the turn, in degrees.
     height
         Of a height field.
-    sources
-        Vertices of which as many as possible are seen from home, where no view was chosen.
+    looks
+        Angles with the sources there, of which as many as possible are seen where no view was chosen.
     up
         The axis that is up.
     is_parallel
@@ -59,19 +61,19 @@ def start_and_axis(
         points = np.concatenate([points, points + np.array([0.0, 0.0, rise(bounds_of(points), height)])])
     if isinstance(view, Camera):
         axis, camera = np.array(view.up), view
-        extent = _swept(camera, axis, points, turn, is_parallel)
-        if not turn:  # no more than was chosen
+        extent = _swept(camera, axis, points, span, is_parallel)
+        if not any(span):  # no more than was chosen
             extent = tuple(np.minimum(extent, view.extent))
         return replace(camera, extent=extent), axis
     name = "relief" if height and view == "home" else view
-    outwards = outwards_at(surface, sources[0]) if name == "source" and sources else None
+    outwards = outwards_at(surface, looks[0][1]) if name == "source" and looks else None
     axis = directions(name, up, outwards)[1]
     camera = standard_camera(points, 1.0, name, up, outwards, is_parallel)
-    if turn:
+    if any(span):
         camera = _about(camera, axis, points)
-    if view in OBLIQUE_VIEWS and sources and not is_flat(points):
-        camera = turned(camera, _facing(camera, axis, surface, sources), axis)
-    return replace(camera, extent=_swept(camera, axis, points, turn, is_parallel)), axis
+    if view in OBLIQUE_VIEWS and looks and not is_flat(points):
+        camera = turned(camera, _facing(camera, axis, surface, looks), axis)
+    return replace(camera, extent=_swept(camera, axis, points, span, is_parallel)), axis
 
 
 def fitted_size(figure: Figure, extent: tuple[float, float]) -> Size:
@@ -121,24 +123,29 @@ def _centre(points: FloatArray) -> FloatArray:
     return middle
 
 
-def _swept(camera: Camera, axis: FloatArray, points: FloatArray, turn: float, is_parallel: bool) -> tuple[float, float]:
+def _swept(
+    camera: Camera, axis: FloatArray, points: FloatArray, span: tuple[float, float], is_parallel: bool
+) -> tuple[float, float]:
     """Return the extent that holds points (n, 3) at all angles of a turn."""
-    angles = np.append(np.arange(0, min(abs(turn), 360), STEP), min(abs(turn), 360)) * np.sign(turn)
-    wide = high = 0.0
-    for degrees in angles if turn else (0.0,):
+    low, high = span[0], min(span[1], span[0] + 360)
+    wide = tall = 0.0
+    for degrees in np.append(np.arange(low, high, STEP), high):
         whole = replace(turned(camera, float(degrees), axis), extent=(1.0, 1.0))
         seen = np.abs(Projection(whole, 1.0, points, 0.0, is_parallel)(points))
-        wide, high = max(wide, float(np.nanmax(seen[:, 0]))), max(high, float(np.nanmax(seen[:, 1])))
-    return wide, high
+        wide, tall = max(wide, float(np.nanmax(seen[:, 0]))), max(tall, float(np.nanmax(seen[:, 1])))
+    return wide, tall
 
 
-def _facing(camera: Camera, axis: FloatArray, surface: Surface, vertices: Sequence[int]) -> float:
-    """Return the least turn, in degrees, after which most of the vertices are well seen."""
+def _facing(camera: Camera, axis: FloatArray, surface: Surface, looks: Sequence[tuple[float, int]]) -> float:
+    """Return the least turn, in degrees, after which most of the looks show their vertices well."""
     blocks = FaceBlocks(surface)
     tolerance = 1e-6 * float(np.linalg.norm(np.ptp(surface.vertices, axis=0)))
 
     def seen(degrees: float) -> int:
-        eyes = [np.array(turned(camera, degrees + more, axis).position) for more in (-SEEN_ALSO_DEG, 0, SEEN_ALSO_DEG)]
-        return sum(blocks.sees(eye, point, tolerance) for eye in eyes for point in surface.vertices[list(vertices)])
+        return sum(
+            blocks.sees(np.array(turned(camera, degrees + angle + more, axis).position), surface.vertices[v], tolerance)
+            for angle, v in looks
+            for more in (-SEEN_ALSO_DEG, 0, SEEN_ALSO_DEG)
+        )
 
     return float(max(sorted(range(-180 + STEP, 181, STEP), key=abs), key=seen))

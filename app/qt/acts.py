@@ -280,6 +280,8 @@ VIEW = (
     Action("view after", "Next vie&w", lambda c: c[Views].on(), ("Ctrl+]",), synonyms="forward camera redo"),
     Action("feature angle", "Feature &angle…", lambda c: c[Choices].ask_feature_angle(),
         tip="Choose from which angle on edges are sharp", synonyms="crease sharp edges normals"),
+    Action("unit", "Unit of lengths…", lambda c: c[Choices].ask_unit(), tip="Name the unit of the mesh, such as mm",
+        synonyms="scale bar millimetres metres"),
     Action("full screen", "&Full screen for talks", lambda c: c[Choices].toggle_full_screen(), ("F11",),
         "Show panels and bars only, in larger text", needs_mesh=False,
         is_on=lambda c: c[Choices].is_full_screen, synonyms="fullscreen presentation present maximise"),

@@ -40,7 +40,7 @@ TABLE = (
         lambda c: c.grid.marks.show_isolines(c.document),
     ),
     Row(lambda d: d.shading, lambda c: c.grid.show_shading()),
-    Row(lambda d: d.clip, lambda c: c.grid.show_clip()),
+    Row(lambda d: (d.clip, d.opacity), lambda c: c.grid.show_inside()),
     Row(lambda d: d.base, lambda c: c.grid.show_base(c.document)),
 )
 """What panels show besides their fields."""
@@ -89,7 +89,7 @@ class Changes(QtCore.QObject):
             if other_panels or row.of(document) != row.of(before):
                 row.show(context)
         is_raised = document.warp_factor != before.warp_factor
-        if other_panels or is_raised or document.range != before.range:
+        if other_panels or is_raised or (document.range, document.unit) != (before.range, before.unit):
             for panel in document.panels:
                 if session.is_answered(panel.id) or (has_other_style and panel.id in session.shown):
                     self.answered.emit(panel.id)

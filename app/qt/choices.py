@@ -109,6 +109,18 @@ class Choices:
             shading = replace(shading, feature_angle=angle, normals="creased")
             session.show(replace(session.document, shading=shading))
 
+    def ask_unit(self) -> None:
+        """Ask for the unit of the meshes' lengths."""
+        session = self._context.session
+        words = "Unit of the mesh's lengths, such as mm; empty if it is not known:"
+        now, edit = session.document.unit, QtWidgets.QLineEdit.EchoMode.Normal
+        unit, chosen = QtWidgets.QInputDialog.getText(self._context.widget, "Unit of lengths", words, edit, now)
+        if chosen:
+            try:
+                session.show(replace(session.document, unit=unit.strip()))
+            except ParameterError as error:
+                self._context.fail(error)
+
     def style(self, word: str) -> None:
         """Choose a style for panels and later figures; the colour map stays as it is."""
         context = self._context

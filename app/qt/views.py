@@ -52,6 +52,7 @@ class Views(QtCore.QObject):
         if context.remembers and not is_other and document.up != before.up:
             remember_up(document.surfaces[0].sha256, document.up)
         context.grid.show_axes(document.axes)
+        context.grid.show_scale_bar(document)
         for controller in (controller for controller in context.grid.camera_controllers if controller.surface):
             camera, up = document.camera_of(controller.surface), document.up_of(controller.surface)
             old_camera, old_up = before.camera_of(controller.surface), before.up_of(controller.surface)

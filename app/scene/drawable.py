@@ -112,15 +112,20 @@ def with_backs_of(mesh: vtkPolyData, other: vtkPolyData) -> None:
         mesh.GetFieldData().AddArray(array)
 
 
-def has_backs(mesh: vtkPolyData, is_cut: bool = False) -> bool:
-    """Return whether the inside of a body can be seen, or could be if it is cut."""
+def has_backs(mesh: vtkPolyData, is_cut: bool = False, opacity: float = 1.0) -> bool:
+    """Return whether the inside of a body can be seen, or could be if it is cut, and is to look otherwise.
+
+    Whole bodies that are translucent look the same on both sides.
+    """
+    if opacity < 1 and not is_cut:
+        return False
     array = mesh.GetFieldData().GetArray(_BACKS)
     return array is not None and bool(array.GetValue(int(is_cut)))
 
 
-def outward_faces(mesh: vtkPolyData, is_cut: bool = False) -> IntArray | None:
-    """Return the vertices (m, 3) of faces, counter-clockwise seen from outside; None if no inside can be seen."""
-    return vertex_faces(mesh) if has_backs(mesh, is_cut) else None
+def outward_faces(mesh: vtkPolyData, is_cut: bool = False, opacity: float = 1.0) -> IntArray | None:
+    """Return the vertices (m, 3) of faces, counter-clockwise seen from outside; None unless it `has_backs`."""
+    return vertex_faces(mesh) if has_backs(mesh, is_cut, opacity) else None
 
 
 def vertex_faces(mesh: vtkPolyData) -> IntArray:

@@ -38,6 +38,13 @@ TINTS = {
 Those of labels are flat, as between two labels there is no third; the base has shares of greys."""
 
 _LIT = "//VTK::Light::Impl"
+
+# Light from behind, where the surface turns away: form is seen in dark colours, too.
+_RIM = "  fragOutput0.rgb += {} * pow(1.0 - clamp(normalVCVSOutput.z, 0.0, 1.0), 3.0);\n"
+
+MOST_PEELS = 8
+"""Each of them has two layers of what is translucent, the nearest and the farthest that are left."""
+
 MOST_LINES = 2 * MOST_ISOLINES + 64
 """That the shader has room for: on both sides of 0, and through points."""
 
@@ -115,6 +122,7 @@ class FieldActor:
         self._own = vtkPolyData()
         self._has_edges = False
         self.clip: ClipPlane | None = None
+        self._paints_section = True
         self._followed: tuple[object, ...] | None = None
         self._tints: dict[str, AnyArray] = {}
         self._base = (False, False)  # whether it has two greys, and coloured isolines
@@ -220,6 +228,7 @@ class FieldActor:
         if self._own is not other._own:
             self._draw(other._own)
         self.show_clip(other.clip)
+        self._show_backs()
         self._values, self._array = other._values, other._array
         if self.table is not other.table:
             self.table, self.is_signed = other.table, other.is_signed
@@ -355,8 +364,9 @@ class FieldActor:
             look.SetEdgeVisibility(shading.show_edges)
             self._put_shaders(shading.show_edges)
 
-    def show_clip(self, clip: ClipPlane | None) -> None:
-        """Cut the surface by a plane, or no longer."""
+    def show_clip(self, clip: ClipPlane | None, paints_section: bool = True) -> None:
+        """Cut the surface by a plane, or no longer; `paints_section` holds from the next `set_scale` on."""
+        self._paints_section = paints_section
         if clip == self.clip:
             return
         is_other = (clip is None) != (self.clip is None)
@@ -369,8 +379,18 @@ class FieldActor:
             self._show_backs()
             self._put_shaders(self._has_edges)
 
+    @property
+    def opacity(self) -> float:
+        """Of the surface, at most 1."""
+        return float(self.actor.GetProperty().GetOpacity())
+
+    def show_opacity(self, opacity: float) -> None:
+        """Let the surface be translucent, or no longer; its renderer has to blend by depth (`light`)."""
+        self.actor.GetProperty().SetOpacity(opacity)
+        self._show_backs()
+
     def _show_backs(self) -> None:
-        self._uniforms.SetUniformf("hasBacks", float(has_backs(self._own, self.clip is not None)))
+        self._uniforms.SetUniformf("hasBacks", float(has_backs(self._own, self.clip is not None, self.opacity)))
 
     def show_stand_in(self, is_shown: bool) -> None:
         """Draw what `stand_in` has taken instead of the surface, if it has anything, or the surface again."""
@@ -383,7 +403,8 @@ class FieldActor:
         self._uniforms.SetUniformf("edgeScale", scale)
         self._uniforms.SetUniformf("isolineCasing", CASING * scale * share)
         self._uniforms.SetUniformf("isolineRimWidth", RIM * scale * share)
-        self._uniforms.SetUniformf("sectionWidth", SECTION.strokes[0].width * scale * share)
+        section = SECTION.strokes[0].width * scale * share if self._paints_section else -1.0
+        self._uniforms.SetUniformf("sectionWidth", section)
         self._uniforms.SetUniformf(
             "isolineHalfWidth", self.isoline_ink().width * self.style.isoline_width / 2 * scale * share
         )
@@ -438,7 +459,8 @@ class FieldActor:
         paint = _PAINT.replace("ISOLINE", "fieldColour" if has_own_colours else "isolineColour")
         paint = (PAINT_SELECTED if "selected" in names else "") + paint
         paint += _PAINT_SECTION if self.clip is not None else ""
-        shader.AddFragmentShaderReplacement(_LIT, False, f"{_LIT}\n{paint}", False)
+        rim = _RIM.format(self.style.rim) if self.style.rim else ""
+        shader.AddFragmentShaderReplacement(_LIT, False, f"{_LIT}\n{rim}{paint}", False)
 
 
 def _turned(mesh: vtkPolyData, colours: ByteArray) -> vtkCellArray:
@@ -479,7 +501,13 @@ def lookup_table(style: Style, signed: bool = False, edges: FloatArray | None = 
 
 
 def light(renderer: vtkRenderer) -> None:
-    """Add a key light from the upper left of the camera and a weak fill, so that form reads without dark sides."""
+    """Add a key light from the upper left of the camera and a weak fill, so that form reads without dark sides.
+
+    What is translucent is blended by depth, in whatever order it is drawn.
+    """
+    renderer.UseDepthPeelingOn()
+    renderer.SetMaximumNumberOfPeels(MOST_PEELS)
+    renderer.SetOcclusionRatio(0.0)
     renderer.RemoveAllLights()
     renderer.AutomaticLightCreationOff()
     for position, intensity in [((-0.5, 0.6, 1.0), 0.85), ((0.8, -0.2, 0.7), 0.42)]:

@@ -28,7 +28,8 @@ class Contents:
     document
         The document, with geodesic distances that are exact.
     fields
-        Distances by the solver's names; of two that differ in a parameter the second is "diffusion_2".
+        Distances by the solver's names; of two truncated ones the second is "truncated_2". By poles it is the word with
+        the parameter, "diffusion@0.25".
     """
 
     document: Document
@@ -122,7 +123,11 @@ def _named(specs: Iterable[Spec]) -> dict[str, Spec]:
     for spec in specs:
         name = spec.word.replace("-", "_")
         count = sum(each.word == spec.word for each in found.values())
-        found[f"{name}_{count + 1}" if count else name] = spec
+        if spec.distance_type.on_pages == "poles":
+            name += f"@{spec.values[0][1]}"
+        elif count:
+            name += f"_{count + 1}"
+        found[name] = spec
     return found
 
 
@@ -140,6 +145,7 @@ def notes_on(document: Document, page_views: int) -> list[str]:
         "the height of a height field": bool(document.warp_factor),
         "the wireframe": shading.show_edges,
         "directions of axes": document.axes,
+        "the scale bar": document.scale_bar,
         "views but the first": page_views > 1,
         "what tools mark, but for pins": any(not isinstance(part, Pins | Hidden) for part in document.parts),
         "that the source is hidden": SOURCE in document[Hidden].hidden,

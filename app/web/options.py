@@ -15,6 +15,7 @@ NAMES = (
         "cpos",
         "parallel_projection",
         "clip",
+        "opacity",
         "cmap",
         "flip_scalars",
         "bands",

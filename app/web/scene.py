@@ -12,7 +12,6 @@ from bihdist_core import ParameterError, Surface
 from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
-from bihdist_core.distances.distance import Distance
 from bihdist_core.distances.distance_types import Spec
 from bihdist_core.version import VERSION
 
@@ -120,6 +119,7 @@ def scene_of(
         "isolines": {**_isolines(first), "colour": _bytes(style.isoline), "width": style.isoline_width},
         "crease": crease_of(surface, document.shading),
         "clip": None if clip is None else [*clip.normal, clip.offset],
+        "opacity": document.opacity,
         "areas": document.areas,
         "notes": [*_of_surface(surface), *notes_on(document, len(figure.panels[0].views)), *notes],
     }
@@ -155,16 +155,16 @@ def _panel(contents: Contents, panel: Panel, figure: Figure, k: int, answer: Ans
     }
 
 
-def offered_panel(name: str, spec: Spec, distance: Distance, range: str) -> Json:
+def offered_panel(name: str, spec: Spec, label: str, unit: str, range: str) -> Json:
     """Return a panel of a distance that the reader has chosen; its colour bar ends at its own maximum."""
     return {
         "distance": name,
-        "label": distance.label,
+        "label": label,
         "parameters": _parameters([spec]),
         "signed": False,
         "note": "",
         "range": None,
-        "unit": distance.unit,
+        "unit": unit,
         "shares": range == "fraction",
     }
 

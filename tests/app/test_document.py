@@ -132,6 +132,7 @@ TASTE = (
     {"colours": Colours("ember", reversed=True, bands=True)},
     {"shading": Shading("flat", show_edges=True)},
     {"clip": Clip((0.0, -1.0, 0.5), 0.25)},
+    {"opacity": 0.25},
     {"parallel_projection": True, "axes": True, "extrema": True, "areas": "barycentric", "snap": False},
 )
 

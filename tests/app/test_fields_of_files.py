@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import app
 from app.document.document import Document, FieldArray, comparison, free_field_name
@@ -228,8 +229,12 @@ def test_labels_have_colours_names_and_a_legend(mesh, labels, tmp_path, capsys):
     out = tmp_path / "f.png"
     said = ran(capsys, "figure", mesh, "--field", labels, "--distance", "sides", *SMALL, "-o", out).err
     assert "There is no legend of labels on a page of given height; give its width only." in said
-    movie = ("movie", mesh, "--field", labels, "--distance", "sides", "--frames", "2", "-o", tmp_path / "m.gif")
-    ran(capsys, *movie)
+    movie = ("movie", mesh, "--field", labels, "--distance", "sides", "--frames", "2", "--size", "500")
+    ran(capsys, *movie, "-o", tmp_path / "%d.png")
+    for number in "12":
+        with Image.open(tmp_path / f"{number}.png") as frame:
+            under = np.asarray(frame)[-30:]
+        assert [(under == colour).all(axis=2).sum() > 30 for colour in ([0, 0, 255], [255, 0, 0])] == [True, True]
 
 
 def test_a_legend_of_many_labels_names_the_largest(mesh, tmp_path, capsys):

@@ -156,6 +156,7 @@ EXAMPLES = {
     "Document.colours": lambda d, p: (replace(d, colours=Colours(reversed=True)), p),
     "Document.shading": lambda d, p: (replace(d, shading=Shading("flat")), p),
     "Document.clip": lambda d, p: (replace(d, clip=Clip((0.0, -1.0, 1 / 3), 0.1 + 0.2)), p),
+    "Document.opacity": lambda d, p: (replace(d, opacity=0.1 + 0.2), p),
     "Document.up": lambda d, p: (replace(d, up="-x"), p),
     "Document.parallel_projection": lambda d, p: (replace(d, parallel_projection=True), p),
     "Document.axes": lambda d, p: (replace(d, axes=True), p),

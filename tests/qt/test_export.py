@@ -116,7 +116,7 @@ def test_a_movie_is_a_gif_at_first_where_no_mp4_can_be_written(shared_screen, mo
     dialog = export_movie(s.window.context)
     assert dialog.kinds.choice() == "GIF"
     labels = [label.text() for label in dialog.findChildren(QtWidgets.QLabel) if label.isVisible()]
-    assert "MP4 needs the package imageio-ffmpeg" in labels
+    assert "MP4 and WebM need the package imageio-ffmpeg" in labels
     copy = next(each for each in dialog.findChildren(QtWidgets.QPushButton) if each.text() == "Copy the command")
     copy.click()
     line = f"{sys.executable} -m pip install imageio-ffmpeg"
@@ -124,7 +124,7 @@ def test_a_movie_is_a_gif_at_first_where_no_mp4_can_be_written(shared_screen, mo
     # It is said before a file is asked for.
     dialog.kinds.buttons["MP4"].click()
     dialog.choose_path()
-    assert dialog.refusal.text() == f"MP4 needs the package imageio-ffmpeg: {line}"
+    assert dialog.refusal.text() == f"MP4 and WebM need the package imageio-ffmpeg: {line}"
     assert dialog.findChildren(QtWidgets.QFileDialog) == []
     dialog.close()
     pytest.MonkeyPatch.undo(monkeypatch)

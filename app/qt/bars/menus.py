@@ -86,10 +86,11 @@ class Menus:
         self.views, self.source, self.tools, keys, standard, self.repairs = (
             QtWidgets.QMenu(title, context.widget) for title in titles
         )
+        brain, scale = (QtWidgets.QMenu(title, context.widget) for title in ("Brain (RAS)", "Axes and scale"))
+        self._fill(scale, [*switches_in("scale"), "unit"])
         named, at_pointer = [f"view {name}" for name in VIEWS], ["centre", "zoom to"]
-        cameras, walked = [*switches_in("camera"), "link"], ["view before", "view after"]
+        cameras, walked = [*switches_in("camera"), scale, "link"], ["view before", "view after"]
         self._fill(keys, TURNS)
-        brain = QtWidgets.QMenu("Brain (RAS)", context.widget)
         self._fill(brain, [f"view {name}" for name in ANATOMICAL[:6]])
         self._fill(standard, [*named, brain, None, *walked])
         self._fill(self.open, ["open", "open beside", None, self.recent, self.samples])
@@ -129,7 +130,10 @@ class Menus:
         self._fill(edit, ["copy camera", "paste camera", None, "clear by-products", "clear surface", None])
         self._fill(edit, ["preferences"])
         # What the tool bar's menu shows one below the other has submenus here, so that all is seen on small screens.
-        self._fill(view, ["reset", standard, self.up, keys, None, *cameras, None, *at_pointer, None])
+        self._fill(
+            view,
+            ["reset", standard, self.up, keys, None, *cameras, None, *at_pointer, None],
+        )
         self._fill(view, [*docks("View"), None])
         self._fill(view, [self.isolines, self.colours, self.range, self.shading, None, self.theme, "full screen"])
         edits = (f"panel {word}" for word in panel_edits() if word != ADD)

@@ -34,7 +34,7 @@ LABEL, LABEL_BESIDE = 116, 96
 
 @dataclass(frozen=True)
 class FileKind:
-    """A format: its extension with the dot, its name on the button, and its words in the file dialog."""
+    """A format: what its usual name ends with, its name on the button, and its words in the file dialog."""
 
     extension: str
     name: str
@@ -124,12 +124,11 @@ class JobDialog(QtWidgets.QDialog):
 
     def _ask_path(self) -> None:
         kind = next(kind for kind in self.file_kinds if kind.name == self.kinds.choice())
-        files = QtWidgets.QFileDialog(
-            self, self.windowTitle(), self._exports.folder, f"{kind.words} (*{kind.extension})"
-        )
+        ending = kind.extension.rpartition(".")[2]
+        files = QtWidgets.QFileDialog(self, self.windowTitle(), self._exports.folder, f"{kind.words} (*.{ending})")
         files.setAttribute(QtCore.Qt.WidgetAttribute.WA_DeleteOnClose)
         files.setAcceptMode(QtWidgets.QFileDialog.AcceptMode.AcceptSave)
-        files.setDefaultSuffix(kind.extension.removeprefix("."))
+        files.setDefaultSuffix(ending)
         files.selectFile(self._name + kind.extension)
         files.fileSelected.connect(self.export)
         files.open()

@@ -9,7 +9,8 @@ from bihdist_core import BihdistError, ParameterError, VertexError
 
 from ...document.page import Recipe
 from ...figures.export import Surfaces
-from ...figures.movie import Movie, check_movie, mp4_lack, write_movie
+from ...figures.movie import SWING, Movie, write_movie
+from ...figures.movie_files import check_movie, encoder_lack
 from ..context import Context
 from ..look.form import Count, describe
 from ..look.layouts import in_row, push_button, quiet_label
@@ -21,7 +22,12 @@ class MovieDialog(LooksDialog):
     """A movie of what the window shows."""
 
     what = "Movie"
-    file_kinds = (FileKind(".mp4", "MP4", "MP4 movie"), FileKind(".gif", "GIF", "GIF"))
+    file_kinds = (
+        FileKind(".mp4", "MP4", "MP4 movie"),
+        FileKind(".webm", "WebM", "WebM movie"),
+        FileKind(".gif", "GIF", "GIF"),
+        FileKind("-%04d.png", "PNG", "PNG frames"),
+    )
     sizes = (
         ("Default", "", "fits the movement"),
         ("Small", "640px", "640 px wide"),
@@ -30,17 +36,23 @@ class MovieDialog(LooksDialog):
 
     def __init__(self, context: Context, recipe: Recipe, surfaces: Surfaces) -> None:
         super().__init__(context, recipe, surfaces)
-        if lack := mp4_lack():
+        if lack := encoder_lack():
             self.kinds.choose("GIF")
             self._add_advice(lack)
         self.form.section("Movement")
         self.turn = Count(-3600, 3600, 360, suffix="°")
         self.path_text = QtWidgets.QLineEdit(placeholderText="e.g. 12, 900")
+        self.sweep_text = QtWidgets.QLineEdit(placeholderText="e.g. t=4..1/60")
         self.frames = Count(2, 10_000, 120)
         self.fps = Count(1, 50, 25)
         self.length = quiet_label()
         self.form.row("&Turn by", self.turn, "Rotation from the first frame to the last; 0 for none")
+        tip = "Turn to one side and back to the other, with the source in view"
+        self.swing = self.form.tick("Back an&d forth", False, tip)
+        self.swing.toggled.connect(lambda is_on: self.turn.setValue(round(SWING) if is_on else 360))
         self.form.row("Source &path", self.path_text, "Ids of the vertices that the source moves through, along edges")
+        tip = "Values that a parameter of the distances takes: a range such as t=4..1/60, or several, k=10,50,200"
+        self.form.row("Para&meter", self.sweep_text, tip)
         self.form.row("&Frames", self.frames, "Number of frames")
         self.form.row("Frames per &second", self.fps, "Frame rate")
         self.form.row("Length", self.length, "How long the movie lasts")
@@ -52,7 +64,7 @@ class MovieDialog(LooksDialog):
         self.add_shares()
 
     def choose(self, format: str, size: str) -> None:
-        super().choose("GIF" if mp4_lack() else format, size)
+        super().choose("GIF" if encoder_lack() else format, size)
 
     def _add_advice(self, lack: str) -> None:
         """Add under the formats what MP4 needs, with a button that copies the command that installs it."""
@@ -64,20 +76,21 @@ class MovieDialog(LooksDialog):
         self.form.column.insertLayout(2, in_row(quiet_label(words), copy, None))
 
     def check(self) -> None:
-        if self.kinds.choice() == "MP4" and (lack := mp4_lack()):
+        if self.kinds.choice() in ("MP4", "WebM") and (lack := encoder_lack()):
             raise BihdistError(lack)
         self._movie()
         self.check_size(self.chosen())
 
     def work(self, path: str) -> Callable[..., object]:
-        check_movie(path)
+        check_movie(path, self.frames.value())
         return partial(write_movie, self._movie(), path, given=self._given)
 
     def _movie(self) -> Movie:
         with blamed_on(self.path_text):
             stops = self._stops()
-        with blamed_on(self.path_text if stops else self.turn):
-            return Movie(self.chosen(), self.turn.value(), stops, self.frames.value(), self.fps.value())
+        sweep, length = self.sweep_text.text().strip(), (self.frames.value(), self.fps.value())
+        with blamed_on(self.path_text if stops else self.sweep_text if sweep else self.turn):
+            return Movie(self.chosen(), self.turn.value(), self.swing.isChecked(), stops, sweep, *length)
 
     def _stops(self) -> tuple[int, ...]:
         text = self.path_text.text().strip()

@@ -3,6 +3,7 @@
 Shows what a session knows; decides nothing."""
 
 from collections.abc import Callable, Collection
+from dataclasses import replace
 
 from qtpy import QtCore, QtGui, QtWidgets
 
@@ -14,6 +15,7 @@ from ...document.second_mesh_edits import MOST_SHOWN, letter_of
 from ...document.settings import Preferences
 from ...scene.offscreen_renderer import OffscreenRenderer
 from ...scene.style import PAPER, Style
+from ...session.answering import Shown
 from ...session.bar_ends import bar_end, ends_with
 from ...session.base import BaseGreys
 from ...session.session import Session
@@ -198,6 +200,7 @@ class PanelGrid(QtWidgets.QWidget):
         panel.view.wheel_factor = self.wheel_factor
         panel.view.upright = controller.upright
         panel.view.over.show_axes(self._session.document.axes)
+        panel.view.over.show_scale_bar(self._session.document.scale_unit)
         self.marks.begin(panel)
         panel.show()
 
@@ -245,14 +248,19 @@ class PanelGrid(QtWidgets.QWidget):
         for other in ends_with(document, shown, id):
             if other in self._panels:
                 end, in_shares = bar_end(document, shown, other, self._session.loaded), document.range == "fraction"
-                self._panels[other].show_answer(shown[other], end, document.warp_factor, in_shares)
+                self._panels[other].show_answer(self._in_unit(shown[other]), end, document.warp_factor, in_shares)
                 self.marks.show_isolines_again(document, other)
                 self.marks.show_in(document, other)
         self.pointing.show_again_soon()
 
     def show_error_estimate(self, id: int) -> None:
         """Show in a panel's head how accurate its answer is."""
-        self._panels[id].show_error_estimate(self._session.shown[id])
+        self._panels[id].show_error_estimate(self._in_unit(self._session.shown[id]))
+
+    def _in_unit(self, shown: Shown) -> Shown:
+        """Return an answer in the unit that the document names."""
+        unit = self._session.document.unit_of(shown.answer.unit)
+        return shown if unit == shown.answer.unit else replace(shown, answer=replace(shown.answer, unit=unit))
 
     # ------------------------------------------------------------------ the camera
     def _placed(self) -> None:
@@ -264,9 +272,15 @@ class PanelGrid(QtWidgets.QWidget):
         for panel in self.panels:
             panel.view.over.show_axes(has_axes)
 
-    def show_clip(self) -> None:
-        """Cut all surfaces by the document's plane; large ones are drawn in full once it rests."""
-        changed = [panel.show_clip(self._session.document.clip) for panel in self.panels]
+    def show_scale_bar(self, document: Document) -> None:
+        """Show in all panels how long a round length is, or no longer."""
+        for panel in self.panels:
+            panel.view.over.show_scale_bar(document.scale_unit)
+
+    def show_inside(self) -> None:
+        """Cut all surfaces by the document's plane, and let them be translucent; large ones are drawn in full later."""
+        document = self._session.document
+        changed = [panel.show_inside(document.clip, document.opacity) for panel in self.panels]
         if any(changed):
             self.motion.moved()
 

@@ -158,7 +158,7 @@ def label_request(panel: DistancePanel) -> LabelRequest | None:
     texts = {value_text(value) for part in parts for value in part.levels.values}
     return LabelRequest(
         panel.shape,
-        outward_faces(scene.field_actor.mesh, is_cut=view.clip is not None),
+        outward_faces(scene.field_actor.mesh, view.clip is not None, scene.field_actor.opacity),
         view.clip,
         answer.field,
         SeenNow(view.camera, width / max(height, 1)),

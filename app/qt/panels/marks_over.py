@@ -1,5 +1,6 @@
 """All that lies over the picture of a view, painted by Qt: the surface is drawn for none of it."""
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ from ...drawing.axes import axes_shapes, middle
 from ...drawing.line_looks import SOURCE
 from ...drawing.painters.qt import box_of, paint, rectangle, rgba_of
 from ...drawing.pointer import REACH, ring_shapes
+from ...drawing.scale_bar import corner_of_bar, scale_bar_shapes
 from ...drawing.shapes import Box, Path, Shape, polyline
 from ...marks.primitives import LegendRow
 from ...scene.camera import camera_seen, frame
@@ -45,6 +47,7 @@ class MarksOver:
         self.notes: Sequence[str] = ()
         self.strokes: Sequence[AnyArray] = ()  # (k, 3) each: what has been drawn
         self._has_axes = False
+        self._scale_unit = ""
         self._covered = QtCore.QRect()  # by the ring and its label
         self._dabs: list[tuple[str, QtGui.QPolygonF]] = []  # of a brush that is down
 
@@ -65,6 +68,12 @@ class MarksOver:
         """Show or hide the cross in a corner that says where x, y and z point to."""
         if has_axes != self._has_axes:
             self._has_axes = has_axes
+            self._view.update()
+
+    def show_scale_bar(self, unit: str) -> None:
+        """Show a scale bar in a unit, "" for none."""
+        if unit != self._scale_unit:
+            self._scale_unit = unit
             self._view.update()
 
     def point_at(self, pointed: Pointed | None) -> None:
@@ -111,7 +120,12 @@ class MarksOver:
             painter.drawPoints(places)
         self.points.paint_flat(painter)
         room = box_of(view.rect())
-        shapes = [*self._axes(), *text_shapes(self.points.texts(), room), *self.points.standing_shapes()]
+        shapes = [
+            *self._axes(),
+            *self._scale_bar(),
+            *text_shapes(self.points.texts(), room),
+            *self.points.standing_shapes(),
+        ]
         if not self.sentence:
             shapes += overlay.legend_shapes(room, view.scene.style, self.legend)
             top = ROW * LOOK.scale if self.legend else 0.0
@@ -126,8 +140,22 @@ class MarksOver:
         view = self._view
         if not self._has_axes:
             return []
-        at, colour = middle(view.width(), view.height(), view.scene.insets.corners), rgba_of(LOOK.theme.quiet)
+        taken = [*view.scene.insets.corners]
+        taken += [corner_of_bar(taken)] * bool(self._scale_unit)
+        at, colour = middle(view.width(), view.height(), taken), rgba_of(LOOK.theme.quiet)
         return axes_shapes(frame(camera_seen(view.camera, 1.0)), at, AXIS_LETTER * LOOK.scale, AXIS_WIDTH, colour)
+
+    def _scale_bar(self) -> list[Shape]:
+        if not self._scale_unit:
+            return []
+        view, camera, theme = self._view, self._view.camera, LOOK.theme
+        is_parallel = bool(camera.GetParallelProjection())
+        slope = math.tan(math.radians(camera.GetViewAngle() / 2))
+        half = camera.GetParallelScale() if is_parallel else slope * camera.GetDistance()
+        words = "" if is_parallel else "≈ ", self._scale_unit
+        ink, ground, letter = rgba_of(theme.quiet), rgba_of(theme.canvas, 0.7), AXIS_LETTER * LOOK.scale
+        per_unit, taken = view.height() / (2 * half), view.scene.insets.corners
+        return scale_bar_shapes(box_of(view.rect()), per_unit, words, taken, letter, AXIS_WIDTH, ink, ground)
 
     def _stroke_shapes(self) -> list[Shape]:
         view = self._view

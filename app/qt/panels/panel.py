@@ -76,7 +76,7 @@ class DistancePanel(QtWidgets.QWidget):
         self._raised: tuple[int, float, float] | None = None  # its field, where that ends, and its height
         self._shading, self._drawn = AS_IT_IS, NOTHING  # of the surface as it lies
         self._insets: tuple[Inset, ...] = ()
-        self._clip: Clip | None = None
+        self._inside: tuple[Clip | None, float] = (None, 1.0)  # the clip, and the opacity
         self.isolines = TWENTY_STEPS  # of the document
         self._top = 0.0  # where the colours of the answer end
         self.answer: Answer | None = None
@@ -138,7 +138,7 @@ class DistancePanel(QtWidgets.QWidget):
         self.view.scene.show_surface(self._drawn.mesh, loaded.prepared.bounds)
         self._field_actor.stand_in.take(self._drawn.stand_in)
         self._field_actor.show_bare()
-        self.show_clip(self._clip)
+        self.show_inside(*self._inside)
         self.view.show_empty(False)
 
     def show_shading(self, shading: Shading, drawn: Drawn) -> None:
@@ -153,12 +153,14 @@ class DistancePanel(QtWidgets.QWidget):
         self._shading, self._drawn = shading, drawn
         self.view.redraw()
 
-    def show_clip(self, clip: Clip | None) -> bool:
-        """Cut the surface as it is drawn by a plane, or no longer; return whether it is another one."""
-        self._clip, before = clip, self.view.clip
-        self._field_actor.show_clip(None if self.shape is None else clip_plane(clip, self.shape))
+    def show_inside(self, clip: Clip | None, opacity: float) -> bool:
+        """Cut the surface as it is drawn by a plane, and let it be translucent; return whether that is otherwise."""
+        actor = self._field_actor
+        self._inside, before = (clip, opacity), (actor.clip, actor.opacity)
+        actor.show_clip(None if self.shape is None else clip_plane(clip, self.shape))
+        actor.show_opacity(opacity)
         self.view.redraw()
-        return self.view.clip != before
+        return (actor.clip, actor.opacity) != before
 
     def show_base(self, base: Greys | None, has_coloured_isolines: bool) -> None:
         """Show greys instead of the field's colours, which isolines may have; or these again."""
@@ -307,7 +309,7 @@ class DistancePanel(QtWidgets.QWidget):
             self.view.picker = Picker(shape)  # whose blocks are made when somebody points at it
             scene.show_shape(drawable(shape, self._shading), (*others, low - up, high + up))
             scene.field_actor.stand_in.take(None)
-        self.show_clip(self._clip)
+        self.show_inside(*self._inside)
         self.marks.follow(shape)
         self.show_insets(self._insets)
         self.settle_insets()

@@ -131,7 +131,9 @@ class PointMarks(QtCore.QObject):
         return group.is_seen
 
     def _look(self, group: MarkGroup) -> None:
-        group.is_seen = np.array([self._view.sees(position) for position in group.positions], bool)
+        # Through a surface that is translucent all are.
+        is_translucent = self._view.scene.field_actor.opacity < 1
+        group.is_seen = np.array([is_translucent or self._view.sees(position) for position in group.positions], bool)
         group.looked_from = self._camera()
 
     def _refit(self) -> None:

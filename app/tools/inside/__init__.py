@@ -1,4 +1,4 @@
-"""The inside of surfaces: a clip plane."""
+"""The inside of surfaces: a clip plane, and translucency."""
 
 from ...document.tools import Tool
 
@@ -8,9 +8,9 @@ TOOL = Tool(
     title="See inside",
     text="See insi&de",
     key="T",
-    tip="Cut surfaces by a plane, to see what they hide",
+    tip="Cut surfaces by a plane, or let them be translucent, to see what they hide",
     icon="inside",
     menu="View",
-    synonyms="clip clipping plane cut section slice half open interior cross",
+    synonyms="opacity transparent translucent x-ray glass alpha clip clipping plane cut section slice half interior",
     dock="dock:InsideDock",
 )

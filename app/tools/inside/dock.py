@@ -1,4 +1,4 @@
-"""The dock by which one sees inside surfaces: the clip plane's direction, and how much of a surface is left."""
+"""The dock by which one sees inside surfaces: a clip plane, and their opacity."""
 
 from dataclasses import replace
 
@@ -21,6 +21,9 @@ LABEL_WIDTH_PX, BOX_WIDTH_PX = 56, 54
 NONE, VIEW = "none", "view"
 """Words of the directions that are no axes."""
 
+LEAST_OPACITY = 5
+"""Percent: what is less opaque is lost."""
+
 PERCENT = Scale(0, 100, steps=1000, digits=1)
 
 
@@ -34,7 +37,7 @@ class PercentRow(SliderBox):
 
 
 class InsideDock(Instrument):
-    """The clip plane of all surfaces."""
+    """The clip plane of all surfaces, and their opacity."""
 
     word = "inside"
 
@@ -43,14 +46,20 @@ class InsideDock(Instrument):
         directions = {"Whole": NONE, "x": "x", "y": "y", "z": "z", "View": VIEW}
         self.direction = Segments(directions, "Cut across")
         self.kept = PercentRow("Kept", "The part of the surface's extent across the plane that is left")
+        self.opacity = PercentRow("Opacity", "Below 100 %, what is behind the surface is seen")
         self.flip = push_button("Other side", self._flip, "Show what is cut away, and cut away what is shown")
         form = Form(LABEL_WIDTH_PX)
+        form.section("Clip plane")
         form.row("Cut", self.direction, "Cut across an axis, or across the line of sight of the active panel")
         form.row("Kept", self.kept)
-        form.row("Side", self.flip)
-        inside = QtWidgets.QWidget()
+        other, inside = QtWidgets.QWidget(), QtWidgets.QWidget()
+        in_row(self.flip, None, of=other, spacing=0)
+        form.row("Side", other)
+        form.section("Translucency")
+        form.row("Opacity", self.opacity)
         in_column(form, None, of=inside, spacing=8, margins=(PAD, 8, PAD, PAD))
         fill(self, inside)
+        self.opacity.valued.connect(self._let_through)
         self.direction.chosen.connect(self._choose)
         self.kept.valued.connect(lambda percent, _: self._show(replace(self._clip, kept=percent / 100), "clip"))
 
@@ -65,6 +74,7 @@ class InsideDock(Instrument):
         for widget in (self.kept, self.flip):
             widget.setEnabled(clip is not None)
         self.kept.show_value(round(100 * self._clip.kept, 6))
+        self.opacity.show_value(round(100 * document.opacity, 6))
         self.note_changed.emit("" if clip is None else f"{100 * clip.kept:.3g} %")
 
     def _choose(self, word: str) -> None:
@@ -80,6 +90,10 @@ class InsideDock(Instrument):
     def _flip(self) -> None:
         x, y, z = self._clip.normal
         self._show(Clip((0.0 - x, 0.0 - y, 0.0 - z), round(1 - self._clip.kept, 12)))
+
+    def _let_through(self, percent: float, is_live: bool) -> None:
+        opacity = max(percent, LEAST_OPACITY) / 100
+        self.context.session.show(replace(self.document, opacity=opacity), "opacity")
 
     def _show(self, clip: Clip | None, key: str = "") -> None:
         self.context.session.show(replace(self.document, clip=clip), key)

@@ -25,11 +25,14 @@ export class Drawing {
     gl.useProgram(program);
     this.at = new Proxy({}, { get: (known, name) => (known[name] ??= gl.getUniformLocation(program, name)) });
     gl.uniform1i(this.at.levels, 1);
+    gl.uniform1f(this.at.opacity, shape.opacity);
+    // As much of the ground shows through; the picture itself is opaque.
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);
     gl.uniform4fv(this.at.clip, shape.clip ?? [0, 0, 0, 1]);
     gl.enable(gl.DEPTH_TEST);
     gl.enable(gl.SCISSOR_TEST);
     // What is behind a closed surface costs as much as the rest.
-    const side = this.isSoftware && !shape.clip ? outside(shape) : 0;
+    const side = this.isSoftware && !shape.clip && shape.opacity === 1 ? outside(shape) : 0;
     gl.cullFace(side < 0 ? gl.FRONT : gl.BACK);
     if (side) gl.enable(gl.CULL_FACE);
     const { places, normals, corners: drawn } = shape.drawn;
@@ -146,9 +149,31 @@ export class Drawing {
       gl.activeTexture(gl.TEXTURE0);
       gl.bindTexture(gl.TEXTURE_2D, panel.colours);
       gl.bindVertexArray(panel.held);
-      gl.drawElements(gl.TRIANGLES, 3 * this.shape.m, gl.UNSIGNED_INT, 0);
+      if (this.shape.opacity < 1) this.#drawLayers();
+      else this.#drawFaces();
     }
     gl.bindVertexArray(null);
+  }
+
+  #drawFaces() {
+    this.gl.drawElements(this.gl.TRIANGLES, 3 * this.shape.m, this.gl.UNSIGNED_INT, 0);
+  }
+
+  /** The nearest back faces, and before them the nearest front faces; each where it is nearest, which is found first. */
+  #drawLayers() {
+    const { gl } = this;
+    gl.enable(gl.CULL_FACE);
+    gl.depthFunc(gl.LEQUAL);
+    for (const hidden of [gl.FRONT, gl.BACK]) {
+      gl.cullFace(hidden);
+      gl.clear(gl.DEPTH_BUFFER_BIT);
+      gl.colorMask(false, false, false, false);
+      this.#drawFaces();
+      gl.colorMask(true, true, true, true);
+      gl.enable(gl.BLEND);
+      this.#drawFaces();
+      gl.disable(gl.BLEND);
+    }
   }
 
   destroy() {

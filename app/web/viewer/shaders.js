@@ -30,7 +30,7 @@ precision highp float;
 in float clipAt, valueAt, lightAt, shineAt;
 uniform sampler2D colours, levels;
 uniform vec3 undefinedColour, backColour, lineColour;
-uniform float hasBacks, lineFirst, lineStep, halfWidth, zeroAt;
+uniform float hasBacks, opacity, lineFirst, lineStep, halfWidth, zeroAt;
 uniform int lineCount;
 out vec4 colour;
 const vec3 INK = vec3(0.08, 0.085, 0.1);
@@ -75,5 +75,5 @@ void main() {
 #ifdef CLIPPED
   shown = mix(shown, INK, painted(clipAt / max(length(vec2(dFdx(clipAt), dFdy(clipAt))), 1e-9), 2.4 * halfWidth));
 #endif
-  colour = vec4(shown, 1.0);
+  colour = vec4(shown, opacity);
 }`;

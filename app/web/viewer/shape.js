@@ -7,10 +7,10 @@ export class Shape {
    * drawn: `places` and `normals` of the vertices and, from n on, of their `copies` at creases, and the `corners` of faces
    * among these.  hasBacks: the faces turn counterclockwise outside, and their other side can be seen.
    * @param {{n: number, m: number, positions: Float64Array, faces: Int32Array}} mesh
-   * @param {{crease: number | null, backs: boolean, clip: number[] | null}} shading clip: x, y and z of a plane's normal,
+   * @param {{crease: number | null, backs: boolean, clip: number[] | null, opacity: number}} shading clip: x, y and z of a plane's normal,
    *   beyond which the surface is cut away, and its distance from the origin along that
    */
-  constructor({ n, m, positions, faces, faceComponents }, { crease, backs, clip } = { crease: null, backs: false }) {
+  constructor({ n, m, positions, faces, faceComponents }, { crease, backs, clip, opacity } = { crease: null, backs: false, opacity: 1 }) {
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
     for (let k = 0; k < 3 * n; k++) {
       low[k % 3] = Math.min(low[k % 3], positions[k]);
@@ -29,6 +29,7 @@ export class Shape {
     for (const [k, vertex] of copies.entries()) places.set(this.place(vertex), 3 * (n + k));
     this.drawn = { places, normals: vertexNormals(places, corners), corners, copies };
     this.hasBacks = backs;
+    this.opacity = opacity;
     const normal = clip && clip.slice(0, 3), onPlane = clip && this.inward(normal.map((x) => clip[3] * x));
     this.clip = clip && [...normal.map((x) => -x), dot(normal, onPlane)];
   }

@@ -69,12 +69,12 @@ export class Sight {
     return hit && shape.depth(hit.point) > -1e-6 ? { ...hit, away: hit.away + start } : null;
   }
 
-  /** Whether the surface leaves a vertex in sight. */
+  /** Whether the surface leaves a vertex in sight, as a translucent one does. */
   isSeen(vertex) {
     if (!this.seen.has(vertex)) {
       const place = this.shape.place(vertex), ray = this.camera.rayTo(place), hit = this.#met(ray);
       const isLeft = this.shape.depth(place) >= 0;
-      this.seen.set(vertex, isLeft && (!hit || hit.away > Math.hypot(...place.map((x, axis) => x - ray.origin[axis])) - 0.01));
+      this.seen.set(vertex, isLeft && (this.shape.opacity < 1 || !hit || hit.away > Math.hypot(...place.map((x, axis) => x - ray.origin[axis])) - 0.01));
     }
     return this.seen.get(vertex);
   }

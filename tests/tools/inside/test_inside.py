@@ -100,3 +100,27 @@ def test_a_height_field_is_cut_as_it_is_drawn(opened):
     heights = panel.shape.vertices[:, 2]
     assert np.ptp(heights) > 0
     assert panel.view.clip.offset == pytest.approx((heights.min() + heights.max()) / 2)
+
+
+def test_through_what_is_translucent_pins_behind_it_are_seen(opened):
+    s, dock = opened(bumpy(600))
+    view = s.window.grid.panels[0].view
+    surface = s.window.session.loaded().surface
+    along = surface.vertices @ np.array(view.camera.GetDirectionOfProjection())
+    s.session.apply(lambda document: add_pins(document, [int(along.argmax())]))
+    s.settle(0.1)
+    before = s.pictures()
+    assert [each.is_seen for each in view.over.points.placed("pins")] == [False]
+    for step in (700, 500, 400):
+        dock.opacity.slider.setValue(step)
+    s.settle(0.1)
+    assert s.document.opacity == 0.4
+    assert [each.is_seen for each in view.over.points.placed("pins")] == [True]
+    assert min(float(np.abs(a.astype(int) - b).mean()) for a, b in zip(s.pictures(), before, strict=True)) > 2
+    dock.opacity.slider.setValue(0)
+    assert s.document.opacity == 0.05
+    s.session.undo()
+    s.settle(0.1)
+    assert s.document.opacity == 1
+    for one, other in zip(s.pictures(), before, strict=True):
+        np.testing.assert_array_equal(one, other)

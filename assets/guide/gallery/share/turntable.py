@@ -2,8 +2,8 @@
 Movie of a turning shape
 ========================
 
-Any figure can turn: ``save_movie`` writes a GIF, or an MP4 with the extra ``movie``. On the command line, the source
-can also move, through the vertices given by ``--path``.
+Any figure can turn: ``save_movie`` writes a GIF, or with the extra ``movie`` an MP4 or WebM. It can also swing back and
+forth, let the source move through some vertices, and change a parameter such as the diffusion time.
 """
 
 import bihdist

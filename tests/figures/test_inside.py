@@ -1,4 +1,8 @@
-"""Clip planes: what is cut away leaves no pixel, no line and no mark, and the section line is where it must be."""
+"""What is seen of the inside: of surfaces that are cut, and of those that are translucent.
+
+What is cut away leaves no pixel, no line and no mark, and the section line is where it must be; what is translucent is
+blended by depth.
+"""
 
 from dataclasses import replace
 
@@ -8,11 +12,11 @@ import pytest
 import app
 from app.document.document import comparison
 from app.document.file import recipe_from_text, recipe_text
-from app.document.looks import AXES, Clip
+from app.document.looks import AXES, NO_LINES, Clip
 from app.document.page import Recipe
 from app.drawing.line_looks import PATH, SECTION
 from app.figures.description import Figure, FigurePanel
-from app.figures.draw import lay_out
+from app.figures.draw import lay_out, save_figure
 from app.figures.hidden_lines import Curve, HiddenLineRemoval
 from app.figures.shots import take_shots
 from app.figures.size import Size
@@ -30,10 +34,10 @@ from tests.shapes import bumpy, grid, sphere, torus
 OBLIQUE = Clip((0.3, -0.2, 0.9), 0.45)
 
 
-def shot_of(surface, clip, style="paper", **more):
+def shot_of(surface, clip=None, style="paper", **more):
     """The picture of a surface with its height as the field, seen along z without perspective."""
     field = surface.vertices[:, 1] - surface.vertices[:, 1].min()
-    panel = FigurePanel(surface, field, clip=clip, views=("front",), is_parallel=True, up="y", **more)
+    panel = FigurePanel(surface, field, clip=clip, is_parallel=True, up="y", **{"views": ("front",), **more})
     figure = Figure((panel,), size=Size.parse("300x300"), style=STYLES[style])
     return take_shots(figure, lay_out(figure), silent)[0]
 
@@ -208,9 +212,87 @@ def test_the_inside_of_a_closed_body_shows_no_isolines_once_it_is_cut():
     assert sight.section()
 
 
+def test_marks_that_are_cut_away_are_named(tmp_path):
+    surface = bumpy(300)
+    far, near = int(surface.vertices[:, 0].argmax()), int(surface.vertices[:, 0].argmin())
+    marks = PointMark(far), PointMark(near), PointMark(far, number=2)
+    for given, said in (
+        (marks[1:2], []),
+        (marks[:2], [f"Vertex {far} is cut away by the clip plane."]),
+        (marks, [f"Vertex {far} and 1 other mark are cut away by the clip plane."]),
+    ):
+        panel = FigurePanel(surface, None, views=("left", "right"), marks=given, clip=Clip())
+        assert save_figure(Figure((panel,), size=Size.parse("200x200")), tmp_path / "cut.png") == said
+
+
 def test_figures_take_a_plane_in_python_and_draw_it_again(tmp_path):
     picture = app.figure("hand", ["biharmonic"], 12, view={"clip": "-z@0.4"}, layout={"size": "160x160"})
     pixels = picture.pixels
     assert (pixels != app.figure("hand", ["biharmonic"], 12, layout={"size": "160x160"}).pixels).any()
     picture.save(tmp_path / "cut.png")
     np.testing.assert_array_equal(app.figure_again(tmp_path / "cut.json").pixels, pixels)
+
+
+# ---------------------------------------------------------------------- translucency
+def sheets(*heights):
+    """Squares on top of each other, the first the largest, so that parts of it lie under none, one or more of them."""
+    flat = [grid(6, 6).vertices * [1 / (k + 1), 1, 0] + [0, 0, z] for k, z in enumerate(heights)]
+    faces = [grid(6, 6).faces + k * len(flat[0]) for k in range(len(flat))]
+    return Surface(np.concatenate(flat), np.concatenate(faces))
+
+
+@pytest.mark.parametrize("opacity", [0.2, 0.5, 0.8])
+def test_layers_let_through_what_they_should(opacity):
+    shot = shot_of(sheets(0.0, 1.0, 2.0), opacity=opacity, isolines=NO_LINES)
+    values, counts = np.unique(shot.image[..., 3], return_counts=True)
+    common = {int(value) for value, count in zip(values, counts, strict=True) if count > 500 and value}
+    wanted = [255 * (1 - (1 - opacity) ** layers) for layers in (1, 2, 3)]
+    assert len(common) == 3
+    # Of each layer the graphics round.
+    np.testing.assert_allclose(sorted(common), wanted, atol=2)
+    assert shot.cover.max() == 255
+    inside = shot.image[..., 3] >= min(common)
+    assert shot.cover[inside].min() >= 254
+
+
+def test_the_order_of_faces_does_not_matter_to_what_is_seen_through():
+    surface = torus(48, 24)
+    turned = Surface(surface.vertices, surface.faces[np.random.default_rng(3).permutation(len(surface.faces))])
+    tilted = {"opacity": 0.4, "isolines": NO_LINES, "views": ("home",)}
+    one, other = (shot_of(each, **tilted).image.astype(int) for each in (surface, turned))
+    assert np.abs(one - other).max() <= 3
+    assert len(np.unique(one[..., 3])) > 3
+    opaque = shot_of(surface, **{**tilted, "opacity": 1.0}).image.astype(int)
+    assert np.abs(one - opaque).mean() > 5
+
+
+def test_what_is_behind_a_translucent_surface_is_drawn():
+    surface = bumpy(2000)
+    z = surface.vertices[:, 2]
+    marks = (PointMark(int(z.argmin())),)
+    field = surface.vertices[:, 0] + 0.01 * z
+    across = isolines(surface, field, [float(np.median(field))])[0]
+    corners = np.column_stack([across.edges, across.edges[:, 0]])
+    path = LineMark(corners, np.column_stack([*_weights(surface, across), np.zeros(len(corners))]), across.closed, PATH)
+    solid, glass = (shot_of(surface, opacity=opacity, marks=marks, lines=(path,)) for opacity in (1.0, 0.4))
+    assert [mark[0] for mark in solid.marks] == []
+    assert [mark[0] for mark in glass.marks] == [0]
+
+    def drawn(shot):
+        parts = [np.concatenate([p, p[:1]]) if closed else p for p, closed in shot.lines[PATH].seen]
+        return sum(np.linalg.norm(np.diff(p, axis=0), axis=1).sum() for p in parts)
+
+    whole = [np.concatenate([p, p[:1]]) if closed else p for p, closed in solid.lines[PATH].course]
+    length = sum(np.linalg.norm(np.diff(p, axis=0), axis=1).sum() for p in whole)
+    assert drawn(glass) == pytest.approx(length)
+    assert drawn(solid) < 0.7 * length
+    # Isolines before it are curves all the same, and those behind it are painted.
+    assert len(glass.isolines) == len(solid.isolines)
+    bare = shot_of(surface, opacity=0.4, isolines=NO_LINES)
+    assert np.abs(glass.image.astype(int) - bare.image).max() > 20
+
+
+@pytest.mark.parametrize("opacity", [0.0, -0.5, 1.5, float("nan")])
+def test_what_is_no_opacity_is_refused(opacity):
+    with pytest.raises(ParameterError, match="opacity"):
+        replace(comparison("hand"), opacity=opacity)
