@@ -34,7 +34,7 @@ class Graph:
     Examples
     --------
     >>> import bihdist, scipy.sparse
-    >>> path = scipy.sparse.diags([[1, 1], [1, 1]], [-1, 1])
+    >>> path = scipy.sparse.csr_matrix([[0, 1, 0], [1, 0, 1], [0, 1, 0]])
     >>> graph = bihdist.Graph.of(path)
     >>> graph.n_edges, graph.number(2)
     (2, 2)

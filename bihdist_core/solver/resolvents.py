@@ -73,6 +73,7 @@ class Resolvents:
                 factor = self._made(pole, step)
                 self._factors[pole] = factor if factor.nbytes < SHARE_KEPT * available() else None
                 self._diagonals[pole] = factor.diagonal
+                del factor  # before the next is made
             if poles and poles not in self._sets:
                 self._sets.append(poles)
 

@@ -72,7 +72,6 @@ def test_without_a_question_it_says_what_the_graph_is(graph, capsys):
     ("words", "message"),
     [
         (["--pairs", "Bern:Genf"], "has no node 'Genf'; its nodes begin with Bern, Basel, Chur"),
-        (["--pairs", "Bern"], "two nodes with a colon between"),
         (["--pairs", "Bern:Chur", "--distance", "geodesic"], "needs faces"),
         (["--edges", "--distance", "diffusion"], "goes with biharmonic"),
         (["--sources", "Bern", "-o", "out.ply"], "out.ply"),
@@ -80,3 +79,12 @@ def test_without_a_question_it_says_what_the_graph_is(graph, capsys):
 )
 def test_what_cannot_be_is_refused(graph, words, message, capsys):
     assert message in refused(capsys, "graph", graph, *words)
+
+
+def test_pairs_may_be_lines_of_a_file(graph, tmp_path, capsys):
+    (tmp_path / "pairs.txt").write_text("Bern,Chur\nThun,Basel\n")
+    said = ran(capsys, "graph", graph, "--pairs", f"@{tmp_path / 'pairs.txt'}").out
+    assert [row["b"] for row in table(said[said.index("a,b,") :])] == ["Chur", "Basel"]
+    with pytest.raises(SystemExit):
+        ran(capsys, "graph", graph, "--pairs", "Bern")
+    assert "two nodes with a colon between" in capsys.readouterr().err
