@@ -103,9 +103,8 @@ class Resolvents:
         for step, (pole, weight) in steps(progress, zip(poles, weights, strict=True)):
             column = kept.get(pole)
             if column is None:
-                factor = self.factor(pole, part(step, 0, 0.9))
-                step(0.9, "Solving")
-                column = factor.columns(index)
+                # Not kept in a variable: the next may need its room.
+                column = self.factor(pole, part(step, 0, 0.9)).columns(index)
                 if len(index) == 1:
                     kept[pole] = column
             _add(total, column, pole, weight)
