@@ -46,8 +46,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--eigenpairs",
         type=lambda text: 0 if text == "0" else count(text),
         metavar="N",
-        help="allow up to N eigenpairs in the file for each truncated or diffusion distance of a panel, and none for "
-        "those that readers can choose (default: as many as take 1 MB)",
+        help="allow up to N eigenpairs in the file for each truncated distance of a panel, and none for one that "
+        "readers can choose (default: as many as take 1 MB)",
     )
     parser.add_argument("--credit", default="", metavar="TEXT", help="a credit line for the mesh, shown on the page")
 

@@ -16,7 +16,7 @@ from ..web.export import page_of
 from .pictures import is_seen, name_of, plain_name
 
 MOST_EIGENPAIRS = 200
-"""The eigenpairs in a page for each diffusion distance; figures take up to 54 on the bundled meshes."""
+"""The eigenpairs in a page for each truncated distance."""
 
 MARKED = {"minimum": "minima", "maximum": "maxima"}
 """The marks that pages do not have."""

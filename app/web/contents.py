@@ -28,7 +28,8 @@ class Contents:
     document
         The document, with geodesic distances that are exact.
     fields
-        Distances by the solver's names; of two that differ in a parameter the second is "diffusion_2".
+        Distances by the solver's names; of two truncated ones the second is "truncated_2". By poles it is the word with
+        the parameter, "diffusion@0.25".
     """
 
     document: Document
@@ -122,7 +123,11 @@ def _named(specs: Iterable[Spec]) -> dict[str, Spec]:
     for spec in specs:
         name = spec.word.replace("-", "_")
         count = sum(each.word == spec.word for each in found.values())
-        found[f"{name}_{count + 1}" if count else name] = spec
+        if spec.distance_type.on_pages == "poles":
+            name += f"@{spec.values[0][1]}"
+        elif count:
+            name += f"_{count + 1}"
+        found[name] = spec
     return found
 
 

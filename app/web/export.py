@@ -11,8 +11,6 @@ import numpy as np
 from bihdist_core import BihdistError, Laplacian, ParameterError, Surface
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer, Distances
-from bihdist_core.distances.diffusion import EigenpairDiffusion
-from bihdist_core.distances.distance import Distance
 from bihdist_core.distances.distance_types import BUILT_IN, Spec
 from bihdist_core.distances.spectral import SpectralDistance
 from bihdist_core.distances.unfolding_mesh import unfolding_mesh
@@ -28,6 +26,7 @@ from ..session.loaded_mesh import LoadedMesh, checked_path
 from .contents import Contents
 from .html_file import page_text
 from .scene import Json, offered_panel, scene_of
+from .stored_functions import stored_functions
 from .stored_mesh import StoredMesh
 from .stored_values import StoredField, StoredPoints
 
@@ -48,12 +47,9 @@ BYTES_EACH = 2.6
 EIGENPAIR_BYTES = 1_000_000
 """Bytes of the file that eigenpairs may take by default."""
 
-FEWEST_EIGENPAIRS = 8
-"""Diffusion distance needs at least about this many eigenpairs; where they do not fit it is not tried."""
-
 OFFERED = tuple(
     Spec.parse(each.word, method="exact")
-    for way in ("solved", "eigenpairs")
+    for way in ("solved", "poles", "eigenpairs")
     for each in BUILT_IN
     if each.on_pages == way
 )
@@ -71,7 +67,7 @@ class Page:
     mesh : StoredMesh
         The mesh as the page holds it, rounded and packed.
     points : mapping of str to StoredPoints
-        Eigenpairs, by the names of the distances that need them.
+        Eigenpairs, by the names of truncated distances.
     labels : tuple of str
         The labels of the panels.
     differs : mapping of str to float
@@ -141,7 +137,7 @@ def page_of(
     precision : str
         Of coordinates, one of `PRECISIONS`.
     eigenpairs : int, optional
-        The most eigenpairs to store for each distance that needs them. By default as many as fit into
+        The most eigenpairs to store for each truncated distance. By default as many as fit into
         `EIGENPAIR_BYTES`, including those of distances that readers can choose.
     progress : Progress, optional
         Told of the progress.
@@ -160,16 +156,15 @@ def page_of(
     contents = Contents.of(document)
     loaded = surfaces[document.surfaces[0].name]
     check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path)
-    _check_eigenpairs(contents, loaded, eigenpairs, part(progress, 0, 0.3))
+    _check_eigenpairs(contents, len(loaded.surface.vertices), eigenpairs)
     recipe = replace(recipe, document=contents.document)
-    answers = compute(contents.document, surfaces, part(progress, 0.3, 0.5))
+    answers = compute(contents.document, surfaces, part(progress, 0, 0.4))
     mesh = StoredMesh.of(loaded.surface, precision)
     _check_geodesic(contents, mesh)
     distances = Distances(Laplacian(mesh.surface, document.areas))
-    differs = _differences(contents, loaded, mesh, distances, part(progress, 0.5, 1))
+    differs = _differences(contents, loaded, mesh, distances, part(progress, 0.4, 1))
     points = {name: StoredPoints.of(_spectral(distances, spec)) for name, spec in contents.by_eigenpairs.items()}
     room = 0 if eigenpairs is not None else EIGENPAIR_BYTES - sum(map(_stored_bytes, points.values()))
-    offered = _offered(contents, distances, room)
     for name, each in points.items():
         maximum = _maximum(loaded, document.areas, contents, name)
         differs[str(contents.fields[name])] += each.error / max(maximum, 1e-300)
@@ -180,9 +175,12 @@ def page_of(
     stored = {"bits": 24 if precision == "24" else precision, "backs": backs, "differs": differs}
     stored["sources"] = min(SOURCES, len(mesh.ids))
     scene = scene_of(recipe, contents, surfaces, answers, stored, credit)
-    named = contents.with_offered(spec for spec, _, _ in offered)
-    for name, (spec, distance, its_points) in zip(list(named)[len(contents.fields) :], offered, strict=True):
-        scene["offered"].append(offered_panel(name, spec, distance, recipe.document.range))
+    by_poles = {spec for spec in contents.fields.values() if spec.distance_type.on_pages == "poles"}
+    scene |= stored_functions(distances.laplacian, by_poles)
+    offered = _offered(contents, distances, scene["functions"], room)
+    named = contents.with_offered(spec for spec, *_ in offered)
+    for name, (spec, label, unit, its_points) in zip(list(named)[len(contents.fields) :], offered, strict=True):
+        scene["offered"].append(offered_panel(name, spec, label, unit, recipe.document.range))
         points |= {name: its_points} if its_points else {}
     return Page(scene, mesh, points, tuple(answer.label for answer in answers), differs, own)
 
@@ -212,14 +210,9 @@ def check_size(name: str, vertices: int, path: str = "") -> None:
         )
 
 
-def needed_eigenpairs(contents: Contents, loaded: LoadedMesh, progress: Progress | None = None) -> dict[str, int]:
-    """Compute the eigenpairs of the distances that need them, and return their numbers by the distances' names."""
-    distances = loaded.distances(contents.document.areas)
-    needed = {}
-    for name, spec in contents.by_eigenpairs.items():
-        distance = _spectral(distances, spec, progress)
-        needed[name] = max(distance.points(component, progress).shape[1] for component in distance.laplacian.components)
-    return needed
+def needed_eigenpairs(contents: Contents) -> dict[str, int]:
+    """Return the numbers of eigenpairs of the distances that need them, by the distances' names."""
+    return {name: int(spec["k"]) for name, spec in contents.by_eigenpairs.items()}
 
 
 def eigenpair_bytes(count: int, vertices: int) -> int:
@@ -231,36 +224,39 @@ def _stored_bytes(points: StoredPoints) -> int:
     return eigenpair_bytes(points.scales.shape[1], len(points.coordinates))
 
 
-def _offered(contents: Contents, distances: Distances, room: int) -> list[tuple[Spec, Distance, StoredPoints | None]]:
-    """Return the distances that readers can choose, with their eigenpairs where these fit into `room` bytes."""
-    found: list[tuple[Spec, Distance, StoredPoints | None]] = []
+def _offered(
+    contents: Contents, distances: Distances, functions: Json, room: int
+) -> list[tuple[Spec, str, str, StoredPoints | None]]:
+    """Return the distances that readers can choose, each with its label and unit, and with its eigenpairs where these
+    fit into `room` bytes."""
+    found: list[tuple[Spec, str, str, StoredPoints | None]] = []
+    shown = {spec.word for spec in contents.fields.values() if spec.word in functions}  # with a slider
     for spec in OFFERED:
-        if spec in contents.fields.values():
+        if spec in contents.fields.values() or spec.word in shown:
+            continue
+        if spec.word in functions:
+            value = next(iter(spec.values))[1]
+            step = next(each for each in functions[spec.word]["steps"] if each["value"] == value)
+            found.append((spec, step["label"], step["unit"], None))
             continue
         points = None
         try:
             if spec.distance_type.on_pages == "eigenpairs":
-                if eigenpair_bytes(_fewest_eigenpairs(spec), len(distances.laplacian.surface.vertices)) > room:
+                if eigenpair_bytes(int(spec["k"]), len(distances.laplacian.surface.vertices)) > room:
                     continue
                 points = StoredPoints.of(_spectral(distances, spec))
-                if _stored_bytes(points) > room:
-                    continue
-                room -= _stored_bytes(points)
             elif spec.word == "geodesic" and unfolding_mesh(distances.laplacian.surface).has_degenerate_faces:
                 continue
-            found.append((spec, distances.get(spec), points))
+            distance = distances.get(spec)
+            found.append((spec, distance.label, distance.unit, points))
         except BihdistError:
             continue  # the mesh does not have this distance
     return found
 
 
-def _fewest_eigenpairs(spec: Spec) -> int:
-    return int(spec["k"]) if spec.word == "truncated" else FEWEST_EIGENPAIRS
-
-
-def _check_eigenpairs(contents: Contents, loaded: LoadedMesh, allowed: int | None, progress: Progress | None) -> None:
-    count, room = len(loaded.surface.vertices), EIGENPAIR_BYTES
-    for name, needed in needed_eigenpairs(contents, loaded, progress).items():
+def _check_eigenpairs(contents: Contents, count: int, allowed: int | None) -> None:
+    room = EIGENPAIR_BYTES
+    for name, needed in needed_eigenpairs(contents).items():
         room -= eigenpair_bytes(needed, count)
         if room < 0 if allowed is None else needed > allowed:
             raise ParameterError(
@@ -322,10 +318,8 @@ def _maximum(loaded: LoadedMesh, areas: str, contents: Contents, name: str) -> f
     return loaded.distances(areas).answer(contents.fields[name], contents.source).maximum
 
 
-def _spectral(distances: Distances, spec: Spec, progress: Progress | None = None) -> SpectralDistance:
-    if spec.word == "diffusion":
-        return EigenpairDiffusion(distances.laplacian, float(spec["t"]), progress)
-    distance = distances.get(spec, progress)
+def _spectral(distances: Distances, spec: Spec) -> SpectralDistance:
+    distance = distances.get(spec)
     assert isinstance(distance, SpectralDistance)
     return distance
 

@@ -76,8 +76,8 @@ def page(
     precision : {"24", "float32"}
         Bits of the largest side that coordinates keep, or single precision.
     eigenpairs : int, optional
-        The most that may go into the file for each truncated or diffusion distance of a panel, with none for those that
-        readers can choose; by default as many as take 1 MB.
+        The most that may go into the file for each truncated distance of a panel, with none for one that readers can
+        choose; by default as many as take 1 MB.
     credit : str
         A line that the page shows, such as who made the mesh.
     progress : callable, optional

@@ -12,7 +12,6 @@ from bihdist_core import ParameterError, Surface
 from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
-from bihdist_core.distances.distance import Distance
 from bihdist_core.distances.distance_types import Spec
 from bihdist_core.version import VERSION
 
@@ -156,16 +155,16 @@ def _panel(contents: Contents, panel: Panel, figure: Figure, k: int, answer: Ans
     }
 
 
-def offered_panel(name: str, spec: Spec, distance: Distance, range: str) -> Json:
+def offered_panel(name: str, spec: Spec, label: str, unit: str, range: str) -> Json:
     """Return a panel of a distance that the reader has chosen; its colour bar ends at its own maximum."""
     return {
         "distance": name,
-        "label": distance.label,
+        "label": label,
         "parameters": _parameters([spec]),
         "signed": False,
         "note": "",
         "range": None,
-        "unit": distance.unit,
+        "unit": unit,
         "shares": range == "fraction",
     }
 

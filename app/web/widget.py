@@ -80,8 +80,8 @@ def widget(
     precision : {"24", "float32"}
         Bits of the largest side that coordinates keep, or single precision.
     eigenpairs : int, optional
-        The most that may be sent for each truncated or diffusion distance of a panel, with none for those that readers
-        can choose; by default as many as take 1 MB.
+        The most that may be sent for each truncated distance of a panel, with none for one that readers can choose; by
+        default as many as take 1 MB.
     progress : callable, optional
         Called as ``progress(fraction, text)``.
     **others

@@ -32,6 +32,7 @@ from .resolvent import ResolventDistance, changes_by_reading, fitted_to
 from .spectral import SpectralDistance
 from .tails import Cloud, biharmonic_squares, tail_lengths
 
+LABEL = "diffusion, t = {:g}"
 FIRST_EIGENPAIRS = 16
 LONGEST_TIME = 700.0
 """From here on the first weight, exp(-t), is no number any more."""
@@ -105,7 +106,7 @@ class DiffusionDistance(Distance):
         if not 0 < real_number(t, "The diffusion time t") <= LONGEST_TIME:
             raise ParameterError(f"The diffusion time t is {t:g}; it must be positive, and at most {LONGEST_TIME:g}.")
         super().__init__(laplacian)
-        self.t, self.label = float(t), f"diffusion, t = {t:g}"
+        self.t, self.label = float(t), LABEL.format(t)
         by_eigenpairs = is_faster_by_eigenpairs(self.laplacian.components[0], self.t, part(progress, 0, 0.3))
         way = EigenpairDiffusion if by_eigenpairs else PoleDiffusion
         self._way: EigenpairDiffusion | PoleDiffusion = way(self.laplacian, self.t, part(progress, 0.3, 1))
@@ -197,7 +198,7 @@ class PoleDiffusion(ResolventDistance):
     length_power = -1.0
 
     def __init__(self, laplacian: Laplacian, t: float, progress: Progress | None = None) -> None:
-        self.t, self.label = t, f"diffusion, t = {t:g}"
+        self.t, self.label = t, LABEL.format(t)
         super().__init__(laplacian, progress)
 
     def _weight(self, component: Component) -> Weight:
@@ -295,7 +296,7 @@ class EigenpairDiffusion(SpectralDistance):
         progress: Progress | None = None,
     ) -> None:
         super().__init__(laplacian)
-        self.t, self.label = t, f"diffusion, t = {t:g}"
+        self.t, self.label = t, LABEL.format(t)
         self._used: Memo[int, tuple[Spectrum, FloatArray]] = Memo()
         self.prepare(self.laplacian.components[0], progress)
 

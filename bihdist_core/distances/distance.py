@@ -17,6 +17,12 @@ from .accuracy import FINEST_ACCURACY, POOR_ACCURACY, ErrorEstimate, accurate_to
 from .pair_questions import PairQuestions
 
 
+def unit_of(length_power: float) -> str:
+    """Return the unit of values that scale with this power of lengths, in words."""
+    known = {1.0: "mesh units", 0.0: "no unit", -1.0: "1 / mesh units"}
+    return known.get(length_power, f"mesh units^{length_power:g}")
+
+
 class Distance(PairQuestions):
     """A distance between the vertices of a surface; the base of all distances.
 
@@ -78,8 +84,7 @@ class Distance(PairQuestions):
         >>> bihdist.CommuteTimeDistance(sphere).unit
         'no unit'
         """
-        known = {1.0: "mesh units", 0.0: "no unit", -1.0: "1 / mesh units"}
-        return known.get(self.length_power, f"mesh units^{self.length_power:g}")
+        return unit_of(self.length_power)
 
     @property
     def accuracy(self) -> float | None:

@@ -196,8 +196,9 @@ class DistanceType:
         The name where there is little room; empty for the whole one.
     is_complete : bool
         Whether it is made of all eigenpairs, so that nothing is left out and its accuracy can be told.
-    on_pages : {"", "solved", "eigenpairs"}
-        How web pages compute it: not at all, by their solver, or from eigenpairs that they take along.
+    on_pages : {"", "solved", "poles", "eigenpairs"}
+        How web pages compute it: not at all, by their solver, by it at the poles of a rational function, or from
+        eigenpairs that they take along.
     colour : str
         Of its curves in charts, as ``"#rrggbb"``; empty for any.
     meanwhile : str
@@ -224,7 +225,7 @@ class DistanceType:
     cost: str = ""
     short: str = ""
     is_complete: bool = False
-    on_pages: Literal["", "solved", "eigenpairs"] = ""
+    on_pages: Literal["", "solved", "poles", "eigenpairs"] = ""
     colour: str = ""
     meanwhile: str = ""
 
@@ -453,6 +454,7 @@ BUILT_IN = (
         scaling="α − 1",
         cost="some twenty factorizations for all α; as many solves",
         is_complete=True,
+        on_pages="poles",
     ),
     DistanceType(
         "commute-time",
@@ -488,7 +490,7 @@ BUILT_IN = (
         short="Diffus.",
         is_complete=True,
         meanwhile="bihdist_core.distances.diffusion:coarse_diffusion",
-        on_pages="eigenpairs",
+        on_pages="poles",
     ),
     DistanceType(
         "geodesic",

@@ -13,6 +13,7 @@ from ..scalars import real_number
 from .rational import RationalFunction, Weight
 from .resolvent import ResolventDistance, eigenvalue_range, fitted_to
 
+LABEL = "1/λ^{:g}, exact"
 CIRCLE, RADIUS = 4, 0.3
 """So many poles on a half circle around 0, of this radius in first eigenvalues."""
 PER_DECADE, FIRST, BEYOND = 3.0, 2.0, 10.0
@@ -61,26 +62,43 @@ class PowerDistance(ResolventDistance):
         if not 1 < real_number(alpha, "alpha") < np.inf:
             raise ParameterError(f"alpha is {alpha:g}; the sum of 1 / lambda^alpha needs alpha > 1.")
         self.alpha = float(alpha)
-        self.label, self.length_power = f"1/λ^{alpha:g}, exact", self.alpha - 1
+        self.label, self.length_power = LABEL.format(alpha), self.alpha - 1
         super().__init__(laplacian, progress=progress)
 
     def _weight(self, component: Component) -> Weight:
-        def power(x: FloatArray) -> FloatArray:
-            # The same digits for all x that differ by powers of two.
-            mantissa, exponent = np.frexp(x)
-            weights: FloatArray = mantissa**-self.alpha * 2.0 ** (-self.alpha * exponent)
-            return weights
-
-        return power
+        return power(self.alpha)
 
     def _function(self, component: Component, progress: Progress | None) -> RationalFunction:
         (first, last), unit = eigenvalue_range(component)
-        f, poles = self._weight(component), list[complex]()
-        if self.alpha != 2:
-            poles += (RADIUS * first * np.exp(1j * np.pi * (np.arange(CIRCLE) + 0.5) / CIRCLE)).tolist()
-        if self.alpha % 1:
-            count = int(np.ceil(PER_DECADE * np.log10(last / first)))
-            poles += [complex(-unit * x) for x in np.geomspace(FIRST * first / unit, BEYOND * last / unit, count)]
+        poles = [unit * pole for pole in power_poles(self.alpha, first / unit, last / unit)]
         component.resolvents.add(tuple(poles), progress)
-        scale = f if self.alpha <= 2 else lambda x: x**-2.0 + LOCAL / (first * x)
-        return fitted_to(component, f, poles, scale, whole=True)
+        f = power(self.alpha)
+        return fitted_to(component, f, poles, f if self.alpha <= 2 else local(first), whole=True)
+
+
+def power(alpha: float) -> Weight:
+    """Return 1 / x^alpha."""
+
+    def f(x: FloatArray) -> FloatArray:
+        # The same digits for all x that differ by powers of two.
+        mantissa, exponent = np.frexp(x)
+        weights: FloatArray = mantissa**-alpha * 2.0 ** (-alpha * exponent)
+        return weights
+
+    return f
+
+
+def power_poles(alpha: float, first: float, last: float) -> list[complex]:
+    """Return the poles that serve a power on the eigenvalues from `first` to `last`: first those of whole ones."""
+    poles = list[complex]()
+    if alpha != 2:
+        poles += (RADIUS * first * np.exp(1j * np.pi * (np.arange(CIRCLE) + 0.5) / CIRCLE)).tolist()
+    if alpha % 1:
+        count = int(np.ceil(PER_DECADE * np.log10(last / first)))
+        poles += [complex(-x) for x in np.geomspace(FIRST * first, BEYOND * last, count)]
+    return poles
+
+
+def local(first: float) -> Weight:
+    """Return how errors count for powers above 2."""
+    return lambda x: x**-2.0 + LOCAL / (first * x)

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import AnyArray, FloatArray
+from ..solver.blas import one_blas_thread
 
 Weight = Callable[[FloatArray], FloatArray]
 """The weights f of eigenvalues; their shape."""
@@ -110,8 +111,9 @@ def fitted(
         matrix, wanted = matrix[:-1], wanted[:-1]
     size = np.linalg.norm(matrix, axis=0)
     # By orthogonal triangles first, which leaves a small system.
-    q, r = np.linalg.qr(matrix / size)
-    solution = np.linalg.lstsq(r, q.T @ wanted, rcond=1e-16)[0] / size
+    with one_blas_thread():
+        q, r = np.linalg.qr(matrix / size)
+        solution = np.linalg.lstsq(r, q.T @ wanted, rcond=1e-16)[0] / size
     error = np.abs(terms(checked, poles, whole) @ solution - f(checked)) * BETWEEN
     weights = solution[:count].astype(complex)
     weights[pair] += 1j * solution[count : count + pair.sum()]

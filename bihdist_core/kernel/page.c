@@ -2,13 +2,14 @@
  * the end of its stack on.  An instance of the module is for one mesh.
  *
  * A page calls page_begin, fills in what page_array has of points and faces, calls page_measure, corrects weights and
- * areas at degenerate faces, and calls page_order and page_factor; then page_field as often as it likes.  For geodesic
- * distance it calls page_unfold, and page_geodesic as often. */
+ * areas at degenerate faces, and calls page_order and page_factor; then page_field as often as it likes.  After page_order
+ * it may also call page_shift, and page_resolvent as often.  For geodesic distance it calls page_unfold, and page_geodesic
+ * as often. */
 #ifdef __wasm__
 #include "geodesic.h"
 
 /* What page_array has. */
-enum { POINTS, FACES, WEIGHTS, AREAS, BIHARMONIC, COMMUTE_TIME, GEODESIC };
+enum { POINTS, FACES, WEIGHTS, AREAS, BIHARMONIC, COMMUTE_TIME, GEODESIC, RESOLVENT };
 
 enum { PIN = 0, MOST_NEAR = 16 };
 
@@ -21,11 +22,11 @@ static i32 n, m;
 static double *points, *weights, *areas, *field[3]; /* (n, 3), (3, m), (n,), (n,) each */
 static double *diagonal, *sandwich, *u;              /* (n,) of G, of C = G A G - u u^T / total, and G A 1 */
 static double total;                                 /* area */
-static i32 *faces, *last, *subtrees, *place, *order, fronts;
-static i64 longest;
-static double *work, *xy;
+static i32 *faces, *place, *order, fronts;
+static i64 totals[5];
+static double *work, *xy, *resolvent; /* resolvent (2 n,) */
 static i32 *count;
-static Rows matrix;
+static Rows stiffness, matrix; /* L; without row and column PIN, but for a 1 where they meet */
 static Tree tree;
 static Factor factor;
 static Mesh mesh;
@@ -57,6 +58,7 @@ EXPORT(page_array) void *page_array(i32 which) {
   case FACES: return faces;
   case WEIGHTS: return weights;
   case AREAS: return areas;
+  case RESOLVENT: return resolvent;
   default: return field[which - BIHARMONIC];
   }
 }
@@ -78,40 +80,38 @@ EXPORT(page_measure) void page_measure(i32 barycentric) {
   end = before;
 }
 
-/* The stiffness matrix without row and column PIN, but for a 1 where they meet, and the order of its elimination. */
+/* The matrices, and the order and layout of their elimination. */
 EXPORT(page_order) i32 page_order(void) {
   i32 *start = take_ints(n + 1), *index = take_ints(n + 9 * m);
   double *value = take_doubles(n + 9 * m);
   i64 *wide = take_longs(3 * m);
   for (i64 k = 0; k < 3 * m; k++) wide[k] = faces[k];
   i64 entries = bih_stiffness(n, m, wide, weights, start, index, value, take_ints(3 * n + 1));
-  for (i64 v = 0; v < n; v++)
-    for (i64 e = start[v]; e < start[v + 1]; e++)
-      if (v == PIN || index[e] == PIN) value[e] = v == index[e];
   end = (unsigned char *)index;
   index = take_ints(entries); /* where it is, but shorter */
-  double *from = value;
+  double *from = value, *pinned;
   value = take_doubles(entries);
   for (i64 e = 0; e < entries; e++) value[e] = from[e];
-  matrix = (Rows){n, start, index, value};
+  pinned = take_doubles(entries);
+  for (i64 v = 0; v < n; v++)
+    for (i64 e = start[v]; e < start[v + 1]; e++)
+      pinned[e] = v == PIN || index[e] == PIN ? v == index[e] : value[e];
+  stiffness = (Rows){n, start, index, value}, matrix = (Rows){n, start, index, pinned};
 
-  order = take_ints(n), place = take_ints(n), last = take_ints(2 * n + 1), subtrees = take_ints(4 * n + 2);
+  i32 *last = take_ints(2 * n + 1), *subtrees = take_ints(4 * n + 2);
+  order = take_ints(n), place = take_ints(n);
   unsigned char *before = end;
   i64 found = bih_order(&matrix, points, take(bih_dissection_room(n, entries)), order, place, last, subtrees);
   end = before;
+  if (found < 0) return (i32)found;
   fronts = (i32)found;
-  return found < 0 ? (i32)found : DONE;
-}
 
-/* The factor, the diagonals of G and C, and u.  NOT_POSITIVE: the faces are too thin. */
-EXPORT(page_factor) i32 page_factor(void) {
   tree = (Tree){.n = n, .fronts = fronts, .vertices = order, .place = place};
   tree.first = take_ints(fronts + 1), tree.children = take_ints(2 * fronts), tree.parent = take_ints(fronts);
   tree.bound = take_longs(fronts + 1), tree.pivot_block = take_longs(fronts + 1);
   tree.row_block = take_longs(fronts + 1), tree.stack = take_longs(fronts + 1);
   tree.inverse = take_longs(fronts + 1), tree.top = take(fronts), tree.rank = take_ints(n);
-  i64 totals[5], found = NO_ROOM;
-  unsigned char *before = end;
+  found = NO_ROOM, before = end;
   for (i64 room = 12 * n + 128; found == NO_ROOM; room *= 2) {
     end = before;
     tree.rows = take_ints(room), tree.up = take_ints(room);
@@ -119,11 +119,16 @@ EXPORT(page_factor) i32 page_factor(void) {
   }
   end = before;
   tree.rows = take_ints(found);
-  i32 *from = tree.up;
+  i32 *up = tree.up;
   tree.up = take_ints(found);
-  for (i64 e = 0; e < found; e++) tree.up[e] = from[e];
-  longest = totals[4];
+  for (i64 e = 0; e < found; e++) tree.up[e] = up[e];
+  work = take_doubles((totals[4] + 8) * MOST_NEAR + 8), xy = take_doubles(2 * n), count = take_ints(fronts);
+  resolvent = take_doubles(2 * n);
+  return DONE;
+}
 
+/* The factor, the diagonals of G and C, and u.  NOT_POSITIVE: the faces are too thin. */
+EXPORT(page_factor) i32 page_factor(void) {
   double *ordered = take_doubles(n);
   total = 0;
   for (i64 v = 0; v < n; v++) total += areas[v];
@@ -132,8 +137,7 @@ EXPORT(page_factor) i32 page_factor(void) {
   double *N = take_doubles(totals[1] + tree.row_block[fronts] + 8);
   factor = (Factor){&tree, ordered, K, N, DERIVATIVE};
   diagonal = take_doubles(n), sandwich = take_doubles(n), u = take_doubles(n);
-  work = take_doubles((longest + 8) * MOST_NEAR + 8), xy = take_doubles(2 * n), count = take_ints(fronts);
-  before = end;
+  unsigned char *before = end;
   i64 where[2];
   i32 status = bih_factor(&factor, &matrix, take_doubles(bih_factor_room(&tree, DERIVATIVE, 1)), diagonal, sandwich, where);
   end = before;
@@ -187,6 +191,49 @@ EXPORT(page_field) void page_field(i32 source, double near) {
   }
   if (k) measure_pairs(source, nearest, k);
   biharmonic[source] = commute_time[source] = 0;
+}
+
+static Factor shifted_factor(const double *block, i64 parts) {
+  double *K = (double *)block + parts * n;
+  return (Factor){&tree, NULL, K, K + parts * totals[0] + 8, parts == 1 ? SINGLE : IMAGINARY};
+}
+
+/* The diagonal of (L - z A)^-1, its real and, unless z is real, imaginary parts, and behind them the factor: in the memory
+ * of another one of its kind, or (NULL) in memory of its own.  NULL: the faces are too thin. */
+EXPORT(page_shift) double *page_shift(double real, double imaginary, double *block) {
+  i64 parts = 1 + (imaginary != 0), where[2];
+  if (!block) block = take_doubles(parts * (n + totals[0] + totals[1]) + 16);
+  Factor shifted = shifted_factor(block, parts);
+  unsigned char *before = end;
+  double *value = take_doubles(stiffness.start[n]), *ordered = take_doubles(n);
+  for (i64 p = 0; p < n; p++) ordered[p] = -imaginary * areas[order[p]];
+  for (i64 v = 0; v < n; v++)
+    for (i64 e = stiffness.start[v]; e < stiffness.start[v + 1]; e++)
+      value[e] = stiffness.value[e] - (stiffness.index[e] == v ? real * areas[v] : 0);
+  Rows of = {n, stiffness.start, stiffness.index, value};
+  if (parts == 2) shifted.areas = ordered;
+  double *room = take_doubles(bih_factor_room(&tree, shifted.second, 1));
+  i32 status = bih_factor(&shifted, &of, room, block, block + n, where);
+  end = before;
+  return status ? NULL : block;
+}
+
+/* R_vv + R_ss - 2 R_vs for each v, R = (L - z A)^-1 by what page_shift returns: real parts, then imaginary ones. */
+EXPORT(page_resolvent) void page_resolvent(const double *block, i32 is_complex, i32 source) {
+  Watch watch = {0, 0};
+  i64 parts = 1 + is_complex;
+  Factor shifted = shifted_factor(block, parts);
+  if (is_complex) {
+    bih_send_units(&shifted, &place[source], 1, 1, xy, count, work);
+    bih_sweep_down_both(&shifted, 0, fronts - 1, 1, xy, count, work, &watch);
+  } else {
+    zero(resolvent, 8 * n);
+    resolvent[source] = 1;
+    bih_solve(&shifted, 1, 1, resolvent, 1, resolvent, 1, xy, work);
+  }
+  for (i64 p = 0; p < n; p++)
+    for (i64 k = 0, v = order[p]; k < parts; k++)
+      resolvent[k * n + v] = block[k * n + v] + block[k * n + source] - 2 * xy[parts * p + k];
 }
 
 /* Get ready for geodesic distances; returns how many faces are degenerate, and if there are any it is of no use. */

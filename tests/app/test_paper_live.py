@@ -80,7 +80,7 @@ def test_the_spec_of_a_geodesic_distance_has_the_method_it_was_made_by():
 
 
 def test_the_index_links_to_the_pages_and_one_that_fails_is_named(tmp_path, monkeypatch):
-    panels = panel(marks=(Mark(AT_THE_BACK, "source"), Mark(3, "minimum"))), panel("flat", "flat", distance="power")
+    panels = panel(marks=(Mark(AT_THE_BACK, "source"), Mark(3, "minimum"))), panel("flat", "flat", distance="truncated")
     monkeypatch.setattr(reproducing.Experiment, "compute", lambda *_: result(*panels))
     said = []
     made = reproduce(str(tmp_path / "out"), ["fig4"], say=said.append)
@@ -88,7 +88,7 @@ def test_the_index_links_to_the_pages_and_one_that_fails_is_named(tmp_path, monk
     assert re.findall('<a href="([^#"]+)">', text) == ["fig4-row-bumpy.html"]
     assert "In the figure only: marks of local minima." in text
     assert made.not_done == 1
-    assert "the live page fig4-row-flat.html: Panel 1 (power) cannot be on a page that computes" in text
+    assert "the live page fig4-row-flat.html: grid has 48 eigenpairs besides the constant" in text
     assert any("fig4: not done: the live page fig4-row-flat.html" in line for line in said)
     scene = scene_in(tmp_path / "out/fig4-row-bumpy.html")
     assert (scene["title"], scene["source"]) == ("fig4: bumpy", AT_THE_BACK)

@@ -19,6 +19,8 @@ globalThis.Worker = class {
   terminate() {}
 };
 
+Object.defineProperty(globalThis, "navigator", { value: { hardwareConcurrency: 4 } });
+
 const { unpackedContents } = await import(`${process.argv[2]}/unpack.js`);
 const { Solver } = await import(`${process.argv[2]}/solver.js`);
 const { contents, scene, sources, names } = JSON.parse(readFileSync(0, "utf8"));

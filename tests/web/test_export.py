@@ -102,12 +102,16 @@ def offered_in(path):
 
 def test_readers_are_offered_what_the_page_can_compute(tmp_path, monkeypatch):
     path = tmp_path / "p.html"
-    exact = {"commute-time, exact": "commute_time", "geodesic, exact": "geodesic"}
-    bihdist.page(bumpy(300), path, ["biharmonic", "diffusion(t=1/4)"])
-    # Of two diffusion distances the second is the one that nobody asked for.
-    spectral = {"diffusion, t = 1": "diffusion_2", "biharmonic, 200 eigenpairs": "truncated"}
-    assert offered_in(path) == {**exact, **spectral}
-    assert all(f'id="points-{name}"' in path.read_text() for name in ("diffusion", *spectral.values()))
+    exact = {"commute-time, exact": "commute_time", "geodesic, exact": "geodesic", "1/λ^1.5, exact": "power@1.5"}
+    bihdist.page(bumpy(300), path, ["biharmonic", "diffusion(t=1/15)"])
+    # Sliders have all times, that of the page among them.
+    assert offered_in(path) == {**exact, "biharmonic, 200 eigenpairs": "truncated"}
+    assert 'id="points-truncated"' in path.read_text()
+    scene = scene_in(path)
+    assert scene["panels"][1]["distance"] == f"diffusion@{1 / 15}"
+    steps = scene["functions"]["diffusion"]["steps"]
+    assert sum(step["label"] == scene["panels"][1]["label"] == "diffusion, t = 0.0666667" for step in steps) == 1
+    exact["diffusion, t = 1"] = "diffusion@1.0"
     bihdist.page(bumpy(300), path, ["biharmonic"], eigenpairs=0)
     assert offered_in(path) == exact
     assert 'id="points-' not in path.read_text()
@@ -141,7 +145,6 @@ def test_vertices_that_are_cut_out_are_not_on_the_page(mesh_file, in_folder):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        (["--distance", "power"], "cannot be on a page that computes"),
         (["--sources", "1,2"], "start from 2 sources"),
         (["--sources", "1+2"], "start from 1+2"),
         (["--distance", "biharmonic", "--method", "heat"], "--method heat is not a parameter"),
@@ -227,7 +230,7 @@ def test_the_function_refuses_as_the_command_does(tmp_path):
     with pytest.raises(ParameterError, match="one of 24, float32, not '8'"):
         bihdist.page(bumpy(200), tmp_path / "p.html", ["biharmonic"], precision="8")
     with pytest.raises(ParameterError, match="eigenpairs in the page"):
-        bihdist.page(bumpy(200), tmp_path / "p.html", ["diffusion"], eigenpairs=0)
+        bihdist.page(bumpy(200), tmp_path / "p.html", ["truncated(k=20)"], eigenpairs=0)
 
 
 def test_differences_are_those_of_the_rounded_mesh(tmp_path):

@@ -38,4 +38,4 @@ def test_a_click_in_one_cells_widget_changes_what_another_prints(tmp_path, monke
     assert one["source"] == other["source"] == 90
     assert one["scene"]["given"] == ["field mine"]
     paths = {tuple(buffer["path"]) for buffer in states[views[0]]["buffers"]}
-    assert paths == {("contents", each) for each in ("kernel", "mesh", "given", "points-diffusion", "points-truncated")}
+    assert paths == {("contents", each) for each in ("kernel", "mesh", "given", "points-truncated")}

@@ -7,13 +7,22 @@ from base64 import b64encode
 
 import numpy as np
 import pytest
+import scipy.linalg
 
 from app.web.html_file import packed_contents, whole_scene
 from app.web.modules import VIEWER
+from app.web.stored_functions import stored_functions
 from app.web.stored_mesh import StoredMesh, varints
 from app.web.stored_values import StoredField, StoredPoints
-from bihdist_core import BiharmonicDistance, CommuteTimeDistance, ParameterError, Surface
-from bihdist_core.distances.diffusion import EigenpairDiffusion
+from bihdist_core import (
+    BiharmonicDistance,
+    CommuteTimeDistance,
+    DiffusionDistance,
+    ParameterError,
+    PowerDistance,
+    Surface,
+)
+from bihdist_core.distances.distance_types import Spec
 from bihdist_core.distances.exact_geodesic import ExactGeodesic
 from bihdist_core.distances.spectral import TruncatedBiharmonicDistance
 from bihdist_core.laplacian import Laplacian
@@ -46,14 +55,14 @@ SURFACES = {
 }  # fmt: skip
 
 
-def said(mesh: StoredMesh, sources, names, points=None, areas="voronoi", given=None):
+def said(mesh: StoredMesh, sources, names, points=None, areas="voronoi", given=None, functions=None):
     """What the page's solver answers in node."""
     if not shutil.which("node"):
         pytest.skip("there is no node")
     packed = packed_contents(mesh, points or {}, given or {})
     question = {
         "contents": {name: b64encode(content).decode() for name, content in packed.items()},
-        "scene": whole_scene({"areas": areas}, mesh, given or {}),
+        "scene": whole_scene({"areas": areas, **(functions or {})}, mesh, given or {}),
         "sources": [int(v) for v in sources], "names": names,
     }  # fmt: skip
     script = VIEWER.parents[2] / "tests/web/solver.mjs"
@@ -179,15 +188,59 @@ def test_the_latest_question_comes_first():
 @pytest.mark.parametrize("name", ["closed", "pieces"])
 def test_points_have_the_distances_of_the_library_to_their_error(name):
     mesh = StoredMesh.of(SURFACES[name])
-    laplacian = Laplacian(mesh.surface)
-    distances = {"a": TruncatedBiharmonicDistance(laplacian, 20), "b": EigenpairDiffusion(laplacian, 1.0)}
-    points = {each: StoredPoints.of(distance) for each, distance in distances.items()}
-    sources = some_of(mesh.surface)
-    for source, fields in zip(sources, said(mesh, sources, ["a", "b"], points)["answers"], strict=True):
-        for each, distance in distances.items():
-            expected = distance.from_source(source)
-            off = worst(field(fields[each]), expected) * np.nanmax(expected)
-            assert off < 1.01 * points[each].error < 1e-3 * np.nanmax(expected)
+    distance = TruncatedBiharmonicDistance(mesh.surface, 20)
+    points, sources = StoredPoints.of(distance), some_of(mesh.surface)
+    for source, fields in zip(sources, said(mesh, sources, ["a"], {"a": points})["answers"], strict=True):
+        expected = distance.from_source(source)
+        off = worst(field(fields["a"]), expected) * np.nanmax(expected)
+        assert off < 1.01 * points.error < 1e-3 * np.nanmax(expected)
+
+
+def dense(laplacian: Laplacian, weight, source: int) -> np.ndarray:
+    """Distances with the weights of all eigenpairs; weight(x, first) has them for eigenvalues x."""
+    component = next(each for each in laplacian.components if source in each.vertices)
+    values, vectors = scipy.linalg.eigh(component.stiffness.toarray(), np.diag(component.areas))
+    points = vectors[:, 1:] * np.sqrt(weight(values[1:], values[1]))
+    found = np.full(len(laplacian.areas), np.nan)
+    found[component.vertices] = np.linalg.norm(points - points[component.vertices == source], axis=1)
+    return found
+
+
+WEIGHTS = {
+    # A step that poles for one time serve, one between two, times of one's own beyond the slider, and the ends of it.
+    **{
+        f"diffusion@{t}": lambda x, first, t=t: np.exp(-t * x / first)
+        for t in (1.0, 0.3, 1 / 15, 4.0, 0.016, 9.0, 0.01)
+    },
+    # All poles, those of whole powers, and none.
+    **{f"power@{alpha}": lambda x, _, alpha=alpha: x**-alpha for alpha in (1.05, 1.5, 2.5, 3.0, 2.0)},
+}
+
+
+@pytest.mark.parametrize("name", [name for name in SURFACES if name != "near vertices"])
+def test_steps_of_a_slider_are_sums_of_all_eigenpairs(name):
+    """The rational functions are off by less than 1e-10 and 1e-8; at t = 9 near vertices have few digits left."""
+    mesh = StoredMesh.of(SURFACES[name])
+    laplacian, sources = Laplacian(mesh.surface), some_of(mesh.surface)
+    specs = [Spec.of("diffusion", t=t) for t in (1 / 15, 9.0, 0.01)]
+    found = said(mesh, sources, list(WEIGHTS), functions=stored_functions(laplacian, specs))
+    for source, fields in zip(sources, found["answers"], strict=True):
+        for step, weight in WEIGHTS.items():
+            off = worst(field(fields[step]), dense(laplacian, weight, source))
+            assert off < (5e-8 if step.startswith(("power", "diffusion@9")) else 1e-9), step
+    # Three workers have factors of theirs.
+    assert sum(text.startswith("Ordering the vertices, ") for text in found["said"]) >= 3
+
+
+@pytest.mark.parametrize("areas", ["voronoi", "barycentric"])
+def test_steps_of_a_slider_are_right_where_vertices_have_no_area(areas):
+    mesh = StoredMesh.of(slivers(), "float32")
+    laplacian = Laplacian(mesh.surface, areas)
+    (found,) = said(mesh, [5], ["diffusion@0.3", "power@1.5"], areas=areas, functions=stored_functions(laplacian, []))[
+        "answers"
+    ]
+    assert worst(field(found["diffusion@0.3"]), DiffusionDistance(laplacian, 0.3).from_source(5)) < 1e-7
+    assert worst(field(found["power@1.5"]), PowerDistance(laplacian, 1.5).from_source(5)) < 1e-6
 
 
 # ---------------------------------------------------------------------- fields of one's own

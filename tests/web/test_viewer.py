@@ -281,7 +281,7 @@ def test_a_link_holds_source_pins_camera_and_panels():
         "source": 7,
         "pins": [{"id": 3, "name": "a, b:&=#<é"}, {"id": 9, "name": ""}],
         "camera": [[1, 2, 3.25], [0, 0, -1e-7], [0, 1, 0]],
-        "panels": [2, 0],
+        "panels": ["2", "0:0.25"],
     }
     said = ask("address", hash=ask("written_address", state=state), ids=[3, 7, 9], choices=3)
     assert said == {**state, "ignored": []}
@@ -297,6 +297,7 @@ def test_a_link_holds_source_pins_camera_and_panels():
         ("#camera=NaN,0,1,0,0,0,0,1,0", "camera"), ("#camera=0x1,0,1,0,0,0,0,1,0", "camera"),
         ("#camera=1e999,0,1,0,0,0,0,1,0", "camera"),
         ("#panels=0,3", "panels"), ("#panels=", "panels"), ("#panels=0x1", "panels"), ("#panels=-1", "panels"),
+        ("#panels=0:,1", "panels"), ("#panels=0:x", "panels"), ("#panels=0:0.25:1", "panels"),
         ("#__proto__=1", "an unknown part"), ("#toString=1", "an unknown part"),
     ],
 )  # fmt: skip

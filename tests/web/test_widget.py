@@ -29,7 +29,7 @@ def test_a_widget_holds_what_a_page_does(made):
     assert made.pins == [{"id": 5, "name": ""}, {"id": 7, "name": ""}]
     assert made.scene["isolines"]["count"] == 0
     assert made.scene["panels"][0]["shares"]
-    assert {*made.contents} == {"kernel", "mesh", "given", "points-diffusion"}
+    assert {*made.contents} == {"kernel", "mesh", "given"}
     assert made._esm.endswith("export default { render };\n")
 
 

@@ -39,7 +39,7 @@ const answers = {
   },
   async address({ hash, ids, choices = 0 }) {
     const { readAddress } = await use("address.js");
-    return readAddress(hash, (id) => ids.includes(id), (panels) => panels.every((each) => each < choices));
+    return readAddress(hash, (id) => ids.includes(id), (panels) => panels.every((each) => each.split(":")[0] < choices));
   },
   async written_address({ state }) {
     const { addressOf } = await use("address.js");

@@ -27,8 +27,7 @@ class PageDialog(JobDialog):
 
     def __init__(self, context: Context, recipe: Recipe, surfaces: Surfaces) -> None:
         super().__init__(context, recipe, surfaces)
-        self._eigenpairs: int | None = None
-        self._room_is_left = True  # then readers can choose other distances that need eigenpairs
+        self._allowed: int | None = None  # eigenpairs for each distance; None for as many as usual
         self.form.section("Mesh")
         self.precision = Choice(PRECISION_NAMES, PRECISIONS[0])
         tip = "Precision of the stored vertices, from which the page computes its distances"
@@ -43,16 +42,13 @@ class PageDialog(JobDialog):
         contents = Contents.of(document)
         loaded = self._surfaces[document.surfaces[0].name]
         check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path)
-        if self._eigenpairs is None:
-            needed = needed_eigenpairs(contents, loaded).values()
-            self._eigenpairs, total = max(needed, default=0), sum(needed)
-            size = eigenpair_bytes(total, len(loaded.surface.vertices))
-            self._room_is_left = size <= EIGENPAIR_BYTES
-            self.carried.setText(f"{counted(total, 'eigenpair')} in the file, about {size_words(size)}")
-            self.carried.setVisible(bool(total))
+        needed = needed_eigenpairs(contents).values()
+        size = eigenpair_bytes(sum(needed), len(loaded.surface.vertices))
+        self._allowed = None if size <= EIGENPAIR_BYTES else max(needed)
+        self.carried.setText(f"{counted(sum(needed), 'eigenpair')} in the file, about {size_words(size)}")
+        self.carried.setVisible(bool(needed))
 
     def work(self, path: str) -> Callable[..., object]:
         check_output(path, (".html",))
         precision = self.precision.currentData()
-        allowed = None if self._room_is_left else self._eigenpairs
-        return partial(write_page, self._recipe, path, self._given, precision, allowed)
+        return partial(write_page, self._recipe, path, self._given, precision, self._allowed)

@@ -1,12 +1,13 @@
 /** Source, pins, camera and panels in the part of an address behind "#", read strictly: anybody may have written it. */
 import { minus, cross } from "./vectors.js";
 
-const NUMBER = /^-?\d{1,17}(\.\d{1,17})?(e[+-]?\d{1,2})?$/, ID = /^\d{1,10}$/;
+const NUMBER = /^-?\d{1,17}(\.\d{1,17})?(e[+-]?\d{1,2})?$/, ID = /^\d{1,10}$/, CHOICE = /^\d{1,10}(:\d[\d.e-]{0,20})?$/;
 const MOST_PINS = 100, LONGEST_NAME = 80;
 
 /**
- * @param {{source: number, pins: {id: number, name: string}[], camera: number[][], panels?: number[]}} state
- *   camera: position, focal, up; panels: places among the choices, where they are not the first ones
+ * @param {{source: number, pins: {id: number, name: string}[], camera: number[][], panels?: string[]}} state
+ *   camera: position, focal, up; panels: places among the choices, where they are not the first ones, with the value of a
+ *   slider that was moved ("3:0.25")
  */
 export function addressOf({ source, pins, camera, panels = [] }) {
   const places = pins.map(({ id, name }) => (name ? `${id}:${encodeURIComponent(name)}` : id));
@@ -17,8 +18,8 @@ export function addressOf({ source, pins, camera, panels = [] }) {
 
 /**
  * @param {(id: number) => boolean} isVertex
- * @param {(panels: number[]) => boolean} isChoice
- * @returns {{source?: number, pins?: {id: number, name: string}[], camera?: number[][], panels?: number[],
+ * @param {(panels: string[]) => boolean} isChoice
+ * @returns {{source?: number, pins?: {id: number, name: string}[], camera?: number[][], panels?: string[],
  *   ignored: string[]}} what is valid, and the names of what is not
  */
 export function readAddress(hash, isVertex, isChoice) {
@@ -54,7 +55,7 @@ function pinsOf(text, isVertex) {
 
 function panelsOf(text, isChoice) {
   const panels = text.split(",");
-  return panels.every((each) => ID.test(each)) && isChoice(panels.map(Number)) ? panels.map(Number) : null;
+  return panels.every((each) => CHOICE.test(each)) && isChoice(panels) ? panels : null;
 }
 
 function nameOf(text) {

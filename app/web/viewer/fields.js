@@ -6,6 +6,19 @@ const PERCENTAGE_POINTS = "percentage points";
 /** The names of the fields that a panel is made of. @returns {string[]} */
 export const fieldNames = (panel) => (panel.distance === "difference" ? panel.of : [panel.distance]);
 
+/** The word and the parameter of a distance with a slider, "diffusion@0.25". */
+export const partsOf = (distance) => distance.split("@");
+
+/** The function of the Laplacian that a panel's slider moves; undefined without one. */
+export const functionOf = (scene, { distance }) => scene.functions?.[partsOf(distance)[0]];
+
+/** A panel at another value of its slider; undefined if there is none. */
+export function panelAt(scene, panel, value) {
+  const [word, own] = partsOf(panel.distance), step = functionOf(scene, panel)?.steps.find((each) => each.value === value);
+  if (!step || value === Number(own)) return step && panel;
+  return { ...panel, distance: `${word}@${value}`, label: step.label, unit: step.unit, range: null };
+}
+
 /**
  * A panel's values and range.
  * @returns {{values: Float64Array, own: number, low: number, high: number, signed: boolean, gap: string}} own: the

@@ -31,8 +31,8 @@ export class Link {
 
   /** Show what the address holds. @returns {boolean} whether distances are computed for that */
   follow() {
-    const { viewer } = this, { vertices, sight, chosen, choices } = viewer;
-    const isChoice = (panels) => panels.length === chosen.length && panels.every((each) => each in choices);
+    const { viewer } = this, { vertices, sight, chosen } = viewer;
+    const isChoice = (panels) => panels.length === chosen.length && panels.every((each) => viewer.panelOf(each));
     const { source, pins, camera, panels, ignored } = readAddress(location.hash, (id) => vertices.has(id), isChoice);
     if (camera && !sight.look(camera)) ignored.push("camera");
     if (pins) viewer.setPins(pins);

@@ -2,7 +2,7 @@
 import { element } from "./elements.js";
 import { Drawing } from "./drawing.js";
 import { themeOf, coloursOf } from "./theme.js";
-import { reading } from "./fields.js";
+import { reading, functionOf } from "./fields.js";
 import { paintBar, barWords } from "./colour_bar.js";
 import { paintShapes, paintCursor, paintLabel } from "./marks.js";
 
@@ -20,9 +20,11 @@ export class Stage {
     const role = { class: "view", tabindex: 0, role: "application" };
     this.views = scene.panels.map(() => element("div", role));
     this.heads = scene.panels.map((_, k) => this.#head(k, choose));
-    this.panels = scene.panels.map((_, k) =>
-      element("section", { class: "panel" }, element("h2", {}, this.heads[k]), this.views[k], this.bars[k]),
-    );
+    this.sliders = scene.panels.map((_, k) => this.#slider(k, choose));
+    this.panels = scene.panels.map((_, k) => {
+      const head = element("h2", {}, this.heads[k], this.sliders[k]);
+      return element("section", { class: "panel" }, head, this.views[k], this.bars[k]);
+    });
     for (const k of this.panels.keys()) this.relabel(k);
     this.grid = element("div", { class: "grid" }, ...this.panels);
     this.sheet = element("div", { class: "sheet" }, this.surface, this.grid, this.over);
@@ -35,15 +37,35 @@ export class Stage {
     if (this.choices.length < 2) return element("span");
     const options = this.choices.map(({ label }) => element("option", { text: label }));
     const head = element("select", { "aria-label": `Panel ${k + 1} shows` }, ...options);
-    head.addEventListener("change", () => choose(k, head.selectedIndex));
+    head.addEventListener("change", () => choose(k, String(head.selectedIndex)));
     return head;
+  }
+
+  #slider(k, choose) {
+    const slider = element("input", { type: "range", min: 0 });
+    slider.addEventListener("input", () => {
+      const panel = this.scene.panels[k], { value } = functionOf(this.scene, panel).steps[slider.value];
+      choose(k, `${panel.choice}:${value}`);
+    });
+    return slider;
   }
 
   /** Name what a panel shows. */
   relabel(k) {
-    const { label, note } = this.scene.panels[k], head = this.heads[k];
-    if (head.options) head.selectedIndex = this.choices.findIndex((each) => each.label === label);
+    const panel = this.scene.panels[k], { label, note, choice } = panel, head = this.heads[k], slider = this.sliders[k];
+    for (const [j, each] of [...(head.options ?? [])].entries())
+      each.textContent = j === choice ? label : this.choices[j].label;
+    if (head.options) head.selectedIndex = choice;
     else head.textContent = label;
+    const { steps, meaning } = functionOf(this.scene, panel) ?? {};
+    slider.hidden = !steps;
+    if (steps) {
+      slider.max = steps.length - 1;
+      slider.value = steps.findIndex((each) => each.label === label);
+      slider.title = meaning;
+      slider.setAttribute("aria-label", meaning);
+      slider.setAttribute("aria-valuetext", label);
+    }
     head.title = note ? `${label}; ${note}` : label;
     this.panels[k].setAttribute("aria-label", label);
     this.views[k].setAttribute("aria-label", `${label}: a surface; press ? for the keys`);

@@ -6,7 +6,7 @@ import { Stage } from "./stage.js";
 import { ToolBar } from "./tool_bar.js";
 import { PinTable } from "./pins.js";
 import { Pointing } from "./pointing.js";
-import { fieldNames, panelAnswer, isolineLevels } from "./fields.js";
+import { fieldNames, panelAnswer, isolineLevels, panelAt, partsOf } from "./fields.js";
 import { addGestures } from "./gestures.js";
 import { addKeys } from "./keys.js";
 import { aboutBox, helpBox } from "./about.js";
@@ -33,10 +33,11 @@ export class Viewer {
    */
   constructor(root, { mesh, scene, solver, isEmbedded = false, hasAddress = false, ...told }) {
     const { onsource = () => {}, onpins = () => {} } = told;
-    scene = { ...scene, panels: [...scene.panels] };
-    Object.assign(this, { root, mesh, scene, solver, isEmbedded, hasAddress, onsource, onpins });
     /** What a panel can show: what panels show at first, and what else there is. */
-    this.choices = [...new Map([...scene.panels, ...scene.offered].map((each) => [each.label, each])).values()];
+    const all = new Map([...scene.panels, ...scene.offered].map((each) => [each.label, each]));
+    this.choices = [...all.values()].map((each, choice) => ({ ...each, choice }));
+    scene = { ...scene, panels: scene.panels.map(({ label }) => this.choices.find((each) => each.label === label)) };
+    Object.assign(this, { root, mesh, scene, solver, isEmbedded, hasAddress, onsource, onpins });
     this.first = String(this.chosen);
     this.vertices = new Map(Array.from(mesh.ids, (id, vertex) => [id, vertex]));
     this.fields = {}; // by name, each with its source
@@ -184,6 +185,8 @@ export class Viewer {
     this.bar.show(this.mesh.ids[vertex], this.at > 0, this.at + 1 < this.visited.length);
     this.redraw(false);
     const { timers, ended } = this, all = [...new Set(this.scene.panels.flatMap(fieldNames))];
+    const latest = (this.latest = {});
+    this.fields = Object.fromEntries(Object.entries(this.fields).filter(([name]) => all.includes(name)));
     const names = all.filter((name) => this.fields[name]?.source !== vertex);
     timers.late ??= setTimeout(() => this.#setLate(true), NOTICED);
     const receive = (answer) => ended.signal.aborted || this.#receive(answer, names);
@@ -197,7 +200,7 @@ export class Viewer {
       this.hasFailed = true;
       this.say(error.message, true);
     }
-    if (vertex !== this.source) return;
+    if (latest !== this.latest) return;
     clearTimeout(timers.late);
     timers.late = null;
     this.#setLate(this.hasFailed);
@@ -212,17 +215,27 @@ export class Viewer {
     if (source === this.source) this.say(timed(`${done} of ${names.length} fields`, took));
   }
 
-  /** What panels show, by their places among the choices. */
+  /** What panels show, by their places among the choices, with the value of a slider that was moved: "2", "3:0.25". */
   get chosen() {
-    return this.scene.panels.map(({ label }) => this.choices.findIndex((each) => each.label === label));
+    const value = ({ choice, distance }) => (distance === this.choices[choice].distance ? [] : partsOf(distance)[1]);
+    return this.scene.panels.map((panel) => [panel.choice].concat(value(panel)).join(":"));
+  }
+
+  /** What a panel shows by such a text; undefined if there is no such choice. */
+  panelOf(text) {
+    const [choice, value] = text.split(":"), made = this.choices[choice];
+    return value === undefined || !made ? made : panelAt(this.scene, made, Number(value));
   }
 
   /** Let panels show these of the choices, once the source is visited. */
   setPanels(chosen) {
-    for (const [k, choice] of chosen.entries()) {
-      if (choice === this.chosen[k]) continue;
-      this.scene.panels[k] = this.choices[choice];
-      this.answers[k] = this.levels[k] = null;
+    for (const [k, text] of chosen.entries()) {
+      if (text === this.chosen[k]) continue;
+      const panel = this.panelOf(text), isMoved = this.answers[k] && panel.choice === this.scene.panels[k].choice;
+      this.scene.panels[k] = panel;
+      // Where the slider moves, what is there is shown until the next field is.
+      this.answers[k] = isMoved ? { ...this.answers[k], source: null } : null;
+      if (!isMoved) this.levels[k] = null;
       this.stage.relabel(k);
       this.#show(k);
     }
@@ -230,8 +243,8 @@ export class Viewer {
   }
 
   /** The user chose what a panel shows. */
-  choosePanel(k, choice) {
-    this.setPanels(Object.assign(this.chosen, { [k]: choice }));
+  choosePanel(k, text) {
+    this.setPanels(Object.assign(this.chosen, { [k]: text }));
     this.#compute(this.source);
     this.link.writeSoon();
   }

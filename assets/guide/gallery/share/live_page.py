@@ -11,7 +11,7 @@ import bihdist
 distances = ["biharmonic", "biharmonic - geodesic"]
 picture = bihdist.figure("hand", distances, source=6835, layout={"size": "800x460"})
 picture.save("live_page.png")
-page = bihdist.page("hand", "live_page.html", distances, source=6835, eigenpairs=0)
+page = bihdist.page("hand", "live_page.html", distances, source=6835)
 
 # %%
 # The mesh is stored with 24 bits per coordinate. The resulting deviation is known, as a fraction of the maximum:
@@ -26,4 +26,4 @@ print(page.differs)
 #    bihdist figure hand --sources 6835 \
 #        --distance 'biharmonic,biharmonic - geodesic' --size 800x460 \
 #        -o live_page.png
-#    bihdist page --recipe live_page.json --eigenpairs 0 -o live_page.html
+#    bihdist page --recipe live_page.json -o live_page.html

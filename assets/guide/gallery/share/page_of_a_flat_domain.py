@@ -17,7 +17,6 @@ bihdist.page(
     distances,
     source=323,
     view={"cpos": "front"},
-    eigenpairs=0,
 )
 
 # %%
@@ -28,4 +27,4 @@ bihdist.page(
 #    bihdist figure domain --sources 323 --distance biharmonic,geodesic \
 #        --size 1000x400 -o page_of_a_flat_domain.png
 #    bihdist page domain --sources 323 --distance biharmonic,geodesic \
-#        --cpos front --eigenpairs 0 -o page_of_a_flat_domain.html
+#        --cpos front -o page_of_a_flat_domain.html
