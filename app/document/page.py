@@ -36,7 +36,7 @@ class Page:
         The pictures of each panel, side by side; the document's camera if empty.
     columns
         The number of panels side by side; None for all in one row.
-    letters
+    panel_letters
         Whether panels have letters: (a), (b), (c).
     hints
         Whether sentences under the headings say what to look for.
@@ -60,7 +60,7 @@ class Page:
     layout: str = ""
     views: tuple[View, ...] = ()
     columns: int | None = None
-    letters: bool = False
+    panel_letters: bool = False
     hints: bool = False
     transparent: bool = False
     crop: bool = False

@@ -137,7 +137,7 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
         transparent=page.transparent,
         crop=page.crop,
         title=page.title,
-        letters=page.letters,
+        letters=page.panel_letters,
         font=page.font_family,
         text=page.font_size,
     )
