@@ -212,7 +212,7 @@ def add_chart(parser: argparse.ArgumentParser) -> None:
         parser,
         *PAGE_ROWS,
         size="size of the chart: such as 85mm; or column (85 mm), double (178 mm)",
-        style="style of the chart: paper, uniform, lines or dark (default: paper)",
+        style="style of the chart: paper, uniform, lines, dark or cover (default: paper)",
         font_family="font of the chart (default: DejaVu Sans)",
         font_size="font size of the chart, in points (default: 8)",
     )

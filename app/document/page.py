@@ -42,6 +42,8 @@ class Page:
         Whether sentences under the headings say what to look for.
     transparent
         Whether the background is transparent.
+    ground
+        Whether there is a shadow on the ground.
     crop
         Whether empty margins are cut off.
     title
@@ -63,6 +65,7 @@ class Page:
     panel_letters: bool = False
     hints: bool = False
     transparent: bool = False
+    ground: bool = False
     crop: bool = False
     title: str = "heading"
     font_family: str = ""

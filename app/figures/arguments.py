@@ -186,7 +186,7 @@ class LayoutOptions(TypedDict, total=False):
         ``"85mm"``, ``"3.5in"``, ``"1680x640"``, ``"160mm@300dpi"``, ``"column"`` (85 mm, cropped, and distances have
         one colour bar in percent unless `crop` and `clim` say otherwise), ``"double"`` (178 mm), ``"slide"``.
     style : str
-        Style of the page: ``"paper"``, ``"uniform"``, ``"lines"`` or ``"dark"``.
+        Style of the page: ``"paper"``, ``"uniform"``, ``"lines"``, ``"dark"`` or ``"cover"``.
     columns : int
         Number of panels side by side; by default all, or a row for each source.
     layout : str
@@ -203,6 +203,8 @@ class LayoutOptions(TypedDict, total=False):
         Size of labels in points; other text is in proportion.
     transparent : bool
         Leave the background transparent.
+    ground : bool
+        Draw a soft shadow on the ground.
     crop : bool
         Cut off empty margins.
     """
@@ -217,6 +219,7 @@ class LayoutOptions(TypedDict, total=False):
     font_family: str
     font_size: float | None
     transparent: bool
+    ground: bool
     crop: bool
 
 

@@ -71,6 +71,8 @@ class FigurePanel:
         The plane beyond which the surface is cut away; None for none.
     opacity
         Of the surface, more than 0 and at most 1.
+    ground
+        Whether there is a shadow on the ground, beneath what is not flat.
     """
 
     surface: Surface
@@ -104,6 +106,7 @@ class FigurePanel:
     largest: str = ""
     clip: Clip | None = None
     opacity: float = 1.0
+    ground: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):

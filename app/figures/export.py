@@ -114,6 +114,7 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
                 if document.range == "own"
                 else typed_end(document, panel.id, answer)
             ),
+            ground=page.ground,
         )
         for panel, answer, marks in zip(document.panels, answers, marked, strict=True)
     )

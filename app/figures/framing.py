@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bihdist_core import Surface
+from bihdist_core.analysis.first_view import is_flat
 from bihdist_core.arrays import FloatArray
 
 from ..document.camera import Camera, View
@@ -15,6 +16,7 @@ from ..drawing.shapes import Box
 from ..scene.camera import Projection, outwards_at, standard_camera
 from ..scene.drawable import bounds_of, rise, warp_by_scalar
 from .description import FigurePanel
+from .shadows import FRAMED, ground_around
 
 FREE = 0.03
 """The share of a view left free along each side."""
@@ -60,7 +62,7 @@ def camera_of(view: View, panel: FigurePanel, surface: Surface, aspect: float) -
         return view
     name = "relief" if panel.warp_factor and view == "home" else view
     outwards = outwards_at(surface, panel.source) if name == "source" and panel.source is not None else None
-    return standard_camera(_used(surface), aspect, name, panel.up, outwards, panel.is_parallel, margin=0.0)
+    return standard_camera(_framed(panel, surface), aspect, name, panel.up, outwards, panel.is_parallel, margin=0.0)
 
 
 def seen(view: View, panel: FigurePanel, surface: Surface) -> Seen:
@@ -91,7 +93,7 @@ def _flat(view: View, panel: FigurePanel, surface: Surface) -> tuple[FloatArray,
     """Return the vertices of faces (k, 2) in a square picture, and how much of it across and up is sure to be seen."""
     camera = camera_of(view, panel, surface, 1.0)
     projection, longest = Projection(camera, 1.0, surface.vertices, 0.0, panel.is_parallel), max(camera.extent)
-    return projection(_used(surface))[:, :2], (camera.extent[0] / longest, camera.extent[1] / longest)
+    return projection(_framed(panel, surface))[:, :2], (camera.extent[0] / longest, camera.extent[1] / longest)
 
 
 def places(surface: Surface) -> FloatArray:
@@ -103,6 +105,17 @@ def places(surface: Surface) -> FloatArray:
 
 def _used(surface: Surface) -> FloatArray:
     return surface.vertices[surface.component_of_vertex >= 0]
+
+
+def _framed(panel: FigurePanel, surface: Surface) -> FloatArray:
+    """Return the points that have room in a picture: vertices of faces, and the ground about them."""
+    used = _used(surface)
+    return np.concatenate([used, ground_around(used, panel.up, FRAMED)]) if has_ground(panel) else used
+
+
+def has_ground(panel: FigurePanel) -> bool:
+    """Return whether a panel shows a shadow on the ground."""
+    return panel.ground and not is_flat(_used(panel.surface))
 
 
 class Framed:

@@ -79,7 +79,7 @@ class HiddenLineRemoval:
         self.extent = float(np.linalg.norm(extent))
         x, self.faces, of = surface.vertices, surface.faces, np.arange(len(surface.faces))
         if clip is not None:
-            x, self.faces, of = _cut_faces(x, self.faces, of, clip.depths(x))
+            x, self.faces, of = cut_faces(x, self.faces, of, clip.depths(x))
         self.at = self.pixels(x)
         self.occlusion = Occlusion(*self._before_the_eye(x, of))
         self._backs = None if outward is None else self._face_keys(outward[self._from_inside(outward)])
@@ -211,7 +211,7 @@ class HiddenLineRemoval:
         """
         depth = self.at[:, 2]
         least = NEAREST * max(float(depth.max(initial=0.0)), 1e-300)
-        points, faces, of = _cut_faces(x, self.faces, of, depth - least)
+        points, faces, of = cut_faces(x, self.faces, of, depth - least)
         near = self._near(self.at if points is x else self.pixels(points))
         return near[faces], self.surface.faces[of]
 
@@ -227,7 +227,7 @@ class HiddenLineRemoval:
         return [Curve(curve.points[a:b], curve.edges[a:b]) for a, b in _runs(before) if b - a >= 2]
 
 
-def _cut_faces(
+def cut_faces(
     x: FloatArray, faces: IntArray, of: IntArray, depths: FloatArray
 ) -> tuple[FloatArray, IntArray, IntArray]:
     """Cut faces (m, 3) of points (n, 3) where depths (n,) are 0.

@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from bihdist_core.arrays import BoolArray, FloatArray
+from bihdist_core.counts import counted
 
 from ..drawing.glyphs import TRIANGLE_DOWN, TRIANGLE_UP, glyph_shapes
 from ..drawing.shapes import Box, Group, Path, Pen, Shape, opaque, polyline, rectangle
 from ..marks.primitives import PointMark
+from ..scene.clipping import clip_plane, is_kept
 from ..scene.corners import Rectangle, inside, joins
 from .page_layout import ComposedPage
 from .shots import Shot
@@ -191,9 +193,15 @@ def hidden_words(page: ComposedPage) -> list[str]:
                 continue
             for mark in some:
                 found[f"{_named(mark)} is {rest}"] = None
+        plane, x = clip_plane(panel.clip, panel.surface), panel.surface.vertices
+        gone = [mark for mark in panel.marks if not is_kept(plane, mark.on(x)[None])[0]]
+        if gone and not panel.warp_factor:
+            others = f" and {counted(len(gone) - 1, 'other mark')} are" if len(gone) > 1 else " is"
+            found[f"{_named(gone[0])}{others} cut away by the clip plane."] = None
         for name in dict.fromkeys(line.name for line in panel.lines if line.name):
             if not any(name in shot.seen for shot in shots):
-                found[f"{name} is hidden in {views}; try --cpos source or --cpos front,back."] = None
+                rest = ", or cut away" if plane is not None else "; try --cpos source or --cpos front,back"
+                found[f"{name} is hidden in {views}{rest}."] = None
     return list(found)
 
 

@@ -47,7 +47,7 @@ PAGE_ROWS = (
         "such as 85mm, 3.5in, 1680x640, 160mm@300dpi; or column (85 mm, cropped), double (178 mm), slide, A0",
         "SIZE",
     ),
-    _layout("style", "paper, uniform, lines or dark (default: paper)", "NAME"),
+    _layout("style", "paper, uniform, lines, dark or cover (default: paper)", "NAME"),
 )
 """Of a page, with panels or with a chart."""
 
@@ -143,6 +143,7 @@ ROWS = (
     _layout("title", "show names as heading (default), as caption at the bars, or none", "WHERE"),
     *PAGE_ROWS,
     _layout("transparent", "draw no background"),
+    _layout("ground", "draw a soft shadow on the ground"),
     CROP,
     _layout(
         "layout",

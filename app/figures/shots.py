@@ -30,12 +30,13 @@ from ..scene.line_labels import Contour
 from ..scene.selected import selected_colours
 from ..scene.style import Style
 from .description import Figure, FigurePanel
-from .framing import Framed, shown_surfaces
+from .framing import Framed, has_ground, shown_surfaces
 from .hidden_lines import Curve, HiddenLineRemoval, contours_seen
 from .inset_places import source_of
 from .outlines import outlines
 from .page_layout import PageLayout
 from .raster import FINER, SAMPLES, Rectangle, RenderWindow
+from .shadows import Shadows
 
 LEAST_SEEN = 3.0
 """Units of a line; where less of it is seen, nobody will find it."""
@@ -167,7 +168,7 @@ def take_shots(
     shots: list[Shot] = []
     tops = figure.upper_limits()
     count = sum(len(p.views) + len(p.insets) for p in figure.panels)
-    sights: dict[Hashable, HiddenLineRemoval] = {}
+    sights: dict[Hashable, tuple[HiddenLineRemoval, Shadows | None]] = {}
     with RenderCache() if render_cache is None else nullcontext(render_cache) as render_cache:
         render_cache.keep(each for panel in figure.panels for each in (panel.surface, *panel.parts))
         render_window = render_cache.render_window(figure.style)
@@ -188,9 +189,13 @@ def take_shots(
                 seen_by = framed.projection.view.tobytes(), framed.projection.matrix.tobytes()
                 key = (id(mesh), clip, panel.opacity < 1, size, *seen_by)
                 if key not in sights:
-                    outward = outward_faces(mesh, clip is not None, panel.opacity)
-                    sights[key] = HiddenLineRemoval(surface, framed.projection, size, outward, clip)
-                taker = _Taker(figure, index, surface, sights[key], tops[index], framed, layout, render_window, curves)
+                    outward, ground = outward_faces(mesh, clip is not None, panel.opacity), has_ground(panel)
+                    is_cast = figure.style.occlusion > 0 or ground
+                    sights[key] = (
+                        HiddenLineRemoval(surface, framed.projection, size, outward, clip),
+                        Shadows(mesh, framed.projection, panel.up, ground, clip) if is_cast else None,
+                    )
+                taker = _Taker(figure, index, surface, *sights[key], tops[index], framed, layout, render_window, curves)
                 shots.append(taker.take(box, panel.isolines, step))
                 for inset, place in zip(panel.insets, cell.insets, strict=True) if number == 0 else ():
                     step = part(progress, len(shots) / count, (len(shots) + 1) / count)
@@ -232,6 +237,7 @@ class _Taker:
         index: int,
         surface: Surface,
         sight: HiddenLineRemoval,
+        shadows: Shadows | None,
         top: float,
         framed: Framed,
         layout: PageLayout,
@@ -243,7 +249,8 @@ class _Taker:
         self._scale, self._stroke, self._lift = layout.scale, layout.stroke, layout.mark / 2
         self._projection = framed.projection
         self._per_unit = 1 / framed.projection.pixel_at(framed.depth, framed.whole.width)
-        self._sight, self._curves, self._is_translucent = sight, curves, figure.panels[index].opacity < 1
+        self._sight, self._shadows, self._curves = sight, shadows, curves
+        self._is_translucent = figure.panels[index].opacity < 1
         self._found: dict[Isolines, list[Contour]] = {}
         self._outlines: list[Line] | None = None
         panel = self._panel
@@ -260,13 +267,12 @@ class _Taker:
         # Labels would stand on painted ones.
         is_painted = not self._curves or (self._is_translucent and not wanted.labels)
         self._render_window.shown.show_isolines(wanted if is_painted else Isolines(0), self._panel.through)
+        seen = self._part(source or box)
         image = self._render_window.shade(
-            self._projection,
-            (width, height),
-            self._scale * self._stroke,
-            self._part(source or box),
-            part(progress, 0, 0.7),
+            self._projection, (width, height), self._scale * self._stroke, seen, part(progress, 0, 0.7)
         )
+        if self._shadows is not None:
+            image = self._shadows.cast(image, seen, self._style.occlusion * self._panel.opacity)
         progress(0.7, "finding hidden marks")
         contours = self._contours(wanted) if self._curves else []
         if self._style.outline and self._outlines is None:

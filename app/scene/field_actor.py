@@ -38,6 +38,10 @@ TINTS = {
 Those of labels are flat, as between two labels there is no third; the base has shares of greys."""
 
 _LIT = "//VTK::Light::Impl"
+
+# Light from behind, where the surface turns away: form is seen in dark colours, too.
+_RIM = "  fragOutput0.rgb += {} * pow(1.0 - clamp(normalVCVSOutput.z, 0.0, 1.0), 3.0);\n"
+
 MOST_PEELS = 8
 """Each of them has two layers of what is translucent, the nearest and the farthest that are left."""
 
@@ -455,7 +459,8 @@ class FieldActor:
         paint = _PAINT.replace("ISOLINE", "fieldColour" if has_own_colours else "isolineColour")
         paint = (PAINT_SELECTED if "selected" in names else "") + paint
         paint += _PAINT_SECTION if self.clip is not None else ""
-        shader.AddFragmentShaderReplacement(_LIT, False, f"{_LIT}\n{paint}", False)
+        rim = _RIM.format(self.style.rim) if self.style.rim else ""
+        shader.AddFragmentShaderReplacement(_LIT, False, f"{_LIT}\n{rim}{paint}", False)
 
 
 def _turned(mesh: vtkPolyData, colours: ByteArray) -> vtkCellArray:

@@ -69,6 +69,10 @@ class Style:
         Colour of the isoline at 0 of a signed field; see `isoline_ink`.
     bands
         Whether there is one colour from each isoline to the next.
+    occlusion
+        Fraction of its colours that a surface loses where no light arrives.
+    rim
+        How much lighter surfaces are where they turn away.
     """
 
     stops: Stops
@@ -95,6 +99,8 @@ class Style:
     diverging: Stops = colour_maps.DIVERGING
     signed_isoline: Colour = INK
     bands: bool = False
+    occlusion: float = 0.0
+    rim: float = 0.0
 
     def colours(self, count: int = 512, signed: bool = False) -> FloatArray:
         """Return the colour map (count, 3) from 0 to the maximum or, if signed, from -maximum to maximum."""
@@ -224,7 +230,17 @@ DARK = Style(
 )
 """For slides: the paper's colours with lighter ends, which stay visible on a dark background."""
 
-STYLES = {"paper": PAPER, "uniform": UNIFORM, "lines": LINES, "dark": DARK}
+COVER = Style(
+    stops=colour_maps.PAPER,
+    outline=0.8,
+    outline_colour=(0.12, 0.13, 0.16),
+    isoline_width=1.2,
+    occlusion=0.7,
+    rim=0.25,
+)
+"""For covers: the paper's colours in light from all round, with soft shadows and thin outlines."""
+
+STYLES = {"paper": PAPER, "uniform": UNIFORM, "lines": LINES, "dark": DARK, "cover": COVER}
 """The words of the command line and of recipes."""
 
 

@@ -16,7 +16,7 @@ from app.document.looks import AXES, NO_LINES, Clip
 from app.document.page import Recipe
 from app.drawing.line_looks import PATH, SECTION
 from app.figures.description import Figure, FigurePanel
-from app.figures.draw import lay_out
+from app.figures.draw import lay_out, save_figure
 from app.figures.hidden_lines import Curve, HiddenLineRemoval
 from app.figures.shots import take_shots
 from app.figures.size import Size
@@ -210,6 +210,19 @@ def test_the_inside_of_a_closed_body_shows_no_isolines_once_it_is_cut():
     # From the front only the inside of the half behind the plane is seen.
     assert sum(map(len, parts)) == 0
     assert sight.section()
+
+
+def test_marks_that_are_cut_away_are_named(tmp_path):
+    surface = bumpy(300)
+    far, near = int(surface.vertices[:, 0].argmax()), int(surface.vertices[:, 0].argmin())
+    marks = PointMark(far), PointMark(near), PointMark(far, number=2)
+    for given, said in (
+        (marks[1:2], []),
+        (marks[:2], [f"Vertex {far} is cut away by the clip plane."]),
+        (marks, [f"Vertex {far} and 1 other mark are cut away by the clip plane."]),
+    ):
+        panel = FigurePanel(surface, None, views=("left", "right"), marks=given, clip=Clip())
+        assert save_figure(Figure((panel,), size=Size.parse("200x200")), tmp_path / "cut.png") == said
 
 
 def test_figures_take_a_plane_in_python_and_draw_it_again(tmp_path):

@@ -203,6 +203,18 @@ def test_where_no_process_starts_it_is_said(small, out, monkeypatch):
     assert small.exports.running == []
 
 
+def test_frames_of_a_swing_are_written_by_number(small, out):
+    dialog = movie_dialog(small, 2)
+    dialog.swing.click()
+    assert dialog.turn.value() == 90
+    dialog.kinds.choose("PNG")
+    dialog.export(str(out / "one.png"))
+    assert "put %04d where frames have their numbers" in dialog.refusal.text()
+    dialog.export(str(out / "swing-%04d.png"))
+    small.until(lambda: small.said)
+    assert sorted(os.listdir(out)) == ["swing-0001.png", "swing-0002.png"]
+
+
 def test_a_wrong_box_is_marked_and_says_why_under_it(small, out):
     dialog = movie_dialog(small, 2, size="wide")
     dialog.choose_path()
@@ -224,6 +236,10 @@ def test_a_wrong_box_is_marked_and_says_why_under_it(small, out):
         assert sentence.isHidden()
         assert words in dialog.form.errors[dialog.path_text].text()
     dialog.path_text.setText("")
+    dialog.sweep_text.setText("t=4..1")
+    dialog.choose_path()
+    assert dialog.form.errors[dialog.sweep_text].text() == "t is not a parameter of biharmonic."
+    dialog.sweep_text.setText("")
     dialog.turn.setValue(0)
     dialog.choose_path()
     assert "Nothing would move" in dialog.form.errors[dialog.turn].text()

@@ -10,7 +10,7 @@ from ...document.looks import OF_THE_STYLE, Colours
 from ...scene.style import STYLES, Colour, Style, style_of
 from .theme import Theme
 
-STYLE_NAMES = {"paper": "White ground", "lines": "Lines only", "dark": "Dark ground"}
+STYLE_NAMES = {"paper": "White ground", "lines": "Lines only", "dark": "Dark ground", "cover": "Cover"}
 """For the user; of a style without one, its word."""
 
 UNIFORM = "uniform"
@@ -37,7 +37,7 @@ def style_entry(word: str) -> str:
     return style_name(word) if word == "lines" else f"{style_name(word)} in figures"
 
 
-TWINS = {(True, "paper"): "dark", (False, "dark"): "paper"}
+TWINS = {(True, "paper"): "dark", (True, "cover"): "dark", (False, "dark"): "paper"}
 """The paper's colours on a dark ground have lighter ends, which is the style for slides; and the other way round."""
 
 
