@@ -36,6 +36,8 @@ class Page:
         The pictures of each panel, side by side; the document's camera if empty.
     columns
         The number of panels side by side; None for all in one row.
+    panel_letters
+        Whether panels have letters: (a), (b), (c).
     hints
         Whether sentences under the headings say what to look for.
     transparent
@@ -60,6 +62,7 @@ class Page:
     layout: str = ""
     views: tuple[View, ...] = ()
     columns: int | None = None
+    panel_letters: bool = False
     hints: bool = False
     transparent: bool = False
     ground: bool = False

@@ -193,6 +193,8 @@ class LayoutOptions(TypedDict, total=False):
         ``"hemispheres"``: lateral and medial views of each hemisphere in a row, a row for each distance.
     title : str
         Write names as ``"heading"``, as ``"caption"`` at the colour bars, or ``"none"``.
+    panel_letters : bool
+        Write (a), (b), (c) over the panels.
     hints : bool
         Write under headings what to look for.
     font_family : str
@@ -212,6 +214,7 @@ class LayoutOptions(TypedDict, total=False):
     columns: int | None
     layout: str
     title: str
+    panel_letters: bool
     hints: bool
     font_family: str
     font_size: float | None

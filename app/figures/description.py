@@ -177,6 +177,8 @@ class Figure:
         Sentences on what could not be shown.
     legend
         Entries under all panels, on a page whose height follows from them; in a movie the height is that without them.
+    letters
+        Whether panels have letters, (a), (b), (c).
     dashes_all
         Whether marks that the shape hides are dashed even if another view of their panel shows them.
     """
@@ -196,6 +198,7 @@ class Figure:
     remarks: tuple[str, ...] = ()
     legend: tuple[Entry, ...] = ()
     dashes_all: bool = True
+    letters: bool = False
 
     def __post_init__(self) -> None:
         if not self.panels:

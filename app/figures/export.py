@@ -138,6 +138,7 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
         transparent=page.transparent,
         crop=page.crop,
         title=page.title,
+        letters=page.panel_letters,
         font=page.font_family,
         text=page.font_size,
     )

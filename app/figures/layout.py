@@ -154,11 +154,14 @@ class _Texts:
     ) -> None:
         count = len(figure.panels)
         self.factor, self.lettering = factor, lettering
+        self.letters = [f"({letter_of(k)})" if figure.letters else "" for k in range(count)]
+        # As wide on the right, so that headings stay in the middle.
+        aside = max(lettering.width(each, _heading_size(figure, factor, min(rooms)), True) for each in self.letters)
         room = min(rooms) - 8
         most = 2 if level < 2 else 1
         heads = [p.heading if figure.title == "heading" and level < 5 else "" for p in figure.panels]
         self.heading, self.headings = lettering.fitted(
-            heads, _heading_size(figure, factor, min(rooms)), room, most, True
+            heads, _heading_size(figure, factor, min(rooms)), room - 2 * aside, most, True
         )
         self.hint = 0.0
         self.hints: list[tuple[str, ...]] = [()] * count
@@ -167,7 +170,7 @@ class _Texts:
         feet = [bars.bar_words(figure, k) if level < 3 else "" for k in range(count)]
         more = figure.title == "caption" or lettering.is_printed
         self.label, self.feet = lettering.fitted(feet, LABEL * factor, room, most + more)
-        lines = max(map(len, self.headings))
+        lines = max(*map(len, self.headings), int(figure.letters))
         self.head_lines = lines
         gap = 7 * factor if level < 2 else 2.0
         self.head = gap + lines * LINE * self.heading + max(map(len, self.hints)) * LINE * self.hint
@@ -329,6 +332,12 @@ def _placed(figure: Figure, grid: Grid, texts: _Texts, strip: _Strip, sizes: _Si
     return PageLayout(width, height, scale, page, tuple(cells), texts.label, texts.lettering, shared, stroke, mark)
 
 
+def letter_of(panel: int) -> str:
+    """Return the letter of a panel, counted from 0: a to z, then aa, ab and so on."""
+    before, last = divmod(panel, 26)
+    return (letter_of(before - 1) if before else "") + chr(ord("a") + last)
+
+
 def _bar_box(room: Box, y: float, factor: float) -> Box:
     wide = min(bars.SHARE * room.width, bars.LONGEST * max(factor, 1.0))
     return Box(room.x + (room.width - wide) / 2, y, wide, bars.THICK * factor)
@@ -339,6 +348,9 @@ def _cell(figure: Figure, k: int, box: Box, texts: _Texts, sizes: _Sizes, scale:
     middle, factor = box.middle[0], texts.factor
     first = box.y + 7 * factor + texts.heading
     words = [TextLines(texts.headings[k], middle, first, texts.heading, is_bold=True)]
+    if letter := texts.letters[k]:
+        half = texts.lettering.width(letter, texts.heading, True) / 2
+        words.append(TextLines((letter,), box.x + 4 * factor + half, first, texts.heading, is_bold=True))
     hint_at = box.y + 7 * factor + texts.head_lines * LINE * texts.heading + texts.hint
     words.append(TextLines(texts.hints[k], middle, hint_at, texts.hint, is_quiet=True))
     area = Box(box.x, box.y + texts.head, box.width, max(box.height - texts.head - texts.foot, 4.0))

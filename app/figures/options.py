@@ -139,6 +139,7 @@ ROWS = (
     *BASE,
     RANGE,
     _layout("hints", "say under each heading what to look for (default: no)"),
+    _layout("panel_letters", "write (a), (b), (c) over the panels"),
     _layout("title", "show names as heading (default), as caption at the bars, or none", "WHERE"),
     *PAGE_ROWS,
     _layout("transparent", "draw no background"),

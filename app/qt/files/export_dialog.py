@@ -89,6 +89,7 @@ class ExportDialog(LooksDialog):
         self.transparent = self.form.tick("Transparent &background", page.transparent, tip, "transparent")
         self.form.tick("&Ground", page.ground, "A soft shadow on the ground beneath the shape", "ground")
         self.crop = self.form.tick("Crop the &margins", page.crop, "Crop to what is drawn", "crop")
+        self.form.tick("Panels (a), (b), (c)", page.panel_letters, "(a), (b), (c) over the panels", "panel_letters")
         self.values: QtWidgets.QCheckBox | None = None
         if any(part.has_values for part in recipe.document.parts):
             tip = "The number beside each anchor"
