@@ -100,7 +100,7 @@ def _checked_coordinates(pattern: sp.spmatrix, coordinates: FloatArray) -> Float
 
 def landmark_coordinates(matrix: sp.csr_matrix) -> FloatArray:
     """Return (n, 3) coordinates of vertices: principal components of their numbers of steps from landmarks, each the
-    farthest from those before (pivot multidimensional scaling, Brandes and Pich 2007).
+    farthest from those before (pivot multidimensional scaling).
 
     Elimination in an order by these costs about what it costs by true coordinates.
     """
