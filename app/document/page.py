@@ -54,6 +54,8 @@ class Page:
         The size of labels, in points; None for the usual one.
     anchor_values
         Whether anchors are labelled with their values.
+    pin_names
+        Whether pins that have names are labelled with these in place of their numbers.
     """
 
     size: str = ""
@@ -71,6 +73,7 @@ class Page:
     font_family: str = ""
     font_size: float | None = None
     anchor_values: bool = False
+    pin_names: bool = False
 
     def __post_init__(self) -> None:
         if self.format not in ("", *FORMATS):

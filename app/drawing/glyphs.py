@@ -170,6 +170,8 @@ _BALL = Glyph(
 )
 BALL = replace(_BALL, hidden=replace(_BALL, layers=_HOLLOW))
 """Marks a point whose partner is sought."""
+NAMED = replace(_BALL, name="named", reach=0.4, hidden=GHOST)
+"""Marks a pin whose name is written, at the end of a line."""
 _DIAMOND = replace(_BALL, name="diamond", outline=polyline([(0, -1), (1, 0), (0, 1), (-1, 0)], True), reach=0.72)
 DIAMOND = replace(_DIAMOND, hidden=replace(_DIAMOND, layers=_HOLLOW))
 """Marks the partner that was found."""

@@ -140,8 +140,8 @@ class MarkOptions(TypedDict, total=False):
 
     Attributes
     ----------
-    pins : sequence of int, str or SurfacePoint
-        Vertices or points in faces that get a number, in their order.
+    pins : sequence of int, str or SurfacePoint, or mapping to str
+        Vertices or points in faces that get a number, in their order, or a name each, with a line to it.
     anchors : mapping or sequence of int
         Vertices that are marked, perhaps each with a value.
     anchor_values : bool
@@ -164,7 +164,7 @@ class MarkOptions(TypedDict, total=False):
         Marks that are not drawn, such as ``"source"`` or ``"pins:2"``.
     """
 
-    pins: Sequence[int | str | SurfacePoint] | npt.ArrayLike
+    pins: Sequence[int | str | SurfacePoint] | Mapping[int | str | SurfacePoint, str] | npt.ArrayLike
     anchors: Mapping[int, float | None] | Sequence[int]
     anchor_values: bool
     exponent: float

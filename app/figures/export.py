@@ -15,7 +15,8 @@ from bihdist_core.sources.words import short_words_of
 from ..document.derived_surfaces import COLUMNS, changed_mesh
 from ..document.document import Document, Inset, Panel, starting_points
 from ..document.looks import NO_LINES, Isolines
-from ..document.page import Recipe
+from ..document.page import Page, Recipe
+from ..drawing.glyphs import NAMED
 from ..marks.marked_panel import MarkedPanel, marks_of
 from ..marks.primitives import AreaMark, Caption, LineMark, PointMark, Remark, SurfaceMark
 from ..scene.levels import in_unit
@@ -249,7 +250,7 @@ def _figure_panel(
         through=tuple(point.value for point in through),
         views=tuple(loaded.view_of(view, up) for view in views),
         parts=parts,
-        marks=tuple(_with_value(mark, recipe) for mark in marks if isinstance(mark, PointMark)),
+        marks=tuple(_with_words(mark, recipe.page) for mark in marks if isinstance(mark, PointMark)),
         lines=tuple(mark for mark in marks if isinstance(mark, LineMark)),
         areas=tuple(mark for mark in marks if isinstance(mark, AreaMark)),
         insets=_insets(document, loaded),
@@ -269,9 +270,14 @@ def _figure_panel(
     )
 
 
-def _with_value(mark: PointMark, recipe: Recipe) -> PointMark:
-    """Return a mark with its value beside it, where the page has values."""
-    return replace(mark, text=mark.value) if mark.value and recipe.page.anchor_values else mark
+def _with_words(mark: PointMark, page: Page) -> PointMark:
+    """Return a mark with its value, or a pin with its name in place of its number, where the page has them."""
+    is_pin = mark.number is not None
+    if not mark.value or not (page.pin_names if is_pin else page.anchor_values):
+        return mark
+    if is_pin:
+        mark = replace(mark, glyph=NAMED, number=None, name=f"Pin {mark.value!r}")
+    return replace(mark, text=mark.value)
 
 
 def _isolines(document: Document, answer: Answer) -> Isolines:

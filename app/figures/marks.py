@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from math import cos, sin
+
 import numpy as np
 
 from bihdist_core.arrays import BoolArray, FloatArray
 from bihdist_core.counts import counted
 
-from ..drawing.glyphs import TRIANGLE_DOWN, TRIANGLE_UP, glyph_shapes
+from ..drawing.glyphs import NAMED, TRIANGLE_DOWN, TRIANGLE_UP, glyph_shapes
 from ..drawing.shapes import Box, Group, Path, Pen, Shape, opaque, polyline, rectangle
 from ..marks.primitives import PointMark
 from ..scene.clipping import clip_plane, is_kept
@@ -18,6 +21,11 @@ from .words import TextLines
 
 MOST_NAMED = 3
 """Most hidden marks that have a sentence each."""
+
+NEAR = ((1, 0, 0), (-1, 0, 0), (0, -1, 0), (0, 1, 0))
+"""Where words stand beside a mark: directions across and down, and further distances in sizes of labels."""
+FAR = tuple((cos(angle), sin(angle), far) for far in (1, 2, 3.5, 5, 7, 9, 12) for angle in np.pi / 4 * np.arange(-1, 7))
+"""The same with a line to the mark."""
 
 GROUND = 0.8
 """Opacity of the ground under words."""
@@ -70,24 +78,53 @@ def _words_beside(
 ) -> list[Shape]:
     """Return the words of a mark, if it has any, off what is written already, to which they are added."""
     text = ", ".join(filter(None, (mark.text, mark.aside)))
-    words = _beside(page, shot, text, place, [*insets, *written]) if text else None
-    if words is None or page.figure.panels[shot.panel].failure:
+    if not text or page.figure.panels[shot.panel].failure:
+        return []
+    is_far = mark.glyph == NAMED
+    found = _beside(page, shot, text, place, [*insets, *written], FAR if is_far else NEAR)
+    # Names stand off the shape where there is room: the first of those that cover least.
+    words = min(found, key=lambda words: _covered(page, shot, words), default=None) if is_far else next(found, None)
+    if words is None:
         return []
     written.append(_box_of(page, words))
-    return [_ground(page, written[-1]), *words.shapes(page.figure.style)]
+    line = _line_to(page, place, written[-1]) if is_far else []
+    return [*line, _ground(page, written[-1]), *words.shapes(page.figure.style)]
+
+
+def _covered(page: ComposedPage, shot: Shot, words: TextLines) -> bool:
+    """Return whether words stand on the shape."""
+    box = _box_of(page, words).grown(2)
+    across, down = np.meshgrid(np.linspace(box.x, box.right, 9), np.linspace(box.y, box.bottom, 3))
+    return bool((shot.cover_at(np.column_stack([across.ravel(), down.ravel()])) > 0).any())
+
+
+def _line_to(page: ComposedPage, place: tuple[float, float], box: Box) -> list[Shape]:
+    """Return a thin line, light under dark, from the edge of a mark to words in a box."""
+    style, at = page.figure.style, np.array(place)
+    stop = np.clip(at, (box.x, box.y), (box.right, box.bottom))
+    away = (stop - at) / max(float(np.linalg.norm(stop - at)), 1e-9)
+    course = polyline(np.array([at + NAMED.reach_of(page.layout.mark, page.layout.label) * away, stop]))
+    pens = (Pen(opaque(style.background, GROUND), 2.2), Pen(opaque(style.text), 0.7))
+    return [Path(course, pen=pen) for pen in pens]
 
 
 def _beside(
-    page: ComposedPage, shot: Shot, text: str, place: tuple[float, float], taken: list[Box]
-) -> TextLines | None:
-    """Place words at a mark, where they stay in the picture and off all others; None if there is no such place."""
+    page: ComposedPage,
+    shot: Shot,
+    text: str,
+    place: tuple[float, float],
+    taken: list[Box],
+    ways: Sequence[tuple[float, float, float]],
+) -> Iterator[TextLines]:
+    """Yield words at a mark, in these directions and distances, where they stay in the picture and off all others."""
     size, type = page.layout.label, page.layout.lettering
     x, y = place
     area, gap = shot.box, page.layout.mark / 2 + 0.3 * size
     wide = type.width(text, size)
     others = [Box(a - 1, b - 1, 2, 2) for k, a, b in shot.marks if (a, b) != place]
-    sides = ((x + gap + wide / 2, y), (x - gap - wide / 2, y), (x, y - gap - 0.5 * size), (x, y + gap + 0.5 * size))
-    for middle, level in sides:
+    for right, down, far in ways:
+        middle = x + right * (gap + far * size) + np.sign(round(right, 3)) * wide / 2
+        level = y + down * (gap + (0.5 + far) * size)
         middle = max(min(middle, area.right - wide / 2 - 1), area.x + wide / 2 + 1)
         words = TextLines((text,), middle, level + 0.36 * size, size)
         box = _box_of(page, words)
@@ -97,8 +134,7 @@ def _beside(
             and not box.holds(x, y, 0.8 * page.layout.mark / 2)
             and not any(box.meets(other) for other in (*taken, *others))
         ):
-            return words
-    return None
+            yield words
 
 
 def _ground(page: ComposedPage, box: Box) -> Path:

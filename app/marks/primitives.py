@@ -21,7 +21,7 @@ class PointMark:
     text, aside
         Words beside the mark, and quieter ones after them.
     value
-        The value to write after the text, where values are asked for.
+        The value or name to write where these are asked for.
     number
         Stands in glyphs that have room for one.
     name

@@ -14,12 +14,12 @@ import app
 from app.commands.figure_options import add_figure_options, chosen_recipe
 from app.document.camera import VIEWS, Camera
 from app.document.document import Document, FieldArray, Inset, MeshFile, Panel, Point, comparison
-from app.document.looks import UPS, Clip, Colours, Isolines, Shading
+from app.document.looks import CURVATURE, UPS, Base, Clip, Colours, Isolines, Shading
 from app.document.on_surface import Hidden
 from app.document.page import Page, Recipe
 from app.document.quantities import Difference, DistanceFrom, OwnField, quantity
 from app.document.repairs import Repairs, with_repairs
-from app.document.shared_parts.pins import Pin, Pins, add_pins
+from app.document.shared_parts.pins import Pin, Pins, add_pins, with_pins
 from app.document.shared_parts.selections import select_instead
 from app.document.starts import curves_in
 from app.document.tools import part_types
@@ -93,7 +93,10 @@ def shown(recipe):
     anchors = tuple(replace(anchor, point=mark) for anchor, mark in zip(document[Anchors].anchors, marks, strict=False))
     points = tuple(Point(*each) for each in zip([*renamed.values(), *marks], at, strict=True))
     numbered = marks[len(anchors) : len(anchors) + len(document[Pins].pins)]
-    pins = tuple(Pin(mark, "", pin.colour) for pin, mark in zip(document[Pins].pins, numbered, strict=True))
+    pins = tuple(
+        Pin(mark, pin.name if recipe.page.pin_names else "", pin.colour)
+        for pin, mark in zip(document[Pins].pins, numbered, strict=True)
+    )
     isolines = replace(document.isolines, through=tuple(marks[len(anchors) + len(pins) :]))
     through = points_along(document) if shows_path(document) else ()
     along = tuple(Point(f"path {k}", document.point(name).at) for k, name in enumerate(through))
@@ -121,6 +124,12 @@ def shown(recipe):
 def usual(path, **changes):
     # A picture's document says which way is up, and from where it is seen.
     return replace(comparison(path, (BIHARMONIC,), (5,)), **{"up": "y", "camera": "home", **changes})
+
+
+def named_pins(document, *names):
+    """The document with three pins, with these names."""
+    document = add_pins(document, [9, SurfacePoint.of(3, 0.2, 0.5), 5])
+    return with_pins(document, map(lambda pin, name: replace(pin, name=name), document[Pins].pins, names))
 
 
 EXAMPLES = {
@@ -152,12 +161,19 @@ EXAMPLES = {
     "Profile.way": lambda d, p: (with_profile(d, ["source", 9], "edges"), p),
     "Profile.across": lambda d, p: (with_profile(d, ["source", 9], "section-longer", (0.1, -1e-7, 1 / 3)), p),
     "Pin.point": lambda d, p: (d.with_part(Pins((Pin("source"),))), p),
+    "Pin.name": lambda d, p: (named_pins(d, "", "ear (left)", ""), replace(p, pin_names=True)),
     "Pin.colour": lambda d, p: (d.with_part(Pins((Pin("source", colour=4),))), p),
     "Document.colours": lambda d, p: (replace(d, colours=Colours(reversed=True)), p),
     "Document.shading": lambda d, p: (replace(d, shading=Shading("flat")), p),
     "Document.clip": lambda d, p: (replace(d, clip=Clip((0.0, -1.0, 1 / 3), 0.1 + 0.2)), p),
     "Document.opacity": lambda d, p: (replace(d, opacity=0.1 + 0.2), p),
     "Document.up": lambda d, p: (replace(d, up="-x"), p),
+    "Document.base": lambda d, p: (replace(d, base=Base(CURVATURE)), p),
+    "Base.scalars": lambda d, p: (replace(d, base=Base(CURVATURE)), p),
+    "Base.gradual": lambda d, p: (replace(d, base=Base(CURVATURE, gradual=True)), p),
+    "Base.white_isolines": lambda d, p: (replace(d, base=Base(CURVATURE, white_isolines=True)), p),
+    "Document.scale_bar": lambda d, p: (replace(d, scale_bar=True), p),
+    "Document.unit": lambda d, p: (replace(d, unit="mm"), p),
     "Document.parallel_projection": lambda d, p: (replace(d, parallel_projection=True), p),
     "Document.axes": lambda d, p: (replace(d, axes=True), p),
     "Panel.shows": lambda d, p: (
@@ -201,6 +217,8 @@ EXAMPLES = {
     "Page.size": lambda d, p: (d, replace(p, size="160x80mm@300dpi")),
     "Page.style": lambda d, p: (d, replace(p, style="dark")),
     "Page.views": lambda d, p: (d, replace(p, views=("home", "back", CAMERA))),
+    "Page.panel_letters": lambda d, p: (d, replace(p, panel_letters=True)),
+    "Page.ground": lambda d, p: (d, replace(p, ground=True)),
     "Page.columns": lambda d, p: (d, replace(p, columns=2)),
     "Page.hints": lambda d, p: (d, replace(p, hints=True)),
     "Page.transparent": lambda d, p: (d, replace(p, transparent=True)),
@@ -209,6 +227,7 @@ EXAMPLES = {
     "Page.font_family": lambda d, p: (d, replace(p, font_family="DejaVu Serif")),
     "Page.font_size": lambda d, p: (d, replace(p, font_size=7.5)),
     "Page.anchor_values": lambda d, p: (d, replace(p, anchor_values=True)),
+    "Page.pin_names": lambda d, p: (named_pins(d, "the tip", "", "a = b"), replace(p, pin_names=True)),
 }
 """For each part a change of it."""
 
@@ -224,6 +243,7 @@ ELSEWHERE = {
     "Document.surfaces": "every line names the mesh",
     "Document.fields": "arrays: see the test of what is said in words",
     "Document.warp_factor": "needs a flat mesh: see its test",
+    "Page.layout": "needs a brain",
 }
 
 WORDLESS = {"Inset.corner", "Pin.colour", "Anchor.left_out"} | {
@@ -236,7 +256,7 @@ WORDLESS = {"Inset.corner", "Pin.colour", "Anchor.left_out"} | {
 ROWS = (PANELS, *rows())
 PARTS = [
     f"{part.__name__}.{f.name}"
-    for part in (Document, *part_types(), Panel, Inset, Anchor, Pin, Isolines, Colours, Shading, Repairs, Page)
+    for part in (Document, *part_types(), Panel, Inset, Anchor, Pin, Isolines, Colours, Shading, Base, Repairs, Page)
     for f in fields(part)
 ]
 

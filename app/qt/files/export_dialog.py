@@ -11,6 +11,7 @@ from bihdist_core import BihdistError
 from bihdist_core.distances.answers import Answer
 
 from ...document.page import FORMATS, Recipe
+from ...document.shared_parts.pins import Pins
 from ...figures.description import Figure
 from ...figures.draw import FIGURE_FORMATS, Preview, preview
 from ...figures.export import Surfaces, check_export, figure_of, write_figure
@@ -94,6 +95,8 @@ class ExportDialog(LooksDialog):
         if any(part.has_values for part in recipe.document.parts):
             tip = "The number beside each anchor"
             self.values = self.form.tick("&Values at anchors", page.anchor_values, tip, "anchor_values")
+        if any(pin.name for pin in recipe.document[Pins].pins):
+            self.form.tick("Names of pins", page.pin_names, "Names of pins in place of their numbers", "pin_names")
         self.form.section("Look")
         self.add_look()
         self.letters = _LetterBox(decimals=1, maximum=72, singleStep=0.5, suffix=" pt")

@@ -1,5 +1,7 @@
 """Pins on surfaces."""
 
+from dataclasses import replace
+
 from ...drawing.glyphs import PIN
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import PointMark
@@ -14,9 +16,10 @@ def marks(marked: MarkedPanel) -> list[PointMark]:
 
 def pin_mark(pin: LocatedPin) -> PointMark:
     """Return a pin marker with its number and colour."""
-    colour = PINS[pin.pin.colour]
+    colour, name = PINS[pin.pin.colour], pin.pin.name
     if pin.vertex is not None:
-        return PointMark(pin.vertex, PIN, colour, number=pin.number, point=pin.point)
+        return PointMark(pin.vertex, PIN, colour, number=pin.number, value=name, point=pin.point)
     corners, weights = tuple(pin.corners.tolist()), tuple(pin.weights.tolist())
     nearest = corners[int(pin.weights.argmax())]
-    return PointMark(nearest, PIN, colour, number=pin.number, corners=corners, weights=weights, point=pin.point)
+    mark = PointMark(nearest, PIN, colour, number=pin.number, value=name, point=pin.point)
+    return replace(mark, corners=corners, weights=weights)

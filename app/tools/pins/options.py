@@ -10,9 +10,10 @@ from bihdist_core.sources.source import Source, SurfacePoint, checked_source
 from bihdist_core.sources.words import short_words_of, words_of
 
 from ...document.labels import MARK_COLOURS
+from ...document.lists import file_in, split_list
 from ...document.option import NotExpressible, Option, Row, unsaid
 from ...document.page import Recipe
-from ...document.shared_parts.pins import Pins, pin_instead
+from ...document.shared_parts.pins import Pins, pin_instead, with_pins
 from ...document.sources import Sources, sources_from_words
 
 
@@ -29,7 +30,13 @@ def _pins_of(recipe: Recipe) -> dict[str, Any]:
     places = [point.at for point in points if isinstance(point.at, int | SurfacePoint)]
     if len(places) < len(points):
         raise NotExpressible("A pin is not at a single point.")
-    return {"pins": [at if isinstance(at, int) else words_of(at) for at in places]} if pins else {}
+    words = [at if isinstance(at, int) else words_of(at) for at in places]
+    named = dict(zip(words, (pin.name for pin in pins), strict=True))
+    if not recipe.page.pin_names or not any(named.values()):
+        return {"pins": words} if pins else {}
+    if list(_pins_from_words(_pins_text(named)).values()) != list(named.values()):
+        raise NotExpressible("The name of a pin has a comma or a bracket.")
+    return {"pins": named}
 
 
 def _with_pins(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
@@ -39,8 +46,12 @@ def _with_pins(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
 
         spec = next((spec for panel in document.panels for spec in panel.shows.specs), Spec.of("biharmonic"))
         pins = chosen_on(pins, document.surfaces[0], spec, document.areas).sources
-    places = [_point(checked_source(at)) for at in pins]
-    return replace(recipe, document=pin_instead(document, places, document.surfaces[0].name))
+    named = pins if isinstance(pins, Mapping) else dict.fromkeys(pins, "")
+    names = {_point(checked_source(at)): name for at, name in named.items()}
+    document = pin_instead(document, names, document.surfaces[0].name)
+    pins = (replace(pin, name=names[document.point(pin.point).at]) for pin in document[Pins].pins)
+    page = replace(recipe.page, pin_names=any(names.values()))
+    return replace(recipe, document=with_pins(document, pins), page=page)
 
 
 def _point(at: Source) -> Source:
@@ -49,8 +60,16 @@ def _point(at: Source) -> Source:
     return at
 
 
-def _pins_text(pins: Sequence[int | str]) -> str:
-    return ",".join(map(str, pins))
+def _pins_from_words(text: str) -> Any:
+    """Read sources, or places with names, 12=ear,40, as a mapping."""
+    if "=" not in text or file_in(text.strip()):
+        return sources_from_words(text)
+    return {at.strip(): name.strip() for at, _, name in (word.partition("=") for word in split_list(text))}
+
+
+def _pins_text(pins: Sequence[int | str] | Mapping[int | str, str]) -> str:
+    names = pins if isinstance(pins, Mapping) else dict.fromkeys(pins, "")
+    return ",".join(f"{at}={name}" if name else f"{at}" for at, name in names.items())
 
 
 ROWS = (
@@ -58,18 +77,18 @@ ROWS = (
         (
             Option(
                 "pins",
-                "numbered pins at vertices or places in faces (12,f311:0.2,0.5), or chosen as by --sources: "
-                "farthest:5, or those in a file, @FILE, or - for standard input",
+                "numbered pins at vertices or places in faces (12,f311:0.2,0.5), or names with lines to them "
+                "(12=ear,f311:0.2,0.5=tip), or chosen as by --sources: farthest:5, or those in a file, @FILE, "
+                "or - for standard input",
                 (),
-                metavar="V,…|@FILE",
-                read=sources_from_words,
+                metavar="V[=NAME],…|@FILE",
+                read=_pins_from_words,
                 write=_pins_text,
             ),
         ),
-        ("Pins.pins", "Pin.point", "Pin.colour"),
+        ("Pins.pins", "Pin.point", "Pin.colour", "Pin.name", "Page.pin_names"),
         _pins_of,
         _with_pins,
     ),
     unsaid("for the window's list", "PinsListing.distance", "PinsListing.shares", "PinsListing.positions"),
-    unsaid("figures show numbers", "Pin.name"),
 )

@@ -133,3 +133,46 @@ def test_pages_without_pins_are_as_they_were(ball):
 
     figure = Figure((FigurePanel(ball, ball.vertices[:, 1] + 2, marks=(PointMark(3),)),), size=Size(400, 440, dpi=96))
     assert overhang(figure, lay_out(figure)) == (0.0, 0.0)
+
+
+def test_names_stand_at_the_ends_of_lines_and_leave_the_far_side(ball, tmp_path):
+    import re
+
+    from app.document.file import read_recipe
+    from app.figures.export import figure_of
+
+    front, back = (int(end) for end in (ball.vertices[:, 2].argmax(), ball.vertices[:, 2].argmin()))
+    mesh, how = (ball.vertices, ball.faces), {"layout": {"size": "300x300"}, "view": {"cpos": "front"}}
+
+    def texts(pins):
+        shot = app.figure(mesh, ["biharmonic"], front, marks={"pins": pins}, **how).save(tmp_path / "a.svg").read_text()
+        return set(re.findall(r"<text[^>]*>([^<]*)", shot))
+
+    plain = texts([])
+    assert texts({front: "the nose", back: "the tail"}) - plain == {"the nose"}
+    recipe = read_recipe(str(tmp_path / "a.json"))
+    assert recipe.page.pin_names
+    assert [pin.name for pin in recipe.document[Pins].pins] == ["the nose", "the tail"]
+    # Pins without names have numbers, and a place in a face has a name like a vertex.
+    face = int(np.flatnonzero((ball.faces == front).any(axis=1))[0])
+    assert texts({front: "", f"f{face}:0.3,0.3": "here"}) - plain == {"1", "here"}
+    # A recipe whose pins have names draws their numbers, as it did, where no names are asked for.
+    picture = app.figure(mesh, ["biharmonic"], front, marks={"pins": {front: "the nose"}}, **how)
+    page = replace(picture._recipe.page, pin_names=False)
+    figure = figure_of(replace(picture._recipe, page=page), picture._surfaces, picture.answers)
+    assert [mark.text for mark in figure.panels[0].marks if mark.glyph is PIN] == [""]
+
+
+def test_a_name_stands_beside_the_shape_where_there_is_room(ball):
+    from app.drawing.glyphs import DISC, NAMED
+
+    x, y, z = ball.vertices.T
+    right = int(np.where(z > 0, np.hypot(x - 0.5 * x.max(), y - 0.5 * y.max()), np.inf).argmin())
+    bare = picture(ball)
+    covered = np.any(bare != bare[0, 0], axis=2)
+
+    def share(glyph):
+        changed = np.any(picture(ball, PointMark(right, glyph, PINS[0], "the right ear")) != bare, axis=2)
+        return changed[covered].sum() / changed.sum()
+
+    assert share(replace(NAMED)) < 0.5 < share(DISC)  # a copy, as movies have from other processes
