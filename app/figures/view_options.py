@@ -51,8 +51,8 @@ VIEWS = Row(
         Option(
             "cpos",
             "camera position: home and high, each also with -right, -back or -left, front, back, left, right, top, "
-            "bottom, source, or auto, the one of the first eight that shows most of the shape (default); of brains "
-            "lateral, medial, dorsal, ventral, anterior, posterior; with commas for several",
+            "bottom, source, or auto, home, another side or high, by which shows most of the shape (default); of "
+            "brains lateral, medial, dorsal, ventral, anterior, posterior; with commas for several",
             "auto",
             group="view",
             metavar="NAME,…",

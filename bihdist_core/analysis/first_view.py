@@ -52,11 +52,12 @@ class FirstLook:
 
 
 def first_look(surface: Surface, up: str = "y") -> FirstLook:
-    """Choose the view that shows most of the outside and little of the inside, and a source that is seen in it.
+    """Choose the view that shows most of the outside with a long outline, and a source that is seen in it.
 
     `up` is an axis. The order of the corners tells the outside; where most of what is seen from all sides is inside,
-    the normals point inwards. Home is left only for a view that shows half as much again; a standing figure whose feet
-    point to the back is seen from there.
+    the normals point inwards. What a view shows is the area seen, the inside counted less, times the outline's length.
+    Home is left only for a view that shows half as much again; a standing figure whose feet point to the back is seen
+    from there.
 
     The source is the highest vertex of the component with the largest area, if it is seen; otherwise the highest of
     those that are well seen. Of equally high ones it is the first, or if that faces away, the one that faces the camera
@@ -79,7 +80,10 @@ def first_look(surface: Surface, up: str = "y") -> FirstLook:
     # Of a sheet with one side about half of what is seen is inside, from wherever.
     side = "-back" if _faces_back(places @ axes_of(up)) else ""
     preferred = {f"{name}{side}": factor for name, factor in PREFERRED.items()}
-    shown = (outside + INSIDE * inside) * [preferred.get(name, 1.0) for name in FIRST_VIEWS]
+    # What sticks out is told by the length of the outline: legs side by side, not one before the other.
+    shown = (outside + INSIDE * inside) * [
+        sight.outline * preferred.get(name, 1.0) for name, sight in zip(FIRST_VIEWS, sights, strict=True)
+    ]
     best = int(shown.argmax())
     return FirstLook(FIRST_VIEWS[best], sights[best].source_among(ids, heights, outwards))
 
@@ -137,8 +141,11 @@ class _Sight:
         self._nearest = np.full(CELLS * CELLS, np.inf)
         self._nearest[cells[nearest]] = depth[nearest]
         is_outside = _facing(surface, faces[nearest], self._eye) > 0
-        cell = (2 * SLOPE * distance / CELLS) ** 2
-        self.areas = cell * is_outside.sum(), cell * (~is_outside).sum()  # that are seen, of the outside and the inside
+        side = 2 * SLOPE * distance / CELLS
+        self.areas = side**2 * is_outside.sum(), side**2 * (~is_outside).sum()  # seen of the outside and the inside
+        # Of four cells at once, or a cell that by chance no place falls into would be a hole.
+        is_covered = np.pad(np.isfinite(self._nearest).reshape(CELLS // 2, 2, CELLS // 2, 2).any(axis=(1, 3)), 1)
+        self.outline = 2 * side * sum(np.diff(is_covered, axis=axis).sum() for axis in (0, 1))  # length, with holes
 
     def source_among(self, ids: IntArray, heights: FloatArray, outwards: float) -> int:
         """Return the source among vertices (k,) with heights (k,); `outwards` is -1 where normals point inwards."""

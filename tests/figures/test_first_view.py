@@ -1,5 +1,6 @@
 """What is shown first: a shape upright, not edge-on, not its inside, and a source that is seen on its largest part."""
 
+import csv
 from dataclasses import replace
 from pathlib import Path
 
@@ -202,3 +203,18 @@ def test_a_standing_figure_is_seen_from_the_front(name):
 def test_what_is_no_standing_figure_stays_as_it_is_turned(name):
     surface = found(name)
     assert [first_look(each).view for each in (surface, turned(surface, AROUND))] == ["home", "home"]
+
+
+# ---------------------------------------------------------------------- as people choose
+with (Path(__file__).parent / "first_views.csv").open() as _table:
+    CHOSEN = {row["shape"]: row["views"].split() for row in csv.DictReader(_table)}
+"""The views that a person would choose, by grey pictures of all oblique ones, before the rule was seen to choose."""
+
+OTHERWISE = ("lion_pose05.obj", "spot.obj")
+"""Those that are seen from home, though a person would choose another view."""
+
+
+@pytest.mark.parametrize("name", CHOSEN)
+def test_first_views_are_among_those_a_person_would_choose(name):
+    up = guess_up(found(name), Path(name).suffix or ".ply")
+    assert (first_look(found(name), up).view in CHOSEN[name]) == (name not in OTHERWISE)
