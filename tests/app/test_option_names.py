@@ -130,7 +130,7 @@ def test_one_name_means_one_thing():
             for name in action.option_strings:
                 known.setdefault(name, {}).setdefault((action.metavar, tuple(action.choices or ())), []).append(word)
     differing = {name: kinds for name, kinds in known.items() if len(kinds) > 1}
-    known_ones = {"--anchors", "--distance", "--method", "--output", "--clim", "--layout", "-o"}
+    known_ones = {"--anchors", "--pins", "--distance", "--method", "--output", "--clim", "--layout", "-o"}
     assert set(differing) == known_ones, differing
 
 

@@ -61,7 +61,21 @@ def test_a_recipe_is_read_as_it_was_written(tmp_path):
         .with_part(Anchors(anchors=(Anchor("tip", 0.5), Anchor("source", None))))
     )
     page = Page(
-        "160mm@300dpi", "dark", "svg", ("home", document.camera), 2, False, True, True, "caption", "DejaVu Serif", 7.5
+        "160mm@300dpi",
+        "dark",
+        "svg",
+        "",
+        ("home", document.camera),
+        2,
+        True,
+        False,
+        True,
+        True,
+        True,
+        "caption",
+        "DejaVu Serif",
+        7.5,
+        pin_names=True,
     )
     path = tmp_path / "recipe.json"
     path.write_text(recipe_text(Recipe(document, page), "0.1"))

@@ -49,9 +49,9 @@ def _with_pins(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
     named = pins if isinstance(pins, Mapping) else dict.fromkeys(pins, "")
     names = {_point(checked_source(at)): name for at, name in named.items()}
     document = pin_instead(document, names, document.surfaces[0].name)
-    pins = (replace(pin, name=names[document.point(pin.point).at]) for pin in document[Pins].pins)
+    named_pins = [replace(pin, name=name) for pin, name in zip(document[Pins].pins, names.values(), strict=True)]
     page = replace(recipe.page, pin_names=any(names.values()))
-    return replace(recipe, document=with_pins(document, pins), page=page)
+    return replace(recipe, document=with_pins(document, named_pins), page=page)
 
 
 def _point(at: Source) -> Source:
