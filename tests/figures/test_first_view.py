@@ -205,16 +205,16 @@ def test_what_is_no_standing_figure_stays_as_it_is_turned(name):
     assert [first_look(each).view for each in (surface, turned(surface, AROUND))] == ["home", "home"]
 
 
-# ---------------------------------------------------------------------- as people choose
+# ---------------------------------------------------------------------- as judged beforehand
 with (Path(__file__).parent / "first_views.csv").open() as _table:
-    CHOSEN = {row["shape"]: row["views"].split() for row in csv.DictReader(_table)}
-"""The views that a person would choose, by grey pictures of all oblique ones, before the rule was seen to choose."""
+    GOOD = {row["shape"]: row["views"].split() for row in csv.DictReader(_table)}
+"""The views judged good from grey pictures of all oblique ones, before it was measured what a rule chooses."""
 
 OTHERWISE = ("lion_pose05.obj", "spot.obj")
-"""Those that are seen from home, though a person would choose another view."""
+"""Those that are seen from home, though that was not judged good."""
 
 
-@pytest.mark.parametrize("name", CHOSEN)
-def test_first_views_are_among_those_a_person_would_choose(name):
+@pytest.mark.parametrize("name", GOOD)
+def test_first_views_are_among_those_judged_good(name):
     up = guess_up(found(name), Path(name).suffix or ".ply")
-    assert (first_look(found(name), up).view in CHOSEN[name]) == (name not in OTHERWISE)
+    assert (first_look(found(name), up).view in GOOD[name]) == (name not in OTHERWISE)
