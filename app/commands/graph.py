@@ -79,22 +79,21 @@ def run(options: argparse.Namespace) -> Result:
         parts = counted(laplacian.surface.n_components, "component")
         facts: Facts = {"n_nodes": len(graph.nodes), "n_edges": graph.n_edges}
         facts |= {"n_components": laplacian.surface.n_components, "outputs": [options.output] if options.output else []}
-        is_asked = bool(options.pairs or options.sources or options.edges)
-        if not is_asked:
-            facts["kirchhoff_index"] = kirchhoff_index(laplacian, progress)
-            facts["biharmonic_index"] = biharmonic_index(laplacian, progress)
+        facts["kirchhoff_index"] = kirchhoff_index(laplacian, progress)
+        facts["biharmonic_index"] = biharmonic_index(laplacian, progress)
         distances = Distances(laplacian)
+        is_asked = bool(options.pairs or options.sources or options.edges)
         made = [distances.get(spec, progress) for spec in chosen] if is_asked else []
         header, rows = _table(options, graph, made, words) if is_asked else ([], [])
         facts["distances"] = [distance_facts(each, word) for each, word in zip(made, words, strict=is_asked)]
     print(f"{graph.name}: {size}, {parts}")
-    if not is_asked:
-        print(f"Kirchhoff index {facts['kirchhoff_index']:.10g}, biharmonic index {facts['biharmonic_index']:.10g}")
-        return Result(facts)
-    for word, each in zip(words, made, strict=True):
+    print(f"Kirchhoff index {facts['kirchhoff_index']:.10g}, biharmonic index {facts['biharmonic_index']:.10g}")
+    for word, each in zip(words, made, strict=is_asked):
         print(f"{word}: {counted(len(rows), 'row')}{accuracy(each)}")
-    _write(options.output, header, rows)
-    return Result(facts | {"n_rows": len(rows)})
+    facts["n_rows"] = len(rows)
+    if is_asked:
+        _write(options.output, header, rows)
+    return Result(facts)
 
 
 def _table(

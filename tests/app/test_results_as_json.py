@@ -24,6 +24,7 @@ LINES = {
     "field": "field a.off --sources 3,7 -o f.npy",
     "pairs": "pairs a.off --sources 3,7,9 -o p.csv --distance biharmonic,commute-time",
     "isolines": "isolines a.off --sources 3 -o lines.csv --region 20%:40% --region-ids ids.txt",
+    "graph": "graph roads.csv --pairs A:B,B:C -o edges.csv",
     "samples": "samples a.off --sources farthest:5:3 -o samples.txt",
     "regions": "regions a.off --sources 3,7 -o labels.csv --boundaries lines.json",
     "profile": "profile a.off --sources 3 --through source,40 -o along.csv --distance biharmonic",
@@ -56,6 +57,7 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.setattr("app.guide_pages.GUIDE", Path("index.html").resolve())
     write_mesh("meshes/a.off", bumpy(120))
     Path("anchors.csv").write_text("vertex,value\n3,0\n40,1\n")
+    Path("roads.csv").write_text("A,B,1\nB,C,2\n")
     Path("pairs.csv").write_text("3,3\n40,40\n90,90\n")
     np.savetxt("identity.txt", np.arange(120), "%d")
     return tmp_path

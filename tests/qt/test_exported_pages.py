@@ -75,9 +75,9 @@ def test_the_size_of_eigenpairs_is_said_before_a_page_is_written(small, out, pag
 
 def test_what_a_page_cannot_show_is_said_in_its_dialog(small, out, page_dialog):
     document = small.session.document
-    _show(small, replace(document, panels=(replace(document.panels[0], shows=quantity("power")),)))
+    _show(small, replace(document, panels=(replace(document.panels[0], shows=quantity("geodesic(method=heat)")),)))
     dialog = page_dialog()
-    assert "Panel 1 (power) cannot be on a page" in dialog.refusal.text()
+    assert "Panel 1 (geodesic(method=heat)) is not exact" in dialog.refusal.text()
     dialog.export(str(out / "p.html"))
     assert dialog.isVisible()
     assert not small.exports.running

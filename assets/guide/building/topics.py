@@ -27,6 +27,12 @@ TOPICS: dict[str, tuple[str, str, list[str]]] = {
         "The operators and eigenpairs that distances are made of.",
         ["Laplacian", "Spectrum", "eigenpairs"],
     ),
+    "graphs": (
+        "Graphs and sparse inverses",
+        "Distances between nodes, and entries of the inverse of a sparse matrix.",
+        ["Graph", "read_graph", "kirchhoff_index", "biharmonic_index", "SparseFactor", "diagonal_of_inverse",
+         "inverse_on_pattern"],
+    ),
     "fields": (
         "Isolines, statistics and extrema",
         "Measurements of one field, or of two.",
