@@ -15,7 +15,7 @@ distances = [
     "diffusion(t=1/4)",
     "geodesic",
     "truncated(k=20)",
-    "power(alpha=3,k=100)",
+    "power(alpha=3)",
 ]
 picture = bihdist.figure(
     "beast",
@@ -35,4 +35,4 @@ picture.save("six_panels.png")
 #        --size 1000x860 -o six_panels.png \
 #        \
 #        --distance \
-#        'biharmonic,commute-time,diffusion(t=1/4),geodesic,truncated(k=20),power(alpha=3,k=100)'
+#        'biharmonic,commute-time,diffusion(t=1/4),geodesic,truncated(k=20),power(alpha=3)'
