@@ -71,10 +71,12 @@ def nodes_of(
     weights = real_numbers(masses, "Masses")
     if weights.shape != (n,):
         raise ParameterError(f"{name}: {n:,} rows have as many masses, not an array of shape {weights.shape}.")
-    if not (weights > 0).all():
-        i = int(np.argmin(weights))
-        raise ParameterError(f"{name}: masses are positive, and that of row {i} is {weights[i]:g}.")
+    wrong = np.flatnonzero(~((weights > 0) & np.isfinite(weights)))
+    if len(wrong):
+        raise ParameterError(f"{name}: masses are positive, and that of row {wrong[0]} is {weights[wrong[0]]:g}.")
     label = _checked_kernel(matrix, name)
+    if label.max() < 0:
+        raise ParameterError(f"{name}: no entry joins two rows, so there is no distance.")
     places = np.zeros((n, 3)) if positions is None else real_numbers(positions, "Positions").copy()
     if places.shape != (n, 3) or not np.isfinite(places).all():
         raise ParameterError(f"{name}: positions of {n:,} rows are (n, 3) finite numbers, not {places.shape}.")

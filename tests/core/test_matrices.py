@@ -115,6 +115,8 @@ def test_components_have_no_distance_between_them_and_single_rows_have_none():
         (lambda s, m: (s * np.nan, m), "not finite"),
         (lambda s, m: (s, m[:-1]), "as many masses"),
         (lambda s, m: (s, np.where(np.arange(len(m)) == 4, 0, m)), "masses are positive, and that of row 4 is 0"),
+        (lambda s, m: (s, np.where(np.arange(len(m)) == 4, np.inf, m)), "that of row 4 is inf"),
+        (lambda s, m: (0 * s, m), "no entry joins two rows"),
         (lambda s, m: ("L", m), "sparse .* matrix, not str"),
     ],
 )
