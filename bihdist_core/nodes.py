@@ -75,8 +75,6 @@ def nodes_of(
     if len(wrong):
         raise ParameterError(f"{name}: masses are positive, and that of row {wrong[0]} is {weights[wrong[0]]:g}.")
     label = _checked_kernel(matrix, name)
-    if label.max() < 0:
-        raise ParameterError(f"{name}: no entry joins two rows, so there is no distance.")
     places = np.zeros((n, 3)) if positions is None else real_numbers(positions, "Positions").copy()
     if places.shape != (n, 3) or not np.isfinite(places).all():
         raise ParameterError(f"{name}: positions of {n:,} rows are (n, 3) finite numbers, not {places.shape}.")
@@ -105,5 +103,7 @@ def _checked_kernel(matrix: sp.csr_matrix, name: str) -> IntArray:
         )
     rows = np.repeat(np.arange(n), np.diff(matrix.indptr))
     joined = (rows < matrix.indices) & (matrix.data != 0)
+    if not joined.any():
+        raise ParameterError(f"{name}: no entry joins two rows, so there is no distance.")
     label = connected(np.stack([rows[joined], matrix.indices[joined]]).astype(np.int64), n)
     return ranked_components(label, diagonal > 0)
