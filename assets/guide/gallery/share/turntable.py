@@ -16,7 +16,7 @@ picture = bihdist.figure(
     layout={"title": "none", "size": "320x260"},
 )
 picture.save("turntable.png")
-picture.save_movie("turntable-movie.gif", frames=20, fps=8)
+picture.save_movie("turntable-movie.gif", frames=16, fps=8)
 
 # %%
 # The same from the command line:
@@ -25,5 +25,5 @@ picture.save_movie("turntable-movie.gif", frames=20, fps=8)
 #
 #    bihdist figure elephant --sources 1866 --distance biharmonic \
 #        --isolines 12 --title none --size 320x260 -o turntable.png
-#    bihdist movie --recipe turntable.json --frames 20 --fps 8 \
+#    bihdist movie --recipe turntable.json --frames 16 --fps 8 \
 #        -o turntable-movie.gif
