@@ -39,7 +39,8 @@ class Resolvents:
 
     def __init__(self, tree: EliminationTree, stiffness: sp.csr_matrix, areas: FloatArray, why: str) -> None:
         self._tree, self._stiffness, self._areas, self._why = tree, stiffness, areas, why
-        self._lock = threading.RLock()
+        # Two, so that columns at the poles that are there do not wait for others to be factored.
+        self._lock, self._columns_lock = threading.Lock(), threading.Lock()
         self._sets: list[tuple[complex, ...]] = []
         self._factors: dict[complex, ShiftedFactor | None] = {}
         self._diagonals: dict[complex, AnyArray] = {}
@@ -111,7 +112,7 @@ class Resolvents:
         return total
 
     def _kept(self, source: int) -> dict[complex, AnyArray]:
-        with self._lock:
+        with self._columns_lock:
             kept = self._columns.pop(source, {})
             while len(self._columns) >= KEPT_SOURCES:
                 del self._columns[next(iter(self._columns))]
