@@ -95,6 +95,7 @@ def test_one_waits_for_the_end_of_an_import(number, tmp_path, monkeypatch):
         f"import signal\ntry:\n    signal.raise_signal({int(number)})\nexcept BaseException:\n    pass\nloaded = True\n"
     )
     monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, "catches_all", raising=False)
 
     def work():
         import catches_all
