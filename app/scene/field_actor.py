@@ -97,7 +97,7 @@ _PAINT_SECTION = """
   float fromCut = clipDistancesVSOutput[0];
   float cutPerPixel = max(length(vec2(dFdx(fromCut), dFdy(fromCut))), 1e-12);
   float section = 1.0 - smoothstep(sectionWidth - 0.6, sectionWidth + 0.6, fromCut / cutPerPixel);
-  fragOutput0.rgb = mix(fragOutput0.rgb, isolineCasingColour, section);
+  fragOutput0.rgb = mix(fragOutput0.rgb, sectionColour, section);
 """
 
 
@@ -334,6 +334,7 @@ class FieldActor:
         self._uniforms.SetUniformf("isolineRimOpacity", rim[3])
         self._uniforms.SetUniform3f("isolineThroughColour", self.style.source)
         self._uniforms.SetUniform3f("isolineCasingColour", self.style.mark_edge)
+        self._uniforms.SetUniform3f("sectionColour", self.style.section)
         self._uniforms.SetUniformf("isolineSigned", float(self.is_signed))
 
     def isoline_ink(self, value: float = 1.0, is_through: bool = False) -> IsolineInk:
