@@ -21,12 +21,12 @@ def cloud(tmp_path, monkeypatch):
 
 def test_field_pairs_and_info(cloud, capsys):
     expected = BiharmonicDistance(cloud).from_sources([3, 40])
-    assert main("field scan.xyz --sources 3,40 -o field.npy".split()) == 0
+    assert main(["field", "scan.xyz", "--sources", "3,40", "-o", "field.npy"]) == 0
     assert np.array_equal(np.load("field.npy"), expected)
-    assert main("pairs scan.xyz --pairs 3:40 -o pairs.csv".split()) == 0
+    assert main(["pairs", "scan.xyz", "--pairs", "3:40", "-o", "pairs.csv"]) == 0
     assert float(Path("pairs.csv").read_text().split(",")[-1]) == pytest.approx(expected[40, 0])
     capsys.readouterr()
-    assert main("info scan.xyz --json".split()) == 0
+    assert main(["info", "scan.xyz", "--json"]) == 0
     (facts,) = json.loads(capsys.readouterr().out)["meshes"]
     assert (facts["n_vertices"], facts["n_faces"], facts["genus"]) == (400, 0, None)
 
@@ -51,6 +51,6 @@ def test_what_needs_faces_is_refused(capsys, command, reason):
 
 @pytest.mark.usefixtures("cloud")
 def test_coloured_points(capsys):
-    assert main("field scan.xyz --sources 3 -o field.ply".split()) == 0
-    assert main("info field.ply --json".split()) == 0
+    assert main(["field", "scan.xyz", "--sources", "3", "-o", "field.ply"]) == 0
+    assert main(["info", "field.ply", "--json"]) == 0
     assert '"n_faces": 0' in capsys.readouterr().out
