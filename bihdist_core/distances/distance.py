@@ -12,6 +12,7 @@ from ..errors import ParameterError, SolverError
 from ..laplacian import Component, Laplacian
 from ..memo import Memo
 from ..mesh_like import MeshLike, Rows
+from ..point_cloud import PointCloud
 from ..progress import Progress, silent, steps
 from ..sources.pieces import Pieces
 from .accuracy import FINEST_ACCURACY, POOR_ACCURACY, ErrorEstimate, accurate_to, rounded_up
@@ -85,7 +86,8 @@ class Distance(PairQuestions):
         >>> bihdist.CommuteTimeDistance(sphere).unit
         'no unit'
         """
-        return unit_of(self.length_power) if len(self.surface.faces) else "the unit of the matrices"
+        has_unit = len(self.surface.faces) or isinstance(self.surface, PointCloud)
+        return unit_of(self.length_power) if has_unit else "the unit of the matrices"
 
     @property
     def accuracy(self) -> float | None:
