@@ -235,7 +235,7 @@ FIGURES = (
     *(
         Statement(
             f"fig10-{k}",
-            f"Biharmonic distance predicts correspondences better than geodesic and diffusion distance, known points "
+            "Biharmonic distance predicts correspondences better than geodesic and diffusion distance, landmarks "
             f"{layout}.",
             *("ours", "after figure 10"),
             tuple(
@@ -251,7 +251,7 @@ FIGURES = (
         *("paper", "section 5.2 and figure 10"),
         tuple(
             Part(
-                f"median error far from known points more than biharmonic's, geodesic, known points {layout}",
+                f"median error far from the landmarks more than biharmonic's, geodesic, landmarks {layout}",
                 above(0, "%"),
                 "interval",
                 of="starts",
@@ -265,7 +265,7 @@ FIGURES = (
         *("paper", "figure 10"),
         tuple(
             Part(
-                f"median error on the head more than biharmonic's, diffusion t = 1, known points {layout}",
+                f"median error on the head more than biharmonic's, diffusion t = 1, landmarks {layout}",
                 above(0, "%"),
                 "interval",
                 of="starts",

@@ -1,8 +1,8 @@
 """Figure 3: a raw surface with many boundaries, holes and missing parts.
 
 The paper: the isolines of biharmonic distance "follow the shape indifferently to the missing parts and holes".
-Measured against the intact surface, at the same points: on a scan (noise, ragged holes, a missing foot), and on the
-intact surface with holes punched into it and nothing else.
+Two damaged surfaces are compared with the intact one at the same points: a scan (with noise, ragged holes and a missing
+foot), and the intact surface with holes punched into it.
 """
 
 from dataclasses import dataclass, field
@@ -73,12 +73,11 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     return Result(
         "fig3",
         TITLE,
-        f"Sources: the upper back and {len(random)} random vertices. The scan is compared at each of its points with "
-        "the nearest vertex of the intact surface, those farther than a mean edge from it left out; the punched "
-        f"surface has {HOLES} round holes of one radius at farthest points, which take {removed} of the area, and all "
-        f"other vertices in place. A hole on a shortest path has a radius of {HOLE_RADIUS:g} roots of the area and "
-        "lies midway between the source and the farthest point; the largest change of any distance from the source "
-        "counts.",
+        f"The sources are on the upper back and at {len(random)} random vertices. Each point of the scan is compared "
+        "with the nearest vertex of the intact surface, if that is within a mean edge length. The punched surface "
+        f"has {HOLES} round holes of one radius at farthest points, which take {removed} of the area. A hole on a "
+        f"shortest path has a radius of {HOLE_RADIUS:g} roots of the area and lies midway between the source and the "
+        "point farthest from it; the largest change of the distances from the source counts.",
         {name: intact} | {damage: surface for damage, (surface, _) in damaged.items()},
         tuple(panel for each in found.values() for panel in each.panels),
         tables=(Table("changes", ("surface", "source", "distance", *CHANGE_COLUMNS), rows),) if rows else (),

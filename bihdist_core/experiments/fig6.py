@@ -118,12 +118,12 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     return Result(
         "fig6",
         TITLE,
-        "The pictured source is on the upper back. Noise is drawn several times, at random and independently for each "
-        "vertex, on each coordinate or along the normal; its standard deviation is a share of the mean edge length. "
-        "The pictured source has the first draw; each draw has two random sources, from the second of which "
-        "biharmonic distance alone is compared. Simplification draws edges together onto one of their ends, so the "
-        "vertices that stay are at their old places and are where the fields are compared. The poses have the same "
-        "triangles.",
+        "The pictured source is on the upper back. Noise is Gaussian, independent for each vertex, on each coordinate "
+        "or along the normal, with a share of the mean edge length as its standard deviation. It is drawn several "
+        "times: the pictured source has the first draw, and each draw has two random sources, of which the second "
+        "measures biharmonic distance only. The mesh is refined or simplified to the first number of vertices, and "
+        "simplified to the second; fields are compared at the vertices that stay, whose positions are unchanged. The "
+        "two poses have the same triangles.",
         surfaces | {case.name: case.after[0] for case in cases},
         tuple(panel for each in found.values() for panel in each.panels),
         tables=_tables(found),

@@ -71,14 +71,14 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     return Result(
         "table1",
         TITLE,
-        "Each time is from a bare mesh (no operators, no factor, no spectrum) to the array of all N × N distances in "
-        f"single precision, in blocks of {BLOCK} sources; of more than {BLOCKS} blocks so many are timed, spread "
-        "evenly, and count for all. Biharmonic: factorization and diagonal, then wide solves on two threads. Dijkstra: "
-        "SciPy's, on one thread, over a graph made once, all sources. Diffusion: eigenpairs until the weight falls to "
-        "1e-8 of the first, then distances of points. Times are processor times of all threads together, with one "
-        f"BLAS thread, of {REPEATS} repetitions ({MOST_REPEATS} at the largest size), the methods in turns. Judged are "
-        "the geometric mean of the ratios of two methods' times in the same repetition, with its interval, and "
-        "exponents of N fitted to the least of the repetitions; tables and charts show medians.",
+        "Each time is that from a mesh (without operators, factor or spectrum) to the array of all N × N distances "
+        f"in single precision, in blocks of {BLOCK} sources. Of more than {BLOCKS} blocks, {BLOCKS} spread evenly are "
+        "timed and stand for the rest. Biharmonic: factorization and diagonal, then wide solves on two threads. "
+        "Dijkstra: SciPy's, on one thread, from all sources. Diffusion: eigenpairs until the weight falls to 1e-8 of "
+        "the first, then distances of points. Times are processor times of all threads, with one BLAS thread, of "
+        f"{REPEATS} repetitions ({MOST_REPEATS} at the largest size) in which the methods take turns. A ratio is the "
+        "geometric mean over the repetitions, with Student's interval; an exponent is fitted to the least times, "
+        "with the interval of resampled sizes and repetitions. Tables and charts show medians.",
         charts=(
             Chart(
                 "all pairs",

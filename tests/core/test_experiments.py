@@ -68,7 +68,7 @@ def test_results_fit_together(result, id):
         assert panel.field is None or panel.field.shape == (len(surface.vertices),)
         assert all(0 <= mark.vertex < len(surface.vertices) for mark in panel.marks)
         assert {mark.kind for mark in panel.marks} <= set(MARKS)
-        assert set(panel.views) <= {"front", "back", "source", "zoom"}
+        assert set(panel.views) <= {"front", "back", "home", "home-back", "source", "zoom"}
         assert ("zoom" in panel.views) == (panel.zoom_vertex is not None)
         assert panel.style in ("surface", "height")
     for chart in r.charts:
@@ -302,15 +302,19 @@ def test_fig10_candidates(result):
         # Counting the mirror image as right can only help.
         assert errors["median"] <= errors["median, mirror image wrong"]
         assert errors["90 %"] <= errors["90 %, mirror image wrong"]
+        assert 0 < errors["AUC of the PCK curve to 0.25"] < 1
+    # The mean of a curve is the AUC: equally many targets from each start.
+    for chart, layout in zip(r.charts, fig10.LAYOUTS, strict=True):
+        for series in chart.series:
+            areas = numbers(table, "AUC of the PCK curve to 0.25", landmarks=layout, distance=series.name)
+            assert np.trapezoid(series.y, series.x) / 0.25 == pytest.approx(areas.mean(), abs=0.005)
     # In the mean half of the candidates are within a quarter of the root of the area, about the width of the shoulders.
     means = r.table("mean errors")
     assert (numbers(means, "mean", error="median") < 0.25).all()
     assert (numbers(means, "low") <= numbers(means, "mean")).all()
     by_id = {claim.id: claim.numbers for claim in r.claims}
     for id, layout in (("fig10-1", "spread"), ("fig10-2", "clustered")):
-        own, other = (
-            numbers(table, "median", known_points=layout, distance=kind) for kind in ("biharmonic", "geodesic")
-        )
+        own, other = (numbers(table, "median", landmarks=layout, distance=kind) for kind in ("biharmonic", "geodesic"))
         found = by_id[id]["median error more than biharmonic's, geodesic"]
         assert found.count == 12
         assert found.value == pytest.approx((other - own).mean())
