@@ -18,9 +18,12 @@ from .accuracy import FINEST_ACCURACY, POOR_ACCURACY, ErrorEstimate, accurate_to
 from .pair_questions import PairQuestions
 
 
+UNIT_OF_MATRICES = "the unit of the matrices"
+
+
 def unit_of(length_power: float) -> str:
     """Return the unit of values that scale with this power of lengths, in words."""
-    known = {1.0: "mesh units", 0.0: "no unit", -1.0: "1 / mesh units"}
+    known = {1.0: "mesh units", 0.0: "no unit", -1.0: "1 / mesh units", -2.0: "1 / mesh units^2"}
     return known.get(length_power, f"mesh units^{length_power:g}")
 
 
@@ -85,7 +88,7 @@ class Distance(PairQuestions):
         >>> bihdist.CommuteTimeDistance(sphere).unit
         'no unit'
         """
-        return unit_of(self.length_power) if len(self.surface.faces) else "the unit of the matrices"
+        return unit_of(self.length_power) if len(self.surface.faces) else UNIT_OF_MATRICES
 
     @property
     def accuracy(self) -> float | None:
