@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from bihdist_core.analysis.parcels import ParcelSums, labelled, parcel_sums
-from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.analysis.signature_types import is_signature
+from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import failure_in_words
 from bihdist_core.errors import BihdistError, OutputError

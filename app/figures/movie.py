@@ -98,7 +98,8 @@ class Movie:
         ParameterError if the distances have no such parameter, or for a value that is not allowed.
         """
         sweep = Sweep.parse(self.sweep)
-        kinds = {spec.word: spec.distance_type for panel in self.recipe.document.panels for spec in panel.shows.parametrised}
+        shown = (spec for panel in self.recipe.document.panels for spec in panel.shows.parametrised)
+        kinds = {spec.word: spec.distance_type for spec in shown}
         found = [p for kind in kinds.values() for p in kind.parameters if p.name == sweep.name]
         if not found:
             raise ParameterError(f"{sweep.name} is not a parameter of {', '.join(kinds) or 'what is shown'}.")

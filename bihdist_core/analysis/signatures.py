@@ -49,6 +49,13 @@ class Signature:
         A surface s times as large has values s ** length_power times as large.
     unit : str
         The unit of the values in words.
+
+    Examples
+    --------
+    >>> import bihdist
+    >>> found = bihdist.centrality(bihdist.sample("hand"))
+    >>> found.values.shape, found.length_power, found.accuracy < 1e-8
+    ((7569,), 2.0, True)
     """
 
     values: FloatArray
@@ -110,7 +117,7 @@ def biharmonic_kernel_signature(laplacian: Laplacian | MeshLike, progress: Progr
     Returns
     -------
     Signature
-        sum_k phi_k(x)^2 / lambda_k^2, exact; unit length squared.
+        The sum over all k of phi_k(x)^2 / lambda_k^2, exact; unit length squared.
 
     Raises
     ------
@@ -125,7 +132,7 @@ def biharmonic_kernel_signature(laplacian: Laplacian | MeshLike, progress: Progr
     >>> spectrum = bihdist.eigenpairs(sphere, 641)  # all there are
     >>> sums = (spectrum.eigenvectors**2 / spectrum.eigenvalues**2).sum(axis=1)
     >>> round(float(exact.values[0]), 4), round(float(sums[0]), 4)
-    (0.0796, 0.0796)
+    (0.0809, 0.0809)
     """
     return _exact(laplacian, "biharmonic kernel signature, exact", biharmonic_squares, OF_SQUARES, progress)
 
@@ -189,7 +196,7 @@ def wave_kernel_signature(
     Returns
     -------
     Signature
-        sum_k w_k phi_k(x)^2 / sum_k w_k with w_k = exp(-ln(lambda_k / (energy lambda_1))^2 / (2 sigma^2)), with all
+        The mean of phi_k(x)^2 with the weights w_k = exp(-ln(lambda_k / (energy lambda_1))^2 / (2 sigma^2)), with all
         eigenpairs; unit 1 / length squared.
 
     Raises
@@ -310,9 +317,7 @@ def _off(component: Component, function: RationalFunction, diagonal: FloatArray,
     return off
 
 
-def _signature(
-    laplacian: Laplacian, values: FloatArray, accuracy: float, label: str, length_power: float
-) -> Signature:
+def _signature(laplacian: Laplacian, values: FloatArray, accuracy: float, label: str, length_power: float) -> Signature:
     if not accuracy <= POOR_ACCURACY:
         raise SolverError(
             f"The {label} on {laplacian.surface.name} may be off by more than {POOR_ACCURACY:.0e} of its maximum, so "

@@ -17,7 +17,6 @@ from ..sources.pieces import Pieces
 from .accuracy import FINEST_ACCURACY, POOR_ACCURACY, ErrorEstimate, accurate_to, rounded_up
 from .pair_questions import PairQuestions
 
-
 UNIT_OF_MATRICES = "the unit of the matrices"
 
 

@@ -20,6 +20,7 @@ from bihdist_core import (
 from bihdist_core.analysis.signature_types import SIGNATURES, SignatureSpec
 from bihdist_core.errors import BihdistError
 from tests.dense_reference import full_spectrum
+from tests.programs import ROOT
 from tests.shapes import bumpy, grid, torus, two_pieces
 
 EXACT = 1e-9
@@ -141,6 +142,14 @@ def test_what_there_is_not_is_refused(call, message):
     with pytest.raises(BihdistError, match=message) as raised:
         call(bumpy(4))
     assert isinstance(raised.value, ParameterError | SolverError)
+
+
+@pytest.mark.parametrize("row", SIGNATURES.values(), ids=lambda row: row.word)
+def test_each_is_in_the_guide_with_its_parameters(row):
+    names = ", ".join(p.name for p in row.parameters)
+    word = f"`{row.word}({names})`" if names else f"`{row.word}`"
+    text = (ROOT / "assets/guide/reference/distances.md").read_text(encoding="utf-8")
+    assert f"| {word} | {row.name} | {row.squares} | {row.scaling} |" in text
 
 
 def test_the_hand_s_tips_are_least_central():
