@@ -73,6 +73,7 @@ from .graph_files import read_graph
 from .graphs import Graph, biharmonic_index, kirchhoff_index
 from .laplacian import Laplacian, eigenpairs
 from .mesh_like import MeshLike
+from .point_cloud import PointCloud
 from .solver.spectrum import Spectrum
 from .sources.source import BoundaryLoop, Curve, SourceSet, SurfacePoint
 from .sources.words import source_from_words
@@ -120,6 +121,7 @@ __all__ = [
     "Parcels",
     "Pins",
     "Places",
+    "PointCloud",
     "PowerDistance",
     "RegionMesh",
     "Regions",

@@ -65,8 +65,9 @@ def run(options: argparse.Namespace) -> Result:
     """Open the window, until it is closed."""
     if threading.current_thread() is threading.main_thread():
         # SIGTERM ends a window at once.  Qt's loop would not let Python see it, and what it raises while modules are
-        # loaded may be caught by any of them.
+        # loaded may be caught by any of them.  Ctrl-C is noted by the window.
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
     # Not in the window, where a script would wait for ever.
     is_choice = options.mesh is None and not (options.screenshot or options.save_session)

@@ -37,7 +37,7 @@ PATH = LineLook(
     rank=1,
 )
 """The look of a profile's path."""
-SECTION = LineLook("section", (Stroke("mark_edge", 1.8),), rank=-1)
+SECTION = LineLook("section", (Stroke("section", 1.8),), rank=-1)
 """The look of the line where a clip plane cuts a surface."""
 SOURCE = LineLook("source", (Stroke("mark_edge", 6.0), Stroke("source", 3.5)), rank=2)
 """The look of a line from which a field starts."""

@@ -8,11 +8,10 @@ from math import cos, sin
 import numpy as np
 
 from bihdist_core.arrays import BoolArray, FloatArray
-from bihdist_core.counts import counted
 
 from ..drawing.glyphs import NAMED, TRIANGLE_DOWN, TRIANGLE_UP, glyph_shapes
 from ..drawing.shapes import Box, Group, Path, Pen, Shape, opaque, polyline, rectangle
-from ..marks.primitives import PointMark
+from ..marks.primitives import PointMark, cut_away_words
 from ..scene.clipping import clip_plane, is_kept
 from ..scene.corners import Rectangle, inside, joins
 from .page_layout import ComposedPage
@@ -225,21 +224,16 @@ def hidden_words(page: ComposedPage) -> list[str]:
             rest = f"hidden in {views}: a dashed {what}; try --cpos source or --cpos front,back."
             if len(some) > MOST_NAMED:
                 others = "marked places" if what == "ring" else "numbered points" if some[0].name else "pins"
-                found[f"{_named(some[0])} and {len(some) - 1} other {others} are {rest}"] = None
+                found[f"{some[0].title} and {len(some) - 1} other {others} are {rest}"] = None
                 continue
             for mark in some:
-                found[f"{_named(mark)} is {rest}"] = None
+                found[f"{mark.title} is {rest}"] = None
         plane, x = clip_plane(panel.clip, panel.surface), panel.surface.vertices
         gone = [mark for mark in panel.marks if not is_kept(plane, mark.on(x)[None])[0]]
         if gone and not panel.warp_factor:
-            others = f" and {counted(len(gone) - 1, 'other mark')} are" if len(gone) > 1 else " is"
-            found[f"{_named(gone[0])}{others} cut away by the clip plane."] = None
+            found[cut_away_words(gone)] = None
         for name in dict.fromkeys(line.name for line in panel.lines if line.name):
             if not any(name in shot.seen for shot in shots):
                 rest = ", or cut away" if plane is not None else "; try --cpos source or --cpos front,back"
                 found[f"{name} is hidden in {views}{rest}."] = None
     return list(found)
-
-
-def _named(mark: PointMark) -> str:
-    return mark.name or (f"Pin {mark.number}" if mark.number is not None else f"Vertex {mark.vertex}")

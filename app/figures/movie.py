@@ -245,8 +245,8 @@ class _Fields:
         )
         answers = [self._answers[q] for q in questions(document).values()]
         figure = figure_of(recipe, self.surfaces, answers)
-        drawn = zip(figure.panels, document.panels, strict=True)
-        seen = tuple(replace(each, views=(cameras[panel.surface],)) for each, panel in drawn)
+        drawn = zip(figure.panels, figure.order, strict=True)
+        seen = tuple(replace(each, views=(cameras[document.panels[k].surface],)) for each, k in drawn)
         return replace(figure, panels=seen, is_moving=True)
 
 

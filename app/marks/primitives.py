@@ -1,10 +1,12 @@
 """Marks on a surface: frozen, of vertices and faces, with no positions and no pixels."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from bihdist_core.arrays import FloatArray, IntArray
+from bihdist_core.counts import counted
 
 from ..drawing.glyphs import DISC, Glyph
 from ..drawing.line_looks import SOURCE, LineLook
@@ -51,6 +53,18 @@ class PointMark:
         if self.corners:
             at = np.array(self.weights) @ vertices[list(self.corners)]
         return at
+
+    @property
+    def title(self) -> str:
+        """What sentences call the mark."""
+        return self.name or (f"Pin {self.number}" if self.number is not None else f"Vertex {self.vertex}")
+
+
+def cut_away_words(marks: Sequence[PointMark]) -> str:
+    """Return a sentence on marks that are cut away, one or more; it names one without a number, if there is any."""
+    first = next((mark for mark in marks if mark.number is None), marks[0])
+    others = f" and {counted(len(marks) - 1, 'other mark')} are" if len(marks) > 1 else " is"
+    return f"{first.title}{others} cut away by the clip plane."
 
 
 @dataclass(frozen=True, eq=False)

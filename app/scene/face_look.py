@@ -27,6 +27,34 @@ _CARRIED = """//VTK::Color::Impl
   diffuseColor = (1.0 - coloursAt.a) * diffuseColor + diffuseIntensity * coloursAt.rgb;
 """
 
+# Each corner has a label, and each place in the face that with most of the weight, which is in the colours: borders go
+# straight from one side to another, and meet in a face with three.
+_LABELS = """//VTK::Color::Impl
+  vec4 own[3];
+  vec3 weight;
+  for (int i = 0; i < 3; i++) {
+    weight[i] = abs(coloursOf[i].a);
+    own[i] = max(coloursOf[i] / weight[i], 0.0);
+  }
+  mat3 alike;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) alike[i][j] = distance(own[i], own[j]) < 1e-3 ? weight[i] : 0.0;
+  vec3 share = alike * cornersAt, shareX = alike * dFdx(cornersAt), shareY = alike * dFdy(cornersAt);
+  int most = share.y > share.x ? 1 : 0;
+  if (share.z > share[most]) most = 2;
+  int next = most;
+  float ahead = 0.5;  // pixels to a border, where it is near
+  for (int k = 0; k < 3; k++) {
+    vec2 steep = vec2(shareX[most] - shareX[k], shareY[most] - shareY[k]);
+    float away = (share[most] - share[k]) / max(length(steep), 1e-9);
+    if (alike[most][k] == 0.0 && away < ahead) {
+      ahead = away;
+      next = k;
+    }
+  }
+  vec4 coloursAt = mix(own[next], own[most], 0.5 + ahead);
+"""
+
 # Greys under isolines.  The field's own colour is kept for these.
 _BASE = """//VTK::Color::Impl
   vec3 fieldColour = ambientColor / max(ambientIntensity, 1e-3);
@@ -70,7 +98,11 @@ def map_attribute(mapper: vtkPolyDataMapper, attribute: str, array: str) -> None
 
 
 def put_face_look(
-    shader: vtkShaderProperty, has_edges: bool, has_colours: bool = False, has_base: bool = False
+    shader: vtkShaderProperty,
+    has_edges: bool,
+    has_colours: bool = False,
+    has_base: bool = False,
+    has_labels: bool = False,
 ) -> None:
     """Add the look of faces to a shader.
 
@@ -82,11 +114,12 @@ def put_face_look(
     has_edges
         Whether edges are drawn; the property needs EdgeVisibilityOn, and EdgeOpacity 0 to hide VTK's own edges.
     has_colours
-        Whether there is an attribute `coloursAt`, of colours multiplied by alpha.
+        Whether there is an attribute `coloursAt`, of colours multiplied by alpha; with `has_labels`, `coloursOf` three
+        corners, multiplied by a weight and with alpha -1 for none, and the shares of these, `cornersAt`.
     has_base
         Whether there is an attribute `baseAt`, of shares from light to dark; then `fieldColour` is that of the field.
     """
-    pieces = [_BASE] * has_base + [_CARRIED] * has_colours + [_BACK]
+    pieces = [_BASE] * has_base + [_LABELS] * has_labels + [_CARRIED] * has_colours + [_BACK]
     own = f"{_COLOUR}\n" + "".join(piece.removeprefix(f"{_COLOUR}\n") for piece in pieces)
     shader.AddFragmentShaderReplacement(_COLOUR, True, own, False)
     shader.AddFragmentShaderReplacement(_NORMAL, False, _TOWARDS_THE_EYE + (_EDGES if has_edges else ""), False)
@@ -95,17 +128,27 @@ def put_face_look(
 def pass_on(shader: vtkShaderProperty, *attributes: tuple[str, str, str]) -> None:
     """Hand vertex attributes to the fragment shader, also past a geometry shader, in one call, as the last one counts.
 
-    Each attribute comes with its name there and its type in GLSL, before which "flat" may stand.  VTK renames what ends
-    in VSOut where there is a geometry shader.
+    Each attribute comes with its name there and its type in GLSL.  Of "corners vec4" the fragment shader has the values
+    at the three corners of the face, and the weights `cornersAt` of these: that needs a geometry shader.  VTK renames
+    what ends in VSOut where there is one.
     """
     lines: dict[str, list[str]] = {part: [] for part in ("vertex", "set", "geometry", "copy", "fragment")}
     for attribute, name, kind in attributes:
-        flat, kind = "flat " * kind.startswith("flat "), kind.removeprefix("flat ")
-        lines["vertex"].append(f"in {kind} {attribute};\n{flat}out {kind} {name}VSOut;")
+        has_corners, kind = kind.startswith("corners "), kind.removeprefix("corners ")
+        lines["vertex"].append(f"in {kind} {attribute};\nout {kind} {name}VSOut;")
         lines["set"].append(f"{name}VSOut = {attribute};")
-        lines["geometry"].append(f"{flat}in {kind} {name}VSOut[];\n{flat}out {kind} {name}GSOut;")
-        lines["copy"].append(f"{name}GSOut = {name}VSOut[i];")
-        lines["fragment"].append(f"{flat}in {kind} {name}VSOut;\n#define {name} {name}VSOut")
+        if has_corners:
+            lines["geometry"].append(
+                f"in {kind} {name}VSOut[];\nflat out {kind} {name}GSOut[3];\nout vec3 cornersGSOut;"
+            )
+            lines["copy"].append(f"for (int k = 0; k < 3; k++) {name}GSOut[k] = {name}VSOut[k];")
+            lines["copy"].append("cornersGSOut = vec3(i == 0, i == 1, i == 2);")
+            lines["fragment"].append(f"flat in {kind} {name}VSOut[3];\nin vec3 cornersVSOut;")
+            lines["fragment"].append(f"#define {name} {name}VSOut\n#define cornersAt cornersVSOut")
+        else:
+            lines["geometry"].append(f"in {kind} {name}VSOut[];\nout {kind} {name}GSOut;")
+            lines["copy"].append(f"{name}GSOut = {name}VSOut[i];")
+            lines["fragment"].append(f"in {kind} {name}VSOut;\n#define {name} {name}VSOut")
     for put, place, part in (
         (shader.AddVertexShaderReplacement, _POSITION, "vertex"),
         (shader.AddVertexShaderReplacement, "//VTK::PositionVC::Impl", "set"),

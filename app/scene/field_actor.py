@@ -5,18 +5,18 @@ of a value that has a line, measured in pixels.  Lines so drawn have the same wi
 """
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkLookupTable
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
-from bihdist_core.arrays import AnyArray, ByteArray, FloatArray
+from bihdist_core.arrays import AnyArray, ByteArray, FloatArray, IntArray
 
 from ..document.looks import MOST_ISOLINES, NO_LINES, TWENTY_STEPS, Isolines, Shading
 from ..drawing.line_looks import SECTION
 from ..session.base import Greys
 from .clipping import ClipPlane
-from .drawable import copies_of, has_backs
+from .drawable import copies_of, has_backs, vertex_faces
 from .face_look import map_attribute, pass_on, put_face_look
 from .levels import BOLD, ZERO, Levels, levels, too_many
 from .selected import PAINT_SELECTED
@@ -31,16 +31,19 @@ FINE = 8192
 """Colours of a table with bands, so that each ends where its isoline is."""
 
 TINTS = {
-    "selected": ("selectedAt", "vec4"), "colours": ("coloursAt", "vec4"), "labels": ("coloursAt", "flat vec4"),
+    "selected": ("selectedAt", "vec4"), "colours": ("coloursAt", "vec4"), "labels": ("coloursOf", "corners vec4"),
     "base": ("baseAt", "float"),
 }  # fmt: skip
 """Colours of vertices besides those of the field, each with an attribute of the shader: its name there and its type.
-Those of labels are flat, as between two labels there is no third; the base has shares of greys."""
+Those of labels are there for all corners of a face, as between two there is no third; the base has shares of greys."""
 
 _LIT = "//VTK::Light::Impl"
 
 # Light from behind, where the surface turns away: form is seen in dark colours, too.
 _RIM = "  fragOutput0.rgb += {} * pow(1.0 - clamp(normalVCVSOutput.z, 0.0, 1.0), 3.0);\n"
+
+STEPS, LEAST_WEIGHT = 3, 0.25
+"""Of labels: how far their neighbours are looked at, and the weight that one of a single vertex has."""
 
 MOST_PEELS = 8
 """Each of them has two layers of what is translucent, the nearest and the farthest that are left."""
@@ -97,7 +100,7 @@ _PAINT_SECTION = """
   float fromCut = clipDistancesVSOutput[0];
   float cutPerPixel = max(length(vec2(dFdx(fromCut), dFdy(fromCut))), 1e-12);
   float section = 1.0 - smoothstep(sectionWidth - 0.6, sectionWidth + 0.6, fromCut / cutPerPixel);
-  fragOutput0.rgb = mix(fragOutput0.rgb, isolineCasingColour, section);
+  fragOutput0.rgb = mix(fragOutput0.rgb, sectionColour, section);
 """
 
 
@@ -167,13 +170,16 @@ class FieldActor:
     def show_colours(self, colours: FloatArray, are_labels: bool = False) -> None:
         """Show colours (n, 3) from 0 to 1 instead of a field, grey where they are NaN.
 
-        A face has one colour of `are_labels`, that of most of its corners; others go over into each other.
+        Between those of `are_labels` there are borders, smoothed within faces; others go over into each other.
         """
         self.show_bare()
         known = np.isfinite(colours).all(axis=1)
         tint = np.zeros((len(colours), 4), np.uint8)
         tint[known] = np.column_stack([np.round(255 * colours[known]), np.full(known.sum(), 255)])
-        self._tint("labels" if are_labels else "colours", tint)
+        if are_labels:
+            self._tint("labels", _weighted(tint, vertex_faces(self.mesh)))
+        else:
+            self._tint("colours", tint)
 
     def _drop_colours(self) -> None:
         for name in self._tints.keys() - {"selected", "base"}:
@@ -194,12 +200,10 @@ class FieldActor:
         if colours is not None:
             self._tints[name] = colours
             # Multiplied by alpha 0, what has none has no colour to lend.
-            whole = 1 if name == "base" else 255
+            whole = 255 if colours.dtype == np.uint8 else 1
             array = numpy_to_vtk(np.concatenate([colours, colours[self._copies]]).astype(np.float32) / whole, deep=True)
             array.SetName(name)
             self._own.GetPointData().AddArray(array)
-            if name == "labels":
-                self._own.SetPolys(_turned(self._own, np.concatenate([colours, colours[self._copies]])))
             self._own.Modified()
         self._pass_tints(set(self._tints))
 
@@ -234,10 +238,10 @@ class FieldActor:
             self.table, self.is_signed = other.table, other.is_signed
             self._take_table()
         look = other.actor.GetProperty()
-        if self.actor.GetProperty() is not look or self._has_edges != bool(look.GetEdgeVisibility()):
+        if self.actor.GetProperty() is not look or self._has_edges != other._has_edges:
             self.actor.SetProperty(look)
             self.stand_in.actor.SetProperty(look)
-            self._put_shaders(bool(look.GetEdgeVisibility()))
+            self._put_shaders(other._has_edges)
         if self._passed_on != other._passed_on:
             names, self._base = other._passed_on
             self._pass_tints(names)
@@ -334,6 +338,7 @@ class FieldActor:
         self._uniforms.SetUniformf("isolineRimOpacity", rim[3])
         self._uniforms.SetUniform3f("isolineThroughColour", self.style.source)
         self._uniforms.SetUniform3f("isolineCasingColour", self.style.mark_edge)
+        self._uniforms.SetUniform3f("sectionColour", self.style.section)
         self._uniforms.SetUniformf("isolineSigned", float(self.is_signed))
 
     def isoline_ink(self, value: float = 1.0, is_through: bool = False) -> IsolineInk:
@@ -360,8 +365,7 @@ class FieldActor:
             look.SetInterpolationToFlat()
         else:
             look.SetInterpolationToGouraud()
-        if bool(look.GetEdgeVisibility()) != shading.show_edges:
-            look.SetEdgeVisibility(shading.show_edges)
+        if self._has_edges != shading.show_edges:
             self._put_shaders(shading.show_edges)
 
     def show_clip(self, clip: ClipPlane | None, paints_section: bool = True) -> None:
@@ -455,7 +459,9 @@ class FieldActor:
         names, (_, has_own_colours) = self._passed_on
         attributes += [(f"{name}Attribute", *TINTS[name]) for name in TINTS if name in names]
         pass_on(shader, *attributes)
-        put_face_look(shader, has_edges, bool(names - {"selected", "base"}), "base" in names)
+        # Edges that are seen or not, VTK draws them by a geometry shader, which labels need.
+        self.actor.GetProperty().SetEdgeVisibility(has_edges or "labels" in names)
+        put_face_look(shader, has_edges, bool(names - {"selected", "base"}), "base" in names, "labels" in names)
         paint = _PAINT.replace("ISOLINE", "fieldColour" if has_own_colours else "isolineColour")
         paint = (PAINT_SELECTED if "selected" in names else "") + paint
         paint += _PAINT_SECTION if self.clip is not None else ""
@@ -463,16 +469,28 @@ class FieldActor:
         shader.AddFragmentShaderReplacement(_LIT, False, f"{_LIT}\n{rim}{paint}", False)
 
 
-def _turned(mesh: vtkPolyData, colours: ByteArray) -> vtkCellArray:
-    """Return the triangles of a mesh with colours (n, 4) at its points, each with a colour that two of its corners have
-    at the last one: that is the one of which the shader takes what is flat."""
-    faces = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3).copy()
-    code = np.ascontiguousarray(colours).view(np.uint32).ravel()[faces]
-    odd = (code[:, 0] == code[:, 1]) & (code[:, 1] != code[:, 2])
-    faces[odd] = faces[odd][:, [2, 0, 1]]
-    cells = vtkCellArray()
-    cells.SetData(3, numpy_to_vtkIdTypeArray(faces.ravel(), deep=True))
-    return cells
+def _weighted(colours: ByteArray, faces: IntArray) -> FloatArray:
+    """Return colours (n, 4) of labels at vertices of faces (m, 3), multiplied by weights, which draw borders.
+
+    The weight is how likely a few steps to neighbours stay in the label: less at a tooth, which so becomes shorter.
+    """
+    label, weights = colours.view(np.uint32).ravel(), np.ones(len(colours))
+    a, b, c = label[faces.T]
+    is_near = (a != b) | (b != c)
+    for _ in range(STEPS):
+        near = np.zeros(len(label), bool)
+        near[faces[is_near]] = True
+        is_near = near[faces].any(axis=1)
+    corners = faces[is_near]
+    ends = np.concatenate([corners.ravel(), np.roll(corners, 1, axis=1).ravel()])
+    others = np.roll(ends, corners.size)
+    count = np.bincount(ends, minlength=len(label)) + 1
+    stays = label[ends] == label[others]
+    for _ in range(STEPS):
+        weights = (weights + np.bincount(ends[stays], weights[others[stays]], len(label))) / count
+    signed = np.where(colours[:, 3:] == 0, [0, 0, 0, -1], colours / 255)
+    weighted: FloatArray = signed * np.maximum(weights, LEAST_WEIGHT)[:, None]
+    return weighted
 
 
 def lookup_table(style: Style, signed: bool = False, edges: FloatArray | None = None) -> vtkLookupTable:

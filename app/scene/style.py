@@ -67,6 +67,8 @@ class Style:
         Colours of mesh edges on light and on dark colours.
     signed_isoline
         Colour of the isoline at 0 of a signed field; see `isoline_ink`.
+    section
+        Colour of the line where a clip plane cuts a surface.
     bands
         Whether there is one colour from each isoline to the next.
     occlusion
@@ -96,6 +98,7 @@ class Style:
     largest: Colour = (0.10, 0.72, 0.50)
     marker_size: float = 15.0
     mark_edge: Colour = (0.1, 0.1, 0.12)
+    section: Colour = (0.1, 0.1, 0.12)
     diverging: Stops = colour_maps.DIVERGING
     signed_isoline: Colour = INK
     bands: bool = False
@@ -215,6 +218,7 @@ LINES = Style(
     edge=(0.55, 0.55, 0.55),
     source=(0, 0, 0),
     mark_edge=(0, 0, 0),
+    section=(0, 0, 0),
     marker_size=9.0,
 )
 """Isolines and outlines only, for black-and-white print."""
@@ -227,6 +231,7 @@ DARK = Style(
     undefined=(0.45, 0.45, 0.45),
     back=(0.42, 0.38, 0.30),
     mark_edge=(0.05, 0.05, 0.06),
+    section=(0.93, 0.94, 0.95),
 )
 """For slides: the paper's colours with lighter ends, which stay visible on a dark background."""
 

@@ -15,7 +15,7 @@ from ..arrays import FloatArray, unit_columns
 from ..distances.accuracy import FINEST_ACCURACY, POOR_ACCURACY, SAFETY_FACTOR, Perturbation
 from ..distances.biharmonic import BiharmonicDistance
 from ..distances.diffusion import PoleDiffusion, checked_time
-from ..distances.distance import UNIT_OF_MATRICES, unit_of
+from ..distances.distance import unit_of
 from ..distances.rational import RationalFunction, Weight
 from ..distances.resolvent import SEEN, ResolventDistance, columns_and_moves, fitted_to
 from ..distances.tails import biharmonic_squares
@@ -324,5 +324,4 @@ def _signature(laplacian: Laplacian, values: FloatArray, accuracy: float, label:
             "it is not given."
         )
     values.flags.writeable = False
-    unit = unit_of(length_power) if len(laplacian.surface.faces) else UNIT_OF_MATRICES
-    return Signature(values, accuracy, label, length_power, unit)
+    return Signature(values, accuracy, label, length_power, unit_of(length_power, laplacian.surface))

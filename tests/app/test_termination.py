@@ -1,5 +1,6 @@
 """SIGTERM and interruptions: what commands keep, and how the next run goes on."""
 
+import ctypes
 import os
 import signal
 import subprocess
@@ -60,6 +61,50 @@ def test_one_that_was_lost_may_be_sent_again():
     with pytest.raises(Terminated), termination_raised(lambda: now[0]):
         work()
     assert survived == [7.0]
+
+
+class Converted:
+    """An argument for C during whose conversion a signal arrives: ctypes makes what is raised then an ArgumentError."""
+
+    def __init__(self, number):
+        self.number = number
+
+    def from_param(self, value):
+        signal.raise_signal(self.number)
+        return value
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_one_waits_where_it_would_become_another_error(number):
+    call = ctypes.PYFUNCTYPE(ctypes.c_long, ctypes.py_object)(("PyLong_AsLong", ctypes.pythonapi))
+    call.argtypes = [Converted(number)]
+
+    def work():
+        assert call(ctypes.py_object(7)) == 7
+        time.sleep(PATIENCE)
+
+    with pytest.raises(KeyboardInterrupt) as raised, termination_raised():
+        work()
+    assert isinstance(raised.value, Terminated) == (number == signal.SIGTERM)
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_one_waits_for_the_end_of_an_import(number, tmp_path, monkeypatch):
+    (tmp_path / "catches_all.py").write_text(
+        f"import signal\ntry:\n    signal.raise_signal({int(number)})\nexcept BaseException:\n    pass\nloaded = True\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, "catches_all", raising=False)
+
+    def work():
+        import catches_all
+
+        assert catches_all.loaded
+        time.sleep(PATIENCE)
+
+    with pytest.raises(KeyboardInterrupt), termination_raised():
+        work()
 
 
 def test_who_listens_for_it_already_goes_on_to():

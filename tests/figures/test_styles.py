@@ -48,6 +48,12 @@ def test_isolines_stand_out_from_every_colour(style):
     assert np.linalg.norm(lab(style.colours()) - line, axis=1).min() > 12
 
 
+@pytest.mark.parametrize("style", STYLES.values(), ids=STYLES)
+def test_the_line_of_a_section_stands_out_from_the_ground_and_the_inside(style):
+    line, *grounds = lab(np.array([style.section, style.background, style.back]))[:, 0]
+    assert min(abs(line - ground) for ground in grounds) > 50
+
+
 @pytest.mark.parametrize("name", STYLES)
 def test_text_and_shape_stand_out_from_the_background(name):
     style = STYLES[name]

@@ -129,8 +129,10 @@ class MarksOver:
         if not self.sentence:
             shapes += overlay.legend_shapes(room, view.scene.style, self.legend)
             top = ROW * LOOK.scale if self.legend else 0.0
-            below = Box(0.0, top, room.width, room.height - top)
-            shapes += overlay.note_shapes(below, view.scene.style, self.notes) if self.notes else []
+            for notes, of_extrema in ((self.notes, True), (self.points.cut_away(), False)):
+                below = Box(0.0, top, room.width, room.height - top)
+                shapes += overlay.note_shapes(below, view.scene.style, notes, of_extrema) if notes else []
+                top += ROW * LOOK.scale * bool(notes)
         paint(painter, shapes)
         if self.sentence:
             overlay.paint_sentence(painter, view.rect(), self.sentence)

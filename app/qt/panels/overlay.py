@@ -88,22 +88,22 @@ def label_shapes(box: Box, value: str, share: str, is_target: bool = False) -> l
     ]
 
 
-def note_shapes(view: Box, style: Style, notes: Sequence[str]) -> list[Shape]:
-    """Return the shapes of the number of extrema, in the first words for which there is room.
+def note_shapes(view: Box, style: Style, notes: Sequence[str], of_extrema: bool = True) -> list[Shape]:
+    """Return the shapes of a note, such as the number of extrema, in the first words for which there is room.
 
     In a tiny view they would lie on the surface; the dock says them, too.
     """
     scale = LOOK.scale
     if view.height < TINY * scale:
         return []
-    size, y, left = NOTE_TEXT * scale, view.y + TOP * scale, LEFT + TRIANGLE_UP.pixels + GAP
+    size, y, left = NOTE_TEXT * scale, view.y + TOP * scale, LEFT + of_extrema * (TRIANGLE_UP.pixels + GAP)
     room = WIDEST_NOTE * view.width - left
     fitting = (words for words in notes[view.height < LOW * scale :] if text_width(words, size) <= room)
     words = next(fitting, notes[-1])
     ground = Box(4, view.y + 2, left + text_width(words, size), 2 * (TOP * scale - 2))
     return [
         Path(rounded(ground, 4), rgba_of(LOOK.theme.canvas, 0.8)),
-        *mark_shapes(PointMark(0, TRIANGLE_UP), (LEFT, y), style, 1.0),
+        *(mark_shapes(PointMark(0, TRIANGLE_UP), (LEFT, y), style, 1.0) if of_extrema else ()),
         Text(words, left, y, size, rgba_of(LOOK.theme.quiet), level="line"),
     ]
 

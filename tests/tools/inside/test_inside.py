@@ -90,6 +90,13 @@ def test_a_click_hits_what_is_seen_and_marks_that_are_cut_away_are_gone(opened):
     assert plane.depths(surface.vertices[[hit.vertex]])[0] >= 0
     assert not panel.view.sees(surface.vertices[before.vertex])
     assert panel.view.over.points.placed("pins") == []
+    source = panel.marks.source
+    assert plane.depths(surface.vertices[[source]])[0] < 0
+    cut_away = panel.view.over.points.cut_away
+    assert cut_away()[0] == f"Vertex {source} and 1 other mark are cut away by the clip plane."
+    dock.flip.click()
+    s.settle(0.1)
+    assert cut_away() == ()
 
 
 def test_a_height_field_is_cut_as_it_is_drawn(opened):
