@@ -205,6 +205,8 @@ class LayoutOptions(TypedDict, total=False):
         Leave the background transparent.
     ground : bool
         Draw a soft shadow on the ground.
+    feature_edges : bool
+        Draw thin lines along sharp edges, as the style ``"cover"`` does.
     crop : bool
         Cut off empty margins.
     """
@@ -220,6 +222,7 @@ class LayoutOptions(TypedDict, total=False):
     font_size: float | None
     transparent: bool
     ground: bool
+    feature_edges: bool
     crop: bool
 
 

@@ -219,6 +219,7 @@ EXAMPLES = {
     "Page.views": lambda d, p: (d, replace(p, views=("home", "back", CAMERA))),
     "Page.panel_letters": lambda d, p: (d, replace(p, panel_letters=True)),
     "Page.ground": lambda d, p: (d, replace(p, ground=True)),
+    "Page.feature_edges": lambda d, p: (d, replace(p, feature_edges=True)),
     "Page.columns": lambda d, p: (d, replace(p, columns=2)),
     "Page.hints": lambda d, p: (d, replace(p, hints=True)),
     "Page.transparent": lambda d, p: (d, replace(p, transparent=True)),
