@@ -26,6 +26,13 @@ from .analysis.region_mesh import RegionMesh, region_mesh, write_labels, write_r
 from .analysis.regions import Regions, voronoi_regions
 from .analysis.sampling import farthest_points, write_samples
 from .analysis.selecting import Brush, cut_out, write_selection
+from .analysis.signatures import (
+    Signature,
+    biharmonic_kernel_signature,
+    centrality,
+    heat_kernel_signature,
+    wave_kernel_signature,
+)
 from .analysis.surface_paths import SurfacePath, write_profile
 from .analysis.triangle_samples import triangle_sample, triangle_samples
 from .analysis.truncation import TruncationLoss, truncation_loss
@@ -66,6 +73,7 @@ from .graph_files import read_graph
 from .graphs import Graph, biharmonic_index, kirchhoff_index
 from .laplacian import Laplacian, eigenpairs
 from .mesh_like import MeshLike
+from .point_cloud import PointCloud
 from .solver.spectrum import Spectrum
 from .sources.source import BoundaryLoop, Curve, SourceSet, SurfacePoint
 from .sources.words import source_from_words
@@ -113,10 +121,12 @@ __all__ = [
     "Parcels",
     "Pins",
     "Places",
+    "PointCloud",
     "PowerDistance",
     "RegionMesh",
     "Regions",
     "ShepardInterpolant",
+    "Signature",
     "SolverError",
     "SourceSet",
     "SparseFactor",
@@ -132,6 +142,8 @@ __all__ = [
     "at_tips",
     "band",
     "biharmonic_index",
+    "biharmonic_kernel_signature",
+    "centrality",
     "correspondence_prediction",
     "cut_out",
     "diagonal_of_inverse",
@@ -148,6 +160,7 @@ __all__ = [
     "field_statistics",
     "geodesic_circles",
     "gradient_jumps",
+    "heat_kernel_signature",
     "inverse_on_pattern",
     "isolines",
     "isotropy_ratio",
@@ -175,6 +188,7 @@ __all__ = [
     "triangle_violations",
     "truncation_loss",
     "voronoi_regions",
+    "wave_kernel_signature",
     "welded",
     "with_handle",
     "with_holes",

@@ -159,7 +159,8 @@ class Laplacian:
         if areas not in AREAS:
             raise ParameterError(f"There are no {areas!r} vertex areas; choose one of {', '.join(AREAS)}.")
         known = Surface.of(surface)
-        check_size(known.vertices, known.faces, known.name)
+        if len(known.faces):
+            check_size(known.vertices, known.faces, known.name)
         self._set(SurfaceOperators(known, areas))
 
     def _set(self, operators: SurfaceOperators) -> None:

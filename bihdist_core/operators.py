@@ -16,6 +16,7 @@ from .arrays import FloatArray
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError
 from .kernel.library import library
+from .point_cloud import PointCloud
 from .surface import FLAT_RATIO, Surface
 
 AREAS = ("voronoi", "barycentric")
@@ -25,7 +26,14 @@ Corners = tuple[FloatArray, FloatArray, FloatArray]
 
 
 def operators(surface: Surface, areas: str = "voronoi") -> tuple[sp.csr_matrix, FloatArray]:
-    """Return `stiffness` (n, n) and `vertex_areas` (n,), for which the faces are measured once."""
+    """Return `stiffness` (n, n) and `vertex_areas` (n,), for which the faces are measured once.
+
+    Those of points are their own.  ParameterError for other areas of points.
+    """
+    if isinstance(surface, PointCloud):
+        if areas != AREAS[0]:
+            raise ParameterError(f"{surface.name}: {areas} areas need faces, and there are none.")
+        return surface.matrices
     corners = _corners(surface)
     return _assembled(surface, _weights(surface, corners)), _areas(surface, areas, corners)
 

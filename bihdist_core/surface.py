@@ -311,6 +311,19 @@ class Surface:
             )
         return values
 
+    @property
+    def shape(self) -> Surface:
+        """The triangles that tell what is in front of what: the surface itself, or between neighbours of points.
+
+        Examples
+        --------
+        >>> import bihdist, pyvista
+        >>> sphere = pyvista.Icosphere(nsub=2)
+        >>> bihdist.Surface.of(sphere).shape
+        Surface(PolyData: 162 vertices, 320 faces)
+        """
+        return self
+
     # ------------------------------------------------------------------ connectivity
     @cached_property
     def component_of_vertex(self) -> IntArray:
@@ -858,6 +871,14 @@ class Surface:
         x = np.ascontiguousarray(self.vertices.T)
         along = x.take(i, axis=1) - x.take(j, axis=1)
         return float(np.sqrt(dots(along, along)).mean())
+
+
+def with_faces(mesh: MeshLike, what: str) -> Surface:
+    """Return the surface of a mesh; ParameterError where it has no faces, which `what` needs, in the plural."""
+    surface = Surface.of(mesh)
+    if not len(surface.faces):
+        raise ParameterError(f"{surface.name}: {what} need faces, and there are none.")
+    return surface
 
 
 def dots(a: Coordinates, b: Coordinates) -> FloatArray:

@@ -140,6 +140,13 @@ ROWS = (
     RANGE,
     _layout("hints", "say under each heading what to look for (default: no)"),
     _layout("panel_letters", "write (a), (b), (c) over the panels"),
+    _layout(
+        "rows",
+        "a row of panels for each source, mesh, distance, or value of t, alpha, k or method, with headings of rows and "
+        "columns",
+        "WHAT",
+    ),
+    _layout("chart", "a chart at the end of each row: profile (with --profile), scatter, histogram or errors", "NAME"),
     _layout("title", "show names as heading (default), as caption at the bars, or none", "WHERE"),
     *PAGE_ROWS,
     _layout("transparent", "draw no background"),

@@ -11,7 +11,7 @@ from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError
 from ..mesh_like import MeshLike
 from ..scalars import real_number
-from ..surface import Surface
+from ..surface import Surface, with_faces
 from .clipping import clipped
 
 
@@ -123,7 +123,7 @@ def band(surface: MeshLike, field: npt.ArrayLike, low: float = -np.inf, high: fl
     >>> print(f"{near.area:.2f}")
     2.88
     """
-    surface = Surface.of(surface)
+    surface = with_faces(surface, "bands")
     f = surface.check_field(field)
     if not real_number(low, "The lower value") < real_number(high, "The higher value"):
         raise ParameterError(f"A region lies between two values, the smaller first, not {low:g} and {high:g}.")

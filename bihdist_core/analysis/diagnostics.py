@@ -13,7 +13,7 @@ from ..errors import ParameterError
 from ..mesh_like import MeshLike
 from ..progress import Progress, blocks, silent
 from ..scalars import real_number, whole_number
-from ..surface import Surface
+from ..surface import Surface, with_faces
 from .circles import small_radius
 from .isoline_tracing import isolines
 
@@ -147,7 +147,7 @@ def gradient_jumps(surface: MeshLike, field: npt.ArrayLike) -> GradientJumps:
     >>> bihdist.gradient_jumps(plane, field).jumps.max().round(6).item()
     10.0
     """
-    surface = Surface.of(surface)
+    surface = with_faces(surface, "jumps of gradients")
     f, faces, x = surface.check_field(field), surface.faces, surface.vertices
     proper = np.ones(len(faces), bool)
     proper[surface.degenerate_faces] = False

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from ..arrays import FloatArray, IntArray, real_numbers
 from ..errors import ParameterError
 from ..mesh_like import MeshLike
-from ..surface import Surface
+from ..surface import Surface, with_faces
 from .field_scatter import field_scatter
 from .linear_field import LinearField
 
@@ -123,7 +123,7 @@ def field_statistics(
     >>> statistics.areas.round(6).tolist(), statistics.quantiles.round(6).tolist()
     ([0.25, 0.25, 0.25, 0.25], [-0.25, 0.0])
     """
-    surface = Surface.of(surface)
+    surface = with_faces(surface, "statistics")
     f, ids, faces = _chosen(surface, field)
     fraction = real_numbers(fractions, "Fractions of the area")
     if fraction.ndim != 1 or not ((fraction >= 0) & (fraction <= 1)).all():

@@ -63,6 +63,7 @@ def first_look(surface: Surface, up: str = "y") -> FirstLook:
     those that are well seen. Of equally high ones it is the first, or if that faces away, the one that faces the camera
     most.
     """
+    surface = surface.shape
     areas = surface.face_areas
     of_face = surface.component_of_vertex[surface.faces[:, 0]]
     ids = np.flatnonzero(surface.component_of_vertex == np.bincount(of_face, areas).argmax())

@@ -18,7 +18,7 @@ from ..mesh_like import MeshLike
 from ..progress import Progress, part
 from ..sources.pieces import Pieces
 from ..sources.source import SurfacePoint
-from ..surface import Surface
+from ..surface import with_faces
 from .places import Places, component_of, place_words
 from .surface_paths import Crossings, Stars, SurfacePath, assembled, in_faces
 
@@ -46,7 +46,7 @@ class GeodesicPaths:
     """
 
     def __init__(self, surface: MeshLike) -> None:
-        self.surface = Surface.of(surface)
+        self.surface = with_faces(surface, "geodesic paths")
         self._lock = threading.Lock()
         self._exact: ExactGeodesic | None = None
 

@@ -13,7 +13,7 @@ from ..arrays import FloatArray, IntArray, real_numbers
 from ..errors import ParameterError
 from ..formats.curve_output import CURVE_FORMATS, Curve, write_curves
 from ..mesh_like import MeshLike
-from ..surface import Surface
+from ..surface import Surface, with_faces
 from .chains import chains
 
 
@@ -130,7 +130,7 @@ def isolines(surface: MeshLike, field: npt.ArrayLike, values: npt.ArrayLike) -> 
     >>> [(line.value, line.closed, round(line.length, 2)) for line in lines]
     [(0.1, True, 1.21), (0.3, True, 4.91), (0.5, True, 3.62)]
     """
-    surface = Surface.of(surface)
+    surface = with_faces(surface, "isolines")
     f = surface.check_field(field)
     levels = np.atleast_1d(real_numbers(values, "The values of isolines"))
     if levels.ndim != 1 or not np.isfinite(levels).all():

@@ -14,7 +14,7 @@ from ..errors import ParameterError
 from ..mesh_like import MeshLike
 from ..sources.source import SurfacePoint
 from ..sources.splitting import Split
-from ..surface import Surface
+from ..surface import with_faces
 from .isoline_tracing import Isoline, isolines
 from .places import Places, component_of, place_words
 from .surface_paths import Crossings, Stars, SurfacePath, assembled
@@ -66,7 +66,7 @@ def plane_section(
     >>> round(path.length, 2)  # once round the unit sphere
     6.27
     """
-    surface = Surface.of(surface)
+    surface = with_faces(surface, "plane sections")
     d = real_numbers(direction, "The three numbers of a direction")
     if d.shape != (3,) or not np.isfinite(d).all():
         raise ParameterError(f"A direction is three finite numbers, not {direction!r}.")

@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..formats.curve_output import Curve, write_curves
 from ..mesh_like import MeshLike
-from ..surface import Surface
+from ..surface import Surface, with_faces
 from .chains import chains
 from .regions import Regions
 
@@ -93,7 +93,7 @@ def region_boundaries(surface: MeshLike, regions: Regions) -> list[Boundary]:
     >>> [(boundary.between, boundary.closed) for boundary in boundaries]
     [((0, 1), False), ((0, 2), False), ((1, 2), False)]
     """
-    surface = Surface.of(surface)
+    surface = with_faces(surface, "boundaries of regions")
     if not len(regions.faces):
         return []
     ends = _named_ends(surface, regions)

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from ..arrays import FloatArray, IntArray, real_numbers
 from ..errors import ParameterError
 from ..mesh_like import MeshLike
-from ..surface import Surface
+from ..surface import Surface, with_faces
 from .clipping import clipped, polygon_fractions
 
 CHUNK = 1 << 18
@@ -118,7 +118,7 @@ def voronoi_regions(surface: MeshLike, columns: npt.ArrayLike) -> Regions:
     >>> regions.areas.round(2).tolist(), regions.labels[[0, 1, 2]].tolist()
     ([5.15, 3.13, 4.23], [0, 1, 2])
     """
-    surface = Surface.of(surface)
+    surface = with_faces(surface, "regions")
     f, labels = least_of(surface, columns)
     at_corner = labels[surface.faces]
     whole, mixed = whole_and_mixed(at_corner)

@@ -19,7 +19,7 @@ from ..file_output import atomic_write, check_output
 from ..formats.array_file import read_array
 from ..formats.field_output import write_array, write_fields
 from ..mesh_like import MeshLike
-from ..surface import Surface
+from ..surface import Surface, with_faces
 
 SELECTION_WAYS = {"ids": (".txt", ".npy", ".csv"), "field": (".csv", ".npy", ".ply", ".vtp"), "mesh": (".ply", ".vtp")}
 """As what a selection is written, and the extensions there are for it."""
@@ -130,7 +130,7 @@ def cut_out(surface: MeshLike, vertices: npt.ArrayLike) -> tuple[Surface, IntArr
     >>> half.n_faces, half.area, ids[:6].tolist()
     (64, 0.5, [0, 1, 2, 3, 4, 9])
     """
-    surface = Surface.of(surface)
+    surface = with_faces(surface, "cuts")
     chosen = np.zeros(len(surface.vertices), bool)
     chosen[surface.check_vertices(vertices)] = True
     faces = surface.faces[chosen[surface.faces].all(axis=1)]

@@ -52,7 +52,7 @@ def guess_up(surface: Surface, file_format: str = "", progress: Progress | None 
     `file_format` is what `mesh_format` says of the file that the surface is from, "" for none. A surface in a plane of
     constant z has y up. `progress` is called between the steps, the longest of which goes over all faces.
     """
-    report = progress or silent
+    report, surface = progress or silent, surface.shape
     report(0.0, WORDS)
     points = surface.vertices[surface.component_of_vertex >= 0]
     # Of a large mesh some do as well.

@@ -14,7 +14,7 @@ from ..formats.mesh_io import read_surface
 from ..mesh_like import MeshLike
 from ..progress import Progress
 from ..scalars import real_number, whole_number
-from ..surface import Surface, vertex_normals
+from ..surface import Surface, vertex_normals, with_faces
 from .changes import WAYS, Perturbation, Runs
 from .resizing import simplified
 
@@ -55,7 +55,7 @@ def noisy(surface: MeshLike, sigma: float, seed: int = 0, along: str = "xyz") ->
     >>> print(f"{moved.mean() / sphere.mean_edge_length:.2f}")
     0.08
     """
-    surface = Surface.of(surface)
+    surface = with_faces(surface, "changes")
     if along not in WAYS:
         raise ParameterError(f"Noise is along one of {', '.join(WAYS)}, not {along!r}.")
     if not 0 <= real_number(sigma, "The size of noise") < np.inf:
@@ -101,7 +101,7 @@ def with_holes(surface: MeshLike, count: int, radius: float = 0.05, seed: int = 
     >>> bihdist.with_holes(sphere, 3, seed=1).boundary_loop_count
     3
     """
-    surface = Surface.of(surface)
+    surface = with_faces(surface, "holes")
     if whole_number(count, "The number of holes") < 1:
         raise ParameterError(f"The number of holes is a whole number from 1, not {count!r}.")
     if not 0 < real_number(radius, "The radius of holes") <= 1:
@@ -224,7 +224,7 @@ def welded(surface: MeshLike, face_a: int, face_b: int) -> Surface:
     >>> sphere.genus, bihdist.welded(sphere, 0, 200).genus
     (0, 1)
     """
-    surface = Surface.of(surface)
+    surface = with_faces(surface, "welds")
     a, b = _opposite_corners(surface, face_a, face_b)
     follow = np.arange(len(surface.vertices))
     follow[b] = a
@@ -262,7 +262,7 @@ def with_handle(surface: MeshLike, face_a: int, face_b: int) -> Surface:
     >>> sphere.genus, tube.genus, tube.n_vertices - sphere.n_vertices
     (0, 1, 99)
     """
-    surface = Surface.of(surface)
+    surface = with_faces(surface, "handles")
     a, b = _opposite_corners(surface, face_a, face_b)
     x, n = surface.vertices, len(surface.vertices)
     mouths = []
@@ -303,7 +303,7 @@ def perturbed(
     `pose` is the mesh in the file `change.pose`, which is read if None. Raises ParameterError as the single changes,
     VertexError for vertices that are not there, and MeshError for a pose that cannot be read.
     """
-    result, ids = surface, np.arange(len(surface.vertices))
+    result, ids = with_faces(surface, "changes"), np.arange(len(surface.vertices))
     if change.pose:
         result = posed(result, read_surface(change.pose) if pose is None else pose)
     if change.cut:

@@ -94,7 +94,7 @@ class GeodesicDistance(Distance):
         check_radius(radius)
         super().__init__(laplacian)
         if not len(self.surface.faces):
-            raise ParameterError(f"{self.surface.name}: geodesic distance needs faces, and this has nodes only.")
+            raise ParameterError(f"{self.surface.name}: geodesic distance needs faces, and there are none.")
         self.radius = radius
         self._solver = _solver(self.laplacian, method, radius, part(progress, 0, 0.3))
         if radius < np.inf and self.method != "exact":

@@ -14,9 +14,9 @@ from ..distances.distance import Distance
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
-from ._stated_figures import DEEP, MINIMA
+from ._stated_figures import DEEP
 from .circles import PROTOCOL, circles, gather_circles
-from .measures import FIELD_COLUMNS, deepest_minimum, field_row, largest_jump, marks
+from .measures import FIELD_COLUMNS, field_row, largest_jump, marks
 from .result import STATEMENTS, Cell, Gathered, Mark, Panel, Result, Table
 from .shapes import Shapes, distance, random_sources, spec_of
 
@@ -45,14 +45,12 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         part(progress, 0.2, 0.4)(k / len(sources), f"extrema, vertex {vertex}")
         own, short = (distances[kind].from_source(vertex) for kind in ("biharmonic", SHORT))
         many, few = _extrema(surface, short, vertex), _extrema(surface, own, vertex)
-        depth = deepest_minimum(surface, own, vertex)
-        counts.append((f"random {k}" if k else "pictured", vertex, many, few, 100 * depth))
+        counts.append((f"random {k}" if k else "pictured", vertex, many, few))
         found.add(STATEMENTS["fig2-1"].names[0], many / max(few, 1), not k)
-        found.add(MINIMA.name, depth, not k)
     circled = circles(surface, sources, ("biharmonic", LONG), part(progress, 0.4, 0.6))
     gather_circles(found, circled, 0, 1)
     kinks = _under_refinement(surface, sources, distances, found, part(progress, 0.6, 1))
-    columns = ("source", "vertex", f"extrema, {SHORT}", "extrema, biharmonic", "deepest other minimum, biharmonic, %")
+    columns = ("source", "vertex", f"extrema, {SHORT}", "extrema, biharmonic")
     style = "height" if flat else "surface"
     return Result(
         "fig2",
@@ -81,7 +79,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         ),
         charts=(circled.chart("isotropy"),) if np.isfinite(circled.ratios[LONG][0]).all() else (),
         tables=(Table("fields", FIELD_COLUMNS, tuple(rows)), Table("sources", columns, tuple(counts)), kinks),
-        claims=tuple(found.claim(f"fig2-{k}") for k in range(1, 5)),
+        claims=tuple(found.claim(f"fig2-{k}") for k in range(1, 4)),
     )
 
 

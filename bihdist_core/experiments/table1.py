@@ -90,7 +90,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
             ),
         ),
         tables=(table, Table("ratios", ("vertices", "ratio", "here", "low", "high", "paper"), _ratios(sizes, found))),
-        claims=_claims(sizes, found, table),
+        claims=_claims(sizes, found),
         not_done=tuple(parts.not_done),
     )
 
@@ -129,8 +129,8 @@ def _columns(surface: Surface, method: str) -> Columns:
     return distance.from_sources
 
 
-def _column(table: Table, method: str, column: str = "processor seconds") -> FloatArray:
-    return np.array(table.values(column, method=method), float)
+def _column(table: Table, method: str) -> FloatArray:
+    return np.array(table.values("processor seconds", method=method), float)
 
 
 def _ratios(sizes: Sequence[int], found: dict[tuple[int, str], list[Time]]) -> tuple[tuple[Cell, ...], ...]:
@@ -143,7 +143,7 @@ def _ratios(sizes: Sequence[int], found: dict[tuple[int, str], list[Time]]) -> t
     return tuple(rows)
 
 
-def _claims(sizes: Sequence[int], found: dict[tuple[int, str], list[Time]], table: Table) -> tuple[Claim, ...]:
+def _claims(sizes: Sequence[int], found: dict[tuple[int, str], list[Time]]) -> tuple[Claim, ...]:
     ratios = [ratio_estimate(found[n, "Dijkstra"], found[n, "biharmonic"]) for n in sizes]
     warning = busy(t for (_, method), times in found.items() if method == "Dijkstra" for t in times)
     # The ratio grows with the size: a smaller one tells nothing of the statement.
@@ -155,11 +155,14 @@ def _claims(sizes: Sequence[int], found: dict[tuple[int, str], list[Time]], tabl
             f"{', '.join(f'{r.value:.2f} at {n:,}' for r, n in zip(ratios, sizes, strict=True))} vertices; "
             f"the paper: 1.81 at {JUDGED:,}.",
             warning,
-            "" if is_judged else f"It is judged at {JUDGED:,} vertices, and the largest size here is {sizes[-1]:,}.",
+            "" if is_judged else f"Not judged at this size, {sizes[-1]:,} vertices, but at {JUDGED:,}.",
         ),
         Claim(
             "table1-2",
-            {f"exponent of N, {m}": exponent_estimate(sizes, _column(table, m, "least")) for m in METHODS},
+            {
+                f"exponent of N, {m}": exponent_estimate(sizes, [[t.processor for t in found[n, m]] for n in sizes])
+                for m in METHODS
+            },
             "Fitted to the least of the repetitions. All N × N distances are written, so that no method can be below "
             "the exponent 2 for long: where one is, its set-up, which grows more slowly, takes part of the time.",
             warning,

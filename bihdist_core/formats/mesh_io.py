@@ -1,4 +1,5 @@
-"""Mesh files into surfaces: OFF, OBJ, PLY, STL, VTK (legacy), VTP, VTU, glTF, GLB, GIFTI, FreeSurfer's and MNI's.
+"""Mesh files into surfaces: OFF, OBJ, PLY, STL, VTK (legacy), VTP, VTU, glTF, GLB, GIFTI, FreeSurfer's and MNI's; and
+points without faces: PLY, XYZ, PCD, NumPy.
 
 All readers are our own and strict: a file is read whole or refused with a sentence, and vertex ids are the file's.
 (VTK's readers split OBJ vertices along texture seams, return what is left of a truncated file, and can take the
@@ -15,6 +16,7 @@ import numpy as np
 from ..counts import counted
 from ..errors import MeshError, MissingFileError
 from ..mesh_arrays import check_size
+from ..point_cloud import PointCloud
 from ..surface import Surface
 from .compression import unpacked
 from .gifti import with_external_data
@@ -35,17 +37,17 @@ def read_surface(path: str | os.PathLike[str]) -> Surface:
     Returns
     -------
     Surface
-        The surface; vertex ids are the file's. Polygons are divided into triangles, and in STL files coincident
-        vertices are merged, which `Surface.facts` says; what cannot be part of a surface is left out, which
-        `Surface.repairs` says.
+        The surface, a `PointCloud` where there are no faces; vertex ids are the file's. Polygons are divided into
+        triangles, and in STL files coincident vertices are merged, which `Surface.facts` says; what cannot be part of a
+        surface is left out, which `Surface.repairs` says.
 
     Raises
     ------
     MissingFileError
         If there is no such file; it is a MeshError and a FileNotFoundError.
     MeshError
-        For a file that is unreadable, truncated, damaged or of another kind, and for a mesh without faces. The message
-        names the file, the place in it and the value.
+        For a file that is unreadable, truncated, damaged or of another kind, and for a mesh without faces, but in PLY,
+        XYZ, PCD and NumPy files, of which points are read. The message names the file, the place in it and the value.
 
     Examples
     --------
@@ -88,6 +90,8 @@ def surface_in(content: bytes, name: str) -> Surface:
                 if not content:
                     raise MeshError(f"{name} is empty.")
             polygons = read_polygons(content, name)
+            if not len(polygons.sizes) and FORMATS[mesh_format(name, content)].has_points:
+                return PointCloud(polygons.vertices, name, facts=polygons.facts)
             if not len(polygons.sizes):
                 held = counted(len(polygons.vertices), "vertex", "vertices")
                 raise MeshError(f"{name} has {held} but no faces; a surface needs at least one triangle.")

@@ -31,6 +31,8 @@ class MeshFormat:
         The extension in lower case, with its dot, FREESURFER or MNI.
     reader : str
         A module of this package; ``"off"`` has the function ``read_off(content, name)``, which returns `Polygons`.
+    has_points : bool
+        Whether a file may hold points without faces.
     y_bonus : float
         How much better than y the direction z has to be before it is taken as up (see `upright`): programs that write
         OBJ have y up, and glTF has it by definition, while z is up in files of brains.
@@ -38,6 +40,7 @@ class MeshFormat:
 
     name: str
     reader: str
+    has_points: bool = False
     y_bonus: float = 0.5
 
 
@@ -46,7 +49,7 @@ FORMATS = {
     for each in (
         MeshFormat(".off", "off", y_bonus=1.0),
         MeshFormat(".obj", "obj", y_bonus=2.5),
-        MeshFormat(".ply", "ply"),
+        MeshFormat(".ply", "ply", has_points=True),
         MeshFormat(".stl", "stl", y_bonus=-0.5),
         MeshFormat(".vtk", "vtk"),
         MeshFormat(".vtp", "vtp"),
@@ -56,6 +59,9 @@ FORMATS = {
         MeshFormat(".gii", "gifti", y_bonus=-4.0),
         MeshFormat(".mat", "array_mesh"),
         MeshFormat(".npz", "array_mesh"),
+        MeshFormat(".xyz", "points", has_points=True),
+        MeshFormat(".pcd", "points", has_points=True),
+        MeshFormat(".npy", "points", has_points=True),
         MeshFormat(FREESURFER, "freesurfer", y_bonus=-4.0),
         MeshFormat(MNI, "mni", y_bonus=-4.0),
     )
@@ -65,7 +71,7 @@ FORMATS = {
 MESH_FORMATS = tuple(name for name in FORMATS if name.startswith("."))
 """The extensions of mesh files; .gz may follow."""
 
-ARRAY_FILES = (".mat", ".npz")
+ARRAY_FILES = (".mat", ".npz", ".npy")
 """Those that hold arrays of any kind."""
 SHARED = (".gii", FREESURFER, *ARRAY_FILES)
 """The formats of files that may hold something else than a mesh."""
@@ -162,6 +168,8 @@ def is_mesh_file(path: Path) -> bool:
     form = mesh_format(path)
     if form not in SHARED or not path.is_file():
         return bool(form)
+    if form == ".npy":
+        return False  # values, more often than points
     if form in ARRAY_FILES:
         holds_mesh = import_module(".array_mesh", __package__).holds_mesh
         return bool(holds_mesh(beginning(path, -1), path.name))

@@ -370,6 +370,9 @@ def off_surface(points: FloatArray, surface: Surface) -> FloatArray:
     """Return how far points (k, 3) are from a surface; of points farther off than any side is long, from a vertex."""
     from scipy.spatial import cKDTree
 
+    if not len(surface.faces):
+        near: FloatArray = cKDTree(surface.vertices[surface.component_of_vertex >= 0]).query(points)[0]
+        return near
     corners = surface.vertices[surface.faces]
     middle = corners.mean(axis=1)
     radius = np.linalg.norm(corners - middle[:, None], axis=2).max(axis=1)

@@ -66,7 +66,10 @@ def read_ply(raw: bytes, name: str) -> Polygons:
     strips = next((columns["tristrips"][key] for key in _IDS if key in columns.get("tristrips", {})), None)
     if isinstance(strips, tuple):
         return _from_strips(vertices, strips[1], name)
-    raise MeshError(f"{name} has {counted(len(vertices), 'vertex', 'vertices')} but no faces (no list vertex_indices).")
+    if len(columns.get("face", {})):
+        held = counted(len(vertices), "vertex", "vertices")
+        raise MeshError(f"{name} has {held} but no faces (no list vertex_indices).")
+    return Polygons(vertices, np.empty(0, np.int64), np.empty(0, np.int64))
 
 
 def ply_values(raw: bytes, name: str) -> dict[str, AnyArray]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..errors import ParameterError
-from ..surface import Surface
+from ..surface import Surface, with_faces
 from .boundary import boundary_loops
 from .edge_faces import edge_faces
 from .plane_walk import PlaneWalk, joined
@@ -167,13 +167,13 @@ def _pieces(source: Source, surface: Surface) -> Pieces:
 
 
 def _check_face(place: SurfacePoint, surface: Surface) -> None:
-    count = len(surface.faces)
+    count = len(with_faces(surface, "places in faces").faces)
     if place.face >= count:
         raise ParameterError(f"{surface.name} has no face {place.face}; faces run from 0 to {count - 1}.")
 
 
 def _loop(loop: BoundaryLoop, loops: list[IntArray], surface: Surface) -> Rows:
-    if not loops:
+    if not len(with_faces(surface, "boundary loops").faces) or not loops:
         raise ParameterError(f"{surface.name} has no boundary loop {loop.number}: this mesh is closed.")
     if loop.number >= len(loops):
         known = "its only one is loop:0" if len(loops) == 1 else f"they run from loop:0 to loop:{len(loops) - 1}"

@@ -68,7 +68,7 @@ class ProjectValidator(Validator):
     def __init__(self, obj_name):
         found = self._load_obj(obj_name)
         found = getattr(found, "__func__", found)
-        self.is_data = dataclasses.is_dataclass(found)
+        self.is_data = dataclasses.is_dataclass(found) and "__dataclass_fields__" in vars(found)
         super().__init__(get_doc_object(found, config={"show_class_members": False}))
 
     @property

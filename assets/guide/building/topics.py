@@ -9,8 +9,8 @@ TOPICS: dict[str, tuple[str, str, list[str]]] = {
     "meshes": (
         "Meshes and files",
         "Surfaces, and what is read from and written to files.",
-        ["Surface", "MeshLike", "read_surface", "sample", "write_mesh", "read_vertex_values", "Pins", "read_pins",
-         "write_pins", "read_map", "write_map"],
+        ["Surface", "PointCloud", "MeshLike", "read_surface", "sample", "write_mesh", "read_vertex_values", "Pins",
+         "read_pins", "write_pins", "read_map", "write_map"],
     ),
     "distances": (
         "Distances",
@@ -39,6 +39,11 @@ TOPICS: dict[str, tuple[str, str, list[str]]] = {
         ["isolines", "Isoline", "write_isolines", "band", "Band", "field_statistics", "FieldStatistics",
          "field_agreement", "Agreement", "rank_correlation", "field_scatter", "FieldScatter", "field_change",
          "FieldChange", "extrema", "Extrema", "gradient_jumps", "GradientJumps"],
+    ),
+    "signatures": (
+        "Signatures of vertices",
+        "A value at each vertex that is the same in every pose: centrality, and diagonals of kernels.",
+        ["centrality", "biharmonic_kernel_signature", "heat_kernel_signature", "wave_kernel_signature", "Signature"],
     ),
     "quality": (
         "Quality of a distance",
