@@ -74,6 +74,8 @@ class Tool:
         A tuple of `Action`: what menus and keys do beside opening the dock.
     add_panel
         A function from a document to one with more panels; None where it adds one panel, as usual.
+    needs_faces
+        Whether its dock has nothing to show of points.
     """
 
     package: str
@@ -98,6 +100,7 @@ class Tool:
     panel_edits: str = ""
     actions: str = ""
     add_panel: str = ""
+    needs_faces: bool = False
 
     def load(self, name: str) -> Any:
         """Load what a name such as "dock:PinsDock" is of; the module if there is no colon in it."""

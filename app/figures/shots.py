@@ -11,7 +11,7 @@ from itertools import chain
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from bihdist_core import ParameterError, Surface
+from bihdist_core import ParameterError, PointCloud, Surface
 from bihdist_core.arrays import AnyArray, ByteArray, FloatArray
 from bihdist_core.progress import Progress, part
 
@@ -192,7 +192,7 @@ def take_shots(
                     outward, ground = outward_faces(mesh, clip is not None, panel.opacity), has_ground(panel)
                     is_cast = figure.style.occlusion > 0 or ground
                     sights[key] = (
-                        HiddenLineRemoval(surface, framed.projection, size, outward, clip),
+                        HiddenLineRemoval(surface.shape, framed.projection, size, outward, clip),
                         Shadows(mesh, framed.projection, panel.up, ground, clip) if is_cast else None,
                     )
                 taker = _Taker(figure, index, surface, *sights[key], tops[index], framed, layout, render_window, curves)
@@ -251,12 +251,14 @@ class _Taker:
         self._per_unit = 1 / framed.projection.pixel_at(framed.depth, framed.whole.width)
         self._sight, self._shadows, self._curves = sight, shadows, curves
         self._is_translucent = figure.panels[index].opacity < 1
+        # Whose isolines and sections are painted, and which have no outlines.
+        self._is_of_points = isinstance(surface, PointCloud)
         self._found: dict[Isolines, list[Contour]] = {}
         self._outlines: list[Line] | None = None
         panel = self._panel
         self._seen: set[str] = set()
         section = sight.section()
-        self._lines = {SECTION: SeenLines(section, [])} if section else {}
+        self._lines = {SECTION: SeenLines(section, [])} if section and not self._is_of_points else {}
         looks = sorted(dict.fromkeys(line.look for line in panel.lines), key=lambda look: look.rank)
         self._lines |= {look: self._seen_lines(look) for look in looks}
         self._marks, self._ghosts = self._placed_marks()
@@ -265,7 +267,7 @@ class _Taker:
         """Take what a box of the page shows: the view or, for an inset, a part of it enlarged, with these isolines."""
         _, _, width, height = box.pixels(self._scale)
         # Labels would stand on painted ones.
-        is_painted = not self._curves or (self._is_translucent and not wanted.labels)
+        is_painted = not self._curves or self._is_of_points or (self._is_translucent and not wanted.labels)
         self._render_window.shown.show_isolines(wanted if is_painted else Isolines(0), self._panel.through)
         seen = self._part(source or box)
         image = self._render_window.shade(
@@ -274,8 +276,8 @@ class _Taker:
         if self._shadows is not None:
             image = self._shadows.cast(image, seen, self._style.occlusion * self._panel.opacity)
         progress(0.7, "finding hidden marks")
-        contours = self._contours(wanted) if self._curves else []
-        if self._style.outline and self._outlines is None:
+        contours = self._contours(wanted) if self._curves and not self._is_of_points else []
+        if self._style.outline and not self._is_of_points and self._outlines is None:
             self._outlines = outlines(self._sight)
         corner = np.array([self._box.x, self._box.y])
 
@@ -363,7 +365,7 @@ class _Taker:
         return seen, hidden
 
     def _normal(self, mark: PointMark) -> FloatArray:
-        faces = self._surface.faces
+        faces = self._surface.shape.faces
         there = np.isin(faces, mark.corners).all(axis=1) if mark.corners else (faces == mark.vertex).any(axis=1)
         corners = self._surface.vertices[faces[there]]
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).sum(axis=0)

@@ -130,6 +130,8 @@ def _dock(tool: Tool) -> Action:
         tool.tip,
         tool.icon,
         is_check=True,
+        can_run=(lambda c: c.has_faces) if tool.needs_faces else None,
+        lack="these are points, and it needs faces",
         synonyms=tool.synonyms,
     )
 

@@ -17,6 +17,7 @@ from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 
 from .drawable import copies_of, faces_of, poly_data, with_backs_of
 from .face_look import map_attribute
+from .splats import is_of_points
 
 CLUSTERS = 40_000
 """About how many there are."""
@@ -58,6 +59,8 @@ class StandIn:
 
 def stand_in(mesh: vtkPolyData, clusters: int = CLUSTERS) -> StandIn | None:
     """Make the stand-in of a mesh made by `drawable`, on any thread; None if that is small or has no area."""
+    if is_of_points(mesh):
+        return None
     x, faces = vtk_to_numpy(mesh.GetPoints().GetData()), faces_of(mesh)
     used = np.zeros(len(x), bool)
     used[faces.ravel()] = True
