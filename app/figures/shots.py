@@ -191,9 +191,11 @@ def take_shots(
                 if key not in sights:
                     outward, ground = outward_faces(mesh, clip is not None, panel.opacity), has_ground(panel)
                     is_cast = figure.style.occlusion > 0 or ground
+                    # Hexagons of points would cast shadows on each other.
+                    solid = mesh if surface.shape is surface else drawable(surface.shape, Shading("smooth"))
                     sights[key] = (
                         HiddenLineRemoval(surface.shape, framed.projection, size, outward, clip),
-                        Shadows(mesh, framed.projection, panel.up, ground, clip) if is_cast else None,
+                        Shadows(solid, framed.projection, panel.up, ground, clip) if is_cast else None,
                     )
                 taker = _Taker(figure, index, surface, *sights[key], tops[index], framed, layout, render_window, curves)
                 shots.append(taker.take(box, panel.isolines, step))
