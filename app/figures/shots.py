@@ -14,6 +14,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from bihdist_core import ParameterError, PointCloud, Surface
 from bihdist_core.arrays import AnyArray, ByteArray, FloatArray
 from bihdist_core.progress import Progress, part
+from bihdist_core.surface import with_faces
 
 from ..document.document import isolines_in
 from ..document.looks import Isolines, Shading
@@ -174,6 +175,8 @@ def take_shots(
         render_window = render_cache.render_window(figure.style)
         for index, (panel, cell) in enumerate(zip(figure.panels, layout.cells, strict=True)):
             surfaces, shown_now = shown_surfaces(panel, tops[index]), None
+            if panel.isolines.labels:
+                with_faces(panel.surface, "labels of isolines")
             curves = render_cache.curves or panel.isolines.labels  # which stand on curves
             views = zip(panel.views, cell.views, cell.parts, surfaces, strict=True)
             for number, (view, box, shown, surface) in enumerate(views):
