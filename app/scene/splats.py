@@ -17,7 +17,7 @@ SIZE = 0.9
 
 _ENDS, _SLOPES = "ends", "slopes"
 _TURN = 2 * np.pi * np.arange(CORNERS) / CORNERS
-_FAN = np.array([[0, k, k + 1] for k in range(1, CORNERS - 1)])
+FAN = np.array([[0, k, k + 1] for k in range(1, CORNERS - 1)])
 
 
 def hexagons(cloud: PointCloud) -> tuple[FloatArray, IntArray, IntArray]:
@@ -31,7 +31,7 @@ def hexagons(cloud: PointCloud) -> tuple[FloatArray, IntArray, IntArray]:
     offset = np.cos(_TURN)[:, None] * across[shown, None] + np.sin(_TURN)[:, None] * along[shown, None]
     corners = cloud.vertices[shown, None] + radius[shown, None, None] * offset
     first = len(cloud.vertices) + CORNERS * np.arange(len(shown))
-    return corners.reshape(-1, 3), (first[:, None, None] + _FAN).reshape(-1, 3), np.repeat(shown, CORNERS)
+    return corners.reshape(-1, 3), (first[:, None, None] + FAN).reshape(-1, 3), np.repeat(shown, CORNERS)
 
 
 def put_slopes(mesh: vtkPolyData, cloud: PointCloud) -> None:
