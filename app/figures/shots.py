@@ -252,7 +252,6 @@ class _Taker:
         self._sight, self._shadows, self._curves = sight, shadows, curves
         self._is_translucent = figure.panels[index].opacity < 1
         self._found: dict[Isolines, list[Contour]] = {}
-        self._outlines: list[Line] | None = None
         panel = self._panel
         self._seen: set[str] = set()
         section = sight.section()
@@ -275,8 +274,7 @@ class _Taker:
             image = self._shadows.cast(image, seen, self._style.occlusion * self._panel.opacity)
         progress(0.7, "finding hidden marks")
         contours = self._contours(wanted) if self._curves else []
-        if self._style.outline and self._outlines is None:
-            self._outlines = outlines(self._sight)
+        found = outlines(self._sight) if self._style.outline else []
         corner = np.array([self._box.x, self._box.y])
 
         def moved(points: FloatArray) -> FloatArray:
@@ -295,7 +293,7 @@ class _Taker:
             box,
             image,
             [replace(line, parts=moved_lines(line.parts)) for line in contours],
-            moved_lines(self._outlines or ()),
+            moved_lines(found),
             moved_marks(self._marks),
             self._projection.view[:3, :3].T,
             moved_marks(self._ghosts) if source is None else [],
