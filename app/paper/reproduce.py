@@ -293,12 +293,12 @@ def _biharmonic(surface: Surface, source: int) -> Answer:
 def _written(run: Run, sections: Sequence[Section], about: str) -> Reproduction:
     introduction = (
         "The figures and tables of Lipman, Rustamov and Funkhouser, Biharmonic Distance (ACM Transactions on Graphics "
-        f"29(3), 2010), computed anew on {about}. Numbers stand as measured, also where a statement does not hold. "
-        "The data of every picture is beside this page, as .npz and .csv files. A mark with a dashed outline is on the "
-        "far side of the shape."
+        f"29(3), 2010), recomputed on {about}, with a verdict on each of the paper's statements. The data of every "
+        "picture is next to this page, as .npz and .csv files. A mark with a dashed outline is on the far side of the "
+        "shape."
     )
     if run.quick:
-        introduction += " This is the quick version, with smaller meshes and fewer samples."
+        introduction += " This is the quick version, with smaller meshes and fewer sources."
     with atomic_write(run.page) as temporary:
         text = page("Biharmonic Distance, reproduced", introduction, sections, run.quick)
         temporary.write_text(text, encoding="utf-8")

@@ -354,11 +354,13 @@ class Statement:
         for name in numbers:
             self.part(name)
         found = {part: part.judge(numbers.get(part.name), quick) for part in self.parts}
-        if quick and (self.whole or None in found.values()):
-            return None
         needed = [verdict for part, verdict in found.items() if part.needed]
-        if None in needed or not any(found.values()):
+        if None in needed or not any(found.values()) or (quick and self.whole):
             return None
-        if FAILS in needed or all(verdict in (FAILS, None) for verdict in found.values()):
-            return "does not hold"
+        if FAILS in needed:
+            return FAILS
+        if quick and None in found.values():
+            return None
+        if all(verdict in (FAILS, None) for verdict in found.values()):
+            return FAILS
         return "holds" if all(verdict == HOLDS for verdict in found.values()) else "partly"
