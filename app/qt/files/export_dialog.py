@@ -110,7 +110,7 @@ class ExportDialog(LooksDialog):
         tip = "Thin lines along sharp edges; the style Cover always has them"
         self.form.tick("Shar&p edges", page.feature_edges, tip, "feature_edges")
         self.crop = self.form.tick("Crop the &margins", page.crop, "Crop to what is drawn", "crop")
-        self.form.tick("Panel letters", page.panel_letters, "(a), (b), (c) over the panels", "panel_letters")
+        self.form.tick("Panels (a), (b), (c)", page.panel_letters, "(a), (b), (c) over the panels", "panel_letters")
         self.values: QtWidgets.QCheckBox | None = None
         if any(part.has_values for part in recipe.document.parts):
             tip = "The number beside each anchor"
