@@ -74,6 +74,8 @@ class Tool:
         A tuple of `Action`: what menus and keys do beside opening the dock.
     add_panel
         A function from a document to one with more panels; None where it adds one panel, as usual.
+    charts
+        Functions from a `figures.arrangement.ChartRow` to the charts beside a row of a figure, by their names.
     """
 
     package: str
@@ -98,6 +100,7 @@ class Tool:
     panel_edits: str = ""
     actions: str = ""
     add_panel: str = ""
+    charts: Mapping[str, str] = field(default_factory=dict)
 
     def load(self, name: str) -> Any:
         """Load what a name such as "dock:PinsDock" is of; the module if there is no colon in it."""
@@ -126,6 +129,11 @@ def _tools_of_others() -> Iterator[Tool]:
 def docked_tools() -> dict[str, Tool]:
     """Return the tools with a dock, by its word, in the order of the menu."""
     return {tool.word: tool for tool in sorted(tools(), key=lambda tool: tool.word) if tool.dock}
+
+
+def charted_tools() -> dict[str, Tool]:
+    """Return the tools with charts for figures, by the charts' names."""
+    return {name: tool for tool in tools() for name in tool.charts}
 
 
 @cache

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -45,6 +45,10 @@ class Box:
         """Return the box with so much more at its left and right, and as much or `y` above and below."""
         y = x if y is None else y
         return Box(self.x - x, self.y - y, self.width + 2 * x, self.height + 2 * y)
+
+    def moved(self, across: float, down: float) -> Box:
+        """Return the box so much farther across and down."""
+        return Box(self.x + across, self.y + down, self.width, self.height)
 
     def without(self, edge: float) -> Box:
         """Return the box with so much less at each side, at most a quarter of the side."""
@@ -175,6 +179,21 @@ class Group:
 
 
 Shape = Path | Text | Image | Group
+
+
+def moved(shapes: Iterable[Shape], across: float, down: float) -> list[Shape]:
+    """Return shapes at places so much farther across and down."""
+
+    def one(shape: Shape) -> Shape:
+        if isinstance(shape, Text):
+            return replace(shape, x=shape.x + across, y=shape.y + down)
+        if isinstance(shape, Path):
+            return replace(shape, at=(shape.at[0] + across, shape.at[1] + down))
+        if isinstance(shape, Image):
+            return replace(shape, box=shape.box.moved(across, down))
+        return Group(tuple(moved(shape.shapes, across, down)), shape.clip.moved(across, down))
+
+    return [one(shape) for shape in shapes]
 
 
 def opaque(colour: Sequence[float], opacity: float = 1.0) -> RGBA:

@@ -8,18 +8,20 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 import numpy as np
 
-from bihdist_core import Surface
+from bihdist_core import BihdistError, Cancelled, Laplacian, Signature, Surface
 from bihdist_core.analysis.first_view import first_look
 from bihdist_core.analysis.quality import apparent_source
+from bihdist_core.analysis.signature_types import SignatureSpec
 from bihdist_core.arrays import FloatArray
-from bihdist_core.distances.answers import Answer, difference_of
+from bihdist_core.distances.accuracy import ErrorEstimate
+from bihdist_core.distances.answers import Answer, difference_of, failed
 from bihdist_core.distances.distance_types import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.pieces import Pieces, pieces_of
 from bihdist_core.sources.source import Source, SourceSet
 
 from ..document.document import Document, FieldArray, MeshFile
-from ..document.quantities import Difference, DistanceFrom, OwnField
+from ..document.quantities import Difference, DistanceFrom, OwnField, VertexSignature
 from ..document.source_edits import members_of
 from ..document.tools import tools
 
@@ -157,6 +159,39 @@ class FieldQuestion(Question):
 
 
 @dataclass(frozen=True)
+class SignatureQuestion(Question):
+    """A signature of the vertices."""
+
+    mesh: MeshFile
+    areas: str
+    spec: SignatureSpec
+
+    @property
+    def about(self) -> Hashable:
+        return (self.mesh, self.areas, self.spec.word)
+
+    def __str__(self) -> str:
+        return str(self.spec)
+
+    def answer(
+        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
+    ) -> Answer:
+        return signature_answer(self.spec, loaded.distances(self.areas).laplacian, progress)
+
+
+def signature_answer(spec: SignatureSpec, laplacian: Laplacian, progress: Progress | None = None) -> Answer:
+    """Compute a signature; a failure becomes an answer that tells of it, and only Cancelled is raised."""
+    try:
+        found: Signature = spec.load()(laplacian, **dict(spec.values), progress=progress)
+    except Cancelled:
+        raise
+    except (BihdistError, MemoryError) as error:
+        return failed(str(spec), error)
+    estimate = ErrorEstimate.of(found.accuracy)
+    return Answer(label=found.label, unit=found.unit, field=found.values, error_estimate=estimate)
+
+
+@dataclass(frozen=True)
 class DifferenceQuestion(Question):
     """One answer less another, on the same surface."""
 
@@ -262,6 +297,11 @@ def _(shows: DistanceFrom, document: Document, surface: str) -> Question:
 @question_of.register
 def _(shows: OwnField, document: Document, surface: str) -> Question:
     return FieldQuestion(document.mesh(surface), document.areas, document.field(shows.name))
+
+
+@question_of.register
+def _(shows: VertexSignature, document: Document, surface: str) -> Question:
+    return SignatureQuestion(document.mesh(surface), document.areas, shows.spec)
 
 
 @question_of.register

@@ -13,4 +13,5 @@ TOOL = Tool(
     synonyms="measure mean quantiles histogram numbers average",
     dock="dock:StatisticsDock",
     commands={"statistics": "command"},
+    charts={"histogram": "..figures.histogram_figure:charts"},
 )
