@@ -48,6 +48,8 @@ class Page:
         Whether the background is transparent.
     ground
         Whether there is a shadow on the ground.
+    feature_edges
+        Whether there are lines along sharp edges, whatever the style.
     crop
         Whether empty margins are cut off.
     title
@@ -76,6 +78,7 @@ class Page:
     hints: bool = False
     transparent: bool = False
     ground: bool = False
+    feature_edges: bool = False
     crop: bool = False
     title: str = "heading"
     font_family: str = ""

@@ -211,6 +211,8 @@ class LayoutOptions(TypedDict, total=False):
         Leave the background transparent.
     ground : bool
         Draw a soft shadow on the ground.
+    feature_edges : bool
+        Draw thin lines along sharp edges, as the style ``"cover"`` does.
     crop : bool
         Cut off empty margins.
     """
@@ -228,6 +230,7 @@ class LayoutOptions(TypedDict, total=False):
     font_size: float | None
     transparent: bool
     ground: bool
+    feature_edges: bool
     crop: bool
 
 

@@ -74,6 +74,8 @@ class FigurePanel:
         Of the surface, more than 0 and at most 1.
     ground
         Whether there is a shadow on the ground, beneath what is not flat.
+    feature_edges
+        Whether there are lines along sharp edges, whatever the style and the shading.
     """
 
     surface: Surface
@@ -108,6 +110,7 @@ class FigurePanel:
     clip: Clip | None = None
     opacity: float = 1.0
     ground: bool = False
+    feature_edges: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):

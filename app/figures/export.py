@@ -122,6 +122,7 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
                 else typed_end(document, panel.id, answer)
             ),
             ground=page.ground,
+            feature_edges=page.feature_edges,
         )
         for panel, answer, marks in zip(document.panels, answers, marked, strict=True)
     )

@@ -151,6 +151,7 @@ ROWS = (
     *PAGE_ROWS,
     _layout("transparent", "draw no background"),
     _layout("ground", "draw a soft shadow on the ground"),
+    _layout("feature_edges", "draw thin lines along sharp edges, as the style cover does (see --feature-angle)"),
     CROP,
     _layout(
         "layout",

@@ -17,12 +17,12 @@ from bihdist_core.progress import Progress, part
 
 from ..document.document import isolines_in
 from ..document.looks import Isolines, Shading
-from ..drawing.line_looks import SECTION, LineLook
+from ..drawing.line_looks import FEATURE_EDGES, SECTION, LineLook
 from ..drawing.shapes import Box
 from ..marks.primitives import PointMark
 from ..scene.bands import band_edges
 from ..scene.clipping import ClipPlane, clip_plane, is_kept
-from ..scene.drawable import drawable, normals_shading, outward_faces
+from ..scene.drawable import drawable, feature_edges, normals_shading, outward_faces
 from ..scene.field_actor import FieldActor
 from ..scene.levels import levels, too_many
 from ..scene.line_clipping import Line
@@ -254,8 +254,11 @@ class _Taker:
         self._found: dict[Isolines, list[Contour]] = {}
         panel = self._panel
         self._seen: set[str] = set()
-        section = sight.section()
-        self._lines = {SECTION: SeenLines(section, [])} if section else {}
+        edges = []
+        if panel.feature_edges or self._style.feature_edges:
+            edges = sight.along(*feature_edges(surface, panel.shading, panel.feature_edges))
+        found = (FEATURE_EDGES, edges), (SECTION, sight.section())
+        self._lines = {look: SeenLines(lines, []) for look, lines in found if lines}
         looks = sorted(dict.fromkeys(line.look for line in panel.lines), key=lambda look: look.rank)
         self._lines |= {look: self._seen_lines(look) for look in looks}
         self._marks, self._ghosts = self._placed_marks()

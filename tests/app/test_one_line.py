@@ -221,6 +221,7 @@ EXAMPLES = {
     "Page.rows": lambda d, p: (d, replace(p, rows="source")),
     "Page.chart": lambda d, p: (d, replace(p, chart="histogram")),
     "Page.ground": lambda d, p: (d, replace(p, ground=True)),
+    "Page.feature_edges": lambda d, p: (d, replace(p, feature_edges=True)),
     "Page.columns": lambda d, p: (d, replace(p, columns=2)),
     "Page.hints": lambda d, p: (d, replace(p, hints=True)),
     "Page.transparent": lambda d, p: (d, replace(p, transparent=True)),
