@@ -26,6 +26,13 @@ from .analysis.region_mesh import RegionMesh, region_mesh, write_labels, write_r
 from .analysis.regions import Regions, voronoi_regions
 from .analysis.sampling import farthest_points, write_samples
 from .analysis.selecting import Brush, cut_out, write_selection
+from .analysis.signatures import (
+    Signature,
+    biharmonic_kernel_signature,
+    centrality,
+    heat_kernel_signature,
+    wave_kernel_signature,
+)
 from .analysis.surface_paths import SurfacePath, write_profile
 from .analysis.triangle_samples import triangle_sample, triangle_samples
 from .analysis.truncation import TruncationLoss, truncation_loss
@@ -119,6 +126,7 @@ __all__ = [
     "RegionMesh",
     "Regions",
     "ShepardInterpolant",
+    "Signature",
     "SolverError",
     "SourceSet",
     "SparseFactor",
@@ -134,6 +142,8 @@ __all__ = [
     "at_tips",
     "band",
     "biharmonic_index",
+    "biharmonic_kernel_signature",
+    "centrality",
     "correspondence_prediction",
     "cut_out",
     "diagonal_of_inverse",
@@ -150,6 +160,7 @@ __all__ = [
     "field_statistics",
     "geodesic_circles",
     "gradient_jumps",
+    "heat_kernel_signature",
     "inverse_on_pattern",
     "isolines",
     "isotropy_ratio",
@@ -177,6 +188,7 @@ __all__ = [
     "triangle_violations",
     "truncation_loss",
     "voronoi_regions",
+    "wave_kernel_signature",
     "welded",
     "with_handle",
     "with_holes",

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from bihdist_core.analysis.parcels import ParcelSums, labelled, parcel_sums
+from bihdist_core.analysis.signature_types import is_signature
 from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import failure_in_words
@@ -224,6 +225,8 @@ def _mesh_metadata(task: Task, mesh: BatchMesh, work: str) -> dict[str, Any]:
 # ---------------------------------------------------------------------- large meshes
 def _parts(task: Task, mesh: BatchMesh, work: str, distance: str) -> list[TaskPart]:
     """Return the parts of a result, none if it is computed at once."""
+    if is_signature(distance):
+        return []
     n, wanted = len(mesh.surface.vertices), task.wanted
     if work == "pairs" and wanted.labels:
         total = len(labelled(mesh.surface, mesh.labels, mesh.mask))

@@ -42,10 +42,9 @@ def _computed(path: str, mesh: BatchMesh) -> tuple[Recipe, Document, Surfaces, l
 # ---------------------------------------------------------------------- ranges
 def length_power(unit: str) -> float:
     """Return the p of a unit mesh units^p, as `Distance.unit` writes it; 0 for units that do not scale with a mesh."""
-    if unit == "1 / mesh units":
-        return -1.0
-    word, _, power = unit.partition("^")
-    return 0.0 if word != "mesh units" else float(power or 1)
+    word, _, power = unit.removeprefix("1 / ").partition("^")
+    sign = 1 if unit.startswith(word) else -1
+    return 0.0 if word != "mesh units" else sign * float(power or 1)
 
 
 def compute_maxima(path: str, mesh: BatchMesh) -> Computed:

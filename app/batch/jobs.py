@@ -7,11 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from bihdist_core import Laplacian, Surface, read_surface
+from bihdist_core import Laplacian, Signature, Surface, read_surface
 from bihdist_core.analysis.neighbours import nearest
 from bihdist_core.analysis.parcels import Parcels, checked_mask, parcel_means
+from bihdist_core.analysis.signature_types import SignatureSpec, is_signature
 from bihdist_core.analysis.upright import axis_of, guess_up
 from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
+from bihdist_core.distances.accuracy import ErrorEstimate
 from bihdist_core.distances.answers import Distances
 from bihdist_core.distances.distance import Distance
 from bihdist_core.distances.distance_types import Spec
@@ -127,11 +129,22 @@ class BatchMesh:
 
 # ---------------------------------------------------------------------- works
 def fields(mesh: BatchMesh, words: str, begin: int = 0, end: int | None = None) -> Computed:
-    """Compute the distance (n, k) of every vertex from the sources `begin` to `end`."""
+    """Compute the distance (n, k) of every vertex from the sources `begin` to `end`, or a signature (n, 1)."""
+    if is_signature(words):
+        return signature(mesh, words)
     columns = mesh.distance(words).from_sources(mesh.sources(words)[begin:end])
     if mesh.mask is not None:
         columns[~mesh.mask] = np.nan
     return fields_computed(mesh, words, _in(columns, mesh.wanted.dtype))
+
+
+def signature(mesh: BatchMesh, words: str) -> Computed:
+    """Compute a signature (n, 1) of the vertices."""
+    spec = SignatureSpec.parse(words)
+    found: Signature = spec.load()(mesh.distances.laplacian, **dict(spec.values))
+    values = found.values if mesh.mask is None else np.where(mesh.mask, found.values, np.nan)
+    metadata = _described(spec, found.label, found.unit, ErrorEstimate.of(found.accuracy))
+    return Computed({"fields": _in(values[:, None], mesh.wanted.dtype)}, metadata)
 
 
 def fields_computed(mesh: BatchMesh, words: str, columns: Array) -> Computed:
@@ -215,12 +228,16 @@ def _sources_metadata(mesh: BatchMesh, words: str) -> dict[str, Any]:
 
 
 def _distance_metadata(distance: Distance, pieces: Sequence[Pieces] = ()) -> dict[str, Any]:
-    error_estimate = distance.error_estimate(pieces=pieces)
+    spec = Spec.parse(distance.identity)
+    return _described(spec, distance.label, distance.unit, distance.error_estimate(pieces=pieces))
+
+
+def _described(spec: Spec, label: str, unit: str, error_estimate: ErrorEstimate) -> dict[str, Any]:
     return {
-        "distance": distance.identity or distance.label,
-        "parameters": dict(Spec.parse(distance.identity).values) if distance.identity else {},
-        "label": distance.label,
-        "unit": distance.unit,
+        "distance": spec.canonical,
+        "parameters": dict(spec.values),
+        "label": label,
+        "unit": unit,
         "normalisation": "none",
         "accuracy": error_estimate.share,
         "accuracy_text": error_estimate.text,

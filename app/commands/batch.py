@@ -9,14 +9,15 @@ from dataclasses import replace
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
+from bihdist_core.analysis.signature_types import SIGNATURES
 from bihdist_core.counts import counted
-from bihdist_core.distances.distance_types import Spec
 from bihdist_core.errors import ParameterError
 
 from ..batch.work_order import ARRAYS, COUNTS, GIFTI, KINDS, WORKS, WorkOrder, works_of
 from ..document.document import comparison
 from ..document.lists import standard_input
 from ..document.page import Recipe
+from ..document.quantities import quantity
 from ..document.repairs import NO_REPAIRS
 from ..document.sources import HIGHEST, Sources
 from ..version import version
@@ -87,7 +88,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_output(parser, "a folder, or an address that fsspec knows, such as s3://...", metavar="DIR")
     add_distance(
         parser,
-        "for fields, pairs, nearest, fps and figure (default: biharmonic)",
+        f"for fields, pairs, nearest, fps and figure (default: biharmonic); for fields and figure also "
+        f"{', '.join(SIGNATURES)}",
         k=f"the neighbours of nearest (default: {NEIGHBOURS}), the eigenpairs of eigen (default: {EIGENPAIRS})",
     )
     add_areas(parser)
@@ -277,7 +279,8 @@ def _wanted(options: argparse.Namespace) -> WorkOrder:
     _check_together(options)
     words = list(dict.fromkeys(options.distance or ["biharmonic"]))
     eigenpairs, neighbours = _counts(options, words)
-    chosen = tuple(str(each) for each in specs(options, words))
+    between_two = {word for word in WORKS if KINDS[word].by_distance} - {"fields"}
+    chosen = tuple(str(each) for each in specs(options, words, between_two.isdisjoint(options.do)))
     recipe = _recipe(options, chosen) if "figure" in options.do else ""
     return WorkOrder(
         works=options.do,
@@ -359,7 +362,7 @@ def _recipe(options: argparse.Namespace, distances: tuple[str, ...]) -> str:
         if len(recipe.document.surfaces) != 1:
             raise ParameterError(f"{options.recipe} has {len(recipe.document.surfaces)} meshes; one is drawn of each.")
     else:
-        shows = tuple(Spec.parse(each) for each in distances)
+        shows = tuple(map(quantity, distances))
         recipe = Recipe(comparison("mesh", shows, areas=options.areas or "voronoi"))
     if recipe.document.surfaces[0].repairs != NO_REPAIRS:
         raise ParameterError(

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 COLOURS_OF_VERTICES = COLOURS[:2]
 """Without bands, which are made of triangles and not of vertices."""
 
-WORDS = "compute distances of all vertices from one or more sources"
+WORDS = "compute distances of all vertices from one or more sources, or a signature of each"
 EXAMPLES = (
     "bihdist field hand --sources 12 -o hand.npy",
     "bihdist field hand --sources 12,40 --distance 'diffusion(t=1/4)' -o hand.csv",
@@ -71,9 +71,10 @@ def _one(options: argparse.Namespace) -> Facts:
     with progress_line() as progress:
         it = field_of(options, options.distance, progress, several=True)
     label = f"{it.answer.label}, {it.answer.unit}" if it.answer.unit == PERCENTAGE_POINTS else it.answer.label
-    names = distinct([field_name(it.shows, [each]) for each in it.sources])
+    names = distinct([field_name(it.shows, [each] if it.shows.points else []) for each in it.sources])
     fields = dict(zip(names, it.field.T, strict=True))
-    size = f"{it.field.shape[0]:,} vertices, {counted(it.field.shape[1], 'source')}"
+    size = f"{it.field.shape[0]:,} vertices"
+    size += f", {counted(it.field.shape[1], 'source')}" if it.shows.points else ""
     if extension in COLOURED_FORMATS and (len(fields) == 1 or asked or extension not in FIELD_FORMATS):
         if len(fields) > 1:
             raise ParameterError(

@@ -10,7 +10,7 @@ from bihdist_core.sources.source import Source
 
 from ..document.document import FieldArray
 from ..document.file_names import field_name
-from ..document.quantities import OwnField, Quantity
+from ..document.quantities import OwnField, Quantity, VertexSignature
 from .mesh import read_laplacian
 from .mesh_sources import first_spec, sources_on
 from .options import quantities
@@ -70,10 +70,10 @@ def field_of(
     `before` is another field of the same mesh from the same sources.  Raises ParameterError for several sources unless
     `several` allows them.
     """
-    import numpy as np
-
     from bihdist_core.distances.answers import Answer, Distances, difference_of
     from bihdist_core.sources.pieces import pieces_of
+
+    from ..session.questions import signature_answer
 
     fields = {field.name: field for field in options.fields or ()}
     (chosen,) = quantities(options, [words or next(iter(fields), "biharmonic")])
@@ -89,9 +89,12 @@ def field_of(
     for each in chosen.parts:
         if isinstance(each, OwnField):
             answer = _given(fields[each.name], laplacian.surface)
-            if several and answer.field is not None:
-                answer = replace(answer, field=np.repeat(answer.field[:, None], len(sources), axis=1))
-            answers.append(answer)
+            answers.append(_repeated(answer, sources) if several else answer)
+            continue
+        if isinstance(each, VertexSignature):
+            answer = signature_answer(each.spec, laplacian, progress)
+            accuracies.append(f", {answer.accuracy.text}" if answer.accuracy.text else "")
+            answers.append(_repeated(answer, sources) if several else answer)
             continue
         (spec,) = each.specs
         distance = distances.get(spec, progress)
@@ -107,6 +110,14 @@ def field_of(
         raise ParameterError(answer.failure)
     check_values(answer)
     return CommandField(laplacian, sources, chosen, answer, "".join(dict.fromkeys(accuracies)))
+
+
+def _repeated(answer: "Answer", sources: list[Source]) -> "Answer":
+    """Return an answer that is the same from every source, as (n, k)."""
+    import numpy as np
+
+    field = answer.field
+    return answer if field is None else replace(answer, field=np.repeat(field[:, None], len(sources), axis=1))
 
 
 def check_values(*answers: "Answer") -> None:

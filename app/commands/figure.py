@@ -62,7 +62,8 @@ def run(options: argparse.Namespace) -> Result:
     surface = figure.panels[0].surface
     tell_repairs(surface)
     points = [point for point in starting_points(recipe.document) if not point.image_of]
-    shown = {panel.surface: drawn.surface for panel, drawn in zip(recipe.document.panels, figure.panels, strict=True)}
+    ordered = zip(figure.order, figure.panels, strict=True)
+    shown = {recipe.document.panels[k].surface: drawn.surface for k, drawn in ordered}
     starts = list(dict.fromkeys(source_at(point.at, shown[point.surface]) for point in points))
     what = ", source vertex " if all(isinstance(each, int) for each in starts) else ", source "
     from_where = f"{what}{', '.join(map(short_words_of, starts))}" if starts else ""

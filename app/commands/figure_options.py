@@ -174,11 +174,11 @@ def _with_panels(document: Document, options: argparse.Namespace, asked: list[So
         points = [Point(name, at, surface) for name, at in zip(names, sources, strict=True)]
         panels = [Panel(k, each, surface) for k, each in enumerate(from_points(shows, names))]
         document = replace(document, points=(*points, *kept), panels=tuple(panels), next_id=len(panels))
-        check_parameters(options, [spec for panel in document.panels for spec in panel.shows.specs])
+        check_parameters(options, [spec for panel in document.panels for spec in panel.shows.parametrised])
         return document, len(shows) if len(sources) > 1 else None
     for panel in document.panels:
         document = show_in(document, panel.id, _respecified(panel.shows, options))
-    check_parameters(options, [spec for panel in document.panels for spec in panel.shows.specs])
+    check_parameters(options, [spec for panel in document.panels for spec in panel.shows.parametrised])
     if asked:
         moved = dict(zip(starts, asked, strict=True))
         for point in map(document.point, shown):
@@ -198,4 +198,5 @@ def _respecified(shows: Quantity, options: argparse.Namespace) -> Quantity:
     def respecified(spec: Spec) -> Spec:
         return spec.changed(**{p.name: given[p.name] for p in spec.distance_type.parameters if p.name in given})
 
-    return shows.with_parts(tuple(p.with_spec(respecified(p.specs[0])) if p.is_distance else p for p in shows.parts))
+    parts = (p if p.done or not p.parametrised else p.with_spec(respecified(p.parametrised[0])) for p in shows.parts)
+    return shows.with_parts(tuple(parts))

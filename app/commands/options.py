@@ -7,6 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
+from bihdist_core.analysis.signature_types import SIGNATURES, SignatureSpec, is_signature
 from bihdist_core.distances.distance_types import BUILT_IN, Spec, distance_types
 from bihdist_core.errors import ParameterError
 
@@ -106,7 +107,7 @@ def add_distance(parser: argparse.ArgumentParser, several: str = "", k: str = ""
     else the command counts by `--k`. With `is_field` it may be the difference of two, and
     there is `--field`, whose value is a list of `FieldArray`, or None.
     """
-    two = ", or two like 'biharmonic - geodesic'" if is_field else ""
+    two = f"; a signature: {', '.join(SIGNATURES)}; or two like 'biharmonic - geodesic'" if is_field else ""
     if is_field:
         what = (
             "values at vertices that another program has computed, shown or used in --distance by their NAME, "
@@ -126,7 +127,8 @@ def add_distance(parser: argparse.ArgumentParser, several: str = "", k: str = ""
         )
     else:
         text = f"{words} (default: {'the --field, else ' if is_field else ''}biharmonic)"
-        parser.add_argument("--distance", metavar="NAME", default=None if is_field else "biharmonic", help=text)
+        names = ("--distance", "--quantity") if is_field else ("--distance",)
+        parser.add_argument(*names, metavar="NAME", default=None if is_field else "biharmonic", help=text)
     for name, parameter in PARAMETERS.items():
         of = ", ".join(kind.word for kind in BUILT_IN if parameter in kind.parameters)
         also = f"{k}; or " if k and name == "k" else ""
@@ -305,12 +307,16 @@ def repairs_of(options: argparse.Namespace, mesh: str) -> Repairs:
     return Repairs(options.cut or "", merge=merge, largest_component=bool(options.largest_component)).of(mesh)
 
 
-def specs(options: argparse.Namespace, texts: Sequence[str]) -> list[Spec]:
-    """Read distances from texts and the parameters beside them; ParameterError for one that none of them has."""
+def specs(options: argparse.Namespace, texts: Sequence[str], signatures: bool = False) -> list[Spec]:
+    """Read distances, and signatures where these will do, from texts and the parameters beside them.
+
+    ParameterError for a parameter that none of them has.
+    """
     for text in texts:
-        if " - " in text:
+        if " - " in text or (is_signature(text) and not signatures):
             raise ParameterError(f"{text!r} is a field, and has no value between two vertices; name a distance.")
-    found = [Spec.parse(text, **given_parameters(options)) for text in texts]
+    kinds = (SignatureSpec if is_signature(text) else Spec for text in texts)
+    found = [kind.parse(text, **given_parameters(options)) for kind, text in zip(kinds, texts, strict=True)]
     check_parameters(options, found)
     return found
 
@@ -321,7 +327,7 @@ def quantities(options: argparse.Namespace, texts: Sequence[str], fields: Sequen
         quantity(text, fields=list(dict.fromkeys([*fields, *_names(options)])), **given_parameters(options))
         for text in texts
     ]
-    check_parameters(options, [spec for shows in found for spec in shows.specs])
+    check_parameters(options, [spec for shows in found for spec in shows.parametrised])
     return found
 
 

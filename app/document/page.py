@@ -7,6 +7,7 @@ from bihdist_core.errors import ParameterError
 from .camera import View, checked_view
 from .document import Document
 from .looks import one_of
+from .tools import charted_tools
 
 FORMATS = ("png", "pdf", "svg", "eps")
 """Of figures, as their files end."""
@@ -16,6 +17,9 @@ TITLES = ("heading", "caption", "none")
 
 LAYOUTS = ("", "hemispheres")
 """The usual one, and lateral and medial views of each hemisphere in a row."""
+
+ROWS = ("", "source", "mesh", "distance", "t", "alpha", "k", "method")
+"""Rows of panels as they come; or one for each source, mesh, distance, or value of a parameter."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +48,8 @@ class Page:
         Whether the background is transparent.
     ground
         Whether there is a shadow on the ground.
+    feature_edges
+        Whether there are lines along sharp edges, whatever the style.
     crop
         Whether empty margins are cut off.
     title
@@ -52,6 +58,10 @@ class Page:
         The font, "" for the usual one.
     font_size
         The size of labels, in points; None for the usual one.
+    rows
+        What each row of panels has of its own, one of ROWS: then rows and columns have headings, not panels.
+    chart
+        The chart at the end of each row, "" for none.
     anchor_values
         Whether anchors are labelled with their values.
     pin_names
@@ -68,12 +78,15 @@ class Page:
     hints: bool = False
     transparent: bool = False
     ground: bool = False
+    feature_edges: bool = False
     crop: bool = False
     title: str = "heading"
     font_family: str = ""
     font_size: float | None = None
     anchor_values: bool = False
     pin_names: bool = False
+    rows: str = ""
+    chart: str = ""
 
     def __post_init__(self) -> None:
         if self.format not in ("", *FORMATS):
@@ -82,6 +95,8 @@ class Page:
             raise ParameterError(f"A figure has at least one column, not {self.columns}.")
         one_of(self.title, TITLES, "title")
         one_of(self.layout, LAYOUTS, "layout")
+        one_of(self.rows, ROWS, "kind of row")
+        one_of(self.chart, ("", *charted_tools()), "chart")
         if self.font_size is not None and not 2 <= self.font_size <= 72:
             raise ParameterError(f"The font size is 2 to 72 points, not {self.font_size:g}.")
         for view in self.views:

@@ -3,9 +3,10 @@
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
+from bihdist_core.analysis.signature_types import SignatureSpec, is_signature
 from bihdist_core.distances.distance_types import DistanceType, Spec
 from bihdist_core.errors import ParameterError
 
@@ -109,9 +110,20 @@ class Quantity(ABC):
         """The distances it is made of."""
         return ()
 
+    @property
+    def parametrised(self) -> tuple[Spec, ...]:
+        """What it has parameters of: the distances it is made of, or itself."""
+        return self.specs
+
     def with_spec(self, spec: Spec) -> "Quantity":
-        """Return the quantity by another distance, where it is made of one."""
+        """Return the quantity by another distance, or with other parameters of its own."""
         return self
+
+    def is_alike(self, other: "Quantity") -> bool:
+        """Return whether another quantity is this one, perhaps with other values of its parameters."""
+        pairs = list(zip(self.parts, other.parts, strict=False))
+        parts = tuple(p.with_spec(*q.specs) if p.word == q.word and q.specs else p for p, q in pairs)
+        return type(self) is type(other) and self.with_parts(parts) == other
 
     def moved_to(self, point: str) -> "Quantity":
         """Return the quantity from another point, where it starts from one."""
@@ -257,6 +269,57 @@ class OwnField(Quantity):
 
 
 @dataclass(frozen=True)
+class VertexSignature(Quantity):
+    """A value of each vertex that follows from the whole spectrum, such as the heat kernel signature; it starts
+    nowhere."""
+
+    spec: SignatureSpec
+
+    def __str__(self) -> str:
+        return str(self.spec)
+
+    @property
+    def word(self) -> str:
+        return self.spec.word
+
+    @property
+    def title(self) -> str:
+        return self.spec.distance_type.name.lower()
+
+    @property
+    def heading(self) -> str:
+        return self.spec.distance_type.name
+
+    @property
+    def short_heading(self) -> str:
+        return self.spec.distance_type.short
+
+    @property
+    def hint(self) -> str:
+        return self.spec.distance_type.hint
+
+    @property
+    def parametrised(self) -> tuple[Spec, ...]:
+        return (self.spec,)
+
+    def with_spec(self, spec: Spec) -> "VertexSignature":
+        return replace(self, spec=spec)  # type: ignore[arg-type]
+
+    def to_json(self) -> dict[str, Any]:
+        return {"signature": self.spec.canonical}
+
+    @classmethod
+    def from_json(cls, data: dict[str, Any], where: str) -> Quantity | None:
+        if "signature" not in data:
+            return None
+        return cls(record(data, where, {"signature": partial(_read, SignatureSpec)})["signature"])
+
+    @classmethod
+    def from_words(cls, words: str, point: str, parameters: Mapping[str, object]) -> Quantity | None:
+        return cls(SignatureSpec.parse(words, **parameters)) if is_signature(words) else None
+
+
+@dataclass(frozen=True)
 class Difference(Quantity):
     """One quantity less another: each as a fraction of its maximum, or, if raw, as it is (in equal units)."""
 
@@ -294,6 +357,10 @@ class Difference(Quantity):
         return (*self.minuend.specs, *self.subtrahend.specs)
 
     @property
+    def parametrised(self) -> tuple[Spec, ...]:
+        return (*self.minuend.parametrised, *self.subtrahend.parametrised)
+
+    @property
     def word(self) -> str:
         return f"{self.minuend.word} - {self.subtrahend.word}"
 
@@ -325,7 +392,7 @@ class Difference(Quantity):
 @cache
 def quantity_kinds() -> tuple[type[Quantity], ...]:
     """Return the kinds of quantity that a panel can show, in the order in which their words and data are tried."""
-    return (OwnField, *(tool.load(name) for tool in tools() for name in tool.quantities), DistanceFrom)
+    return (OwnField, VertexSignature, *(tool.load(name) for tool in tools() for name in tool.quantities), DistanceFrom)
 
 
 def kind_name(kind: DistanceType) -> str:
@@ -397,7 +464,11 @@ def _part_from(data: Any, where: str) -> Quantity:
 
 def read_spec(data: Any, where: str) -> Spec:
     """Return a distance from its words in full; ParameterError, with the place, for anything else."""
-    return placed(Spec.parse, where, text=text(data, where))
+    return _read(Spec, data, where)
+
+
+def _read(kind: type[Spec], data: Any, where: str) -> Spec:
+    return placed(kind.parse, where, text=text(data, where))
 
 
 def from_point(shows: "Spec | Quantity", point: str) -> Quantity:

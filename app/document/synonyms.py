@@ -28,6 +28,7 @@ OPTION_HINTS = {
     "camera-position": "cpos top",
     "contours": "isolines 20",
     "crease": "feature-angle 40",
+    "creases": "feature-edges",
     "dpi": "size 160mm@300dpi",
     "edges": "show-edges",
     "eigenvalues": "k 200",

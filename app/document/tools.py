@@ -76,6 +76,8 @@ class Tool:
         A function from a document to one with more panels; None where it adds one panel, as usual.
     needs_faces
         Whether its dock has nothing to show of points.
+    charts
+        Functions from a `figures.arrangement.ChartRow` to the charts beside a row of a figure, by their names.
     """
 
     package: str
@@ -101,6 +103,7 @@ class Tool:
     actions: str = ""
     add_panel: str = ""
     needs_faces: bool = False
+    charts: Mapping[str, str] = field(default_factory=dict)
 
     def load(self, name: str) -> Any:
         """Load what a name such as "dock:PinsDock" is of; the module if there is no colon in it."""
@@ -129,6 +132,11 @@ def _tools_of_others() -> Iterator[Tool]:
 def docked_tools() -> dict[str, Tool]:
     """Return the tools with a dock, by its word, in the order of the menu."""
     return {tool.word: tool for tool in sorted(tools(), key=lambda tool: tool.word) if tool.dock}
+
+
+def charted_tools() -> dict[str, Tool]:
+    """Return the tools with charts for figures, by the charts' names."""
+    return {name: tool for tool in tools() for name in tool.charts}
 
 
 @cache

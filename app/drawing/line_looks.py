@@ -37,6 +37,8 @@ PATH = LineLook(
     rank=1,
 )
 """The look of a profile's path."""
+FEATURE_EDGES = LineLook("feature-edges", (Stroke("outline_colour", 0.7),), rank=-2)
+"""The look of lines along sharp edges."""
 SECTION = LineLook("section", (Stroke("section", 1.8),), rank=-1)
 """The look of the line where a clip plane cuts a surface."""
 SOURCE = LineLook("source", (Stroke("mark_edge", 6.0), Stroke("source", 3.5)), rank=2)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -46,6 +46,10 @@ class Box:
         y = x if y is None else y
         return Box(self.x - x, self.y - y, self.width + 2 * x, self.height + 2 * y)
 
+    def moved(self, across: float, down: float) -> Box:
+        """Return the box so much farther across and down."""
+        return Box(self.x + across, self.y + down, self.width, self.height)
+
     def without(self, edge: float) -> Box:
         """Return the box with so much less at each side, at most a quarter of the side."""
         edge = min(edge, self.width / 4, self.height / 4)
@@ -71,9 +75,15 @@ class Box:
         """Return the points (…, 2) at fractions of the sides."""
         return shares * [self.width, self.height] + [self.x, self.y]
 
-    def snapped(self, scale: float) -> Box:
-        """Return the box with its sides on whole pixels, `scale` of which are a unit."""
+    def snapped(self, scale: float, keeps_size: bool = False) -> Box:
+        """Return the box with its sides on whole pixels, `scale` of which are a unit.
+
+        With `keeps_size`, equal boxes have equal numbers of pixels wherever they stand.
+        """
         x, y = round(self.x * scale), round(self.y * scale)
+        if keeps_size:
+            width, height = max(round(self.width * scale), 1), max(round(self.height * scale), 1)
+            return Box(x / scale, y / scale, width / scale, height / scale)
         right, bottom = max(round(self.right * scale), x + 1), max(round(self.bottom * scale), y + 1)
         return Box(x / scale, y / scale, (right - x) / scale, (bottom - y) / scale)
 
@@ -175,6 +185,21 @@ class Group:
 
 
 Shape = Path | Text | Image | Group
+
+
+def moved(shapes: Iterable[Shape], across: float, down: float) -> list[Shape]:
+    """Return shapes at places so much farther across and down."""
+
+    def one(shape: Shape) -> Shape:
+        if isinstance(shape, Text):
+            return replace(shape, x=shape.x + across, y=shape.y + down)
+        if isinstance(shape, Path):
+            return replace(shape, at=(shape.at[0] + across, shape.at[1] + down))
+        if isinstance(shape, Image):
+            return replace(shape, box=shape.box.moved(across, down))
+        return Group(tuple(moved(shape.shapes, across, down)), shape.clip.moved(across, down))
+
+    return [one(shape) for shape in shapes]
 
 
 def opaque(colour: Sequence[float], opacity: float = 1.0) -> RGBA:

@@ -191,6 +191,12 @@ class LayoutOptions(TypedDict, total=False):
         Number of panels side by side; by default all, or a row for each source.
     layout : str
         ``"hemispheres"``: lateral and medial views of each hemisphere in a row, a row for each distance.
+    rows : str
+        A row of panels for each ``"source"``, ``"mesh"``, ``"distance"``, or value of a parameter: ``"t"``,
+        ``"alpha"``, ``"k"``, ``"method"``; rows and columns then have headings.
+    chart : str
+        A chart at the end of each row: ``"profile"`` of the marks' path, ``"scatter"``, ``"histogram"`` or
+        ``"errors"`` of maps.
     title : str
         Write names as ``"heading"``, as ``"caption"`` at the colour bars, or ``"none"``.
     panel_letters : bool
@@ -205,6 +211,8 @@ class LayoutOptions(TypedDict, total=False):
         Leave the background transparent.
     ground : bool
         Draw a soft shadow on the ground.
+    feature_edges : bool
+        Draw thin lines along sharp edges, as the style ``"cover"`` does.
     crop : bool
         Cut off empty margins.
     """
@@ -213,6 +221,8 @@ class LayoutOptions(TypedDict, total=False):
     style: str
     columns: int | None
     layout: str
+    rows: str
+    chart: str
     title: str
     panel_letters: bool
     hints: bool
@@ -220,6 +230,7 @@ class LayoutOptions(TypedDict, total=False):
     font_size: float | None
     transparent: bool
     ground: bool
+    feature_edges: bool
     crop: bool
 
 

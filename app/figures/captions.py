@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 
 from bihdist_core.arrays import AnyArray
 
 from ..drawing.axes import LETTER, axes_shapes, middle
+from ..drawing.painters.mpl import POINT
 from ..drawing.scale_bar import corner_of_bar, scale_bar_shapes
-from ..drawing.shapes import Box, Path, Shape, opaque, rectangle
+from ..drawing.shapes import Box, Path, Shape, moved, opaque, rectangle
 from .bars import line_spacing, shapes_of_bar
+from .chart_look import Chart, ChartLook
 from .page_layout import ComposedPage, PanelLayout
 from .shots import Shot
+from .size import UNITS_PER_INCH
 from .words import LINE, TextLines
+
+HIGHEST, LEAST_HEIGHT = 0.85, 17.0
+"""Height of a chart for each unit that it is wide, at most, if that is enough of the sizes of labels."""
 
 BAR_WIDTH = 1.3
 """The same of the scale bar's line."""
@@ -33,11 +42,27 @@ def caption_shapes(page: ComposedPage) -> list[Shape]:
             shapes += words.shapes(figure.style)
         if panel.failure:
             shapes += _failure_shapes(page, panel.failure, cell)
+    for heads in layout.heads:
+        shapes += heads.shapes(figure.style)
+    for charts, box in zip(figure.charts, layout.charts, strict=True):
+        shapes += _chart_shapes(page, charts, box)
     # Bars with isolines next to one without would look like another kind of scale.
     room = min((line_spacing(figure, bar) for bar in layout.bars), default=0.0)
     for bar in layout.bars:
         shapes += shapes_of_bar(figure, bar, layout.stroke, room)
     return shapes
+
+
+def _chart_shapes(page: ComposedPage, charts: Sequence[Chart], box: Box) -> list[Shape]:
+    """Return charts one below the other in the middle of a box."""
+    look = ChartLook(page.figure.style, page.figure.font, box.width / UNITS_PER_INCH, page.layout.label * POINT)
+    high = min(box.height / max(len(charts), 1), max(HIGHEST * box.width, LEAST_HEIGHT * page.layout.label))
+    top = box.middle[1] - len(charts) * high / 2
+    return [
+        shape
+        for k, chart in enumerate(charts)
+        for shape in moved(replace(chart, look=look).shapes(high), box.x, top + k * high)
+    ]
 
 
 def _failure_shapes(page: ComposedPage, failure: str, cell: PanelLayout) -> list[Shape]:

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from bihdist_core import ParameterError
@@ -12,6 +12,7 @@ from ..document.document import Document
 from ..document.edits import with_ends, with_range
 from ..document.file import read_recipe
 from ..document.looks import RANGES
+from ..document.page import Recipe
 from ..session.array_store import ArrayStore
 from .export import compute, figure_of, open_document
 
@@ -33,7 +34,7 @@ def limits_in(path: str | os.PathLike[str], progress: Progress | None = None) ->
     recipe = read_recipe(path)
     document, surfaces = open_document(recipe, ArrayStore.read(recipe))
     answers = compute(document, surfaces, progress)
-    tops = figure_of(replace(recipe, document=document), surfaces, answers).upper_limits()
+    tops = figure_of(Recipe(document), surfaces, answers).upper_limits()
     return tuple(
         ColourLimit(
             str(panel.shows),

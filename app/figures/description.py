@@ -15,6 +15,7 @@ from ..document.page import TITLES
 from ..marks.primitives import AreaMark, LineMark, PointMark
 from ..scene.style import PAPER, IsolineInk, Style
 from ..session.base import Greys
+from .chart_look import Chart
 from .fonts import check_font
 from .size import Size
 
@@ -73,6 +74,8 @@ class FigurePanel:
         Of the surface, more than 0 and at most 1.
     ground
         Whether there is a shadow on the ground, beneath what is not flat.
+    feature_edges
+        Whether there are lines along sharp edges, whatever the style and the shading.
     """
 
     surface: Surface
@@ -107,6 +110,7 @@ class FigurePanel:
     clip: Clip | None = None
     opacity: float = 1.0
     ground: bool = False
+    feature_edges: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.isolines, int):
@@ -179,6 +183,12 @@ class Figure:
         Entries under all panels, on a page whose height follows from them; in a movie the height is that without them.
     letters
         Whether panels have letters, (a), (b), (c).
+    order
+        Which of the document's panels they are, if there is a document.
+    row_heads, column_heads
+        Headings of rows and columns, in place of those of panels.
+    charts
+        Charts at the end of each row, one below the other.
     dashes_all
         Whether marks that the shape hides are dashed even if another view of their panel shows them.
     """
@@ -199,6 +209,10 @@ class Figure:
     legend: tuple[Entry, ...] = ()
     dashes_all: bool = True
     letters: bool = False
+    order: tuple[int, ...] = ()
+    row_heads: tuple[str, ...] = ()
+    column_heads: tuple[str, ...] = ()
+    charts: tuple[tuple[Chart, ...], ...] = ()
 
     def __post_init__(self) -> None:
         if not self.panels:
@@ -223,6 +237,11 @@ class Figure:
         """The number of rows and columns."""
         columns = min(self.columns or len(self.panels), len(self.panels))
         return -(-len(self.panels) // columns), columns
+
+    @property
+    def has_shadows(self) -> bool:
+        """Whether shadows are drawn, on the shape or on the ground."""
+        return self.style.occlusion > 0 or any(panel.ground for panel in self.panels)
 
     def upper_limits(self) -> list[float]:
         """Return the end of each panel's colours."""

@@ -16,7 +16,8 @@ from bihdist_core.file_output import atomic_write, check_output
 from ..drawing.chart import Axis
 from ..drawing.shapes import Box, Path, Pen, Shape, Text, hexadecimal, line
 from ..scene.style import CURVES
-from .chart_page import FAINT, RIM, USUAL_LOOK, ChartLook, save_chart
+from .chart_look import FAINT, RIM, USUAL_LOOK, ChartLook
+from .chart_page import save_chart
 from .draw import FIGURE_FORMATS
 
 HIGH = 0.62
@@ -48,6 +49,10 @@ class ErrorFigure:
     look: ChartLook = USUAL_LOOK
     means: Mapping[str, MeanCurve] = field(default_factory=dict)
 
+    def shapes(self, height: float) -> list[Shape]:
+        """Return the chart at a height in units."""
+        return _shapes(self, height)
+
 
 def save_error_figure(figure: ErrorFigure, path: str | os.PathLike[str]) -> None:
     """Draw the curves (see `save_chart`), or write them as a .csv table: a line for each threshold."""
@@ -55,8 +60,7 @@ def save_error_figure(figure: ErrorFigure, path: str | os.PathLike[str]) -> None
         with atomic_write(path) as temporary:
             temporary.write_text(_table({**figure.means, **figure.curves}), encoding="utf-8")
     else:
-        height = HIGH * figure.look.width
-        save_chart(path, figure.look, height, _shapes(figure, height))
+        save_chart(path, figure, HIGH * figure.look.width)
 
 
 def _table(curves: Mapping[str, ErrorCurve | MeanCurve]) -> str:

@@ -10,10 +10,9 @@ from bihdist_core import OutputError, ParameterError, SolverError, Surface
 from bihdist_core.distances.answers import Answer
 from bihdist_core.file_output import atomic_write, check_output
 from bihdist_core.progress import Progress, part
-from bihdist_core.sources.words import short_words_of
 
 from ..document.derived_surfaces import COLUMNS, changed_mesh
-from ..document.document import Document, Inset, Panel, starting_points
+from ..document.document import Document, Inset, Panel
 from ..document.looks import NO_LINES, Isolines
 from ..document.page import Page, Recipe
 from ..drawing.glyphs import NAMED
@@ -30,6 +29,7 @@ from ..session.isoline_points import passed
 from ..session.loaded_mesh import LoadedMesh, open_mesh
 from ..session.questions import questions, source_at, vertex_at
 from ..session.recipe_file import check_recipe_beside, place_beside, recipe_paths, recipe_written
+from .arrangement import Arrangement, arranged, charts_of, source_words
 from .description import Figure, FigurePanel
 from .draw import FIGURE_FORMATS, check_offscreen, check_room, check_transparency, save_figure
 from .legend import legend_of_labels
@@ -107,15 +107,22 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
         for panel, answer in zip(document.panels, answers, strict=True)
     ]
     shown = {panel.id: answer for panel, answer in zip(document.panels, answers, strict=True)}
+    columns = page.columns or (1 if page.layout else COLUMNS if changed_mesh(document) is not None else None)
+    arrangement = Arrangement(tuple(range(len(document.panels))), columns)
+    if page.rows:
+        arrangement = arranged(document, page.rows, surfaces, answers)
+    elif page.chart:
+        arrangement = replace(arrangement, columns=columns or len(document.panels))
     panels = tuple(
         replace(
-            _figure_panel(recipe, panel, surfaces[panel.surface], answer, marks),
+            _figure_panel(recipe, panel, surfaces, answer, marks),
             maximum=(
                 own_end(document, shown, panel.id, surfaces.get)
                 if document.range == "own"
                 else typed_end(document, panel.id, answer)
             ),
             ground=page.ground,
+            feature_edges=page.feature_edges,
         )
         for panel, answer, marks in zip(document.panels, answers, marked, strict=True)
     )
@@ -128,11 +135,14 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
     legend, left_out = legend_of_labels(answers)
     if legend and size.height is not None:
         legend, left_out = (), "There is no legend of labels on a page of given height; give its width only."
-    return Figure(
-        panels,
+    figure = Figure(
+        tuple(panels[k] for k in arrangement.order),
         remarks=tuple(dict.fromkeys([*remarks, left_out] if left_out else remarks)),
         legend=legend,
-        columns=page.columns or (1 if page.layout else COLUMNS if changed_mesh(document) is not None else None),
+        columns=arrangement.columns,
+        order=arrangement.order,
+        row_heads=arrangement.row_heads,
+        column_heads=arrangement.column_heads,
         size=size,
         style=style,
         range=document.range,
@@ -143,6 +153,9 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
         font=page.font_family,
         text=page.font_size,
     )
+    if not page.chart:
+        return figure
+    return replace(figure, charts=charts_of(document, page, surfaces, answers, arrangement, figure.upper_limits()))
 
 
 def check_drawable(recipe: Recipe, surfaces: Surfaces, extension: str = ".png") -> None:
@@ -215,16 +228,16 @@ def export(
 
 
 def _figure_panel(
-    recipe: Recipe, panel: Panel, loaded: LoadedMesh, answer: Answer, marks: Sequence[SurfaceMark]
+    recipe: Recipe, panel: Panel, surfaces: Surfaces, answer: Answer, marks: Sequence[SurfaceMark]
 ) -> FigurePanel:
-    document, surface = recipe.document, loaded.surface
+    document, loaded = recipe.document, surfaces[panel.surface]
+    surface = loaded.surface
     starts = [source_at(document.point(name).at, surface) for name in panel.shows.points]
     heading = answer.label
     if loaded.origin is not None and not panel.shows.compares_meshes:
         heading += f", after: {loaded.mesh.change}"
-    starting = dict.fromkeys(point for point in starting_points(document) if not point.image_of)
-    if starts and len(starting) > 1:
-        heading += f", from {', '.join(map(short_words_of, starts))}"
+    if words := source_words(document, panel, surfaces):
+        heading += f", {words}"
     hint = "; ".join(text for text in (panel.shows.hint * recipe.page.hints, answer.remark) if text)
     for caption in (mark for mark in marks if isinstance(mark, Caption) and mark.plain):
         heading, hint = caption.plain, caption.sentence[0]

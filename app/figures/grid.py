@@ -36,6 +36,8 @@ class Grid:
         Size of the page in pixels, None for a height that follows.
     is_printed
         Whether units are those of paper.
+    chart
+        Columns that a chart at the end of a row is wide.
     """
 
     rows: int
@@ -45,6 +47,12 @@ class Grid:
     scale: float
     pixels: tuple[int, int | None]
     is_printed: bool
+    chart: float = 0.0
+
+    @property
+    def column(self) -> float:
+        """The usual width of a column, of which the chart has its share."""
+        return self.width / (self.columns + self.chart)
 
 
 def grid_of(figure: Figure) -> Grid:
@@ -58,7 +66,9 @@ def grid_of(figure: Figure) -> Grid:
     else:
         columns = _columns(figure, size.pixels_of(size.width) * UNITS_PER_INCH / dpi)
     rows = -(-len(figure.panels) // columns)
-    usual = columns * view_width(figure) * most_views(figure), rows * PANEL[1]
+    wide = view_width(figure) * most_views(figure)
+    chart = PANEL[0] / wide if figure.charts else 0.0
+    usual = (columns + chart) * wide, rows * PANEL[1]
     across, down, scale = size.pixels(usual)
     is_free = size.height is None and size.width is not None and (dpi is not None or across < usual[0])
     return Grid(
@@ -69,6 +79,7 @@ def grid_of(figure: Figure) -> Grid:
         scale,
         (across, None if is_free else down),
         dpi is not None,
+        chart,
     )
 
 

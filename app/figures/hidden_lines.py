@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bihdist_core import Surface
+from bihdist_core.analysis.chains import chains
 from bihdist_core.analysis.isoline_tracing import isolines
 from bihdist_core.arrays import AnyArray, BoolArray, FloatArray, IntArray
 
@@ -130,6 +131,15 @@ class HiddenLineRemoval:
         lines = isolines(self.surface, self.clip.depths(self.surface.vertices), [0.0])
         curves = [Curve(line.points, line.edges, line.closed) for line in lines]
         return [part for parts in self.visible(curves, is_section=True) for part in parts]
+
+    def along(self, edges: IntArray, beside: IntArray) -> list[Line]:
+        """Return the visible parts of edges (k, 2), of which the outside of one of the faces (k, 2) beside is seen."""
+        if self._backs is not None:
+            is_inside = np.isin(self._face_keys(self.surface.faces[beside.ravel()]), self._backs)
+            edges = edges[~is_inside.reshape(-1, 2).all(axis=1)]
+        x = self.surface.vertices
+        curves = [Curve(x[ids], np.stack([ids, ids], axis=1), closed) for ids, closed in chains(edges)]
+        return [part for parts in self.visible(curves) for part in parts]
 
     def outlined(self, curves: Iterable[Curve]) -> list[Line]:
         """Return curves in the picture, seen or not."""

@@ -1,16 +1,21 @@
 """The figure of a histogram: how much of a surface's area has which values of a field, in the colours of its bar."""
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from bihdist_core import Surface, field_statistics
 from bihdist_core.arrays import FloatArray
+from bihdist_core.distances.answers import Answer
 
 from ..drawing.chart import Axis
 from ..drawing.numbers import MINUS
 from ..drawing.shapes import Box, Path, Pen, Shape, Text, opaque, rectangle
-from .chart_page import RIM, USUAL_LOOK, ChartLook, save_chart
+from ..scene.style import style_of
+from .arrangement import ChartRow
+from .chart_look import RIM, USUAL_LOOK, ChartLook
+from .chart_page import save_chart
 from .size import UNITS_PER_INCH
 
 HIGH, SLANT = 2.0, 0.62
@@ -46,11 +51,43 @@ class HistogramFigure:
     mean: float | None = None
     look: ChartLook = USUAL_LOOK
 
+    def shapes(self, height: float) -> list[Shape]:
+        """Return the chart at a height in units."""
+        return _shapes(self, height)
+
+
+BINS = 40
+"""Of a histogram."""
+
+
+def histogram_figure(
+    surface: Surface, field: FloatArray, answer: Answer, top: float, look: ChartLook
+) -> HistogramFigure:
+    """Return the histogram of an answer's field (n,), in colours that end at `top`."""
+    found = field_statistics(surface, field, BINS)
+    colours = look.style.bin_colours(found.bins, top, answer.is_signed)
+    shares = found.areas / found.areas.sum()
+    return HistogramFigure(found.bins, shares, colours, answer.label, answer.unit, found.mean, look)
+
+
+def charts(row: ChartRow) -> list[HistogramFigure]:
+    """Return a histogram for each panel of a row with a field."""
+    look = ChartLook.of(row.page, style_of(row.page.style, row.document.colours))
+    shown = [(panel, row.answers[panel.id]) for panel in row.document.panels if panel.id in row.answers]
+    return [
+        replace(
+            histogram_figure(row.surfaces[panel.surface].surface, answer.field, answer, row.tops[panel.id], look),
+            name=row.label(panel),
+        )
+        for panel, answer in shown
+        if answer.field is not None
+    ]
+
 
 def save_histogram_figure(figure: HistogramFigure, path: str | os.PathLike[str]) -> None:
     """Write the figure of a histogram, see `save_chart`."""
     height = min(SLANT * figure.look.inches, HIGH) * UNITS_PER_INCH
-    save_chart(path, figure.look, height, _shapes(figure, height))
+    save_chart(path, figure, height)
 
 
 def _shapes(figure: HistogramFigure, height: float) -> list[Shape]:

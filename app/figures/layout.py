@@ -50,6 +50,9 @@ TALLEST = 1.4
 BETWEEN_VIEWS = 0.06
 """Heights of a view that are left between the cropped views of a panel."""
 
+CHART, LARGEST_CHART = 20.0, 0.5
+"""Least width of a chart in sizes of labels, as long as it is no more than this fraction of the page."""
+
 WIDEST = 1.6
 """Heights of a view that a cropped one is wide at most; flatter shapes have lower ones."""
 
@@ -69,17 +72,18 @@ def lay_out(figure: Figure, least_scale: float = 0.0, share: float = 1.0) -> Pag
 def _laid_out(figure: Figure, least_scale: float, share: float, above: float = 0.0, beside: float = 0.0) -> PageLayout:
     """Lay out a figure with so much free above views, and at the edges of a cropped page."""
     grid = grid_of(figure)
-    room = grid.width / grid.columns
+    room = grid.column
     factor = _factor(figure, grid, room)
     lettering = Lettering(figure.font, figure.text is not None, grid.is_printed)
     views = [_shapes(figure, k) for k in range(len(figure.panels))]
     rooms = [room] * grid.columns
-    for _ in range(3 if figure.crop else 2 if figure.has_one_bar else 1):
+    takes_room = figure.has_one_bar or figure.charts or figure.row_heads
+    for _ in range(3 if figure.crop else 2 if takes_room else 1):
         for level in range(6):
             texts = _Texts(figure, lettering, factor, rooms, level, above)
             strip = _Strip(figure, grid, texts)
             sizes = _Sizes(figure, grid, texts, strip, views, max(MARGIN, beside))
-            if grid.height is None or sizes.high >= LEAST_VIEWS * (sizes.high + texts.head + texts.foot):
+            if grid.height is None or sizes.high >= LEAST_VIEWS * (sizes.high + sizes.words[0]):
                 break
         rooms = sizes.columns
     return _placed(figure, grid, texts, strip, sizes, max(grid.scale, least_scale) * share)
@@ -152,14 +156,21 @@ class _Texts:
     def __init__(
         self, figure: Figure, lettering: Lettering, factor: float, rooms: list[float], level: int, above: float
     ) -> None:
-        count = len(figure.panels)
+        count, columns = len(figure.panels), len(rooms)
         self.factor, self.lettering = factor, lettering
-        self.letters = [f"({letter_of(k)})" if figure.letters else "" for k in range(count)]
+        # A chart at the end of a row has a letter, too.
+        each = columns + bool(figure.charts)
+        letters = range(-(-count // columns) * each)
+        self.letters = [f"({letter_of(k)})" if figure.letters else "" for k in letters]
+        self.letter_at = [k // columns * each + k % columns for k in range(count)]
         # As wide on the right, so that headings stay in the middle.
         aside = max(lettering.width(each, _heading_size(figure, factor, min(rooms)), True) for each in self.letters)
         room = min(rooms) - 8
         most = 2 if level < 2 else 1
-        heads = [p.heading if figure.title == "heading" and level < 5 else "" for p in figure.panels]
+        has_heads = figure.title == "heading" and level < 5
+        heads = [p.heading if has_heads else "" for p in figure.panels]
+        if figure.row_heads and has_heads:
+            heads = [*figure.column_heads, *[""] * (count - columns)]
         self.heading, self.headings = lettering.fitted(
             heads, _heading_size(figure, factor, min(rooms)), room - 2 * aside, most, True
         )
@@ -170,16 +181,22 @@ class _Texts:
         feet = [bars.bar_words(figure, k) if level < 3 else "" for k in range(count)]
         more = figure.title == "caption" or lettering.is_printed
         self.label, self.feet = lettering.fitted(feet, LABEL * factor, room, most + more)
-        lines = max(*map(len, self.headings), int(figure.letters))
-        self.head_lines = lines
+        over = self.headings, self.headings[columns:]
+        lines = [max([int(figure.letters), *(len(head) for head in some)]) for some in over]
+        # Headings of columns stand over the first row only.
+        self.head_lines = lines if figure.row_heads else lines[:1] * 2
         gap = 7 * factor if level < 2 else 2.0
-        self.head = gap + lines * LINE * self.heading + max(map(len, self.hints)) * LINE * self.hint
-        self.head += max(5 * factor if self.head > gap else 0.0, above)
+        self.heads = []
+        for count in self.head_lines:
+            head = gap + count * LINE * self.heading + max(map(len, self.hints)) * LINE * self.hint
+            self.heads.append(head + max(5 * factor if head > gap else 0.0, above))
+        self.row_heads = figure.row_heads if has_heads else ()
+        self.side = 4 * factor + LINE * self.heading if self.row_heads else 0.0
         has_bars = not figure.has_one_bar and level < 4
         self.bars = [has_bars and p.field is not None and p.upper_limit > 0 for p in figure.panels]
-        lines = max(map(len, self.feet))
-        is_needed = any(self.bars) or lines
-        self.foot = bars.flat_foot(factor, self.label, lines, any(self.bars)) if is_needed else 6 * factor
+        foot_lines = max(map(len, self.feet))
+        is_needed = any(self.bars) or foot_lines
+        self.foot = bars.flat_foot(factor, self.label, foot_lines, any(self.bars)) if is_needed else 6 * factor
 
     def _hints(self, texts: list[str], room: float) -> tuple[float, list[tuple[str, ...]]]:
         """Return hints in one line or two; none at all if they do not fit."""
@@ -206,8 +223,8 @@ class _Strip:
         self.label, (self.lines,) = texts.lettering.fitted(words, LABEL * texts.factor, grid.width - 8, 2)
         under = bars.flat_foot(texts.factor, self.label, len(self.lines))
         right = bars.upright_width(figure, self.panel, texts.factor, self.label, texts.lettering)
-        cell = grid.width / grid.columns
-        each = texts.head + texts.foot + cell / most_views(figure) * VIEW_HEIGHT / view_width(figure)
+        cell = grid.column
+        each = texts.heads[0] + texts.foot + cell / most_views(figure) * VIEW_HEIGHT / view_width(figure)
         high = grid.height or grid.rows * each
         # In one column of a journal the shapes need the width.
         if grid.width >= NARROW and right / grid.width < under / high:
@@ -237,13 +254,16 @@ class _Sizes:
         margin: float,
     ) -> None:
         self.shapes, self.grid = shapes, grid
-        self.words = texts.head + texts.foot
+        self.words = [texts.heads[row > 0] + texts.foot for row in range(grid.rows)]
+        least = min(CHART * texts.label, LARGEST_CHART * grid.width)
+        self.chart = max(grid.column * grid.chart, least) if grid.chart else 0.0
+        self.beside = strip.width + texts.side + self.chart  # of the columns
         self.pad, self._margin = 0.0, margin
         if not figure.crop:
-            self.columns = [(grid.width - strip.width) / grid.columns] * grid.columns
+            self.columns = [(grid.width - self.beside) / grid.columns] * grid.columns
             wide = self.columns[0] / most_views(figure) / view_width(figure)
             free = VIEW_HEIGHT * wide
-            self.high = free if grid.height is None else (grid.height - strip.height) / grid.rows - self.words
+            self.high = free if grid.height is None else (grid.height - strip.height - sum(self.words)) / grid.rows
             self.high = max(min(self.high, _tallest(figure, self.columns[0])) if grid.height else self.high, 4.0)
             self.rows = [self.high] * grid.rows
             self.width = grid.width
@@ -252,9 +272,9 @@ class _Sizes:
         self.height = (
             grid.height
             if grid.height is not None and not figure.crop
-            else sum(self.rows) + grid.rows * self.words + strip.height + 2 * self.pad
+            else sum(self.rows) + sum(self.words) + strip.height + 2 * self.pad
         )
-        free = self.height - sum(self.rows) - grid.rows * self.words - strip.height - 2 * self.pad
+        free = self.height - sum(self.rows) - sum(self.words) - strip.height - 2 * self.pad
         self.space = max(free, 0.0) / (grid.rows + 1)
 
     def _crop(self, figure: Figure, texts: _Texts, strip: _Strip) -> None:
@@ -268,12 +288,14 @@ class _Sizes:
             tall[row] = max(tall[row], *(h for _, h, _ in shapes))
             views[column] = max(views[column], len(shapes))
         # Markers of two panels meet between them; pages without a legend stay as they were.
-        beside = self.pad if figure.legend else self.pad - MARGIN
-        gap, least = max(8 * texts.factor, 2 * beside), 90.0 * min(texts.factor, 1.0)
-        bound = grid.width - strip.width - 2 * self.pad - gap * (grid.columns - 1)
+        edge = self.pad if figure.legend else self.pad - MARGIN
+        gap, least = max(8 * texts.factor, 2 * edge), 90.0 * min(texts.factor, 1.0)
+        # What stands beside the columns, with the gaps between them.
+        beside = self.beside + 2 * self.pad + gap * (grid.columns - 1 + bool(grid.chart))
+        bound = grid.width - beside
         is_free = figure.size.width is None and figure.size.height is None
         most = grid.height if grid.height is not None else TALLEST * grid.width
-        highest = (most - strip.height - 2 * self.pad - grid.rows * self.words) / sum(tall)
+        highest = (most - strip.height - 2 * self.pad - sum(self.words)) / sum(tall)
         high = max(min(highest, VIEW_HEIGHT) if is_free else highest, 8.0)
 
         def columns(high: float) -> list[float]:
@@ -292,7 +314,7 @@ class _Sizes:
             self.columns = [each * bound / sum(self.columns) for each in self.columns]
         self.rows = [high * each for each in tall]
         self.gap = gap
-        self.width = sum(self.columns) + gap * (grid.columns - 1) + strip.width + 2 * self.pad
+        self.width = sum(self.columns) + beside
 
 
 # ---------------------------------------------------------------------- where it stands
@@ -303,17 +325,26 @@ def _placed(figure: Figure, grid: Grid, texts: _Texts, strip: _Strip, sizes: _Si
         page = (grid.pixels[0], page[1] if grid.pixels[1] is None else grid.pixels[1])
     check_pixels(*page)
     gap = sizes.gap if figure.crop else 0.0
-    cells = []
+    cells, charts, heads = [], [], list[TextLines]()
     top = sizes.pad + sizes.space
-    for row, high in enumerate(sizes.rows):
-        left = sizes.pad
+    for row, (high, words) in enumerate(zip(sizes.rows, sizes.words, strict=True)):
+        left = sizes.pad + texts.side
+        head = texts.heads[row > 0]
+        if texts.row_heads:
+            size, (lines,) = texts.lettering.fitted([texts.row_heads[row]], texts.heading, high, 1, True)
+            x, y = sizes.pad + texts.heading, top + head + high / 2
+            heads.append(TextLines(lines, x, y, size, is_bold=True, turned=True))
         for column, wide in enumerate(sizes.columns):
             k = row * grid.columns + column
             if k < len(figure.panels):
-                box = Box(left, top, wide, high + sizes.words)
+                box = Box(left, top, wide, high + words)
                 cells.append(_cell(figure, k, box, texts, sizes, scale))
             left += wide + gap
-        top += high + sizes.words + sizes.space
+        if figure.charts:
+            letter = texts.letters[(row + 1) * (grid.columns + 1) - 1]
+            heads += _letter(letter, left, top, texts)
+            charts.append(Box(left, top + head, sizes.chart, high + texts.foot))
+        top += high + words + sizes.space
     shared = None
     if strip.width:
         views = cells[0].views[0].y, cells[-1].views[0].bottom
@@ -329,7 +360,20 @@ def _placed(figure: Figure, grid: Grid, texts: _Texts, strip: _Strip, sizes: _Si
         stroke = max(stroke, narrowest / WIDE)
     sides = min(min(view.width, view.height) for cell in cells for view in cell.views)
     mark = max(MARK * sides, LEAST_MARK) * figure.style.marker_size / PAPER.marker_size
-    return PageLayout(width, height, scale, page, tuple(cells), texts.label, texts.lettering, shared, stroke, mark)
+    return PageLayout(
+        width,
+        height,
+        scale,
+        page,
+        tuple(cells),
+        texts.label,
+        texts.lettering,
+        shared,
+        stroke,
+        mark,
+        charts=tuple(charts),
+        heads=tuple(heads),
+    )
 
 
 def letter_of(panel: int) -> str:
@@ -343,21 +387,30 @@ def _bar_box(room: Box, y: float, factor: float) -> Box:
     return Box(room.x + (room.width - wide) / 2, y, wide, bars.THICK * factor)
 
 
+def _letter(letter: str, left: float, top: float, texts: _Texts) -> list[TextLines]:
+    """Return the letter of a panel or chart, if it has one, in its upper left corner."""
+    half = texts.lettering.width(letter, texts.heading, True) / 2
+    x, y = left + 4 * texts.factor + half, top + 7 * texts.factor + texts.heading
+    return [TextLines((letter,), x, y, texts.heading, is_bold=True)] if letter else []
+
+
 def _cell(figure: Figure, k: int, box: Box, texts: _Texts, sizes: _Sizes, scale: float) -> PanelLayout:
     panel, shapes = figure.panels[k], sizes.shapes[k]
     middle, factor = box.middle[0], texts.factor
     first = box.y + 7 * factor + texts.heading
     words = [TextLines(texts.headings[k], middle, first, texts.heading, is_bold=True)]
-    if letter := texts.letters[k]:
-        half = texts.lettering.width(letter, texts.heading, True) / 2
-        words.append(TextLines((letter,), box.x + 4 * factor + half, first, texts.heading, is_bold=True))
-    hint_at = box.y + 7 * factor + texts.head_lines * LINE * texts.heading + texts.hint
+    words += _letter(texts.letters[texts.letter_at[k]], box.x, box.y, texts)
+    is_later = k >= len(sizes.columns)
+    head = texts.heads[is_later]
+    hint_at = box.y + 7 * factor + texts.head_lines[is_later] * LINE * texts.heading + texts.hint
     words.append(TextLines(texts.hints[k], middle, hint_at, texts.hint, is_quiet=True))
-    area = Box(box.x, box.y + texts.head, box.width, max(box.height - texts.head - texts.foot, 4.0))
+    area = Box(box.x, box.y + head, box.width, max(box.height - head - texts.foot, 4.0))
     total = sum(w for w, _, _ in shapes)
     views, left = [], area.x
     for wide, _, _ in shapes:
-        views.append(Box(left, area.y, area.width * wide / total, area.height).snapped(scale))
+        # Panels of equal size share their shadows, which take long.
+        view = Box(left, area.y, area.width * wide / total, area.height)
+        views.append(view.snapped(scale, keeps_size=figure.has_shadows))
         left += area.width * wide / total
     parts = tuple(part for _, _, part in shapes)
     insets: tuple[Box, ...] = ()

@@ -98,7 +98,8 @@ class Movie:
         ParameterError if the distances have no such parameter, or for a value that is not allowed.
         """
         sweep = Sweep.parse(self.sweep)
-        kinds = {spec.word: spec.distance_type for panel in self.recipe.document.panels for spec in panel.shows.specs}
+        shown = (spec for panel in self.recipe.document.panels for spec in panel.shows.parametrised)
+        kinds = {spec.word: spec.distance_type for spec in shown}
         found = [p for kind in kinds.values() for p in kind.parameters if p.name == sweep.name]
         if not found:
             raise ParameterError(f"{sweep.name} is not a parameter of {', '.join(kinds) or 'what is shown'}.")
@@ -175,7 +176,8 @@ def _at(document: Document, name: str, value: Value) -> Document:
     def changed(shows: Quantity) -> Quantity:
         if len(shows.parts) > 1:
             return shows.with_parts(tuple(map(changed, shows.parts)))
-        return next((shows.with_spec(spec.changed(**{name: value})) for spec in shows.specs if _has(spec, name)), shows)
+        found = (spec for spec in shows.parametrised if _has(spec, name))
+        return next((shows.with_spec(spec.changed(**{name: value})) for spec in found), shows)
 
     panels = tuple(replace(panel, shows=changed(panel.shows)) for panel in document.panels)
     return replace(document, panels=panels)
@@ -243,8 +245,8 @@ class _Fields:
         )
         answers = [self._answers[q] for q in questions(document).values()]
         figure = figure_of(recipe, self.surfaces, answers)
-        drawn = zip(figure.panels, document.panels, strict=True)
-        seen = tuple(replace(each, views=(cameras[panel.surface],)) for each, panel in drawn)
+        drawn = zip(figure.panels, figure.order, strict=True)
+        seen = tuple(replace(each, views=(cameras[document.panels[k].surface],)) for each, k in drawn)
         return replace(figure, panels=seen, is_moving=True)
 
 

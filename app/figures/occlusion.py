@@ -22,6 +22,10 @@ MOST_PLACES = 16
 TOUCHING = 1e-9
 """Fraction of a segment that rounding may leave between two triangles that share a side."""
 
+SLACK = 1e-9
+"""Fraction of a triangle's height by which it is wider, as a segment may lie on a side that two of them share: at right
+angles to a box, the sides of its far face end on a diagonal of the near one."""
+
 
 class Occlusion:
     """Triangles in a picture, ready to say what they hide.
@@ -78,11 +82,12 @@ class Occlusion:
             near &= ((self._low[j] <= high[i]) & (self._high[j] >= low[i])).all(axis=1)
             i, j, p, q = i[near], j[near], p[near], q[near]
             corners, start, stop = self._corners[j], np.zeros(len(i)), np.ones(len(i))
+            slack = SLACK * self._area[j]
             sides = []
             for k in range(3):
                 a, b = corners[:, k - 2, :2], corners[:, k - 1, :2]
                 f, g = cross(b - a, p[:, :2] - a), cross(b - a, q[:, :2] - a)
-                _keep(start, stop, f, g)
+                _keep(start, stop, f + slack, g + slack)
                 sides.append((f, g))
             # How much nearer the triangle is, at both ends: its plane from the corners' shares of the area.
             f, g = (sum(side[end] * corners[:, k, 2] for k, side in enumerate(sides)) / self._area[j] for end in (0, 1))

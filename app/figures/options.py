@@ -140,10 +140,18 @@ ROWS = (
     RANGE,
     _layout("hints", "say under each heading what to look for (default: no)"),
     _layout("panel_letters", "write (a), (b), (c) over the panels"),
+    _layout(
+        "rows",
+        "a row of panels for each source, mesh, distance, or value of t, alpha, k or method, with headings of rows and "
+        "columns",
+        "WHAT",
+    ),
+    _layout("chart", "a chart at the end of each row: profile (with --profile), scatter, histogram or errors", "NAME"),
     _layout("title", "show names as heading (default), as caption at the bars, or none", "WHERE"),
     *PAGE_ROWS,
     _layout("transparent", "draw no background"),
     _layout("ground", "draw a soft shadow on the ground"),
+    _layout("feature_edges", "draw thin lines along sharp edges, as the style cover does (see --feature-angle)"),
     CROP,
     _layout(
         "layout",

@@ -54,6 +54,10 @@ class PageLayout:
         Width of marks.
     legend
         For each entry its mark, the mark's x and y, and its words.
+    charts
+        The places of the charts of each row.
+    heads
+        Headings of rows, and the letters of charts.
     """
 
     width: float
@@ -67,6 +71,8 @@ class PageLayout:
     stroke: float
     mark: float
     legend: tuple[tuple[PointMark, float, float, TextLines], ...] = ()
+    charts: tuple[Box, ...] = ()
+    heads: tuple[TextLines, ...] = ()
 
     @property
     def bars(self) -> list[Bar]:

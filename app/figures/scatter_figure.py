@@ -15,7 +15,8 @@ from ..drawing.chart import Axis
 from ..drawing.numbers import MINUS
 from ..drawing.shapes import Box, Image, Path, Pen, Shape, Text, hexadecimal, opaque, polyline, rectangle
 from ..scene.density import axis_ends, cell_size, density_picture
-from .chart_page import RIM, ChartLook, save_chart
+from .chart_look import RIM, ChartLook
+from .chart_page import save_chart
 from .size import UNITS_PER_INCH
 
 INCHES = 3.35
@@ -76,6 +77,15 @@ class ScatterFigure:
     largest: int | None = None
     look: ChartLook = COLUMN_LOOK
 
+    @property
+    def legend_height(self) -> float:
+        """The height of the names of selections, in units."""
+        return STEP * self.look.size * len(self.selections)
+
+    def shapes(self, height: float) -> list[Shape]:
+        """Return the chart at a height in units."""
+        return _shapes(self, height - self.legend_height)
+
 
 def axes_of(
     scatter: FieldScatter, names: tuple[str, str], units: tuple[str, str], in_shares: bool
@@ -89,10 +99,7 @@ def axes_of(
 
 def save_scatter_figure(figure: ScatterFigure, path: str | os.PathLike[str]) -> None:
     """Write the figure of a scatter, see `save_chart`; its points are pixels, the rest vectors and text."""
-    look = figure.look
-    legend = STEP * look.size * len(figure.selections)
-    height = (PLOT * look.inches + 0.55) * UNITS_PER_INCH + legend
-    save_chart(path, look, height, _shapes(figure, height - legend))
+    save_chart(path, figure, (PLOT * figure.look.inches + 0.55) * UNITS_PER_INCH + figure.legend_height)
 
 
 def _shapes(figure: ScatterFigure, height: float) -> list[Shape]:

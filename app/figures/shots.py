@@ -18,12 +18,12 @@ from bihdist_core.surface import with_faces
 
 from ..document.document import isolines_in
 from ..document.looks import Isolines, Shading
-from ..drawing.line_looks import SECTION, LineLook
+from ..drawing.line_looks import FEATURE_EDGES, SECTION, LineLook
 from ..drawing.shapes import Box
 from ..marks.primitives import PointMark
 from ..scene.bands import band_edges
 from ..scene.clipping import ClipPlane, clip_plane, is_kept
-from ..scene.drawable import drawable, normals_shading, outward_faces
+from ..scene.drawable import drawable, feature_edges, normals_shading, outward_faces
 from ..scene.field_actor import FieldActor
 from ..scene.levels import levels, too_many
 from ..scene.line_clipping import Line
@@ -175,8 +175,12 @@ def take_shots(
         render_window = render_cache.render_window(figure.style)
         for index, (panel, cell) in enumerate(zip(figure.panels, layout.cells, strict=True)):
             surfaces, shown_now = shown_surfaces(panel, tops[index]), None
-            if panel.isolines.labels:
-                with_faces(panel.surface, "labels of isolines")
+            for is_asked, what in (
+                (panel.isolines.labels, "labels of isolines"),
+                (panel.feature_edges, "feature edges"),
+            ):
+                if is_asked:
+                    with_faces(panel.surface, what)
             curves = render_cache.curves or panel.isolines.labels  # which stand on curves
             views = zip(panel.views, cell.views, cell.parts, surfaces, strict=True)
             for number, (view, box, shown, surface) in enumerate(views):
@@ -194,8 +198,10 @@ def take_shots(
                 if key not in sights:
                     outward, ground = outward_faces(mesh, clip is not None, panel.opacity), has_ground(panel)
                     is_cast = figure.style.occlusion > 0 or ground
-                    # Hexagons of points would cast shadows on each other.
-                    solid = mesh if surface.shape is surface else drawable(surface.shape, Shading("smooth"))
+                    solid = mesh
+                    if is_cast and isinstance(surface, PointCloud):
+                        # Hexagons would cast shadows on each other.
+                        solid = drawable(surface.shape, Shading("smooth"))
                     sights[key] = (
                         HiddenLineRemoval(surface.shape, framed.projection, size, outward, clip),
                         Shadows(solid, framed.projection, panel.up, ground, clip) if is_cast else None,
@@ -214,7 +220,7 @@ def _show(panel: FigurePanel, mesh: vtkPolyData, top: float, clip: ClipPlane | N
     actor.show_surface(mesh)
     actor.show_shading(panel.shading)
     # Behind a translucent surface lines are painted; before it they are curves, like all of an opaque one.
-    actor.show_clip(clip, paints_section=panel.opacity < 1)
+    actor.show_clip(clip, paints_section=panel.opacity < 1 or isinstance(panel.surface, PointCloud))
     actor.show_opacity(panel.opacity)
     actor.show_selected(selected_colours(panel.areas, len(panel.surface.vertices)))
     if panel.field is not None:
@@ -259,11 +265,13 @@ class _Taker:
         # Whose isolines and sections are painted, and which have no outlines.
         self._is_of_points = isinstance(surface, PointCloud)
         self._found: dict[Isolines, list[Contour]] = {}
-        self._outlines: list[Line] | None = None
         panel = self._panel
         self._seen: set[str] = set()
-        section = sight.section()
-        self._lines = {SECTION: SeenLines(section, [])} if section and not self._is_of_points else {}
+        edges = []
+        if panel.feature_edges or (self._style.feature_edges and not self._is_of_points):
+            edges = sight.along(*feature_edges(surface, panel.shading, panel.feature_edges))
+        found = (FEATURE_EDGES, edges), (SECTION, [] if self._is_of_points else sight.section())
+        self._lines = {look: SeenLines(lines, []) for look, lines in found if lines}
         looks = sorted(dict.fromkeys(line.look for line in panel.lines), key=lambda look: look.rank)
         self._lines |= {look: self._seen_lines(look) for look in looks}
         self._marks, self._ghosts = self._placed_marks()
@@ -282,8 +290,7 @@ class _Taker:
             image = self._shadows.cast(image, seen, self._style.occlusion * self._panel.opacity)
         progress(0.7, "finding hidden marks")
         contours = self._contours(wanted) if self._curves and not self._is_of_points else []
-        if self._style.outline and not self._is_of_points and self._outlines is None:
-            self._outlines = outlines(self._sight)
+        outlined = outlines(self._sight) if self._style.outline and not self._is_of_points else []
         corner = np.array([self._box.x, self._box.y])
 
         def moved(points: FloatArray) -> FloatArray:
@@ -302,7 +309,7 @@ class _Taker:
             box,
             image,
             [replace(line, parts=moved_lines(line.parts)) for line in contours],
-            moved_lines(self._outlines or ()),
+            moved_lines(outlined),
             moved_marks(self._marks),
             self._projection.view[:3, :3].T,
             moved_marks(self._ghosts) if source is None else [],

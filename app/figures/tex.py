@@ -66,7 +66,8 @@ def caption(figure: Figure, recipe: Recipe, answers: Sequence[Answer]) -> str:
     if sources:
         sentences[0] += f" from {sources_in_words(sources)}"
     parts = []
-    for shown, answer, top in zip(figure.panels, answers, tops, strict=True):
+    for k, shown, top in zip(figure.order, figure.panels, tops, strict=True):
+        answer = answers[k]
         if shown.field is None:
             # What is plain, or has colours of its own, is shown as it is meant.
             note = "not shown" if shown.failure else shown.hint

@@ -51,21 +51,14 @@ class Section:
         return self.result.not_done if self.result else self.missing
 
 
-def page(title: str, introduction: str, sections: Sequence[Section], quick: bool = False, before: bool = False) -> str:
-    """Return the whole page.
-
-    With `quick` it says that its verdicts are quick ones; with `before` it lists what changed from the verdicts of
-    the version before, which had whole pages of the bundled meshes.
-    """
+def page(title: str, introduction: str, sections: Sequence[Section], quick: bool = False) -> str:
+    """Return the whole page; with `quick` it says that its verdicts are quick ones."""
     claims = [(section.experiment.id, section.result.claims if section.result else ()) for section in sections]
     every = [claim for _, those in claims for claim in those]
     missing = [section for section in sections if section.not_done]
     there = " ".join(f'<a href="#{s.experiment.id}">{s.experiment.id}</a>' for s in missing)
     missing_words = f'<p class="no">Some parts could not be done; the reasons are in {there}.</p>' if missing else ""
     links = " · ".join(f'<a href="#{s.experiment.id}">{s.experiment.id}</a>' for s in sections)
-    changed = verdicts.changes(claims) if before else ""
-    if changed:
-        links += ' · <a href="#changes">what changed</a>'
     body = "\n".join(_section(section) for section in sections)
     html = ""
     if every:
@@ -80,7 +73,6 @@ def page(title: str, introduction: str, sections: Sequence[Section], quick: bool
 <nav>{links}</nav>
 {missing_words}
 {body}
-{changed}
 </body></html>
 """
 

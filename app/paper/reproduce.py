@@ -58,15 +58,11 @@ class Run:
 
 @dataclass(frozen=True)
 class Subject:
-    """The shapes of some sections: the axis that is up, where their files go, and their anchors on the page.
-
-    The id of an experiment follows the anchor.
-    """
+    """The shapes of some sections, the axis that is up, and where their files go."""
 
     shapes: Shapes
     up: str
     folder: Path
-    anchor: str = ""
 
 
 @dataclass(frozen=True)
@@ -123,7 +119,7 @@ def reproduce(
         say(f"not done: {each}")
         sections.append(Section(Named("up", each.part), None, failure=each.reason))
     about = "the bundled meshes" if mesh is None else Path(mesh).name
-    return _written(run, sections, about, before=mesh is None and not quick)
+    return _written(run, sections, about)
 
 
 def _up(up: str, surface: Surface, path: str | Path, parts: Parts) -> str:
@@ -161,7 +157,7 @@ def _sections(run: Run, subject: Subject, progress: Progress | None) -> list[Sec
                 run.say(f"  warning: {warning}")
             for missing in section.not_done:
                 run.say(f"  not done: {missing}")
-            for line in _not_held(section.result, f"{run.page}#{subject.anchor}{experiment.id}"):
+            for line in _not_held(section.result):
                 run.say(line)
     return [_with_pictures(*done[experiment.id], run.say) for experiment in run.experiments]
 
@@ -181,7 +177,7 @@ def _with_pictures(section: Section, drawings: SectionDrawings, say: Callable[[s
 
 def _counted_verdicts(result: Result) -> str:
     """Count the statements by verdict."""
-    plurals = {HOLDS: "hold", FAILS: "do not hold"}
+    plurals: dict[str, str] = {HOLDS: "hold", FAILS: "do not hold"}
     words = []
     for verdict in (*VERDICTS, None):
         count = sum(claim.verdict == verdict for claim in result.claims)
@@ -191,16 +187,16 @@ def _counted_verdicts(result: Result) -> str:
     return ", ".join(words) or "no statements"
 
 
-def _not_held(result: Result, where: str) -> list[str]:
-    """Return a line for each statement that does not hold, or only partly, and where to read more."""
+def _not_held(result: Result) -> list[str]:
+    """Return a line for each statement that does not hold, or only partly."""
     lines = []
     for claim in result.claims:
         if claim.verdict != HOLDS:
             text, measured = (
                 textwrap.shorten(words, LONGEST_TEXT, placeholder="…") for words in (claim.text, claim.measured)
             )
-            lines.append(f"  {claim.verdict or 'not judged'}: {text.rstrip('.')} ({measured.rstrip('.')})")
-    return [*lines, f"  more in {where}"] if lines else []
+            lines.append(f"  {claim.verdict_words}: {text.rstrip('.')} ({measured.rstrip('.')})")
+    return lines
 
 
 def _section(run: Run, subject: Subject, experiment: Experiment, progress: Progress) -> tuple[Section, SectionDrawings]:
@@ -245,7 +241,7 @@ def _each_mesh(run: Run, meshes: Path) -> Reproduction:
             sections.append(Section(_named(run.experiments[0], name, path), None, failure=reason))
             continue
         up = _up(run.up, surface, path, missing)
-        subject = Subject(Shapes(own=surface, up=up), up, run.folder / name, f"{name}-")
+        subject = Subject(Shapes(own=surface, up=up), up, run.folder / name)
         _make(subject.folder)
         for section in _sections(run, subject, step):
             live = tuple((replace(each, file=f"{name}/{each.file}"), size) for each, size in section.live)
@@ -294,17 +290,17 @@ def _biharmonic(surface: Surface, source: int) -> Answer:
     return Distances(Laplacian(surface)).answer(Spec.of("biharmonic"), source)
 
 
-def _written(run: Run, sections: Sequence[Section], about: str, before: bool = False) -> Reproduction:
+def _written(run: Run, sections: Sequence[Section], about: str) -> Reproduction:
     introduction = (
         "The figures and tables of Lipman, Rustamov and Funkhouser, Biharmonic Distance (ACM Transactions on Graphics "
-        f"29(3), 2010), computed anew on {about}. Numbers stand as measured, also where a statement does not hold. "
-        "The data of every picture is beside this page, as .npz and .csv files. A mark with a dashed outline is on the "
-        "far side of the shape."
+        f"29(3), 2010), recomputed on {about}, with a verdict on each of the paper's statements. The data of every "
+        "picture is next to this page, as .npz and .csv files. A mark with a dashed outline is on the far side of the "
+        "shape."
     )
     if run.quick:
-        introduction += " This is the quick version, with smaller meshes and fewer samples."
+        introduction += " This is the quick version, with smaller meshes and fewer sources."
     with atomic_write(run.page) as temporary:
-        text = page("Biharmonic Distance, reproduced", introduction, sections, run.quick, before)
+        text = page("Biharmonic Distance, reproduced", introduction, sections, run.quick)
         temporary.write_text(text, encoding="utf-8")
     return Reproduction(run.page, sum(len(section.not_done) for section in sections))
 

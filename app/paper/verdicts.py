@@ -1,4 +1,4 @@
-"""The verdicts on the page: each statement with its numbers, spread and rule, an overview, and what changed."""
+"""The verdicts on the page: each statement with its numbers, spread and rule, and an overview."""
 
 from collections.abc import Sequence
 from html import escape
@@ -12,11 +12,13 @@ from bihdist_core.experiments.verdicts import (
     HOLDS,
     MOST,
     PARTLY,
+    SPREAD,
     BySource,
     Estimate,
     Limit,
     Numbers,
     Part,
+    Verdict,
 )
 
 KINDS = {HOLDS: "yes", PARTLY: "partly", FAILS: "no", None: "none"}
@@ -28,24 +30,26 @@ STRIP = (190, 26)
 """Width and height of the picture of a spread."""
 
 HOW = (
-    "Each statement has a rule and thresholds that were fixed before these measurements. A number from a source "
-    "is judged from the pictured source first, then from random ones: a statement holds if its limit is met from every "
-    f"pictured source and from at least {100 * MOST:g} % of the random ones, and partly if from the pictured ones "
-    "alone or from more than half of the random ones. A mean, a difference or an exponent is judged with its "
-    f"{100 * CONFIDENCE:g} % interval: a difference whose interval has 0 in it is a tie, and no tie holds. Times are "
-    "processor times. The strips show all numbers: diamonds are pictured sources, dots random ones, a bar an interval, "
-    "the shaded part what the rule allows. A statement of several parts holds if all of them do, and partly if some "
-    "do, or do partly; without a part that is needed it does not hold. Nothing over nothing, 0/0, is not judged."
+    "Each statement has a rule whose limits were set before anything was measured. A number that depends on the "
+    "source is taken from the sources in the pictures and from random ones. The statement holds if the limit is met "
+    f"from all pictured sources and from at least {100 * MOST:g} % of the random ones, and partly if it is met from "
+    "the pictured ones only, or from more than half of the random ones. A statement about all sources (“everywhere”) "
+    f"is refuted by one counterexample. Means, ratios and differences are judged with their {100 * CONFIDENCE:g} % "
+    f"intervals. A number within {100 * SPREAD:g} % of its limit, and an interval with the limit in it, count as "
+    "partly. A statement with several numbers holds if it holds by all of them, and partly if it does by some; it "
+    "does not hold if a number marked as needed fails. 0/0 is not judged. Times are processor times. In the last "
+    "column but one, diamonds are pictured sources, dots are random ones, bars are intervals, and the shaded range is "
+    "what the rule allows."
 )
 QUICK = (
-    "These verdicts are the quick ones: they come from smaller meshes and fewer random sources and starts, so that "
-    "intervals are wider and some verdicts differ from those of the whole page."
+    "These are quick measurements, on smaller meshes and from fewer sources. A verdict is given only where all numbers "
+    "are clearly on one side of their limits; timings and other statements that depend on the size are not judged."
 )
 
 
-def chip(verdict: str | None) -> str:
-    """Return a verdict as a sign, a word and a colour."""
-    return f'<b class="chip {KINDS[verdict]}">{SIGNS[verdict]} {verdict or UNJUDGED}</b>'
+def chip(verdict: Verdict | None, words: str = "") -> str:
+    """Return a verdict as a sign, its words and a colour."""
+    return f'<b class="chip {KINDS[verdict]}">{SIGNS[verdict]} {words or verdict or UNJUDGED}</b>'
 
 
 def counts(claims: Sequence[Claim]) -> str:
@@ -65,7 +69,7 @@ def overview(sections: Sequence[tuple[str, Sequence[Claim]]]) -> str:
         if claims:
             items = "".join(
                 f'<li><a href="#{_place(section, claim)}"><span class="{KINDS[claim.verdict]}" '
-                f'title="{claim.verdict or UNJUDGED}">{SIGNS[claim.verdict]}</span> {escape(claim.text)}</a></li>'
+                f'title="{claim.verdict_words}">{SIGNS[claim.verdict]}</span> {escape(claim.text)}</a></li>'
                 for claim in claims
             )
             groups.append(f'<div><a href="#{section}">{escape(section)}</a><ul>{items}</ul></div>')
@@ -77,48 +81,18 @@ def statements(section: str, claims: Sequence[Claim]) -> str:
     return "".join(_statement(section, claim) for claim in claims)
 
 
-def changes(sections: Sequence[tuple[str, Sequence[Claim]]]) -> str:
-    """Return the statements whose verdict changed since the version before, and why; "" if none did."""
-    judged = [(section, claim) for section, claims in sections for claim in claims if claim.statement.before]
-    if not judged:
-        return ""
-    rows = []
-    for section, claim in judged:
-        before, verdict = claim.statement.before, claim.verdict
-        if verdict is not None and before != {HOLDS: "yes", FAILS: "no"}.get(verdict):
-            why = claim.statement.changed or "Not known: the protocol is the same."
-            rows.append(
-                f'<tr><td><a href="#{_place(section, claim)}">{claim.id}</a></td><td>{escape(claim.text)}</td>'
-                f"<td>{before}</td><td>{chip(verdict)}</td><td>{escape(why)} <span class=quiet>Measured: "
-                f"{_unbroken(escape(claim.measured))}.</span></td></tr>"
-            )
-    known = sum(claim.verdict is not None for _, claim in judged)
-    same = known - len(rows)
-    unknown = f" {len(judged) - known} could not be judged now." if known < len(judged) else ""
-    table = (
-        "<table class=changes><tr><th class=id></th><th class=what>statement</th><th class=before>before</th>"
-        "<th class=now>now</th><th>why</th></tr>"
-        f"{''.join(rows)}</table>"
-        if rows
-        else ""
-    )
-    return (
-        '<section id="changes"><h2>What changed from the version before, and why</h2><p>The version before knew “yes” '
-        f"and “no” only. {same} of {known} verdicts are the same as before.{unknown}</p>{table}</section>"
-    )
-
-
 def _statement(section: str, claim: Claim) -> str:
     stated = claim.statement
-    rows = "".join(_part(part, claim.numbers.get(part.name)) for part in stated.parts)
+    rows = "".join(_part(part, claim.numbers.get(part.name), claim.quick) for part in stated.parts)
     notes = [escape(claim.note)] if claim.note else []
     if claim.failure:
         notes.insert(0, f"Not measured: {escape(claim.failure)}")
     html = f"<p class=quiet>{' '.join(notes)}</p>" if notes else ""
     if claim.warning:
         html = f"<p class=warning>⚠ {escape(claim.warning)}</p>{html}"
+    verdict = chip(claim.verdict, claim.verdict_words)
     return (
-        f'<div class="statement {KINDS[claim.verdict]}" id="{_place(section, claim)}"><p>{chip(claim.verdict)} '
+        f'<div class="statement {KINDS[claim.verdict]}" id="{_place(section, claim)}"><p>{verdict} '
         f"<span class=text>{escape(claim.text)}</span> <span class=quiet><span class=id>{claim.id}</span>: "
         f"{WORDS[stated.words]}, {escape(stated.where)}</span></p>"
         "<table><tr><th class=what>measured</th><th class=numbers>numbers</th><th class=spread>spread</th>"
@@ -127,13 +101,15 @@ def _statement(section: str, claim: Claim) -> str:
     )
 
 
-def _part(part: Part, numbers: Numbers | None) -> str:
-    verdict = part.judge(numbers)
+def _part(part: Part, numbers: Numbers | None, quick: bool) -> str:
+    verdict = part.judge(numbers, quick)
     html = "not measured" if numbers is None else escape(part.formatted(numbers))
     if isinstance(numbers, BySource) and numbers.random:
         html += f" ({part.counts(numbers)[1]} within)"
     strip = "" if numbers is None else _strip(part.limit, numbers)
     needed = " (needed)" if part.needed else ""
+    if part.is_close(numbers):
+        html += "; within its spread of the limit"
     return (
         f'<tr><td><span class="{KINDS[verdict]}" title="{verdict or UNJUDGED}">{SIGNS[verdict]}</span> '
         f"{escape(part.name)}{needed}</td><td>{_unbroken(html)}</td><td>{strip}</td>"
@@ -204,9 +180,7 @@ span.id { white-space: nowrap; }
 .statement table { font-size: .9em; margin: .2em 0; width: 100%; table-layout: fixed; }
 .statement th { font-weight: 400; color: #5b626b; } .statement td:nth-child(4) { color: #5b626b; }
 .what { width: 29%; } .numbers { width: 27%; } .spread { width: 205px; }
-.warning { color: #7a4f00; } table.changes { font-size: .9em; width: 100%; table-layout: fixed; }
-.changes tr { break-inside: avoid; } .changes .id { width: 8%; } .changes .before { width: 6.5%; }
-.changes .now { width: 12%; } .changes a { color: #1f4fbf; text-decoration: none; }
+.warning { color: #7a4f00; }
 .strip { display: block; } .strip .allowed { fill: #dff1ea; } .strip .axis { stroke: #c2c8cf; }
 .strip .bar { stroke: #1d2125; stroke-width: 2; } .strip .random { fill: #5b626b; fill-opacity: .45; }
 .strip .shown { fill: #1d2125; }

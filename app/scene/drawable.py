@@ -9,11 +9,15 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 from bihdist_core import PointCloud, Surface
 from bihdist_core.arrays import AnyArray, FloatArray, IntArray
+from bihdist_core.surface import connected
 
 from ..document.looks import AS_IT_IS, Shading
 from .creases import bends, face_normals, has_creases, point_normals, split, to_length_one
 from .splats import hexagons, put_slopes
 from .winding import Winding, winding
+
+SPECK = 0.02
+"""Fraction of the surface's extent."""
 
 _COPIES, _BACKS = "copies", "backs"
 
@@ -87,6 +91,24 @@ def crease_of(surface: Surface, shading: Shading) -> float | None:
         surface, wound.edges, bends(normals, wound), shading.feature_angle
     )
     return shading.feature_angle if is_creased else None
+
+
+def feature_edges(surface: Surface, shading: Shading, whatever_shading: bool) -> tuple[IntArray, IntArray]:
+    """Return edges (k, 2) at which two faces meet at more than the feature angle, and those faces (k, 2).
+
+    There are none where the surface is drawn without creases, unless `whatever_shading`.  Those that are part of
+    nothing longer than SPECK are roughness.
+    """
+    if not (whatever_shading or crease_of(surface, shading)):
+        return np.empty((0, 2), np.int64), np.empty((0, 2), np.int64)
+    wound, normals = _wound(surface)
+    is_sharp = bends(normals, wound) < np.cos(np.radians(shading.feature_angle))
+    edges, x = surface.edges[wound.edges[is_sharp]], surface.vertices
+    faces = np.stack([wound.left, wound.right], axis=1)[is_sharp] % len(surface.faces)
+    part = connected(edges.T, len(x))[edges[:, 0]]
+    total = np.bincount(part, np.linalg.norm(x[edges[:, 1]] - x[edges[:, 0]], axis=1))
+    is_long = total[part] > SPECK * np.linalg.norm(np.ptp(x[surface.faces.ravel()], axis=0))
+    return edges[is_long], faces[is_long]
 
 
 def normals_shading(shading: Shading) -> Shading:

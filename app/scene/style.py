@@ -53,6 +53,8 @@ class Style:
     ----------
     outline
         Width of the line around the shape and along its folds; 0 for none.
+    feature_edges
+        Whether there are thin lines along sharp edges.
     shading
         Whether surfaces are lit; if not, colours are drawn as they are.
     coloured
@@ -85,6 +87,7 @@ class Style:
     isoline_width: float = 1.5
     outline: float = 0.0
     outline_colour: Colour = (0, 0, 0)
+    feature_edges: bool = False
     shading: bool = True
     coloured: bool = True
     base_light: Colour = (0.80, 0.80, 0.80)
@@ -239,6 +242,7 @@ COVER = Style(
     stops=colour_maps.PAPER,
     outline=0.8,
     outline_colour=(0.12, 0.13, 0.16),
+    feature_edges=True,
     isoline_width=1.2,
     occlusion=0.7,
     rim=0.25,

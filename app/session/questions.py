@@ -8,18 +8,20 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 import numpy as np
 
-from bihdist_core import Surface
+from bihdist_core import BihdistError, Cancelled, Laplacian, Signature, Surface
 from bihdist_core.analysis.first_view import first_look
 from bihdist_core.analysis.quality import apparent_source
+from bihdist_core.analysis.signature_types import SignatureSpec
 from bihdist_core.arrays import FloatArray
-from bihdist_core.distances.answers import Answer, difference_of
+from bihdist_core.distances.accuracy import ErrorEstimate
+from bihdist_core.distances.answers import Answer, difference_of, failed
 from bihdist_core.distances.distance_types import Spec
 from bihdist_core.progress import Progress, part
 from bihdist_core.sources.pieces import Pieces, pieces_of
 from bihdist_core.sources.source import Source, SourceSet
 
 from ..document.document import Document, FieldArray, MeshFile
-from ..document.quantities import Difference, DistanceFrom, OwnField
+from ..document.quantities import Difference, DistanceFrom, OwnField, VertexSignature
 from ..document.source_edits import members_of
 from ..document.tools import tools
 
@@ -157,6 +159,39 @@ class FieldQuestion(Question):
 
 
 @dataclass(frozen=True)
+class SignatureQuestion(Question):
+    """A signature of the vertices."""
+
+    mesh: MeshFile
+    areas: str
+    spec: SignatureSpec
+
+    @property
+    def about(self) -> Hashable:
+        return (self.mesh, self.areas, self.spec.word)
+
+    def __str__(self) -> str:
+        return str(self.spec)
+
+    def answer(
+        self, loaded: "LoadedMesh", progress: Progress | None = None, at_once: Callable[[Answer], object] | None = None
+    ) -> Answer:
+        return signature_answer(self.spec, loaded.distances(self.areas).laplacian, progress)
+
+
+def signature_answer(spec: SignatureSpec, laplacian: Laplacian, progress: Progress | None = None) -> Answer:
+    """Compute a signature; a failure becomes an answer that tells of it, and only Cancelled is raised."""
+    try:
+        found: Signature = spec.load()(laplacian, **dict(spec.values), progress=progress)
+    except Cancelled:
+        raise
+    except (BihdistError, MemoryError) as error:
+        return failed(str(spec), error)
+    estimate = ErrorEstimate.of(found.accuracy)
+    return Answer(label=found.label, unit=found.unit, field=found.values, error_estimate=estimate)
+
+
+@dataclass(frozen=True)
 class DifferenceQuestion(Question):
     """One answer less another, on the same surface."""
 
@@ -224,6 +259,12 @@ def are_about_the_same(one: Question, other: Question) -> bool:
     return one.about == other.about
 
 
+def are_alike(one: Question, other: Question) -> bool:
+    """Return whether they ask for the same, perhaps from elsewhere, or with other values of parameters."""
+    kinds = [[spec.distance_type for spec in each.specs] for each in (one, other)]
+    return kinds[0] == kinds[1] and are_about_the_same(one.with_specs(other.specs), other)
+
+
 def asks_of(question: Question, mesh: MeshFile) -> bool:
     """Return whether an answer depends on distances on this surface, too, on which it is not."""
     # Whatever they are called in documents.
@@ -256,6 +297,11 @@ def _(shows: DistanceFrom, document: Document, surface: str) -> Question:
 @question_of.register
 def _(shows: OwnField, document: Document, surface: str) -> Question:
     return FieldQuestion(document.mesh(surface), document.areas, document.field(shows.name))
+
+
+@question_of.register
+def _(shows: VertexSignature, document: Document, surface: str) -> Question:
+    return SignatureQuestion(document.mesh(surface), document.areas, shows.spec)
 
 
 @question_of.register

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -85,7 +86,7 @@ def scene_of(
     for panel, answer in zip(document.panels, answers, strict=True):
         if answer.field is None:
             raise ParameterError(f"The panel {panel.shows} has no field: {answer.failure}")
-    figure = figure_of(recipe, surfaces, answers)
+    figure = figure_of(replace(recipe, page=replace(recipe.page, rows="", chart="")), surfaces, answers)
     surface = surfaces[document.surfaces[0].name].surface
     source = contents.source if contents.source is not None else first_source(surface, document.up)
     pins, notes = _pins(document, surface)

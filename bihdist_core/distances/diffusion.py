@@ -103,10 +103,8 @@ class DiffusionDistance(Distance):
     is_quadratic = True
 
     def __init__(self, laplacian: Laplacian | MeshLike, t: float = 1.0, progress: Progress | None = None) -> None:
-        if not 0 < real_number(t, "The diffusion time t") <= LONGEST_TIME:
-            raise ParameterError(f"The diffusion time t is {t:g}; it must be positive, and at most {LONGEST_TIME:g}.")
+        self.t, self.label = checked_time(t), LABEL.format(t)
         super().__init__(laplacian)
-        self.t, self.label = float(t), LABEL.format(t)
         by_eigenpairs = is_faster_by_eigenpairs(self.laplacian.components[0], self.t, part(progress, 0, 0.3))
         way = EigenpairDiffusion if by_eigenpairs else PoleDiffusion
         self._way: EigenpairDiffusion | PoleDiffusion = way(self.laplacian, self.t, part(progress, 0.3, 1))
@@ -156,6 +154,13 @@ class DiffusionDistance(Distance):
 
     def has_error_estimate(self, component: int, pieces: Sequence[Pieces] = ()) -> bool:
         return self._way.has_error_estimate(component, pieces)
+
+
+def checked_time(t: float) -> float:
+    """Return a normalised time; ParameterError for one that is out of range."""
+    if not 0 < real_number(t, "The diffusion time t") <= LONGEST_TIME:
+        raise ParameterError(f"The diffusion time t is {t:g}; it must be positive, and at most {LONGEST_TIME:g}.")
+    return float(t)
 
 
 def expected_count(component: Component, t: float) -> int:

@@ -15,13 +15,16 @@ from ..mesh_like import MeshLike, Rows
 from ..point_cloud import PointCloud
 from ..progress import Progress, silent, steps
 from ..sources.pieces import Pieces
+from ..surface import Surface
 from .accuracy import FINEST_ACCURACY, POOR_ACCURACY, ErrorEstimate, accurate_to, rounded_up
 from .pair_questions import PairQuestions
 
 
-def unit_of(length_power: float) -> str:
-    """Return the unit of values that scale with this power of lengths, in words."""
-    known = {1.0: "mesh units", 0.0: "no unit", -1.0: "1 / mesh units"}
+def unit_of(length_power: float, surface: Surface | None = None) -> str:
+    """Return the unit of values that scale with this power of lengths, on a mesh or this surface, in words."""
+    if surface is not None and not (len(surface.faces) or isinstance(surface, PointCloud)):
+        return "the unit of the matrices"
+    known = {1.0: "mesh units", 0.0: "no unit", -1.0: "1 / mesh units", -2.0: "1 / mesh units^2"}
     return known.get(length_power, f"mesh units^{length_power:g}")
 
 
@@ -86,8 +89,7 @@ class Distance(PairQuestions):
         >>> bihdist.CommuteTimeDistance(sphere).unit
         'no unit'
         """
-        has_unit = len(self.surface.faces) or isinstance(self.surface, PointCloud)
-        return unit_of(self.length_power) if has_unit else "the unit of the matrices"
+        return unit_of(self.length_power, self.surface)
 
     @property
     def accuracy(self) -> float | None:

@@ -14,7 +14,7 @@ from fractions import Fraction
 from functools import cache
 from importlib import import_module
 from importlib.metadata import entry_points
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 from ..errors import ParameterError
 
@@ -266,19 +266,24 @@ class Spec:
     values: tuple[tuple[str, Value], ...] = ()
     is_coarse: bool = False
 
-    @staticmethod
-    def of(word: str, **values: object) -> "Spec":
+    @classmethod
+    def type_of(cls, word: str) -> DistanceType:
+        """Return the row of the table that a word names; ParameterError, with all words, if there is none."""
+        return distance_type(word)
+
+    @classmethod
+    def of(cls, word: str, **values: object) -> Self:
         """Make a spec; ParameterError for an unknown word or parameter, or a value that is not allowed."""
-        found = distance_type(word)
+        found = cls.type_of(word)
         for name in values.keys() - _RETIRED.get(found.word, set()):
             found.parameter(name)
-        return Spec(found.word, tuple((p.name, p.checked(values.get(p.name, p.default))) for p in found.parameters))
+        return cls(found.word, tuple((p.name, p.checked(values.get(p.name, p.default))) for p in found.parameters))
 
-    @staticmethod
-    def parse(text: str, **defaults: object) -> "Spec":
+    @classmethod
+    def parse(cls, text: str, **defaults: object) -> Self:
         """Read ``word`` or ``word(name=value, ...)``; defaults are values of parameters not named, of any distance."""
         word, bracket, inside = text.strip().partition("(")
-        found = distance_type(word.strip())
+        found = cls.type_of(word.strip())
         values = {name: value for name, value in defaults.items() if name in {p.name for p in found.parameters}}
         if bracket and not inside.endswith(")"):
             raise ParameterError(f"{text!r} has no closing bracket; distances are written like diffusion(t=1/4).")
@@ -288,7 +293,7 @@ class Spec:
                 raise ParameterError(f"{part.strip()!r} in {text!r} is not like t=1/4.")
             if name not in _RETIRED.get(found.word, set()):
                 values[name] = found.parameter(name).parsed(value)
-        return Spec.of(found.word, **values)
+        return cls.of(found.word, **values)
 
     def __str__(self) -> str:
         return self._with([name for name, value in self.values if value != self.distance_type.parameter(name).default])
@@ -309,13 +314,13 @@ class Spec:
     @property
     def distance_type(self) -> DistanceType:
         """The row of the table that the word names."""
-        return distance_type(self.word)
+        return self.type_of(self.word)
 
-    def changed(self, **values: object) -> "Spec":
+    def changed(self, **values: object) -> Self:
         """Return a copy with other values of some parameters."""
-        return Spec.of(self.word, **{**dict(self.values), **values})
+        return self.of(self.word, **{**dict(self.values), **values})
 
-    def limited_to(self, surface: "Surface") -> "Spec":
+    def limited_to(self, surface: "Surface") -> Self:
         """Return a copy with no value above what a surface allows."""
         most = {name: limited(self.distance_type.parameter(name), surface).at_most for name, _ in self.values}
         over = {
@@ -323,7 +328,7 @@ class Spec:
         }
         return self.changed(**over) if over else self
 
-    def load(self) -> Callable[..., "Distance"]:
+    def load(self) -> Callable[..., Any]:
         """Import what makes the distance, so that `build` need not."""
         make = self.distance_type.make
         return _imported(make) if isinstance(make, str) else make
@@ -340,7 +345,7 @@ class Spec:
 
     def build(self, laplacian: "Laplacian", progress: "Progress | None" = None) -> "Distance":
         """Make the distance, which is where the long work is."""
-        distance = self.load()(laplacian, **dict(self.values), progress=progress)
+        distance: Distance = self.load()(laplacian, **dict(self.values), progress=progress)
         distance.identity = self.canonical
         return distance
 

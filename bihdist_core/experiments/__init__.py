@@ -64,7 +64,8 @@ class Experiment:
         start = perf_counter()
         result = run(shapes, quick, progress)
         (progress or silent)(1.0, self.id)
-        return replace(result, seconds=perf_counter() - start)
+        claims = tuple(replace(claim, quick=quick) for claim in result.claims)
+        return replace(result, claims=claims, seconds=perf_counter() - start)
 
 
 EXPERIMENTS = {

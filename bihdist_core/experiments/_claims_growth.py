@@ -16,7 +16,7 @@ from .parts import Parts
 from .result import Cell, Chart, Claim, Findings, Series, Table
 from .shapes import Shapes, distance
 from .timing import Time, busy, timed
-from .verdicts import Estimate, exponent_estimate
+from .verdicts import Estimate, exponent
 
 SIZES = (4_000, 8_000, 16_000, 28_000, 56_000, 111_000)
 QUICK_SIZES = (1_000, 2_000, 4_000, 6_000, 8_000)
@@ -55,15 +55,12 @@ def cost(shapes: Shapes, name: str, quick: bool, parts: Parts, progress: Progres
     x = np.array(sizes)
     counted = tuple(Series(label, x, found[label]) for label in ("factorization", "one column"))
     seconds_of = (Series("set-up", x, found["set-up"]), Series("one column", x, found["one column, time"]))
-    times = " and ".join(
-        f"{one.name} {e.value:.2f} ({e.low:.2f} to {e.high:.2f})"
-        for one, e in ((one, exponent_estimate(sizes, one.y)) for one in seconds_of)
-    )
+    times = " and ".join(f"{one.name} {exponent(sizes, one.y):.2f}" for one in seconds_of)
     heads = ("vertices", "operations, factorization", "operations, one column")
     claim = Claim(
         "claims-cost",
         {
-            f"exponent of N, operations of {label}": exponent_estimate(sizes, one.y)
+            f"exponent of N, operations of {label}": Estimate(exponent(sizes, one.y))
             for label, one in zip(("the factorization", "one column"), counted, strict=True)
         },
         f"In theory nested dissection makes them N^1.5 and N log N. The exponents of the least processor times "
@@ -103,7 +100,7 @@ def eigenvalues(shapes: Shapes, name: str, quick: bool, progress: Progress) -> F
     values = spectrum.eigenvalues[:count]
     area = float(shapes.laplacian(name).components[0].areas.sum())
     fitted = np.unique(np.geomspace(max(1, count // DECADE), count, 13).round().astype(int))
-    slope = exponent_estimate(fitted, values[fitted - 1])
+    slope = Estimate(exponent(fitted, values[fitted - 1]))
     ratio = values[-1] * area / (4 * np.pi * count)
     series = (
         Series("eigenvalues", k, values),
@@ -133,9 +130,7 @@ def refinement(quick: bool, progress: Progress) -> Findings:
         progress((times - 1) / len(levels), "finer spheres")
     n = np.array([row[0] for row in rows])
     # d^2 ~ p ln n is e^(d^2) ~ n^p.
-    slope = exponent_estimate(n, np.exp([row[2] for row in rows]))
-    turn = 2 * np.pi
-    growth = Estimate(turn * slope.value, turn * slope.low, turn * slope.high, slope.count)
+    growth = Estimate(2 * np.pi * exponent(n, np.exp([row[2] for row in rows])))
     moved = abs(rows[-1][3] - rows[-2][3]) / rows[-1][3]
     chart = Chart(
         "commute-time under refinement",

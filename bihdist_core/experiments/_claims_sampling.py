@@ -16,7 +16,7 @@ from .parts import Parts
 from .result import Cell, Chart, Claim, Findings, Series, Table
 from .sampled_fields import PiecewiseLinear, Smoothest
 from .shapes import DISTANCES, STARTS, UPPER_BACK, Shapes, distance, spread_points
-from .verdicts import Numbers, exponent_estimate
+from .verdicts import Numbers, exponent
 
 COUNTS, QUICK_COUNTS = (100, 150, 200, 300, 500), (100, 300)
 """Points that the fields are sampled at."""
@@ -109,11 +109,11 @@ def _orders(means: dict[tuple[str, str, int], FloatArray], counts: list[int]) ->
     for how in (SMOOTHEST, LINEAR):
         for kind in _kinds(means):
             error = [float(means[how, kind, count].mean()) for count in counts]
-            order = exponent_estimate(np.array(counts) ** -0.5, error)
-            rows.append((how, kind, order.value, order.low, order.high))
+            order = exponent(np.array(counts) ** -0.5, error)
+            rows.append((how, kind, order))
     return Table(
         "order of the mean error in the points' spacing",
-        ("interpolant", "distance", "order", "low", "high"),
+        ("interpolant", "distance", "order"),
         tuple(rows),
     )
 

@@ -8,15 +8,14 @@ from ..distances.distance_types import Spec
 from ..errors import SolverError
 from ..progress import Progress, part, steps
 from ..surface import Surface, vertex_normals
-from ._stated_figures import MINIMA
 from .circles import BACK, PROTOCOL, gather_shared_circles
 from .measures import FIELD_COLUMNS, deepest_minimum, field_row, kinked_edges, marks, over
 from .parts import Parts
 from .result import STATEMENTS, Cell, Chart, Claim, Gathered, Mark, Panel, Result, Table
 from .shapes import DISTANCES, Shapes, distances_there, random_sources, spec_of
 
-NEEDS = {1: ("biharmonic",), 2: ("diffusion t = 1",), 3: ("circles",), 4: ("biharmonic", "geodesic")}
-"""The measurements that each of the four statements is judged by."""
+NEEDS = {1: ("diffusion t = 1",), 2: ("circles",), 3: ("biharmonic", "geodesic")}
+"""The measurements that each of the three statements is judged by."""
 ON_THE_BACK = -0.5
 """The cosine of normals with the direction of the view from the front, of points that are on the back."""
 FIELDS, FIELDS_EACH, QUICK_FIELDS = 24, 8, 4
@@ -67,17 +66,18 @@ def compared(
         if not any(panel.field is not None for panel in panels):
             raise SolverError(reasons)
         note = f"Nothing was measured: {reasons}"
-        unmeasured = tuple(Claim(f"{id}-{k}", failure=note) for k in range(1, 5))
+        unmeasured = tuple(Claim(f"{id}-{k}", failure=note) for k in NEEDS)
         surfaces = {name: shapes[name] for name in names}
         return Result(id, title, note, surfaces, tuple(panels), claims=unmeasured, not_done=tuple(parts.not_done))
     return Result(
         id,
         title,
-        f"Pictured source: on the back, at a fixed share of width and height. The numbers are also taken from {count} "
-        "random vertices of each shape; of minima on the front, from as many on the back. The front, and the half "
-        "opposite to a source, is where normals point against the source's. Minima and maxima in the table persist "
-        "over at least 0.1 % of the field's range; the raw counts are of vertices lower or higher than all their "
-        "neighbours; those marked persist over 1 %. " + PROTOCOL,
+        "The pictured source is on the back, at a fixed share of the width and height; numbers are also measured from "
+        f"{count} random vertices of each shape, and minima on the front from as many on the back. The front, or the "
+        "half opposite to a source, is where normals point away from the source's. Minima and maxima in the table "
+        "have a persistence of at least 0.1 % of the field's range, marked ones of 1 %; raw counts are of all "
+        "vertices lower or higher than their "
+        "neighbours. " + PROTOCOL,
         {name: shapes[name] for name in names},
         tuple(panels),
         tuple(charts),
@@ -105,7 +105,6 @@ def _of_source(
         return None, None, None
     biharmonic = distances["biharmonic"].from_source(source)
     depth = deepest_minimum(surface, biharmonic, source)
-    found.add(MINIMA.name, depth, is_pictured)
     if "geodesic" not in distances:
         return 100 * depth, None, None
     geodesic = distances["geodesic"].from_source(source)
@@ -119,7 +118,7 @@ def _of_source(
     far = float(areas[opposite[surface.faces].all(axis=1)].sum() / areas.sum())
     # Lengths of kinks per area, in each of the two parts.
     denser = over(float(lengths[there].sum()) * (1 - far), float(lengths[~there].sum()) * far)
-    names = STATEMENTS[f"{id}-4"].names
+    names = STATEMENTS[f"{id}-3"].names
     for name, number in zip(names, (more, denser), strict=True):
         found.add(name, number, is_pictured)
     cells = [None if np.isnan(number) else number for number in (more, denser)]
@@ -133,7 +132,7 @@ def _minima_on_the_front(
     on_the_back = vertex_normals(surface) @ shapes.axes[:, 2] <= ON_THE_BACK
     for k, source in enumerate([pictured, *random_sources(surface, count, on_the_back)]):
         depth = deepest_minimum(surface, diffusion.from_source(source), source, _opposite(surface, source))
-        found.add(STATEMENTS[f"{id}-2"].names[0], depth, not k)
+        found.add(STATEMENTS[f"{id}-1"].names[0], depth, not k)
 
 
 def _opposite(surface: Surface, source: int) -> BoolArray:
@@ -144,7 +143,7 @@ def _opposite(surface: Surface, source: int) -> BoolArray:
 
 
 def _note(k: int, charts: list[Chart]) -> str:
-    if k != 3:
+    if k != 2:
         return ""
     ranges = ("; ".join(f"{s.name} {s.y[0]:.3g} to {s.y[-1]:.3g}" for s in chart.series) for chart in charts)
     return "".join(

@@ -28,55 +28,44 @@ CLEARLY = 1.5
 STEP = 1 / 21
 """The step between two of the twenty isolines as a share of the range: what varies less may have no isoline."""
 
-MINIMA = Part("deepest other minimum, biharmonic, of the range", at_most(DEEP, "%"))
+MINIMA = Part("deepest other minimum, biharmonic, of the range", at_most(DEEP, "%"), "everywhere")
 TREND = Part("excess of isotropy ratio, smallest circle over one 16 times as wide", at_most(FALLS), needed=True)
 ROUNDER = Part("excess of isotropy ratio, biharmonic over diffusion t = 1", at_most(RELATIVE))
 CIRCLE = Part("isotropy ratio on the smallest circle, biharmonic", at_most(CIRCULAR))
 LONG = Part("isotropy ratio on the smallest circle, diffusion t = 1", at_least(ELONGATED))
-
-NO_MINIMA = "Biharmonic distance has no local minima, except at the source point."
-COUNTED = (
-    "A minimum now counts from 1 % of the range (0.1 % before), and the pictured sources are judged before a larger "
-    "number of random ones, where one source in all could decide before."
-)
-CIRCLES = (
-    "Isotropy is asymptotic: it is now judged by its trend on circles down to 0.25 % of the root of the area, on "
-    "meshes refined around the sources, and against diffusion distance, not on one circle of 4 % of the mesh as it is."
-)
-STARTS = "Judged over 25 starts with intervals or as a distribution, where it was the sum or mean of five."
+CHANGE = Part("mean change, biharmonic", at_most(INSENSITIVE, "%"))
+OF_GEODESIC = "mean change, geodesic over biharmonic"
+FREE, AWAY = "extrema without anchor", "extrema without anchor, away from tips"
+"""Extrema of an interpolant, with and without those at tips of limbs."""
 
 
-def _three_distances(id: str, minimum: str, circles: str) -> tuple[Statement, ...]:
-    """Return the statements of figures 4 and 5, given earlier verdicts on minima and circles."""
+def _three_distances(id: str) -> tuple[Statement, ...]:
+    """Return the statements of figures 4 and 5."""
     return (
-        Statement(f"{id}-1", NO_MINIMA, "paper", "section 5.1", (MINIMA,), "no", COUNTED),
         Statement(
-            f"{id}-2",
+            f"{id}-1",
             "With the source on the back, a local minimum of diffusion distance (t = 1) appears on the front.",
             *(("paper", "figure 4") if id == "fig4" else ("ours", "after figure 4, on the shapes of figure 5")),
             (Part("deepest minimum on the front, diffusion t = 1, of the range", at_least(DEEP, "%")),),
-            minimum,
-            "Only minima on the front count now, from random sources on the back too; before, one anywhere was enough.",
+            whole=id == "fig5",
         ),
         Statement(
-            f"{id}-3",
+            f"{id}-2",
             "Near the source isolines of biharmonic distance are nearly circles, of diffusion distance (t = 1) "
             "elongated ellipses.",
             *("paper", "section 5.1"),
             (TREND, ROUNDER, CIRCLE, LONG),
-            circles,
-            CIRCLES,
+            whole=id == "fig5",
         ),
         Statement(
-            f"{id}-4",
+            f"{id}-3",
             "Geodesic distance is not smooth: cusps and ridges, above all opposite to the source.",
             *("paper", "section 5.1"),
             (
                 Part("share of edges in kinks, geodesic over biharmonic", at_least(TWICE), needed=True),
                 Part("density of geodesic's kinks, opposite half over the source's half", at_least(CLEARLY)),
             ),
-            "yes",
-            "Whether the kinks are opposite to the source was not looked at before.",
+            whole=id == "fig5",
         ),
     )
 
@@ -86,50 +75,43 @@ def insensitive(to: str) -> str:
     return f"Biharmonic distance is insensitive to {to}."
 
 
-def _insensitive(id: str, to: str, words: str, before: str, changed: str = "") -> Statement:
-    parts: tuple[Part, ...] = (Part("mean change, biharmonic", at_most(INSENSITIVE, "%")),)
+WAYS = ("noise on each coordinate", "noise along the normals")
+
+
+def _insensitive(id: str, to: str, where: str = "") -> Statement:
+    parts: tuple[Part, ...] = (CHANGE,)
     if to.startswith("noise"):
-        parts = tuple(
-            Part(f"mean change, biharmonic, {way}", at_most(INSENSITIVE, "%"))
-            for way in ("noise on each coordinate", "noise along the normals")
-        )
-    return Statement(
-        id, insensitive(to), "paper" if words else "ours", words or "after figure 6", parts, before, changed
-    )
+        # The paper says neither.
+        parts = tuple(Part(f"{CHANGE.name}, {way}", CHANGE.limit) for way in WAYS)
+    whole = id != "fig6-6"
+    return Statement(id, insensitive(to), "paper" if where else "ours", where or "after figure 6", parts, whole)
 
-
-ALONG = (
-    "Noise along the normals is measured beside noise on each coordinate, as the paper names neither, and the pictured "
-    "source comes first."
-)
-FIRST = "The pictured source is judged first, random ones as a distribution."
 
 FIGURES = (
-    Statement("fig1-1", NO_MINIMA, "paper", "section 5.1", (MINIMA,), "no", COUNTED),
+    Statement(
+        "fig1-1",
+        "Biharmonic distance has no local minima, except at the source point.",
+        *("paper", "section 5.1"),
+        (MINIMA,),
+    ),
     Statement(
         "fig1-2",
         "Near the source biharmonic distance is locally isotropic.",
         *("paper", "section 1"),
-        (TREND, ROUNDER),
-        "no",
-        CIRCLES,
+        (TREND,),
+        whole=True,
     ),
     Statement(
         "fig2-1",
         "Diffusion distance of small time has many local extrema far away.",
         *("paper", "section 3.1 and figure 2"),
         (Part("number of extrema, diffusion t = 1/15 over biharmonic", at_least(TWICE)),),
-        "yes",
-        "An extremum counts from 1 % of the range (0.1 % before), from the same source twice as many are needed, and "
-        "before one more from any source was enough.",
     ),
     Statement(
         "fig2-2",
         "Diffusion distance of large time does not reflect the source locally; biharmonic distance does.",
         *("paper", "section 3.1 and figure 2"),
         (TREND, ROUNDER, LONG),
-        "no",
-        CIRCLES,
     ),
     Statement(
         "fig2-3",
@@ -139,41 +121,54 @@ FIGURES = (
             Part("largest jump of the gradient, refined mesh over this one, biharmonic", at_most(FALLS), needed=True),
             Part("largest jump of the gradient on the refined mesh, geodesic", at_least(0.5)),
         ),
-        "yes",
-        "Judged from 24 random sources too, and by how the jump falls under refinement, which from a few is slowly.",
     ),
-    Statement("fig2-4", NO_MINIMA, "paper", "section 5.1", (MINIMA,), "yes", COUNTED),
     Statement(
         "fig3-1",
         "Biharmonic distance is largely insensitive to holes and missing parts: a scan.",
         *("paper", "section 3.2 and figure 3"),
-        (Part("mean change, biharmonic", at_most(INSENSITIVE, "%")),),
-        "yes",
-        FIRST,
+        (CHANGE,),
     ),
     Statement(
         "fig3-2",
         "Biharmonic distance is largely insensitive to holes: punched ones.",
         *("ours", "after figure 3"),
-        (Part("mean change, biharmonic", at_most(INSENSITIVE, "%")),),
-        "yes",
-        FIRST,
+        (CHANGE,),
     ),
-    *_three_distances("fig4", "yes", "no"),
-    *_three_distances("fig5", "yes", "no"),
-    _insensitive("fig6-1", "noise of 10 % of the mean edge", "", "yes", ALONG),
-    _insensitive("fig6-2", "noise of 40 % of the mean edge", "", "no", ALONG),
-    _insensitive("fig6-3", "noise of 100 % of the mean edge", "", "no", ALONG),
-    _insensitive("fig6-4", "noise of 400 % of the mean edge", "section 5.1 and figure 6", "no", ALONG),
-    _insensitive("fig6-5", "simplification from 14,000 to 4,000 vertices", "section 5.1 and figure 6", "yes", FIRST),
-    _insensitive("fig6-6", "nearly isometric deformation", "section 5.1 and figure 6", "yes", FIRST),
+    Statement(
+        "fig3-3",
+        "Holes change geodesic distance more than biharmonic distance.",
+        *("ours", "after section 2"),
+        (Part(OF_GEODESIC, above(1)),),
+    ),
+    Statement(
+        "fig3-4",
+        "A hole along a shortest path can have a significant effect on geodesic distances.",
+        *("paper", "section 2"),
+        (
+            Part("largest change by such a hole, geodesic", at_least(INSENSITIVE, "%"), needed=True),
+            Part("largest change by such a hole, geodesic over biharmonic", at_least(TWICE)),
+        ),
+    ),
+    *_three_distances("fig4"),
+    *_three_distances("fig5"),
+    _insensitive("fig6-1", "noise of 10 % of the mean edge"),
+    _insensitive("fig6-2", "noise of 40 % of the mean edge"),
+    _insensitive("fig6-3", "noise of 100 % of the mean edge"),
+    _insensitive("fig6-4", "noise of 400 % of the mean edge", "section 5.1 and figure 6"),
+    _insensitive("fig6-5", "simplification from 14,000 to 4,000 vertices", "section 5.1 and figure 6"),
+    _insensitive("fig6-6", "nearly isometric deformation", "section 5.1 and figure 6"),
+    Statement(
+        "fig6-7",
+        "Noise of 100 % of the mean edge changes geodesic distance more than biharmonic distance.",
+        *("ours", "after section 1"),
+        tuple(Part(f"{OF_GEODESIC}, {way}", above(1)) for way in WAYS),
+        whole=True,
+    ),
     Statement(
         "fig7-1",
         "Diffusion distance with t = 0.125 is almost constant for distant points: few isolines in the palm.",
         *("paper", "section 5.1 and figure 7"),
         (Part("range of values in the palm, diffusion t = 0.125 over biharmonic", at_most(1 / TWICE)),),
-        "yes",
-        "The range of values is compared instead of whole isolines, from random sources on the fingers too.",
     ),
     Statement(
         "fig7-2",
@@ -183,8 +178,6 @@ FIGURES = (
             Part("isotropy ratio on the smallest circle, diffusion t = 0.25", at_least(PARALLEL)),
             Part("isotropy ratio on the smallest circle, diffusion t = 1", at_least(PARALLEL)),
         ),
-        "yes",
-        CIRCLES,
     ),
     Statement(
         "fig7-3",
@@ -195,36 +188,28 @@ FIGURES = (
             ROUNDER,
             Part("range of values in the palm, biharmonic over diffusion t = 0.125", at_least(TWICE), needed=True),
         ),
-        "no",
-        CIRCLES,
     ),
     Statement(
         "fig9-1",
         "Biharmonic distance provides a well-behaved interpolant both close to the anchors and far away.",
         *("paper", "section 5.2"),
-        (Part("extrema away from anchors and tips, biharmonic", at_most(0), of="starts"),),
-        "no",
-        "Extrema at the tips of limbs without anchor are inherent in the shape and no longer count; others count from "
-        "1 % of the range. " + STARTS,
+        tuple(Part(f"{which}, biharmonic", at_most(0), of="starts") for which in (FREE, AWAY)),
     ),
     Statement(
         "fig9-2",
-        "Of the five distances its interpolant has the fewest needless extrema.",
+        "Of the five distances its interpolant has the fewest extrema.",
         *("ours", "after figure 9: “balanced”"),
         tuple(
-            Part(f"extrema more than biharmonic's, {kind}", above(0), "interval", of="starts")
+            Part(f"{which}, {kind} less biharmonic", above(0), "interval", of="starts")
             for kind in ("geodesic", "diffusion t = 1/4", "diffusion t = 1", "diffusion t = 4")
+            for which in (FREE, AWAY)
         ),
-        "yes",
-        "Each difference must be outside its interval, where the least sum was enough. " + STARTS,
     ),
     Statement(
         "fig9-3",
         "Ridges appear when geodesic distance is used.",
         *("paper", "section 5.2 and figure 9"),
         (Part("share of edges in kinks, geodesic over biharmonic", at_least(TWICE), of="starts"),),
-        "yes",
-        STARTS,
     ),
     Statement(
         "fig9-4",
@@ -234,40 +219,29 @@ FIGURES = (
             Part("range in such a leg, diffusion t = 1/4", at_most(STEP, "%"), needed=True, of="starts"),
             Part("range in such a leg, diffusion t = 1/4 over biharmonic", at_most(1 / TWICE), of="starts"),
         ),
-        "no",
-        "That no isoline fits into the leg is judged beside the comparison. " + STARTS,
     ),
     Statement(
         "fig9-5",
         "With t = 1 the interpolant is insensitive to where the anchor on the head is.",
         *("paper", "figure 9"),
         (Part("mean change on the head, diffusion t = 1 over biharmonic", at_most(1 / TWICE), of="starts"),),
-        "no",
-        STARTS,
     ),
     Statement(
         "fig9-6",
         "With t = 4 the interpolant has unintuitive extrema.",
         *("paper", "section 5.2 and figure 9"),
-        (
-            Part("extrema away from anchors and tips, diffusion t = 4", at_least(1), of="starts"),
-            Part("extrema more than biharmonic's, diffusion t = 4", above(0), "interval", of="starts"),
-        ),
-        "yes",
-        "Extrema at tips no longer count, and others count from 1 % of the range. " + STARTS,
+        tuple(Part(f"{which}, diffusion t = 4", at_least(1), of="starts") for which in (FREE, AWAY)),
     ),
     *(
         Statement(
             f"fig10-{k}",
-            f"Biharmonic distance predicts correspondences better than geodesic and diffusion distance, known points "
+            "Biharmonic distance predicts correspondences better than geodesic and diffusion distance, landmarks "
             f"{layout}.",
             *("ours", "after figure 10"),
             tuple(
                 Part(f"median error more than biharmonic's, {kind}", above(0, "%"), "interval", of="starts")
                 for kind in ("geodesic", "diffusion t = 1")
             ),
-            "no",
-            STARTS,
         )
         for k, layout in ((1, "spread"), (2, "clustered"))
     ),
@@ -277,7 +251,7 @@ FIGURES = (
         *("paper", "section 5.2 and figure 10"),
         tuple(
             Part(
-                f"median error far from known points more than biharmonic's, geodesic, known points {layout}",
+                f"median error far from the landmarks more than biharmonic's, geodesic, landmarks {layout}",
                 above(0, "%"),
                 "interval",
                 of="starts",
@@ -291,7 +265,7 @@ FIGURES = (
         *("paper", "figure 10"),
         tuple(
             Part(
-                f"median error on the head more than biharmonic's, diffusion t = 1, known points {layout}",
+                f"median error on the head more than biharmonic's, diffusion t = 1, landmarks {layout}",
                 above(0, "%"),
                 "interval",
                 of="starts",

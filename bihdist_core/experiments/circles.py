@@ -22,9 +22,13 @@ from ._stated_figures import CIRCLE, LONG, ROUNDER, TREND
 from .parts import Parts
 from .result import Chart, Gathered, Series
 from .shapes import Shapes, distance, random_sources
+from .verdicts import MOST
 
-RADII = 0.04 / 2.0 ** np.arange(5)
-"""Of the circles, largest first, as shares of the root of the area; the last is a sixteenth of the first."""
+LARGEST, HALVED = 0.04, 4
+"""The radius of the largest circle, as a share of the root of the area; it is halved, so often at most, until circles
+around most sources are local on the mesh at hand."""
+RADII = 1 / 2.0 ** np.arange(5)
+"""Of the circles, largest first, as shares of the largest; the last is a sixteenth of the first."""
 EDGES = 5
 """A circle is at least this many edges wide."""
 BEYOND = 1.25
@@ -32,10 +36,11 @@ BEYOND = 1.25
 
 
 PROTOCOL = (
-    "The isotropy ratio is the greatest over the least distance along a geodesic circle around the source, and its "
-    f"excess what it is more than 1. Circles shrink from {100 * RADII[0]:g} % to {100 * RADII[-1]:g} % of the root of "
-    f"the area, on a mesh refined around the sources, so that each is at least {EDGES} edges wide; geodesic distance "
-    "there is exact. The trend leaves out random sources around which the largest is not local: no single closed curve."
+    "The isotropy ratio is that of the greatest to the least distance on a geodesic circle around the source; its "
+    f"excess is the ratio less 1. Circles shrink to a sixteenth, from {100 * LARGEST:g} % of the root of the area, or "
+    f"from a radius so small that around {100 * MOST:g} % of the sources the circle is local: a single closed curve. "
+    f"The mesh is refined around the sources, so that each circle is at least {EDGES} edges wide, and geodesic "
+    "distance there is exact. Sources whose largest circle is not local are left out of the trend."
 )
 """A description of how isotropy is measured."""
 
@@ -47,12 +52,13 @@ FRONT, BACK, RANDOM_FROM = 0, 1, 2
 class Circles:
     """Isotropy ratios on the circles of `RADII` around sources (s,).
 
-    `ratios` are by kind of distance, (s, 5), largest circle first; NaN around a source where geodesic circles cannot be
-    had, for the reason in `failure`. `are_local` (s,) is True where the largest circle is one closed curve: where it is
-    not, as on a limb that is thinner, or at a boundary, it says nothing of the limit.
+    `radii` (5,) are shares of the root of the area. `ratios` are by kind of distance, (s, 5), largest circle first; NaN
+    around a source where geodesic circles cannot be had, for the reason in `failure`. `are_local` (s,) is True where
+    the largest circle is one closed curve; elsewhere it says nothing of the limit.
     """
 
     sources: IntArray
+    radii: FloatArray
     ratios: Mapping[str, FloatArray]
     are_local: BoolArray
     failure: str = ""
@@ -72,7 +78,7 @@ class Circles:
 
     def chart(self, heading: str, source: int = 0) -> Chart:
         """Return the ratios around one of the sources."""
-        series = (Series(kind, RADII, values[source]) for kind, values in self.ratios.items())
+        series = (Series(kind, self.radii, values[source]) for kind, values in self.ratios.items())
         x, y = "radius of the circle over root of area", "isotropy ratio"
         return Chart(heading, x, y, tuple(series), log_x=True, log_y=True)
 
@@ -87,8 +93,9 @@ def circles(
     ids = np.asarray(sources, int)
     unit = float(np.sqrt(surface.face_areas[surface.component_of_vertex[surface.faces[:, 0]] == 0].sum()))
     part(progress, 0, 1)(0.0, "refining around the sources")
-    reach = BEYOND * RADII[0] * unit
-    fine = refined_around(surface, ids, RADII[-1] * unit, reach, EDGES)
+    radii = _local_radius(surface, ids, unit) * RADII
+    reach = BEYOND * radii[0]
+    fine = refined_around(surface, ids, radii[-1], reach, EDGES)
     laplacian = Laplacian(fine)
     fields = {}
     for k, kind in enumerate(kinds):
@@ -101,15 +108,33 @@ def circles(
     for q, source in enumerate(ids.tolist()):
         part(progress, 0.8, 1)(q / len(ids), f"circles around vertex {source}")
         lengths = geodesic[:, q]
-        widest = isolines(fine, lengths, [RADII[0] * unit])
-        are_local[q] = len(widest) == 1 and widest[0].closed
+        are_local[q] = _is_local(fine, lengths, radii[0])
         try:
             for kind in kinds:
                 field = fields[kind][:, q]
-                ratios[kind][q] = [isotropy_ratio(fine, field, lengths, float(r)) for r in RADII * unit]
+                ratios[kind][q] = [isotropy_ratio(fine, field, lengths, float(r)) for r in radii]
         except ParameterError as error:
             failure = str(error)
-    return Circles(ids, ratios, are_local, failure)
+    return Circles(ids, radii / unit, ratios, are_local, failure)
+
+
+def _local_radius(surface: Surface, sources: IntArray, unit: float) -> float:
+    """Return the radius of the largest circles that are local around most sources (s,)."""
+    radius, x = LARGEST * unit, surface.vertices[surface.edges]
+    # Both ends of the edges that the circle crosses have a distance.
+    reach = radius + float(np.linalg.norm(x[:, 0] - x[:, 1], axis=1).max())
+    near = GeodesicDistance(Laplacian(surface), "exact", radius=reach).from_sources(sources)
+    for _ in range(HALVED):
+        if np.mean([_is_local(surface, lengths, radius) for lengths in near.T]) >= MOST:
+            break
+        radius /= 2
+    return radius
+
+
+def _is_local(surface: Surface, lengths: FloatArray, radius: float) -> bool:
+    """Return whether the geodesic circle around a source is a single closed curve, given distances (n,) from it."""
+    found = isolines(surface, lengths, [radius])
+    return len(found) == 1 and found[0].closed
 
 
 def shared_circles(shapes: Shapes, name: str, random: int, progress: Progress | None = None) -> Circles:
@@ -132,14 +157,13 @@ def shared_circles(shapes: Shapes, name: str, random: int, progress: Progress | 
 def gather_circles(found: Gathered, circled: Circles, pictured: int, first_random: int) -> None:
     """Add the numbers of the parts that statements on isotropy share, around a pictured source and random ones.
 
-    The trend is taken of those random ones around which the largest circle is local.
+    The trend is taken of those around which the largest circle is local.
     """
     trend, relative = circled.trend(), circled.relative("diffusion t = 1")
     own, long = circled.smallest("biharmonic"), circled.smallest("diffusion t = 1")
     for k in (pictured, *range(first_random, len(circled.sources))):
         if np.isfinite(own[k]):
-            if circled.are_local[k] or k == pictured:
-                found.add(TREND.name, trend[k], k == pictured)
+            found.add(TREND.name, trend[k] if circled.are_local[k] else np.nan, k == pictured)
             for part_of, values in ((ROUNDER, relative), (CIRCLE, own), (LONG, long)):
                 found.add(part_of.name, values[k], k == pictured)
 

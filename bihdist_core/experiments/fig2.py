@@ -1,7 +1,7 @@
 """Figure 2: a flat domain, and five distance fields over it as heights.
 
 The paper: diffusion distance "either possesses many local maxima or locally does not reflect the source point", the
-geodesic field has a kink and isolines that are not aware of the shape far away; biharmonic distance balances the two.
+geodesic field has a kink, and its isolines do not follow the shape far away; biharmonic distance balances the two.
 """
 
 import numpy as np
@@ -14,9 +14,9 @@ from ..distances.distance import Distance
 from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
-from ._stated_figures import DEEP, MINIMA
+from ._stated_figures import DEEP
 from .circles import PROTOCOL, circles, gather_circles
-from .measures import FIELD_COLUMNS, deepest_minimum, field_row, largest_jump, marks
+from .measures import FIELD_COLUMNS, field_row, largest_jump, marks
 from .result import STATEMENTS, Cell, Gathered, Mark, Panel, Result, Table
 from .shapes import Shapes, distance, random_sources, spec_of
 
@@ -45,24 +45,23 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         part(progress, 0.2, 0.4)(k / len(sources), f"extrema, vertex {vertex}")
         own, short = (distances[kind].from_source(vertex) for kind in ("biharmonic", SHORT))
         many, few = _extrema(surface, short, vertex), _extrema(surface, own, vertex)
-        depth = deepest_minimum(surface, own, vertex)
-        counts.append((f"random {k}" if k else "pictured", vertex, many, few, 100 * depth))
+        counts.append((f"random {k}" if k else "pictured", vertex, many, few))
         found.add(STATEMENTS["fig2-1"].names[0], many / max(few, 1), not k)
-        found.add(MINIMA.name, depth, not k)
     circled = circles(surface, sources, ("biharmonic", LONG), part(progress, 0.4, 0.6))
     gather_circles(found, circled, 0, 1)
     kinks = _under_refinement(surface, sources, distances, found, part(progress, 0.6, 1))
-    columns = ("source", "vertex", f"extrema, {SHORT}", "extrema, biharmonic", "deepest other minimum, biharmonic, %")
+    columns = ("source", "vertex", f"extrema, {SHORT}", "extrema, biharmonic")
     style = "height" if flat else "surface"
     return Result(
         "fig2",
         TITLE,
-        "The pictured source is at 12 % of the width and 80 % of the height; the numbers are also taken from "
-        f"{len(sources) - 1} random vertices. Extrema in the tables of fields persist over at least 0.1 % of the "
-        "field's range, those counted and marked over 1 %; the source is not counted. The jump of the gradient across "
-        "an edge is taken over the gradient's length there, or its median if that is more, away from the source and "
-        "the boundary; of a kink it stays as the mesh is refined to four times as many faces, of a smooth field it "
-        "halves. " + PROTOCOL,
+        "The pictured source is at 12 % of the width and 80 % of the height; numbers are also measured from "
+        f"{len(sources) - 1} random vertices. An extremum counts, and is marked, if its persistence is at least 1 % of "
+        "the field's range (0.1 % in the tables of fields); the source does not count. The jump of the gradient "
+        "across an edge is relative to the gradient there, or to its median if that is larger, and is taken away from "
+        "the source and the boundary. At a kink it stays the same when the mesh is refined to four times as many "
+        "faces; where the field is "
+        "smooth it halves. " + PROTOCOL,
         {name: surface},
         (
             Panel("the domain", name, None, "fields", (Mark(source, "source"),)),
@@ -81,7 +80,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         ),
         charts=(circled.chart("isotropy"),) if np.isfinite(circled.ratios[LONG][0]).all() else (),
         tables=(Table("fields", FIELD_COLUMNS, tuple(rows)), Table("sources", columns, tuple(counts)), kinks),
-        claims=tuple(found.claim(f"fig2-{k}") for k in range(1, 5)),
+        claims=tuple(found.claim(f"fig2-{k}") for k in range(1, 4)),
     )
 
 

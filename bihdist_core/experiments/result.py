@@ -19,7 +19,7 @@ from ..surface import Surface
 from ._stated_claims import CLAIMS
 from ._stated_figures import FIGURES
 from .parts import NotDone
-from .verdicts import BySource, Numbers, Part, Statement, Verdict, ends_of, number_of
+from .verdicts import FAILS, BySource, Numbers, Part, Statement, Verdict, ends_of, number_of
 
 Cell = str | int | float | None
 
@@ -45,7 +45,7 @@ class Claim:
 
     `note` has further numbers, in a sentence; `warning` says why the numbers may be off, such as a loaded computer;
     `failure` why there are none, or not all. `words` is the statement with the sizes that were measured, where it names
-    others. Raises ParameterError for an unknown id or part.
+    others; `quick` is True of numbers of the quick version. Raises ParameterError for an unknown id or part.
     """
 
     id: str
@@ -54,6 +54,7 @@ class Claim:
     warning: str = ""
     failure: str = ""
     words: str = ""
+    quick: bool = False
 
     def __post_init__(self) -> None:
         if self.id not in STATEMENTS:
@@ -73,8 +74,14 @@ class Claim:
 
     @property
     def verdict(self) -> Verdict | None:
-        """The verdict by the rule; None where there are no numbers for one."""
-        return self.statement.judge(self.numbers)
+        """The verdict by the rule; None where there are no numbers for one, or only quick ones that may not tell."""
+        return self.statement.judge(self.numbers, self.quick)
+
+    @property
+    def verdict_words(self) -> str:
+        """The verdict in words, "not judged" if there is none."""
+        everywhere = " everywhere" if self.verdict == FAILS and self.statement.is_universal else ""
+        return f"{self.verdict or 'not judged'}{everywhere}"
 
     @property
     def measured(self) -> str:
@@ -94,7 +101,17 @@ class Claim:
             figures: tuple[Cell, ...] = (None, None, None, None, None)
             if numbers is not None:
                 figures = (number_of(numbers), *ends_of(numbers), *part.counts(numbers))
-            rows.append((*about, part.judge(numbers) or "", *figures, part.rule, self.note, self.warning, self.failure))
+            rows.append(
+                (
+                    *about,
+                    part.judge(numbers, self.quick) or "",
+                    *figures,
+                    part.rule,
+                    self.note,
+                    self.warning,
+                    self.failure,
+                )
+            )
         return rows
 
 

@@ -13,7 +13,7 @@ from typing import TypeVar
 import numpy as np
 
 from ..solver.blas import one_blas_thread
-from .verdicts import Estimate, mean_estimate
+from .verdicts import CONFIDENCE, Estimate
 
 Result = TypeVar("Result")
 
@@ -50,13 +50,16 @@ def median(times: Sequence[Time]) -> Time:
 
 
 def ratio_estimate(above: Sequence[Time], below: Sequence[Time]) -> Estimate:
-    """Return the ratio of processor times measured in turns: the geometric mean of pairs (k,), with its Student
-    interval."""
-    logs = [np.log(a.processor / b.processor) for a, b in zip(above, below, strict=True)]
-    found = mean_estimate(logs)
-    with np.errstate(over="ignore"):
-        value, low, high = np.exp([found.value, found.low, found.high]).tolist()
-    return Estimate(value, low, high, found.count)
+    """Return the ratio of processor times measured in turns, the geometric mean of two pairs (k,) or more.
+
+    Its interval is Student's: so few repetitions cannot be resampled.
+    """
+    from scipy.stats import sem, t
+
+    logs = np.log([a.processor / b.processor for a, b in zip(above, below, strict=True)])
+    half = float(t.ppf((1 + CONFIDENCE) / 2, len(logs) - 1) * sem(logs))
+    value, low, high = np.exp(logs.mean() + half * np.array([0, -1, 1])).tolist()
+    return Estimate(value, low, high, len(logs))
 
 
 def busy(single: Iterable[Time]) -> str:

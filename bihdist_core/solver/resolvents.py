@@ -78,6 +78,11 @@ class Resolvents:
             if poles and poles not in self._sets:
                 self._sets.append(poles)
 
+    def release(self, poles: tuple[complex, ...]) -> None:
+        """Free the factors at some poles, whose diagonals stay: factors are made again where they are needed."""
+        with self._lock:
+            self._factors.update(dict.fromkeys(poles))
+
     def _made(self, pole: complex, progress: Progress | None, inverted: bool = True) -> ShiftedFactor:
         try:
             return ShiftedFactor(self._tree, self._stiffness, self._areas, pole, progress, inverted)

@@ -91,28 +91,10 @@ def test_an_experiment_on_the_readers_mesh(mesh_file, tmp_path):
     assert said[0].startswith("fig1: ")
 
 
-def test_what_changed_from_the_version_before_is_told_with_its_reason():
-    section = Section(EXPERIMENTS["fig1"], result())
-    text = page("Title", "Introduction.", [section], before=True)
-    changed = text[text.index('id="changes"') :]
-    assert "0 of 2 verdicts are the same as before" in changed
-    assert '<td>no</td><td><b class="chip yes">● holds</b></td>' in changed
-    assert "A minimum now counts from 1 % of the range" in changed
-    assert '<a href="#changes">' in text
-    assert 'id="changes"' not in page("Title", "Introduction.", [section])
-
-
-def test_what_could_not_be_judged_is_not_the_same_as_before():
-    unjudged = (Claim("fig2-1", failure="It was late."), Claim("fig2-4", failure="It was late."))
-    section = Section(EXPERIMENTS["fig1"], result(claims=(*result().claims, *unjudged)))
-    changed = verdicts.changes([("fig1", section.result.claims)])
-    assert "0 of 2 verdicts are the same as before. 2 could not be judged now." in changed
-
-
 def test_a_quick_page_says_that_its_verdicts_are():
     section = Section(EXPERIMENTS["fig1"], result())
-    assert "These verdicts are the quick ones" in page("Title", "Introduction.", [section], quick=True)
-    assert "These verdicts are the quick ones" not in page("Title", "Introduction.", [section])
+    assert "These are quick measurements" in page("Title", "Introduction.", [section], quick=True)
+    assert "These are quick measurements" not in page("Title", "Introduction.", [section])
 
 
 def test_a_statement_on_other_sizes_than_its_own_is_told_in_theirs():
@@ -158,9 +140,8 @@ def test_statements_that_do_not_hold_are_told_in_their_words(tmp_path, monkeypat
     assert said[3].startswith("  not judged: Of the five distances")
     assert said[3].endswith("(There was no animal)")
     assert len(said[4]) < 250
-    assert said[5] == f"  more in {page}#fig1"
-    assert said[6].startswith("fig3: no statements, ")
-    assert len(said) == 7
+    assert said[5].startswith("fig3: no statements, ")
+    assert len(said) == 6
     assert '<section id="fig1">' in page.read_text(encoding="utf-8")
 
 
@@ -179,19 +160,6 @@ def test_one_bad_mesh_of_a_folder_does_not_stop_the_others(mesh_file, tmp_path, 
     assert (path.parent / "contact-sheet-1.png").exists()
     assert (path.parent / "a" / "fig1.npz").exists()
     assert (path.parent / "c" / "fig1.npz").exists()
-
-
-def test_where_more_is_to_be_read_has_its_place_on_the_page_of_a_folder(mesh_file, tmp_path, monkeypatch):
-    monkeypatch.setattr(reproducing.Experiment, "compute", lambda *_: result(panels=()))
-    folder = tmp_path / "meshes"
-    folder.mkdir()
-    for name in ("a.off", "c.off"):
-        shutil.copy(mesh_file(bumpy(100)), folder / name)
-    said = []
-    path = reproduce(str(tmp_path / "out"), ["fig1"], str(folder), say=said.append).page
-    places = [line.partition("#")[2] for line in said if line.startswith(f"  more in {path}#")]
-    assert places == ["a-fig1", "c-fig1"]
-    assert all(f'<section id="{place}">' in path.read_text(encoding="utf-8") for place in places)
 
 
 def test_a_folder_has_only_what_makes_sense_on_any_mesh(mesh_file, tmp_path, monkeypatch):

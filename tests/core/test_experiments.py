@@ -9,8 +9,9 @@ import pytest
 from bihdist_core import Cancelled, OutputError, ParameterError, Surface, read_surface
 from bihdist_core.applications.resizing import simplified
 from bihdist_core.experiments import EXPERIMENTS, Shapes, _claims_growth, fig6, fig10, table1, table2
+from bihdist_core.experiments._stated_figures import AWAY, FREE
 from bihdist_core.experiments.result import MARKS, statements_of
-from bihdist_core.experiments.verdicts import VERDICTS, ends_of, number_of
+from bihdist_core.experiments.verdicts import VERDICTS, ends_of, mean_estimate, number_of
 
 ASSETS = Path(__file__).resolve().parents[2] / "assets"
 
@@ -67,7 +68,7 @@ def test_results_fit_together(result, id):
         assert panel.field is None or panel.field.shape == (len(surface.vertices),)
         assert all(0 <= mark.vertex < len(surface.vertices) for mark in panel.marks)
         assert {mark.kind for mark in panel.marks} <= set(MARKS)
-        assert set(panel.views) <= {"front", "back", "source", "zoom"}
+        assert set(panel.views) <= {"front", "back", "home", "home-back", "source", "zoom"}
         assert ("zoom" in panel.views) == (panel.zoom_vertex is not None)
         assert panel.style in ("surface", "height")
     for chart in r.charts:
@@ -84,7 +85,7 @@ def test_results_fit_together(result, id):
         assert claim.verdict is None or claim.verdict in VERDICTS
     # Neither more nor fewer statements than the table has, each with all its parts.
     assert [claim.id for claim in r.claims] == [each.id for each in statements_of(id)]
-    assert all(set(claim.numbers) == set(claim.statement.names) for claim in r.claims)
+    assert all(claim.failure or set(claim.numbers) == set(claim.statement.names) for claim in r.claims)
 
 
 @pytest.mark.parametrize("id", ["fig2", "fig8", "table2"])
@@ -102,8 +103,11 @@ def test_results_are_saved(result, id, tmp_path):
     assert [row["id"] for row in rows] == [claim.id for claim in r.claims for _ in claim.statement.parts]
     for claim in r.claims:
         for row, part in zip((row for row in rows if row["id"] == claim.id), claim.statement.parts, strict=True):
+            assert (row["verdict"], row["part"], row["rule"]) == (claim.verdict or "", part.name, part.rule)
+            if part.name not in claim.numbers:
+                assert (row["number"], row["failure"]) == ("", claim.failure)
+                continue
             numbers = claim.numbers[part.name]
-            assert (row["verdict"], row["part"], row["rule"]) == (claim.verdict, part.name, part.rule)
             assert float(row["number"]) == number_of(numbers)
             assert (float(row["low"]), float(row["high"])) == ends_of(numbers)
     with (tmp_path / "out" / f"{id}_table1.csv").open(newline="") as file:
@@ -132,15 +136,15 @@ def test_progress_rises_and_can_stop_the_work(shapes, id):
 
 
 def test_a_table_that_is_not_there_is_named(result):
-    with pytest.raises(ParameterError, match=r"fig8 has no table 'speeds' but \['errors', 'slopes'\]"):
+    with pytest.raises(ParameterError, match=r"fig8 has no table 'speeds' but \['truncation errors'\]"):
         result("fig8").table("speeds")
 
 
 # ------------------------------------------------------------------ the numbers, figure by figure
 def test_fig1_biharmonic_fields(result):
     table = result("fig1").table("fields")
-    assert len(table.rows) == 2
-    assert (numbers(table, "maxima") >= 4).all()
+    assert len(table.rows) == 4
+    assert (numbers(table, "maxima") >= 1).all()
     # On circles of four edges of these coarse meshes.
     assert (numbers(table, "isotropy ratio") < 2).all()
 
@@ -170,11 +174,22 @@ def test_fig3_holes_change_little(result):
     for kind in ("biharmonic", "geodesic", "diffusion t = 1"):
         assert (numbers(table, "normalised mean", distance=kind) < 0.06).all()
         assert (numbers(table, "normalised mean", distance=kind) > 0).all()
-    for claim, damage in zip(r.claims, ("scan", "figure, punched"), strict=True):
+    for claim, damage in zip(r.claims[:2], ("scan", "figure, punched"), strict=True):
         means = numbers(table, "normalised mean", surface=damage, distance="biharmonic")
         found = claim.numbers["mean change, biharmonic"]
         assert (*found.pictured, *found.random) == tuple(means)
         assert len(found.random) == 4
+    intact, holed = (r.surfaces[name].face_areas.sum() for name in ("figure", "figure, punched"))
+    # Whole faces are taken, each some thousandth of the area of this small mesh.
+    assert 1 - holed / intact == pytest.approx(0.15, abs=0.003)
+    assert "which take 15" in r.protocol
+    over = numbers(table, "normalised mean", surface="figure, punched", distance="geodesic") / means
+    found = r.claims[2].numbers["mean change, geodesic over biharmonic"]
+    assert (*found.pictured, *found.random) == pytest.approx(tuple(over))
+    # A hole of radius r lengthens a way past it by at most (pi - 2) r; of three paths, in 0.045 roots of the area.
+    longest, _ = r.claims[3].numbers.values()
+    assert len((*longest.pictured, *longest.random)) == 3
+    assert all(0 < x < 0.1 for x in (*longest.pictured, *longest.random))
 
 
 def test_fig4_the_minimum_of_diffusion_is_on_the_front(result):
@@ -219,6 +234,17 @@ def test_fig6_changes_grow_with_noise_and_are_small_for_poses_and_meshes(result)
             assert numbers(table, "normalised mean", change=case, distance=kind).max() < 0.03
 
 
+def test_fig6_compares_geodesic_distance_from_the_same_sources(result):
+    r = result("fig6")
+    row = {"change": "noise of 100 %", "source": "pictured"}
+    geodesic, biharmonic = (
+        r.table("changes").value("normalised mean", distance=kind, **row) for kind in ("geodesic", "biharmonic")
+    )
+    found = r.claims[-1].numbers["mean change, geodesic over biharmonic, noise on each coordinate"]
+    assert found.pictured == (geodesic / biharmonic,)
+    assert len(found.random) == 2
+
+
 def test_fig7_isolines_in_the_palm_and_isotropy_on_the_finger(result):
     table = result("fig7").table("fields")
     reach = {
@@ -231,11 +257,12 @@ def test_fig7_isolines_in_the_palm_and_isotropy_on_the_finger(result):
 
 def test_fig8_errors_fall_like_1_over_k(result):
     r = result("fig8")
-    assert r.table("slopes").value("slope", curve="mean") == pytest.approx(-0.94, abs=0.15)
-    assert r.table("slopes").value("slope", curve="largest") == pytest.approx(-1.05, abs=0.25)
+    # Refused on so few vertices: those of a mean edge h resolve 1.2 area / (4 pi h^2) eigenpairs.
+    assert (r.claims[0].numbers, r.claims[0].verdict) == ({}, None)
+    assert "resolves 111." in r.claims[0].failure
     # Measured 0.8 % and 0.019 % on 1,500 vertices; the mesh has little to do with it.
-    assert r.table("errors").value("largest", K=200) == pytest.approx(0.008, rel=0.5)
-    assert r.table("errors").value("mean", K=200) == pytest.approx(0.00019, rel=0.3)
+    assert r.table("truncation errors").value("largest", K=200) == pytest.approx(0.008, rel=0.5)
+    assert r.table("truncation errors").value("mean", K=200) == pytest.approx(0.00019, rel=0.3)
     for series in r.charts[0].series:
         assert len(series.x) == 200
         assert series.y[-1] < series.y[99] < series.y[9] < series.y[0]
@@ -246,15 +273,14 @@ def test_fig9_interpolants(result):
     table = r.table("interpolants")
     kinds = dict.fromkeys(table.values("distance"))
     ridges = {kind: table.value("edges in kinks, %", distance=kind, start="vertex 0") for kind in kinds}
-    # Judged is what is neither an anchor nor at a tip.
+    # With and without those at tips.
     by_id = {claim.id: claim for claim in r.claims}
     for id, kind in (("fig9-1", "biharmonic"), ("fig9-6", "diffusion t = 4")):
-        free = numbers(table, "extrema without anchor", distance=kind) - numbers(
-            table, "of these at tips", distance=kind
-        )
-        judged = by_id[id].numbers[f"extrema away from anchors and tips, {kind}"]
-        assert (*judged.pictured, *judged.random) == tuple(free)
-        assert len(free) == 5
+        free, at_tips = (numbers(table, c, distance=kind) for c in (FREE, "of these at tips"))
+        for which, counts in ((FREE, free), (AWAY, free - at_tips)):
+            judged = by_id[id].numbers[f"{which}, {kind}"]
+            assert (*judged.pictured, *judged.random) == tuple(counts)
+            assert len(counts) == 5
     assert ridges["geodesic"] > 1.5 * ridges["biharmonic"]
     anchors = [m.vertex for m in r.panels[0].marks if m.kind == "anchor"]
     assert len(anchors) == 4
@@ -276,20 +302,23 @@ def test_fig10_candidates(result):
         # Counting the mirror image as right can only help.
         assert errors["median"] <= errors["median, mirror image wrong"]
         assert errors["90 %"] <= errors["90 %, mirror image wrong"]
+        assert 0 < errors["AUC of the PCK curve to 0.25"] < 1
+    # The mean of a curve is the AUC: equally many targets from each start.
+    for chart, layout in zip(r.charts, fig10.LAYOUTS, strict=True):
+        for series in chart.series:
+            areas = numbers(table, "AUC of the PCK curve to 0.25", landmarks=layout, distance=series.name)
+            assert np.trapezoid(series.y, series.x) / 0.25 == pytest.approx(areas.mean(), abs=0.005)
     # In the mean half of the candidates are within a quarter of the root of the area, about the width of the shoulders.
     means = r.table("mean errors")
     assert (numbers(means, "mean", error="median") < 0.25).all()
     assert (numbers(means, "low") <= numbers(means, "mean")).all()
     by_id = {claim.id: claim.numbers for claim in r.claims}
     for id, layout in (("fig10-1", "spread"), ("fig10-2", "clustered")):
-        own, other = (
-            numbers(table, "median", known_points=layout, distance=kind) for kind in ("biharmonic", "geodesic")
-        )
+        own, other = (numbers(table, "median", landmarks=layout, distance=kind) for kind in ("biharmonic", "geodesic"))
         found = by_id[id]["median error more than biharmonic's, geodesic"]
         assert found.count == 12
         assert found.value == pytest.approx((other - own).mean())
-        # Student's t for 11 degrees of freedom.
-        assert found.high - found.value == pytest.approx(2.2010 * (other - own).std(ddof=1) / 12**0.5, rel=1e-4)
+        assert found == mean_estimate(other - own)
 
 
 @pytest.mark.parametrize(("id", "rows"), [("table1", 6), ("table2", 18)])
@@ -315,13 +344,6 @@ def test_alpha_orders_the_family(result):
     assert order.numbers["isotropy ratio, least growth from one α to the next"].pictured[0] == pytest.approx(
         (ratio[1:] / ratio[:-1]).min()
     )
-
-
-def test_a_verdict_that_was_another_before_says_why(result):
-    for id in EXPERIMENTS:
-        for claim in result(id).claims:
-            same = claim.verdict == {"yes": "holds", "no": "does not hold"}.get(claim.statement.before)
-            assert same or claim.statement.changed or not claim.statement.before, claim.id
 
 
 def test_claims_metric_and_smallest_distances(result):

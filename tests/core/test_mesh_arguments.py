@@ -35,6 +35,8 @@ TAKES_A_SURFACE = {
     "TruncatedBiharmonicDistance": lambda m: core.TruncatedBiharmonicDistance(m, k=20).from_source(3),
     "at_tips": lambda m: core.at_tips(m, [3, 40], [3]),
     "band": lambda m: core.band(m, Z, -0.5, 0.5),
+    "biharmonic_kernel_signature": lambda m: core.biharmonic_kernel_signature(m),
+    "centrality": lambda m: core.centrality(m),
     "cut_out": lambda m: core.cut_out(m, np.flatnonzero(Z > 0)),
     "difference_quality": lambda m: core.difference_quality(m, Z, NEAR, 3),
     "eigenpairs": lambda m: core.eigenpairs(m, 5).eigenvalues,
@@ -45,6 +47,7 @@ TAKES_A_SURFACE = {
     "field_statistics": lambda m: core.field_statistics(m, Z),
     "geodesic_circles": lambda m: core.geodesic_circles(m, NEAR, NEAR, 3),
     "gradient_jumps": lambda m: core.gradient_jumps(m, Z),
+    "heat_kernel_signature": lambda m: core.heat_kernel_signature(m),
     "isolines": lambda m: core.isolines(m, Z, [0.1, 0.2]),
     "isotropy_ratio": lambda m: core.isotropy_ratio(m, NEAR, NEAR, 4 * EDGE),
     "noisy": lambda m: core.noisy(m, 0.1),
@@ -59,6 +62,7 @@ TAKES_A_SURFACE = {
     "welded": lambda m: core.welded(m, FACE, FAR),
     "with_handle": lambda m: core.with_handle(m, FACE, FAR),
     "with_holes": lambda m: core.with_holes(m, 1, 0.3),
+    "wave_kernel_signature": lambda m: core.wave_kernel_signature(m),
 }
 
 

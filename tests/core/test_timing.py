@@ -8,10 +8,8 @@ from scipy import stats
 
 from bihdist_core import Laplacian
 from bihdist_core.experiments import Parts, _claims_growth, table1, table2, timing
-from bihdist_core.experiments.fig8 import exponent_of
 from bihdist_core.experiments.shapes import Shapes
 from bihdist_core.experiments.timing import Time, busy, median, ratio_estimate, timed
-from bihdist_core.experiments.verdicts import exponent_estimate, mean_estimate
 from tests.shapes import bumpy
 
 
@@ -47,22 +45,6 @@ def test_a_ratio_has_the_students_interval_of_its_logarithms():
     slowed = rng.uniform(1, 3, 7)
     again = ratio_estimate([Time(x, 1) for x in above * slowed], [Time(x, 1) for x in below * slowed])
     assert (again.low, again.high) == pytest.approx((found.low, found.high))
-
-
-def test_intervals_are_those_of_scipy():
-    x = np.array([2.0, 4.3, 8.0, 12.0, 16.0])
-    y = 3 * x**1.7 * np.array([1.1, 0.9, 1.05, 1.0, 0.97])
-    fit = stats.linregress(np.log(x), np.log(y))
-    half = stats.t.ppf(0.975, 3) * fit.stderr
-    found = exponent_estimate(x, y)
-    assert (found.value, found.low, found.high) == pytest.approx((fit.slope, fit.slope - half, fit.slope + half))
-    numbers = np.random.default_rng(0).standard_normal(25)
-    found = mean_estimate(numbers)
-    assert (found.low, found.high) == pytest.approx(stats.t.interval(0.95, 24, numbers.mean(), stats.sem(numbers)))
-    # Of groups: the mean of the groups' own exponents.
-    errors = np.random.default_rng(1).uniform(0.5, 1, (30, 4)) / np.arange(1, 31)[:, None]
-    each = [np.polyfit(np.log(np.arange(1, 31)), np.log(column), 1)[0] for column in errors.T]
-    assert exponent_of(np.arange(1, 31), errors).value == pytest.approx(np.mean(each))
 
 
 def test_a_busy_computer_is_said_to_be_one(monkeypatch):
@@ -103,9 +85,9 @@ def test_table1_is_not_judged_below_the_papers_largest_size(clocks, monkeypatch)
     result = table1.compute(Shapes({"figure": bumpy(300)}), quick=True)
     claim = result.claims[0]
     assert (claim.verdict, claim.numbers, result.not_done) == (None, {}, ())
-    assert claim.failure == "It is judged at 16,000 vertices, and the largest size here is 300."
+    assert claim.failure == "Not judged at this size, 300 vertices, but at 16,000."
     assert "at 300 vertices" in claim.note
-    assert result.claims[1].verdict
+    assert result.claims[1].numbers
 
 
 def test_a_few_blocks_of_sources_stand_for_all(clocks):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.figures.chart_page import ChartLook
+from app.figures.chart_look import ChartLook
 from app.figures.histogram_figure import HistogramFigure, save_histogram_figure
 from app.figures.scatter_figure import ScatterAxis, ScatterFigure, save_scatter_figure
 from app.scene.density import density_picture

@@ -6,6 +6,7 @@ from qtpy import QtCore, QtTest, QtWidgets
 from app.document.panel_edits import panel_edits
 from app.document.quantities import DistanceFrom, OwnField, quantity
 from app.qt.panels.number_box import STEPS, shown_value, step_of_value, value_of_step
+from bihdist_core.analysis.signature_types import SIGNATURES
 from bihdist_core.distances.distance_types import BUILT_IN, Spec, distance_type
 from tests.qt.events import send_mouse
 from tests.qt.heads import choose, entries, shown
@@ -273,3 +274,20 @@ def test_heads_of_one_quantity_are_worded_alike_whatever_the_distance(head):
         assert other.name.text() != "Interpolant" or one.name.text() == "Interpolant", width
         seen.add(one.controls[0].text())
     assert seen == {"by biharmonic", "by biharm."}
+
+
+def test_signatures_are_chosen_by_name_and_keep_their_parameters(head):
+    h = head(point="tail")
+    for word, row in SIGNATURES.items():
+        choose(h, row.name)
+        assert str(h.choices[-1]) == word
+        assert [text for text, action in entries(h.name.menu()).items() if action.isChecked()] == [row.name]
+    choose(h, "Heat kernel signature")
+    (control,) = shown(h)
+    control.slider.setValue(0)
+    assert str(h.choices[-1]) == "hks(t=1/100)"
+    choose(h, "Centrality")
+    choose(h, "Heat kernel signature")
+    assert str(h.choices[-1]) == "hks(t=1/100)"
+    choose(h, "Difference with", "Biharmonic")
+    assert str(h.choices[-1]) == "hks(t=1/100) - biharmonic"

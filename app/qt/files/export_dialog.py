@@ -42,6 +42,21 @@ FIGURE_SIZES: SizeNames = (
 NAMES = {"heading": "Above the panels", "caption": "Below the panels", "none": "None"}
 """Where a panel's name is written."""
 
+KINDS_OF_ROW = {
+    "": "Automatic",
+    "source": "Sources",
+    "mesh": "Meshes",
+    "distance": "Distances",
+    "t": "Times t",
+    "alpha": "Powers α",
+    "k": "Numbers k of eigenpairs",
+    "method": "Methods",
+}
+"""What has a row each."""
+
+CHARTS = {"": "None", "profile": "Profile", "scatter": "Scatter", "histogram": "Histogram", "errors": "Errors of maps"}
+"""At the end of rows."""
+
 BOTH = ("front", "back")
 SMALLEST = {True: 6.0, False: 10.0}
 """Font size, in points in print and else in pixels, below which text is hard to read."""
@@ -81,6 +96,9 @@ class ExportDialog(LooksDialog):
         self.form.section("Show")
         self.names = Choice(NAMES, recipe.page.title)
         self.form.row("&Names", self.names, "Where the name of each panel stands", "title")
+        tip = "What each row has of its own; rows and columns then have headings"
+        self.form.row("&Rows", Choice(KINDS_OF_ROW, recipe.page.rows), tip, "rows")
+        self.form.row("Ch&art", Choice(CHARTS, recipe.page.chart), "A chart at the end of each row", "chart")
         self.add_shares()
         self.both = self.form.tick("&Front and back", recipe.page.views == BOTH, "Each panel from both sides")
         tip = "Lateral and medial views of each hemisphere of a brain"
@@ -89,6 +107,8 @@ class ExportDialog(LooksDialog):
         tip = "Transparent where nothing is drawn"
         self.transparent = self.form.tick("Transparent &background", page.transparent, tip, "transparent")
         self.form.tick("&Ground", page.ground, "A soft shadow on the ground beneath the shape", "ground")
+        tip = "Thin lines along sharp edges; the style Cover always has them"
+        self.form.tick("Shar&p edges", page.feature_edges, tip, "feature_edges")
         self.crop = self.form.tick("Crop the &margins", page.crop, "Crop to what is drawn", "crop")
         self.form.tick("Panels (a), (b), (c)", page.panel_letters, "(a), (b), (c) over the panels", "panel_letters")
         self.values: QtWidgets.QCheckBox | None = None

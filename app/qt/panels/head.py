@@ -46,6 +46,7 @@ class PanelHead(QtWidgets.QWidget):
     """
 
     changed = QtCore.Signal(object)
+    let_go = QtCore.Signal()  # of a slider
     asked = QtCore.Signal(str)
     save_wanted = QtCore.Signal()
     clicked = QtCore.Signal()
@@ -100,7 +101,7 @@ class PanelHead(QtWidgets.QWidget):
         if fields is not None:
             self._choices.fields = tuple(fields)
         self._choices.keep(shows)
-        bounded = [self._choices.bounded(p) for spec in shows.specs for p in spec.distance_type.parameters]
+        bounded = [self._choices.bounded(p) for spec in shows.parametrised for p in spec.distance_type.parameters]
         made_of = (type(shows), *(part.word for part in shows.parts), *bounded)
         # Controls that fit stay, as a hand may be on one of them.
         if made_of != self._made_of:
@@ -187,14 +188,21 @@ class PanelHead(QtWidgets.QWidget):
         self.setFixedHeight(round((COMPACT_HEIGHT if compact else HEIGHT) * LOOK.scale))
 
     # ------------------------------------------------------------------ choices
+    @property
+    def is_held(self) -> bool:
+        """Whether the user holds the slider of a parameter."""
+        return any(isinstance(control, NumberControl) and control.is_held for control in self.controls)
+
     def _choose(self, shows: Quantity) -> None:
         if shows != self.shows:
             self.show_quantity(shows)
             self.changed.emit(shows)
 
     def _set(self, place: int, name: str, value: object) -> None:
-        (spec,) = self.shows.parts[place].specs
-        self._choose(self._choices.with_part(self.shows, place, spec.changed(**{name: value})))
+        parts = list(self.shows.parts)
+        (spec,) = parts[place].parametrised
+        parts[place] = parts[place].with_spec(spec.changed(**{name: value}))
+        self._choose(self.shows.with_parts(tuple(parts)))
 
     def _subtract(self, raw: bool) -> None:
         if isinstance(self.shows, Difference):
@@ -218,18 +226,20 @@ class PanelHead(QtWidgets.QWidget):
         for control in self.controls:
             control.hide()
             control.deleteLater()
-        parts = [part for part in self.shows.parts if part.specs]
-        signed = iter(signs([p for part in parts for p in part.specs[0].distance_type.parameters]))
+        having = [part.parametrised[0] for part in self.shows.parts if part.parametrised]
+        signed = iter(signs([p for spec in having for p in spec.distance_type.parameters]))
         self._mode: ChoiceControl | None = None
         self._by: ChoiceControl | None = None
         self._of_parameter: dict[tuple[int, str], Control] = {}
         is_difference = self.shows.is_difference
         for place, part in enumerate(self.shows.parts):
-            for parameter in part.specs[0].distance_type.parameters if part.specs else ():
+            for parameter in part.parametrised[0].distance_type.parameters if part.parametrised else ():
                 of_what = f" ({('first', 'second')[place]}: {part.heading})" if is_difference else ""
                 bounded = self._choices.bounded(parameter)
                 control = parameter_control(self, bounded, next(signed), of_what)
                 control.chosen.connect(partial(self._set, place, parameter.name))
+                if isinstance(control, NumberControl):
+                    control.let_go.connect(self.let_go)
                 self._of_parameter[place, parameter.name] = control
         self.controls = list(self._of_parameter.values())
         if is_difference:
@@ -244,7 +254,7 @@ class PanelHead(QtWidgets.QWidget):
             self._by = ChoiceControl(self, words, f"By which distance it is {self.shows.done}", short)
             self._by.chosen.connect(lambda word: self._choose(self._choices.with_part(self.shows, 0, word)))
             self.controls.insert(0, self._by)
-        elif not self.controls and any(spec.distance_type.is_complete for spec in self.shows.specs):
+        elif not self.controls and any(spec.distance_type.is_complete for spec in self.shows.parametrised):
             self.controls.append(FixedWord(self, "exact", "Uses all eigenpairs; nothing to choose"))
         order: list[QtWidgets.QWidget] = [self.name]
         for control in self.controls:
@@ -260,7 +270,7 @@ class PanelHead(QtWidgets.QWidget):
 
     def _show_values(self) -> None:
         for (place, name), control in self._of_parameter.items():
-            control.show_value(self.shows.parts[place].specs[0][name])
+            control.show_value(self.shows.parts[place].parametrised[0][name])
         if self._mode is not None and isinstance(self.shows, Difference):
             self._mode.show_value(self.shows.raw)
         if self._by is not None:

@@ -8,6 +8,7 @@ from functools import partial
 from qtpy import QtWidgets
 
 from bihdist_core import ParameterError, Surface
+from bihdist_core.analysis.signature_types import SIGNATURES, SignatureSpec
 from bihdist_core.distances.distance_types import (
     DistanceType,
     Parameter,
@@ -23,6 +24,7 @@ from ...document.quantities import (
     DistanceFrom,
     OwnField,
     Quantity,
+    VertexSignature,
     kind_name,
     quantity_kinds,
     quantity_name,
@@ -54,15 +56,15 @@ class Choices:
     def keep(self, shows: Quantity) -> None:
         """Remember the parameters of what is shown, for each place of a difference."""
         for before, part in zip(self._before, shows.parts, strict=False):
-            for spec in part.specs:
+            for spec in part.parametrised:
                 before[spec.word] = spec
 
     def bounded(self, parameter: Parameter) -> Parameter:
         """Return a parameter with the values that it can have on the surface."""
         return parameter if self.surface is None else limited(parameter, self.surface)
 
-    def with_part(self, shows: Quantity, place: int, chosen: str | OwnField | Spec) -> Quantity:
-        """Return the quantity with another distance, by its word or with parameters, or another field at a place."""
+    def with_part(self, shows: Quantity, place: int, chosen: str | OwnField) -> Quantity:
+        """Return the quantity with another distance or signature, by its word, or another field at a place."""
         parts = list(shows.parts)
         # Where distances start, nobody chooses here.
         point = [*parts[place].points, *shows.points, "source"][0]
@@ -75,12 +77,12 @@ class Choices:
         """Return the difference of what is shown and another quantity."""
         return Difference(shows, self._part(chosen, 1, [*shows.points, "source"][0]))
 
-    def _part(self, chosen: str | OwnField | Spec, place: int, point: str) -> Quantity:
+    def _part(self, chosen: str | OwnField, place: int, point: str) -> Quantity:
         if isinstance(chosen, OwnField):
             return chosen
-        if isinstance(chosen, Spec):
-            return DistanceFrom(chosen, point)
-        spec = self._before[place].get(chosen) or Spec.of(chosen)
+        spec = self._before[place].get(chosen) or (SignatureSpec if chosen in SIGNATURES else Spec).of(chosen)
+        if isinstance(spec, SignatureSpec):
+            return VertexSignature(spec)
         return DistanceFrom(spec if self.surface is None else spec.limited_to(self.surface), point)
 
 
@@ -116,7 +118,7 @@ def fill_menu(menu: QtWidgets.QMenu, shows: Quantity, choices: Choices, choose: 
 
     def can_differ(part: Quantity) -> bool:
         """Return whether the difference with a part is not zero everywhere."""
-        return part.word != shows.word or (part.is_distance and bool(part.specs[0].values))
+        return part.word != shows.word or any(spec.values for spec in part.parametrised)
 
     inner = menu.addMenu("Difference with")
     _add_parts(inner, choices, None, lambda chosen: choose(choices.difference(shows, chosen)), can_differ)
@@ -141,7 +143,7 @@ def _add_parts(
     choose: Callable[[str | OwnField], None],
     is_offered: Callable[[Quantity], bool] = lambda part: True,
 ) -> None:
-    """Add an entry for every distance, then for every field."""
+    """Add an entry for every distance, then for every signature, then for every field."""
     menu.setToolTipsVisible(True)
     for kind in offered_kinds():
         if is_offered(DistanceFrom(Spec.of(kind.word))):
@@ -150,6 +152,11 @@ def _add_parts(
             if kind.word == "geodesic" and choices.surface is not None and not len(choices.surface.faces):
                 action.setEnabled(False)
                 action.setToolTip("Geodesic distance needs faces, and points have none")
+    menu.addSeparator()
+    for word, row in SIGNATURES.items():
+        if is_offered(VertexSignature(SignatureSpec.of(word))):
+            action = _add(menu, row.name, f"{row.hint[:1].upper()}{row.hint[1:]}", partial(choose, word))
+            tick(action, now is not None and now.word == word)
     fields = [field for field in map(OwnField, choices.fields) if is_offered(field)]
     if fields:
         menu.addSeparator()

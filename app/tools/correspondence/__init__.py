@@ -20,4 +20,5 @@ TOOL = Tool(
     options="options:ROWS",
     marks="marks:marks",
     items="pairs:items",
+    charts={"errors": "map_errors:charts"},
 )

@@ -11,7 +11,6 @@ from bihdist_core.formats.vertex_maps import MAP_FORMATS, write_map
 
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.quantities import kind_name
 from ...qt.context import Context
 from ...qt.docks.dock import PAD
 from ...qt.files.saving import save
@@ -20,9 +19,9 @@ from ...qt.look.look import LOOK
 from ...qt.panels.badges import curve_colour
 from ...qt.panels.flat_button import menu_button
 from .error_chart import ErrorChart, ErrorTable, MapCurve
-from .map_errors import Map, MapErrorRequest, MapErrors, MapErrorWorker, maps_of, request_of
+from .map_errors import Map, MapErrorRequest, MapErrors, MapErrorWorker, map_name, maps_of, request_of
 from .map_truth import MapTruth
-from .maps import MapColours, MapFile, Maps, show_maps, shows_maps
+from .maps import MapColours, Maps, show_maps, shows_maps
 from .pairs import whole_pairs
 from .quantity import predict, predicts_in
 
@@ -150,10 +149,7 @@ class ErrorSection(QtWidgets.QWidget):
 
     def name_of(self, map: Map) -> str:
         """Return the name of a map in the table."""
-        if isinstance(map, MapFile):
-            return map.name
-        same = [each for each in maps_of(self._document) if isinstance(each, Spec) and each.word == map.word]
-        return kind_name(map.distance_type) if len(same) < 2 else str(map)
+        return map_name(map, self._document)
 
     def _colour_of(self, map: Map) -> str:
         maps = maps_of(self._document)

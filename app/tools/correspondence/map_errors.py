@@ -7,6 +7,7 @@ once, whatever pairs there are, so that another pair costs its maps alone.
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -28,6 +29,11 @@ from bihdist_core.progress import Progress, part
 from bihdist_core.sources.source import Source
 
 from ...document.document import Document
+from ...document.quantities import kind_name
+from ...figures.arrangement import ChartRow
+from ...figures.chart_look import ChartLook
+from ...figures.error_figure import ErrorFigure
+from ...scene.style import curve_colours, style_of
 from ...session.loaded_mesh import LoadedMesh
 from .maps import SAME_IDS, MapFile, Maps, Truth, map_in
 from .pairs import whole_pairs
@@ -54,6 +60,14 @@ def maps_of(document: Document) -> tuple[Map, ...]:
     """Return the maps that panels show or predict by, each once, and those of the document's files."""
     shown = [panel.shows for panel in document.panels if panel.shows.relates_surfaces]
     return (*dict.fromkeys(spec for each in shown for spec in each.specs), *document[Maps].maps)
+
+
+def map_name(map: Map, document: Document) -> str:
+    """Return the name of a map among those of a document."""
+    if isinstance(map, MapFile):
+        return map.name
+    same = [each for each in maps_of(document) if isinstance(each, Spec) and each.word == map.word]
+    return kind_name(map.distance_type) if len(same) < 2 else str(map)
 
 
 # ---------------------------------------------------------------------- the truth
@@ -271,3 +285,23 @@ class MapErrorWorker:
 def _checked(report: Progress, share: float) -> Progress:
     """Return a progress that can be cancelled, and reports no other fraction than `share`."""
     return lambda fraction, text: report(share, text)
+
+
+_workers: WeakKeyDictionary[LoadedMesh, MapErrorWorker] = WeakKeyDictionary()
+
+
+def charts(row: ChartRow) -> list[ErrorFigure]:
+    """Return the error curves of the maps that the panels of a row show or predict by."""
+    document, surfaces = row.document, row.surfaces
+    if len(document.surfaces) != 2:
+        raise ParameterError("A chart of errors is of maps between two meshes; name a second mesh, and its --map.")
+    if not row.answers:
+        return []
+    one, two = (surfaces[mesh.name] for mesh in document.surfaces)
+    worker = _workers.setdefault(two, MapErrorWorker())
+    *_, found = (None, *worker.errors(request_of(document, one, two)))
+    if found is None or not found.curves:
+        raise ParameterError("The errors of these maps are not known: there is no map, or no truth to measure it by.")
+    curves = {map_name(map, document): curve for map, curve in found.curves.items()}
+    style = style_of(row.page.style, document.colours)
+    return [ErrorFigure(curves, curve_colours(style), ChartLook.of(row.page, style))]

@@ -124,7 +124,7 @@ class MapTruth:
 
     def save_figure(self, path: str = "") -> None:
         """Save the curves in the style of the page, with the colours that go with its background."""
-        from ...figures.chart_page import ChartLook
+        from ...figures.chart_look import ChartLook
         from ...figures.error_figure import ErrorFigure, save_error_figure
         from ...scene.style import style_of
 

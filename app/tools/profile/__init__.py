@@ -18,4 +18,5 @@ TOOL = Tool(
     options="options:ROWS",
     marks="marks:marks",
     items="part:items",
+    charts={"profile": "figure:charts"},
 )

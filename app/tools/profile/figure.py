@@ -5,7 +5,7 @@ Values in several units have a plot each, side by side or, on a narrow page, one
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from textwrap import wrap
 
 import numpy as np
@@ -15,16 +15,19 @@ from bihdist_core.analysis.surface_paths import SurfacePath
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
 
-from ...document.document import Document, free_names
+from ...document.document import MESH_UNITS, Document, free_names
 from ...document.page import Page
 from ...document.shared_parts.pins import Pins
 from ...drawing.chart import Axis, Plot
 from ...drawing.shapes import Box, Pen, Shape, Text, disc, hexadecimal, opaque
-from ...figures.chart_page import RIM, TICK, USUAL_LOOK, ChartLook, faded, save_chart
+from ...figures.arrangement import ChartRow
+from ...figures.chart_look import RIM, TICK, USUAL_LOOK, ChartLook, faded
+from ...figures.chart_page import save_chart
 from ...figures.size import UNITS_PER_INCH
 from ...scene.style import PINS, Style, curve_colours, style_of
 from .curves import ProfileCurve, parted, profile_curve
 from .part import Profile, points_along
+from .paths import path_of
 
 MIN_PLOT_WIDTH_IN = 2.8
 """Inches that each of several plots side by side has at least; else they stand below each other."""
@@ -80,29 +83,38 @@ class ProfileFigure:
         """The plots of the figure, see `parted`."""
         return parted(self.curves, self.in_shares)
 
+    @property
+    def is_row(self) -> bool:
+        """Whether plots stand side by side."""
+        return self.look.inches >= MIN_PLOT_WIDTH_IN * len(self.plots)
+
+    @property
+    def height(self) -> float:
+        """The height of a page for it, in units."""
+        count, inches = len(self.plots), self.look.inches
+        each = HEIGHT_PER_WIDTH * (inches / count if self.is_row else inches)
+        return min(max(each, MIN_PLOT_HEIGHT_IN), MAX_PLOT_HEIGHT_IN) * UNITS_PER_INCH * (1 if self.is_row else count)
+
+    def shapes(self, height: float) -> list[Shape]:
+        """Return the plots with the names of curves, at a height in units."""
+        count = len(self.plots)
+        wide, high = (self.look.width / count, height) if self.is_row else (self.look.width, height / count)
+        margins = None if self.is_row else _margins(self, high)
+        shapes: list[Shape] = []
+        for k, (unit, in_shares, curves) in enumerate(self.plots):
+            room = Box(k * wide, 0.0, wide, high) if self.is_row else Box(0.0, k * high, wide, high)
+            length = "length along the path" if self.look.inches > MIN_PLOT_WIDTH_IN else "along the path"
+            along = f"{length} ({self.unit})" if self.is_row or k == count - 1 else ""
+            words = along, "% of the maximum" if in_shares else unit or "value"
+            shapes += _plot(self, room, curves, in_shares, words, self.is_row or k == 0, margins)
+        return shapes
+
 
 def save_profile_figure(figure: ProfileFigure, path: str | os.PathLike[str]) -> None:
     """Save the figure of a profile as `save_chart` does; ParameterError if there are no curves, too."""
     if not figure.curves:
         raise ParameterError("There is no field along the path yet; wait until a panel has one.")
-    height, shapes = page_shapes(figure)
-    save_chart(path, figure.look, height, shapes)
-
-
-def page_shapes(figure: ProfileFigure) -> tuple[float, list[Shape]]:
-    """Return the height of the figure's page in units, and what is on it."""
-    look, count = figure.look, len(figure.plots)
-    is_row = look.inches >= MIN_PLOT_WIDTH_IN * count
-    wide = look.width / count if is_row else look.width
-    high = min(max(HEIGHT_PER_WIDTH * wide / UNITS_PER_INCH, MIN_PLOT_HEIGHT_IN), MAX_PLOT_HEIGHT_IN) * UNITS_PER_INCH
-    shapes: list[Shape] = []
-    margins = None if is_row else _margins(figure, high)
-    for k, (unit, in_shares, curves) in enumerate(figure.plots):
-        room = Box(k * wide, 0.0, wide, high) if is_row else Box(0.0, k * high, wide, high)
-        along = f"length along the path ({figure.unit})" if is_row or k == count - 1 else ""
-        words = along, "% of the maximum" if in_shares else unit or "value"
-        shapes += _plot(figure, room, curves, in_shares, words, is_row or k == 0, margins)
-    return (high if is_row else count * high), shapes
+    save_chart(path, figure, figure.height)
 
 
 def _margins(figure: ProfileFigure, high: float) -> tuple[float, float]:
@@ -219,25 +231,53 @@ def _name_shapes(
     return shapes
 
 
-def profile_figure(document: Document, page: Page, path: SurfacePath, answers: Mapping[int, Answer]) -> ProfileFigure:
+def profile_figure(
+    document: Document,
+    page: Page,
+    path: SurfacePath,
+    answers: Mapping[int, Answer],
+    names: Mapping[int, str] | None = None,
+) -> ProfileFigure:
     """Return the figure of the chart, in the style of the page and the colours that go with its background.
 
-    The answers are those of panels on the path's surface, by the panels' ids.
+    The answers are those of panels on the path's surface, by the panels' ids; so are names of curves, if given.
     """
     style = style_of(page.style, document.colours)
     fields = {id: answer.field for id, answer in answers.items() if answer.field is not None}
     along = {panel.id: path.along(fields[panel.id]) for panel in document.panels if panel.id in fields}
-    curves = tuple(
-        profile_curve(document, id, answers[id], values, curve_colours(style))
+    curves = {
+        id: profile_curve(document, id, answers[id], values, curve_colours(style))
         for id, values in along.items()
         if np.isfinite(values).any()
-    )
-    names = points_along(document)
-    names = (*names, *names[:1])  # a whole section may come back to the first
-    knots = [_knot(document, name, float(path.arcs[at]), style) for at, name in zip(path.knots, names, strict=False)]
+    }
+    points = points_along(document)
+    points = (*points, *points[:1])  # a whole section may come back to the first
+    knots = [_knot(document, name, float(path.arcs[at]), style) for at, name in zip(path.knots, points, strict=False)]
     return ProfileFigure(
-        path.arcs, curves, document[Profile].shares, "mesh units", tuple(knots), ChartLook.of(page, style)
+        path.arcs,
+        tuple(replace(curve, name=names[id]) if names else curve for id, curve in curves.items()),
+        document[Profile].shares,
+        document.unit_of(MESH_UNITS),
+        tuple(knots),
+        ChartLook.of(page, style),
     )
+
+
+def charts(row: ChartRow) -> list[ProfileFigure]:
+    """Return the profile of a row's panels, along the same path on the row's surface."""
+    document, (surface, *others) = row.document, dict.fromkeys(panel.surface for panel in row.document.panels)
+    if others:
+        raise ParameterError("A profile is of panels of one mesh; --rows mesh gives each mesh a row of its own.")
+    names = points_along(document)
+    if len(names) < 2:
+        raise ParameterError("A chart of a profile needs its path: --profile with points, or pins.")
+    own, on = row.surfaces[document.point(names[0]).surface], row.surfaces[surface]
+    if not np.array_equal(own.surface.faces, on.surface.faces):
+        raise ParameterError(
+            f"The path lies on {own.surface.name}; {on.surface.name} has other faces, and no such path."
+        )
+    _, path = path_of(document, {document.point(names[0]).surface: on})
+    return [profile_figure(document, row.page, path, row.answers, row.names)] if row.answers else []
 
 
 def profile_fields(document: Document, answers: Mapping[int, Answer]) -> dict[str, FloatArray]:

@@ -19,4 +19,5 @@ TOOL = Tool(
     options="options:ROWS",
     marks="marks:marks",
     items="part:items",
+    charts={"scatter": "figure:charts"},
 )

@@ -37,7 +37,6 @@ from ...qt.look.segments import Segments
 from ...qt.panels.badges import curve_colour
 from ...qt.panels.flat_button import FlatButton, add_entry, icon_button, menu_button
 from ...scene.density import axis_ends
-from ...scene.style import PINS, style_of
 from .chart import ScatterChart
 from .part import Scatter
 from .selection_list import SelectionList
@@ -300,31 +299,14 @@ class ScatterDock(Instrument):
     # ------------------------------------------------------------------ what is saved
     def figure(self) -> "ScatterFigure":
         """Return the figure of the chart, in the style of the page; ParameterError if it shows nothing."""
-        from ...figures.chart_page import ChartLook
-        from ...figures.scatter_figure import INCHES, ScatterAxis, ScatterFigure
+        from .figure import scatter_figure
 
-        context, request, found = self.context, self._request, self._found
-        document, page, scatter = context.document, context.page, self.chart.scatter
-        names = self._names(document)
+        context, request, scatter = self.context, self._request, self.chart.scatter
+        names = self._names(context.document)
         if scatter is None or request is None or names is None:
             raise ParameterError("There is no scatter plot yet; wait until both panels have a field.")
-        across, up = (
-            ScatterAxis(name, "% of the maximum" if document[Scatter].shares else axis.unit, axis.low, axis.high)
-            for name, axis in zip(names, (self.chart.across, self.chart.up), strict=True)
-        )
-        return ScatterFigure(
-            scatter,
-            across,
-            up,
-            in_shares=document[Scatter].shares,
-            is_common=request.has_common_unit,
-            selections=tuple(
-                (each.name, ids_of(each.runs), PINS[each.colour]) for each in document[Selections].selections
-            ),
-            correlation=None if found is None else found.spearman,
-            largest=found.largest_at if found is not None and request.has_common_unit else None,
-            look=ChartLook.of(page, style_of(page.style, document.colours), INCHES),
-        )
+        units = request.across.unit, request.up.unit
+        return scatter_figure(context.document, context.page, scatter, self._found, names, units)
 
     def _file_name(self) -> str:
         session = self.context.session

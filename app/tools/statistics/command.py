@@ -10,7 +10,7 @@ from ...commands.result import Facts, Result, facts_of
 from ...commands.terminal import progress_line
 
 if TYPE_CHECKING:
-    from ...figures.chart_page import ChartLook
+    from ...figures.chart_look import ChartLook
 
 WORDS = "summarise a distance, or compare two, in numbers and charts"
 EXAMPLES = (
@@ -147,14 +147,9 @@ def _save_histogram(options: argparse.Namespace, it: CommandField) -> None:
         table = np.column_stack([found.bins[:-1], found.bins[1:], found.areas])
         write_array(options.histogram, table, ["from", "to", "area"])
         return
-    from ...figures.histogram_figure import HistogramFigure, save_histogram_figure
+    from ...figures.histogram_figure import histogram_figure, save_histogram_figure
 
-    look = _look(options)
-    shares, colours = (
-        found.areas / found.areas.sum(),
-        look.style.bin_colours(found.bins, it.answer.maximum, it.answer.is_signed),
-    )
-    figure = HistogramFigure(found.bins, shares, colours, it.answer.label, it.answer.unit, found.mean, look)
+    figure = histogram_figure(it.surface, it.field, it.answer, it.answer.maximum, _look(options))
     save_histogram_figure(figure, options.histogram)
 
 
@@ -186,7 +181,7 @@ def _is_table(path: str) -> bool:
 
 
 def _look(options: argparse.Namespace) -> "ChartLook":
-    from ...figures.chart_page import ChartLook
+    from ...figures.chart_look import ChartLook
     from ...figures.scatter_figure import INCHES
     from ...scene.style import style_of
 

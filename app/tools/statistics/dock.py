@@ -224,7 +224,7 @@ class StatisticsDock(Instrument):
 
     def figure(self) -> "HistogramFigure":
         """Return the histogram in the style and the colours of figures."""
-        from ...figures.chart_page import ChartLook
+        from ...figures.chart_look import ChartLook
         from ...figures.histogram_figure import HistogramFigure
 
         (request, found), context = self._there(), self.context

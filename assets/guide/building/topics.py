@@ -40,6 +40,11 @@ TOPICS: dict[str, tuple[str, str, list[str]]] = {
          "field_agreement", "Agreement", "rank_correlation", "field_scatter", "FieldScatter", "field_change",
          "FieldChange", "extrema", "Extrema", "gradient_jumps", "GradientJumps"],
     ),
+    "signatures": (
+        "Signatures of vertices",
+        "A value at each vertex that is the same in every pose: centrality, and diagonals of kernels.",
+        ["centrality", "biharmonic_kernel_signature", "heat_kernel_signature", "wave_kernel_signature", "Signature"],
+    ),
     "quality": (
         "Quality of a distance",
         "Triangle inequality, isotropy, extrema and kinks, and what truncation loses.",

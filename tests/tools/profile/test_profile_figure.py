@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from app.drawing.shapes import Box, Text
-from app.figures.chart_page import ChartLook
+from app.figures.chart_look import ChartLook
 from app.tools.profile.curves import ProfileCurve
-from app.tools.profile.figure import ProfileFigure, ProfileKnot, page_shapes, save_profile_figure
+from app.tools.profile.figure import ProfileFigure, ProfileKnot, save_profile_figure
 from bihdist_core import ParameterError
 
 ARCS = np.linspace(0, 2, 50)
@@ -76,9 +76,9 @@ def test_no_word_is_off_the_page_or_on_another(tmp_path, mm):
 @pytest.mark.parametrize("in_shares", [False, True])
 def test_words_keep_their_places_on_the_page_and_off_each_other(mm, in_shares):
     figure = ProfileFigure(ARCS, CURVES, in_shares, "mesh units", KNOTS, look=ChartLook(inches=mm / 25.4))
-    height, shapes = page_shapes(figure)
+    height = figure.height
     found = []
-    for text in (shape for shape in shapes if isinstance(shape, Text)):
+    for text in (shape for shape in figure.shapes(height) if isinstance(shape, Text)):
         width = figure.look.text_width(text.text, text.size, text.is_bold)
         left = text.x - {"left": 0.0, "centre": 0.5, "right": 1.0}[text.align] * width
         box = Box(left, text.y - 0.75 * text.size, width, 0.75 * text.size)
