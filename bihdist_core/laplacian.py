@@ -420,9 +420,8 @@ class Component:
         """The component with the faces that the operator is made of, none if it has others."""
         if self._whole.operator == COTAN:
             return self.surface
-        return Nodes(
-            self.surface.vertices, name=self.surface.name, component_of_vertex=np.zeros(len(self.vertices), int)
-        )
+        alone = np.zeros(len(self.vertices), np.int64)
+        return Nodes(self.surface.vertices, name=self.surface.name, component_of_vertex=alone)
 
     @locked_cached_property
     def flat(self) -> DegenerateFaces:
