@@ -158,7 +158,7 @@ def test_what_there_is_not_is_refused(monkeypatch):
     with pytest.raises(ParameterError, match="tufted has areas of its own, and no barycentric ones"):
         Laplacian(bumpy(20), "barycentric", TUFTED)
     points = PointCloud(bumpy(30).vertices)
-    with pytest.raises(ParameterError, match="tufted operators need faces"):
+    with pytest.raises(ParameterError, match="the operator tufted needs faces"):
         _ = Laplacian(points, operator=TUFTED).stiffness
     monkeypatch.setitem(sys.modules, "robust_laplacian", None)
     with pytest.raises(MeshError, match=r"needs the package robust_laplacian; `pip install 'bihdist\[points\]'`"):
