@@ -46,7 +46,7 @@ HEADINGS = {
         "graph",
         "info",
     ),
-    "compare": ("correspond", "evaluate", "perturb", "paper"),
+    "compare": ("correspond", "evaluate", "perturb"),
     "many meshes": ("batch",),
 }
 """The commands under the headings of `bihdist --help`; others come after them."""

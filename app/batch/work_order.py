@@ -11,8 +11,9 @@ from bihdist_core.errors import ParameterError
 from ..document.repairs import Repairs
 from ..document.sources import FARTHEST, HIGHEST, Sources
 
-MAXIMA = "maxima"
-"""A work that is done before figures that share their range: the largest value of each panel."""
+MAXIMA, STATEMENTS = "maxima", "statements"
+"""Works that `--do` does not name: the largest value of each panel, before figures that share their range; and the
+paper's statements, for `bihdist paper --aggregate`."""
 FILES = frozenset({"cut", "labels", "mask", "sources"})
 """Fields that name what is read beside a mesh."""
 
@@ -59,10 +60,11 @@ KINDS = {
         _kind("figure", "a picture", f"recipe range maxima {REPAIRS}", options="sources distance areas clim"),
         _kind("evaluate", "errors of maps", "areas operator samples arrays", options="maps truth symmetry"),
         _kind(MAXIMA, "", f"recipe {REPAIRS}"),
+        _kind(STATEMENTS, "", "experiments quick up"),
     )
 }
 
-WORKS = tuple(word for word in KINDS if word != MAXIMA)
+WORKS = tuple(word for word in KINDS if word not in (MAXIMA, STATEMENTS))
 """The kinds of work that can be asked for."""
 
 OPTIONS = {"format": "arrays"}
@@ -108,8 +110,9 @@ class WorkOrder:
 
     With `one_based`, vertex ids in .mat files count from 1. `layout` is one of LAYOUTS for pairs; `normalise` is
     "area" for distances and eigenpairs of the mesh scaled to area 1. `recipe` is the text of the one that figures
-    are drawn from, `range` one of RANGES, and `maxima` the ends of panels that share them. With `verify`, results
-    that are there must have their checksums.
+    are drawn from, `range` one of RANGES, and `maxima` the ends of panels that share them. `experiments` are those
+    whose statements are measured, `quick` or not, with the axis `up`, guessed if "". With `verify`, results that are
+    there must have their checksums.
     """
 
     works: tuple[str, ...]
@@ -133,6 +136,9 @@ class WorkOrder:
     recipe: str = ""
     range: str = OWN
     maxima: tuple[float, ...] = ()
+    experiments: tuple[str, ...] = ()
+    quick: bool = False
+    up: str = ""
     verify: bool = False
 
     def __post_init__(self) -> None:

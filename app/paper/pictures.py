@@ -25,7 +25,7 @@ from ..scene.style import PAPER
 ACROSS, ACROSS_NARROW = {1: 4, 2: 3}, {1: 6, 2: 3}
 """Panels side by side at most, by how many views they have; of shapes higher than wide there may be more."""
 
-RELIEF = 0.45
+RELIEF = 0.6
 """Height of a height field, as a share of the domain's extent."""
 
 WIDTH, FINER = 1160, 2
@@ -50,10 +50,10 @@ ANCHOR, TARGET, CANDIDATE = "#262B33", "#E0162B", "#FFC400"
 
 WORDS = {
     "source": "source",
-    "anchor": "known points",
-    "target": "the target",
-    "candidate": "the candidate",
-    "place": "where it belongs",
+    "anchor": "landmarks",
+    "target": "the point to match",
+    "candidate": "its match",
+    "place": "ground truth",
     "minimum": "local minimum",
     "maximum": "local maximum",
 }
@@ -109,7 +109,7 @@ def _panel(result: Result, panel: Panel, up: str, side: str) -> FigurePanel:
     field, label = panel.field, ""
     if field is not None and panel.exaggerate != 1:
         # Small values are spread out by the colours, so the bar's numbers are those of the power.
-        field, label = np.asarray(field) ** panel.exaggerate, f"value to the power {panel.exaggerate:g}"
+        field, label = np.asarray(field) ** panel.exaggerate, f"cost to the power {panel.exaggerate:g}"
     views: list[View] = []
     for view in panel.views:
         if view != "zoom":

@@ -72,11 +72,12 @@ def compared(
     return Result(
         id,
         title,
-        f"Pictured source: on the back, at a fixed share of width and height. The numbers are also taken from {count} "
-        "random vertices of each shape; of minima on the front, from as many on the back. The front, and the half "
-        "opposite to a source, is where normals point against the source's. Minima and maxima in the table persist "
-        "over at least 0.1 % of the field's range; the raw counts are of vertices lower or higher than all their "
-        "neighbours; those marked persist over 1 %. " + PROTOCOL,
+        "The pictured source is on the back, at a fixed share of the width and height; numbers are also measured from "
+        f"{count} random vertices of each shape, and minima on the front from as many on the back. The front, or the "
+        "half opposite to a source, is where normals point away from the source's. Minima and maxima in the table "
+        "have a persistence of at least 0.1 % of the field's range, marked ones of 1 %; raw counts are of all "
+        "vertices lower or higher than their "
+        "neighbours. " + PROTOCOL,
         {name: shapes[name] for name in names},
         tuple(panels),
         tuple(charts),

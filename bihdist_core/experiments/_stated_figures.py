@@ -134,6 +134,21 @@ FIGURES = (
         *("ours", "after figure 3"),
         (CHANGE,),
     ),
+    Statement(
+        "fig3-3",
+        "Holes change geodesic distance more than biharmonic distance.",
+        *("ours", "after section 2"),
+        (Part(OF_GEODESIC, above(1)),),
+    ),
+    Statement(
+        "fig3-4",
+        "A hole along a shortest path can have a significant effect on geodesic distances.",
+        *("paper", "section 2"),
+        (
+            Part("largest change by such a hole, geodesic", at_least(INSENSITIVE, "%"), needed=True),
+            Part("largest change by such a hole, geodesic over biharmonic", at_least(TWICE)),
+        ),
+    ),
     *_three_distances("fig4"),
     *_three_distances("fig5"),
     _insensitive("fig6-1", "noise of 10 % of the mean edge"),
@@ -142,6 +157,13 @@ FIGURES = (
     _insensitive("fig6-4", "noise of 400 % of the mean edge", "section 5.1 and figure 6"),
     _insensitive("fig6-5", "simplification from 14,000 to 4,000 vertices", "section 5.1 and figure 6"),
     _insensitive("fig6-6", "nearly isometric deformation", "section 5.1 and figure 6"),
+    Statement(
+        "fig6-7",
+        "Noise of 100 % of the mean edge changes geodesic distance more than biharmonic distance.",
+        *("ours", "after section 1"),
+        tuple(Part(f"{OF_GEODESIC}, {way}", above(1)) for way in WAYS),
+        whole=True,
+    ),
     Statement(
         "fig7-1",
         "Diffusion distance with t = 0.125 is almost constant for distant points: few isolines in the palm.",
@@ -213,7 +235,7 @@ FIGURES = (
     *(
         Statement(
             f"fig10-{k}",
-            f"Biharmonic distance predicts correspondences better than geodesic and diffusion distance, known points "
+            "Biharmonic distance predicts correspondences better than geodesic and diffusion distance, landmarks "
             f"{layout}.",
             *("ours", "after figure 10"),
             tuple(
@@ -229,7 +251,7 @@ FIGURES = (
         *("paper", "section 5.2 and figure 10"),
         tuple(
             Part(
-                f"median error far from known points more than biharmonic's, geodesic, known points {layout}",
+                f"median error far from the landmarks more than biharmonic's, geodesic, landmarks {layout}",
                 above(0, "%"),
                 "interval",
                 of="starts",
@@ -243,7 +265,7 @@ FIGURES = (
         *("paper", "figure 10"),
         tuple(
             Part(
-                f"median error on the head more than biharmonic's, diffusion t = 1, known points {layout}",
+                f"median error on the head more than biharmonic's, diffusion t = 1, landmarks {layout}",
                 above(0, "%"),
                 "interval",
                 of="starts",

@@ -55,8 +55,8 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     return Result(
         "alpha",
         TITLE,
-        f"Sources: the upper back and {len(random)} random vertices. A mesh of {len(surface.vertices):,} "
-        f"vertices. The isotropy ratio is that on the geodesic circle of "
+        f"The sources are on the upper back and at {len(random)} random vertices of a mesh of "
+        f"{len(surface.vertices):,} vertices. The isotropy ratio is measured on a geodesic circle with a radius of "
         f"{percent(radius / float(np.sqrt(surface.face_areas.sum())))} of the root of the area.",
         {name: surface},
         tuple(panels),

@@ -36,11 +36,11 @@ BEYOND = 1.25
 
 
 PROTOCOL = (
-    "The isotropy ratio is the greatest over the least distance along a geodesic circle around the source, and its "
-    f"excess what it is more than 1. Circles shrink to a sixteenth, from {100 * LARGEST:g} % of the root of the area, "
-    f"or from a radius so small that around {100 * MOST:g} % of the sources the largest circle is local: a single "
-    f"closed curve. The mesh is refined around the sources, so that each circle is at least {EDGES} edges wide; "
-    "geodesic distance there is exact. The trend leaves out sources around which the largest circle is not local."
+    "The isotropy ratio is that of the greatest to the least distance on a geodesic circle around the source; its "
+    f"excess is the ratio less 1. Circles shrink to a sixteenth, from {100 * LARGEST:g} % of the root of the area, or "
+    f"from a radius so small that around {100 * MOST:g} % of the sources the circle is local: a single closed curve. "
+    f"The mesh is refined around the sources, so that each circle is at least {EDGES} edges wide, and geodesic "
+    "distance there is exact. Sources whose largest circle is not local are left out of the trend."
 )
 """A description of how isotropy is measured."""
 

@@ -1,7 +1,7 @@
-"""The claims of sections 1, 2 and 4 that belong to no figure: metric, growth, refinement, conformal maps, topology.
+"""Statements of sections 1, 2, 4 and 5 without a figure: metric, growth, refinement, conformal maps, topology.
 
 The paper: biharmonic distance is a metric, smooth because eigenvalues grow like k, computed in O(N) a column,
-insensitive to small changes of topology; commute-time distance diverges and depends on the conformal structure only.
+insensitive to small changes of topology; commute-time distance diverges, and depends on the conformal structure only.
 """
 
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from .parts import Parts
 from .result import Claim, Findings, Result, statements_of
 from .shapes import Shapes
 
-TITLE = "Claims in words"
+TITLE = "Statements of the text"
 PARTS = {
     "metric axioms": ("claims-triangle", "claims-identity", "claims-truncated"),
     "cost with N": ("claims-cost",),
@@ -50,11 +50,11 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     return Result(
         "claims",
         TITLE,
-        "Triples and points at random with seed 0. The weld joins two faces that are close in space and far along the "
-        "surface; the thin handle is a three-sided tube between the two most pronounced ends, a quarter of an edge "
-        "wide; other handles join random points, other welds other places that nearly touch. Metric axioms are checked "
-        "on a smaller mesh, the smallest distance over all its pairs. Fields are sampled at farthest points, among "
-        "them all sources. Times are processor times.",
+        "Triples and points are random, with seed 0. The weld joins two faces that are close in space and far apart "
+        "along the surface. The thin handle is a three-sided tube between the two most pronounced ends, a quarter of "
+        "an edge wide; further handles join random points, and further welds other places that nearly touch. The "
+        "axioms of a metric are checked on a smaller mesh, the smallest distance over all its pairs. Fields are "
+        "sampled at farthest points, which include all sources. Times are processor times.",
         {name: surface for found in every for name, surface in found.surfaces.items()},
         tuple(panel for found in every for panel in found.panels),
         tuple(chart for found in every for chart in found.charts),

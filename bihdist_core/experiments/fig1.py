@@ -1,7 +1,7 @@
 """Figure 1: the biharmonic distance from one source, as equally spaced white lines.
 
-The paper shows the picture and lists, in section 1, what it stands for: gradual, isotropic near the source, aware of
-the shape away from it.
+The paper lists in section 1 what the picture stands for: the distance is gradual, isotropic near the source, and
+shape-aware far from it.
 """
 
 from ..applications.resizing import refined
@@ -55,10 +55,11 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     return Result(
         "fig1",
         TITLE,
-        "Source: on the front, at a fixed share of width and height; the numbers are also taken from random vertices "
-        f"of each shape. Twenty isolines at equal steps of the distance. A minimum deeper than {percent(DEEP)} of the "
-        "range is "
-        " measured again on the mesh refined to four times as many faces, and the smaller depth counts. " + PROTOCOL,
+        "The source is on the front, at a fixed share of the width and height; numbers are also measured from random "
+        "vertices of each shape. Twenty isolines at equal steps of the distance. A minimum deeper than "
+        f"{percent(DEEP)} of the range is measured again on the mesh refined to four times as many faces, and the "
+        "smaller "
+        "depth counts. " + PROTOCOL,
         {name: shapes[name] for name in names},
         tuple(panels),
         tables=(Table("fields", FIELD_COLUMNS, tuple(rows)),) if rows else (),

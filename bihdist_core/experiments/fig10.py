@@ -1,7 +1,7 @@
-"""Figure 10: candidate correspondences between two poses, from three known ones, by three distances.
+"""Figure 10: point-to-point maps between two poses from three landmark correspondences, by three distances.
 
 The paper: "geodesic distance produces bad predictions far from the known correspondences, and diffusion distance
-produces unintuitive result for small not-centered areas like the head"; with biharmonic distance candidates are good.
+produces unintuitive result for small not-centered areas like the head"; with biharmonic distance the matches are good.
 """
 
 from collections.abc import Mapping
@@ -17,27 +17,32 @@ from ..distances.edge_geodesic import EdgeGeodesic
 from ..progress import Progress, part
 from ..surface import Surface
 from .measures import percent
-from .result import Cell, Claim, Mark, Panel, Result, Table
+from .result import Cell, Chart, Claim, Mark, Panel, Result, Series, Table
 from .shapes import DISTANCES, Shapes, distance, spread_points, starts
 from .verdicts import Estimate, mean_estimate
 
-TITLE = "Correspondence between two poses"
+TITLE = "Correspondences from landmarks"
 TARGETS, ON_HEAD = 200, 50
-"""Random points that are predicted, on the whole surface and on the head."""
+"""Random points that are matched, on the whole surface and on the head."""
 HEAD = 1 / 8
 """The head is the highest share of the figure."""
 QUICK_STARTS = 12
 """Starts of the quick version."""
 NEAR, CLUSTER = 0.15, 0.25
-"""Distances along edges, in roots of the area: of the near target from a known point, and how far clustered known
-points lie apart."""
+"""Distances along edges, in roots of the area: of the near target from a landmark, and how far clustered landmarks lie
+apart."""
 LAYOUTS = ("spread", "clustered")
 BLOCK = 8
-COLUMNS = ("median", "90 %", "median, mirror image wrong", "90 %, mirror image wrong", "median, far", "median, head")
+CUT = 0.25
+"""PCK curves, the share of targets matched within an error, end at this error, in roots of the area."""
+COLUMNS = (
+    *("median", "90 %", "median, mirror image wrong", "90 %, mirror image wrong", "median, far", "median, head"),
+    f"AUC of the PCK curve to {CUT:g}",
+)
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
-    """Predict 200 random points (quick: 50) from spread and clustered known points, 25 starts each (quick: 12)."""
+    """Match 200 random points (quick: 50) by spread and clustered landmarks, 25 starts each (quick: 12)."""
     seeds = starts(QUICK_STARTS) if quick else starts()
     one, two = shapes["figure"], shapes["figure_pose2"]
     first, second = shapes.laplacian("figure"), shapes.laplacian("figure_pose2")
@@ -53,6 +58,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     every = np.unique(np.concatenate(list(known.values())))
     away = EdgeGeodesic(one).distances(every)[targets]
     rows: list[tuple[Cell, ...]] = []
+    pooled: dict[tuple[str, str], list[FloatArray]] = {}
     for k, (kind, pair) in enumerate(distances.items()):
         all_known = _all_known(pair, every, part(progress, 0.3 + 0.2 * k, 0.5 + 0.2 * k))
         for (layout, start), points in known.items():
@@ -63,25 +69,41 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
             whole = ~on_head
             numbers = [*np.quantile(error[whole], [0.5, 0.9]), *np.quantile(wrong[whole], [0.5, 0.9])]
             numbers += [np.median(error[whole & far]), np.median(error[on_head])]
+            # The area under a PCK curve, over its cut, is the mean of what errors leave of the cut.
+            numbers += [np.clip(1 - error[whole] / CUT, 0, 1).mean()]
+            pooled.setdefault((layout, kind), []).append(error[whole])
             rows.append((layout, start, kind, *(float(x) for x in numbers)))
-    table = Table("errors", ("known points", "start", "distance", *COLUMNS), tuple(rows))
-    means = Table("mean errors", ("known points", "distance", "error", "mean", "low", "high"), tuple(_means(table)))
+    table = Table("errors", ("landmarks", "start", "distance", *COLUMNS), tuple(rows))
+    means = Table("mean errors", ("landmarks", "distance", "error", "mean", "low", "high"), tuple(_means(table)))
     pictured = {kind: pair[0] for kind, pair in distances.items()}, {kind: pair[1] for kind, pair in distances.items()}
     return Result(
         "fig10",
         TITLE,
-        f"Known points: three by farthest-point sampling from a start, over the whole surface or within a disc around "
-        f"it; {len(seeds)} starts, vertex 0 (pictured) and random ones. {int((~on_head).sum())} random targets; far "
-        "are those farther from all known points than the median target is. On the head, the highest eighth of the "
-        f"figure, {int(on_head.sum())} more. The candidate is the vertex of the least prediction; its error, in roots "
-        "of the area, is the geodesic distance on the second pose from the right vertex or from that of its mirror "
-        "image, whichever is nearer, as a distance cannot tell left from right. Prediction vectors are divided by "
-        "their maximum. Differences of the starts' median errors are paired.",
+        "Landmark correspondences: three by farthest-point sampling from a start, over the surface or within a disc "
+        f"around it; {len(seeds)} starts, vertex 0 (pictured) and random ones. {int((~on_head).sum())} random "
+        "targets; far are those farther from all landmarks than the median target is. On the head, the highest "
+        f"eighth of the figure, {int(on_head.sum())} more. The point-to-point map takes a target to the vertex of the "
+        "least matching cost. Its error, in roots of the area, is the geodesic distance on the second pose from the "
+        "right vertex; it is symmetry-aware, from that vertex or its mirror image, whichever is nearer, as a "
+        "distance cannot tell left from right. Vectors of distances to the landmarks are divided by their maximum. "
+        f"The PCK curve is the share of targets matched within an error, over all starts, and ends at {CUT:g}; AUC is "
+        "the mean of the curve. Differences of the starts' median errors are paired, with intervals by resampling "
+        "the starts.",
         {"figure": one, "figure_pose2": two},
         tuple(_pictures(one, known["spread", "vertex 0"], *pictured)),
+        charts=tuple(_pck(layout, pooled) for layout in LAYOUTS),
         tables=(means, table),
         claims=_claims(table),
     )
+
+
+def _pck(layout: str, pooled: Mapping[tuple[str, str], list[FloatArray]]) -> Chart:
+    """Return the PCK curves of the distances, over all starts."""
+    radii = np.linspace(0, CUT, 101)
+    curves = (
+        Series(kind, radii, (np.concatenate(pooled[layout, kind]) <= radii[:, None]).mean(axis=1)) for kind in DISTANCES
+    )
+    return Chart(f"PCK, landmarks {layout}", "error over root of area", "share of targets", tuple(curves))
 
 
 def _targets(surface: Surface, quick: bool) -> tuple[IntArray, BoolArray]:
@@ -110,7 +132,7 @@ def _all_known(pair: tuple[Distance, Distance], points: IntArray, progress: Prog
     columns: tuple[dict[int, FloatArray], dict[int, FloatArray]] = ({}, {})
     with ThreadPoolExecutor(2) as lanes:
         for start in range(0, len(points), BLOCK):
-            progress(start / len(points), f"distances from known points, {pair[0].label}")
+            progress(start / len(points), f"distances from landmarks, {pair[0].label}")
             some = points[start : start + BLOCK]
             for known, fields in zip(columns, lanes.map(lambda d, some=some: d.from_sources(some), pair), strict=True):
                 known.update(zip(some.tolist(), np.ascontiguousarray(fields.T), strict=True))
@@ -119,7 +141,7 @@ def _all_known(pair: tuple[Distance, Distance], points: IntArray, progress: Prog
 
 def _paired(table: Table, layout: str, kind: str, column: str) -> Estimate:
     """Return by how much more than biharmonic distance another one errs, over the starts."""
-    own, other = (np.array(table.values(column, known_points=layout, distance=k), float) for k in ("biharmonic", kind))
+    own, other = (np.array(table.values(column, landmarks=layout, distance=k), float) for k in ("biharmonic", kind))
     return mean_estimate(other - own)
 
 
@@ -128,14 +150,14 @@ def _means(table: Table) -> list[tuple[Cell, ...]]:
     for layout in LAYOUTS:
         for kind in DISTANCES:
             for column in COLUMNS:
-                found = mean_estimate(np.array(table.values(column, known_points=layout, distance=kind), float))
+                found = mean_estimate(np.array(table.values(column, landmarks=layout, distance=kind), float))
                 rows.append((layout, kind, column, found.value, found.low, found.high))
     return rows
 
 
 def _claims(table: Table) -> tuple[Claim, ...]:
     def means_of(layout: str, column: str) -> str:
-        means = (np.mean(np.array(table.values(column, known_points=layout, distance=k), float)) for k in DISTANCES)
+        means = (np.mean(np.array(table.values(column, landmarks=layout, distance=k), float)) for k in DISTANCES)
         return ", ".join(f"{kind} {percent(float(mean))}" for kind, mean in zip(DISTANCES, means, strict=True))
 
     better = [
@@ -151,13 +173,13 @@ def _claims(table: Table) -> tuple[Claim, ...]:
         )
         for k, layout in enumerate(LAYOUTS, 1)
     ]
-    words = {"fig10-3": ("far from known points", "geodesic", "far"), "fig10-4": ("on the head", DISTANCES[2], "head")}
+    words = {"fig10-3": ("far from the landmarks", "geodesic", "far"), "fig10-4": ("on the head", DISTANCES[2], "head")}
     for id, (where, kind, column) in words.items():
-        name = f"median error {where} more than biharmonic's, {kind}, known points"
+        name = f"median error {where} more than biharmonic's, {kind}, landmarks"
         numbers: Mapping[str, Estimate] = {
             f"{name} {layout}": _paired(table, layout, kind, f"median, {column}") for layout in LAYOUTS
         }
-        means = "; ".join(f"known points {layout}: {means_of(layout, f'median, {column}')}" for layout in LAYOUTS)
+        means = "; ".join(f"landmarks {layout}: {means_of(layout, f'median, {column}')}" for layout in LAYOUTS)
         better.append(Claim(id, numbers, f"Mean over the starts of the median error {where}, {means}."))
     return tuple(better)
 
@@ -174,7 +196,7 @@ def _pictures(
     fields = {kind: correspondence_prediction(on_one[kind], on_two[kind], pairs, both) for kind in on_one}
     for k, (row, x) in enumerate(targets.items()):
         marks = (*anchors, Mark(x, "target"))
-        panels.append(Panel("the known points and the target", "figure", None, row, marks, ("back", "front")))
+        panels.append(Panel("landmarks and the point to match", "figure", None, row, marks, ("back", "front")))
         for kind in on_one:
             field = fields[kind][:, k]
             marks = (*anchors, Mark(x, "place"), Mark(int(field.argmin()), "candidate"))

@@ -1,7 +1,7 @@
 """Figure 2: a flat domain, and five distance fields over it as heights.
 
 The paper: diffusion distance "either possesses many local maxima or locally does not reflect the source point", the
-geodesic field has a kink and isolines that are not aware of the shape far away; biharmonic distance balances the two.
+geodesic field has a kink, and its isolines do not follow the shape far away; biharmonic distance balances the two.
 """
 
 import numpy as np
@@ -55,12 +55,13 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     return Result(
         "fig2",
         TITLE,
-        "The pictured source is at 12 % of the width and 80 % of the height; the numbers are also taken from "
-        f"{len(sources) - 1} random vertices. Extrema in the tables of fields persist over at least 0.1 % of the "
-        "field's range, those counted and marked over 1 %; the source is not counted. The jump of the gradient across "
-        "an edge is taken over the gradient's length there, or its median if that is more, away from the source and "
-        "the boundary; of a kink it stays as the mesh is refined to four times as many faces, of a smooth field it "
-        "halves. " + PROTOCOL,
+        "The pictured source is at 12 % of the width and 80 % of the height; numbers are also measured from "
+        f"{len(sources) - 1} random vertices. An extremum counts, and is marked, if its persistence is at least 1 % of "
+        "the field's range (0.1 % in the tables of fields); the source does not count. The jump of the gradient "
+        "across an edge is relative to the gradient there, or to its median if that is larger, and is taken away from "
+        "the source and the boundary. At a kink it stays the same when the mesh is refined to four times as many "
+        "faces; where the field is "
+        "smooth it halves. " + PROTOCOL,
         {name: surface},
         (
             Panel("the domain", name, None, "fields", (Mark(source, "source"),)),

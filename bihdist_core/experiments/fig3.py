@@ -1,8 +1,8 @@
 """Figure 3: a raw surface with many boundaries, holes and missing parts.
 
 The paper: the isolines of biharmonic distance "follow the shape indifferently to the missing parts and holes".
-Measured against the intact surface, at the same points: on a scan (noise, ragged holes, a missing foot), and on the
-intact surface with holes punched into it and nothing else.
+Two damaged surfaces are compared with the intact one at the same points: a scan (with noise, ragged holes and a missing
+foot), and the intact surface with holes punched into it.
 """
 
 from dataclasses import dataclass, field
@@ -18,18 +18,22 @@ from ..errors import SolverError
 from ..laplacian import Laplacian
 from ..progress import Progress, steps
 from ..surface import Surface
-from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, percent
+from ._stated_figures import CHANGE, OF_GEODESIC
+from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, over, percent
 from .parts import Parts
-from .result import Cell, Claim, Mark, Panel, Result, Table
-from .shapes import DISTANCES, UPPER_BACK, Shapes, distances_there, random_sources, spec_of, spread_points
+from .result import STATEMENTS, Cell, Claim, Mark, Panel, Result, Table
+from .shapes import DISTANCES, UPPER_BACK, Shapes, distance, distances_there, random_sources, spec_of, spread_points
+from .verdicts import Numbers
 
 TITLE = "A raw surface with holes"
-HOLES, HOLE_RADIUS = 24, 0.045
-"""Holes at the points spread along edges after the first, and their radius as a share of the root of the area."""
-
-
+HOLES, REMOVED = 24, 0.15
+"""Holes at the points spread along edges after the first, and the share of the area that they take."""
+HOLE_RADIUS = 0.045
+"""Of a hole on a shortest path, as a share of the root of the area."""
 SOURCES, QUICK_SOURCES = 10, 4
 """Random sources beside the pictured one."""
+PATHS, QUICK_PATHS = 6, 2
+"""Of these, sources of shortest paths with a hole."""
 
 
 @dataclass
@@ -62,20 +66,26 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         measured = parts.do(damage, _measured, shapes, name, damage, surface, there, sources, not found, parts, step)
         if measured is not None:
             found[damage] = measured
+    paths = list(sources.values())[: 1 + (QUICK_PATHS if quick else PATHS)]
+    on_paths = parts.do("holes on shortest paths", _holes_on_paths, shapes, name, paths)
     rows = tuple(row for each in found.values() for row in each.rows)
+    removed = percent(1 - float(holes.face_areas.sum() / intact.face_areas.sum())) if holes is not None else ""
     return Result(
         "fig3",
         TITLE,
-        f"Sources: the upper back and {len(random)} random vertices. The scan is compared at each of its points with "
-        "the nearest vertex of the intact surface, those farther than a mean edge from it left out; the punched "
-        f"surface has {HOLES} round holes of radius {HOLE_RADIUS:g} roots of the area, at farthest points, and all "
-        "other vertices in place.",
+        f"The sources are on the upper back and at {len(random)} random vertices. Each point of the scan is compared "
+        "with the nearest vertex of the intact surface, if that is within a mean edge length. The punched surface "
+        f"has {HOLES} round holes of one radius at farthest points, which take {removed} of the area. A hole on a "
+        f"shortest path has a radius of {HOLE_RADIUS:g} roots of the area and lies midway between the source and the "
+        "point farthest from it; the largest change of the distances from the source counts.",
         {name: intact} | {damage: surface for damage, (surface, _) in damaged.items()},
         tuple(panel for each in found.values() for panel in each.panels),
         tables=(Table("changes", ("surface", "source", "distance", *CHANGE_COLUMNS), rows),) if rows else (),
         claims=(
             _claim("fig3-1", found.get("scan"), parts.why("scan") or "There is no scan of this mesh."),
             _claim("fig3-2", found.get(punched_name), parts.why("holes", punched_name)),
+            _claim("fig3-3", found.get(punched_name), parts.why("holes", punched_name)),
+            Claim("fig3-4", on_paths or {}, failure=parts.why("holes on shortest paths")),
         ),
         not_done=tuple(parts.not_done),
     )
@@ -137,9 +147,13 @@ def _claim(id: str, found: Found | None, reason: str) -> Claim:
         for kind, values in means.items()
         if values
     )
+    numbers: dict[str, Numbers] = {CHANGE.name: by_source(means["biharmonic"])}
+    if id == "fig3-3":
+        both = zip(means["geodesic"], means["biharmonic"], strict=False)
+        numbers = {OF_GEODESIC: by_source([over(*pair) for pair in both])}
     return Claim(
         id,
-        {"mean change, biharmonic": by_source(means["biharmonic"])},
+        numbers,
         f"Mean change after division by the maximum: {said}.",
     )
 
@@ -155,7 +169,30 @@ def _scanned(shapes: Shapes, intact: Surface) -> tuple[Surface, IntArray]:
 def _with_holes(surface: Surface) -> Surface:
     centres = spread_points(surface, HOLES + 1)[1:]
     component, ids = surface.component(0)
-    lengths = np.full((len(surface.vertices), len(centres)), np.inf)
-    lengths[ids] = EdgeGeodesic(component).distances(np.searchsorted(ids, centres))
-    radius = HOLE_RADIUS * float(np.sqrt(surface.face_areas.sum()))
-    return punched(surface, lengths, max(radius, 1.5 * surface.mean_edge_length))
+    lengths = np.full((len(surface.vertices), 1), np.inf)
+    lengths[ids, 0] = EdgeGeodesic(component).distances(np.searchsorted(ids, centres)).min(axis=1)
+    # A hole takes the faces with all three corners in it.
+    farthest = lengths[surface.faces, 0].max(axis=1)
+    order = np.argsort(farthest)
+    taken = np.cumsum(surface.face_areas[order])
+    return punched(surface, lengths, farthest[order[np.searchsorted(taken, REMOVED * taken[-1])]])
+
+
+def _holes_on_paths(shapes: Shapes, name: str, sources: list[int]) -> dict[str, Numbers]:
+    """Measure the largest change of distances from each source by a hole on its longest shortest path."""
+    intact, kinds = shapes[name], DISTANCES[:2]
+    had = {kind: distance(shapes.laplacian(name), kind) for kind in kinds}
+    radius = HOLE_RADIUS * float(np.sqrt(intact.face_areas.sum()))
+    changed: list[tuple[float, float]] = []
+    for source in sources:
+        before = {kind: had[kind].from_source(source) for kind in kinds}
+        near = before["geodesic"]
+        far = had["geodesic"].from_source(int(np.nanargmax(near)))
+        midway = np.abs(near - far) < np.nanmax(near) / 10
+        middle = int(np.argmin(np.where(midway, near + far, np.inf)))
+        around = had["geodesic"].from_source(middle)
+        holed = Laplacian(punched(intact, around[:, None], max(radius, 1.5 * intact.mean_edge_length)))
+        change = changes(before, {kind: distance(holed, kind).from_source(source) for kind in kinds})
+        changed.append((change["geodesic"].normalised_largest, change["biharmonic"].normalised_largest))
+    numbers = [geodesic for geodesic, _ in changed], [over(*pair) for pair in changed]
+    return dict(zip(STATEMENTS["fig3-4"].names, map(by_source, numbers), strict=True))

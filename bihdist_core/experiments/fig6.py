@@ -18,10 +18,11 @@ from ..laplacian import Laplacian
 from ..progress import Progress, part
 from ..surface import Surface
 from ._stated_figures import insensitive
-from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, percent
+from .measures import CHANGE_COLUMNS, by_source, change_cells, changes, over, percent
 from .parts import Parts
 from .result import STATEMENTS, Cell, Claim, Mark, Panel, Result, Table
 from .shapes import DISTANCES, UPPER_BACK, Shapes, distances_there, start_vertex, starts
+from .verdicts import Numbers
 
 TITLE = "Noise, tessellation, deformation"
 NOISE = (0.1, 0.4, 1.0, 4.0)
@@ -30,8 +31,10 @@ WAYS = {"xyz": "", "normals": " along the normals"}
 DRAWN = 1.0
 """Noise along the normals is drawn from this size on."""
 FINE, COARSE = 14_000, 4_000
-SIMPLIFIED = "fig6-5"
-"""The statement on simplification."""
+SIMPLIFIED, BESIDE = "fig6-5", "fig6-7"
+"""The statements on simplification, and on geodesic distance beside biharmonic."""
+COMPARED = NOISE.index(1.0)
+"""The noise by which they are compared."""
 DRAWS, QUICK_DRAWS = 5, 2
 """Draws of the noise."""
 EACH = 2
@@ -115,16 +118,19 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     return Result(
         "fig6",
         TITLE,
-        "The pictured source is on the upper back. Noise is drawn several times, at random and independently for each "
-        "vertex, on each coordinate or along the normal; its standard deviation is a share of the mean edge length. "
-        "The pictured source has the first draw; each draw has two random sources, from the second of which "
-        "biharmonic distance alone is compared. Simplification draws edges together onto one of their ends, so the "
-        "vertices that stay are at their old places and are where the fields are compared. The poses have the same "
-        "triangles.",
+        "The pictured source is on the upper back. Noise is Gaussian, independent for each vertex, on each coordinate "
+        "or along the normal, with a share of the mean edge length as its standard deviation. It is drawn several "
+        "times: the pictured source has the first draw, and each draw has two random sources, of which the second "
+        "measures biharmonic distance only. The mesh is refined or simplified to the first number of vertices, and "
+        "simplified to the second; fields are compared at the vertices that stay, whose positions are unchanged. The "
+        "two poses have the same triangles.",
         surfaces | {case.name: case.after[0] for case in cases},
         tuple(panel for each in found.values() for panel in each.panels),
         tables=_tables(found),
-        claims=tuple(_claims(found, parts, [*_noises(), [_simplification(quick)], ["another pose"]])),
+        claims=(
+            *_claims(found, parts, [*_noises(), [_simplification(quick)], ["another pose"]]),
+            _beside_geodesic(found, parts, _noises()[COMPARED]),
+        ),
         not_done=tuple(parts.not_done),
     )
 
@@ -269,6 +275,17 @@ def _claims(found: dict[str, Found], parts: Parts, titles: list[list[str]]) -> l
         words = insensitive(f"simplification from {cases[0]}") if id == SIMPLIFIED else ""
         claims.append(Claim(id, numbers, note if numbers else "", failure=failure, words=words))
     return claims
+
+
+def _beside_geodesic(found: dict[str, Found], parts: Parts, cases: list[str]) -> Claim:
+    """Make the claim that compares geodesic distance, from the sources that it was measured from."""
+    numbers: dict[str, Numbers] = {}
+    for name, case in zip(STATEMENTS[BESIDE].names, cases, strict=True):
+        if case in found and "geodesic" in found[case].kinds:
+            means = {(row[1], row[2]): float(row[5] or 0) for row in found[case].rows}
+            ratios = [over(x, means[label, "biharmonic"]) for (label, kind), x in means.items() if kind == "geodesic"]
+            numbers[name] = by_source(ratios)
+    return Claim(BESIDE, numbers, failure=parts.why(*cases, *(f"geodesic on {case}" for case in cases)))
 
 
 def _means_in_words(found: Found) -> str:

@@ -10,7 +10,6 @@ from dataclasses import replace
 import numpy as np
 
 from ..analysis.circles import small_radius
-from ..arrays import FloatArray
 from ..progress import Progress, part
 from ..surface import Surface
 from .circles import PROTOCOL, circles, gather_circles
@@ -25,9 +24,10 @@ PALM, FINGERS = (0.2, 0.5), 0.65
 """The palm, and where the fingers begin, as shares of the hand's height."""
 RANDOM, QUICK = 24, 4
 """Random sources, on the fingers."""
-LINES_NEAR, REACH, MOST_LINES = 5, 1.8, 400
-"""The picture of the source's surroundings has so many isolines within the small geodesic circle, shows so many of its
-radii, and has at most so many isolines in all."""
+LINES = 40
+"""Isolines of the panels and of their enlarged parts, so many that some are around the source."""
+REACH = 1.8
+"""An enlarged part shows so many radii of the small geodesic circle."""
 
 
 def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = None) -> Result:
@@ -58,11 +58,11 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
             field = distances[kind].from_source(source)
             ranges[kind] = float(np.ptp(field[palm]) / np.nanmax(field))
             if not k:
-                levels = np.linspace(0, np.nanmax(field), 22)[1:-1]
+                levels = np.linspace(0, np.nanmax(field), LINES + 2)[1:-1]
                 count = int(((levels > field[palm].min()) & (levels < field[palm].max())).sum())
                 rows.append((*field_row(surface, name, "finger", source, kind, field, geodesic), count))
-                panels.append(Panel(kind, name, field, "fields", (Mark(source, "source"),)))
-                close.append(_close_up(panels[-1], surface, geodesic))
+                panels.append(Panel(kind, name, field, "fields", (Mark(source, "source"),), isoline_count=LINES))
+                close.append(_close_up(panels[-1], surface))
         reach.append((f"random {k}" if k else "finger", source, *(100 * ranges[kind] for kind in KINDS)))
         found.add(few, over(ranges[SHORT], ranges["biharmonic"]), not k)
         found.add(more, over(ranges["biharmonic"], ranges[SHORT]), not k)
@@ -76,10 +76,11 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     return Result(
         "fig7",
         TITLE,
-        "Pictured source: the front of the longest finger, at 88 % of the height; the numbers are also taken from "
-        f"{len(sources) - 1} random vertices of the fingers, above 65 % of the height. The palm is what lies between "
-        "20 % and 50 % of the height; the range of values there is taken over the field's maximum; counted in the "
-        "table are those of twenty equally spaced isolines that pass through it. " + PROTOCOL,
+        "The pictured source is on the front of the longest finger, at 88 % of the height; numbers are also measured "
+        f"from {len(sources) - 1} random vertices of the fingers, above 65 % of the height. The palm is what lies "
+        "between 20 % and 50 % of the height; the range of values there is a share of the field's maximum. The table "
+        "counts the isolines in "
+        f"the palm, of {LINES} at equal steps; the enlarged views have the same ones. " + PROTOCOL,
         {name: surface},
         (*panels, *close),
         charts=(circled.chart("isotropy on the finger"),) if np.isfinite(circled.ratios[LONG][0]).all() else (),
@@ -97,17 +98,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     )
 
 
-def _close_up(panel: Panel, surface: Surface, geodesic: FloatArray) -> Panel:
-    """Enlarge the surroundings of a panel's source, with enough isolines to show their shape there."""
-    assert panel.field is not None
-    radius = small_radius(surface)
-    near = float(np.median(panel.field[np.abs(geodesic - radius) <= surface.mean_edge_length]))
-    lines = int(np.clip(np.ceil(LINES_NEAR * np.nanmax(panel.field) / near), panel.isoline_count, MOST_LINES))
-    return replace(
-        panel,
-        heading=f"enlarged, {lines} isolines",
-        views=("zoom",),
-        zoom_vertex=panel.marks[0].vertex,
-        zoom_radius=REACH * radius,
-        isoline_count=lines,
-    )
+def _close_up(panel: Panel, surface: Surface) -> Panel:
+    """Enlarge the surroundings of a panel's source, with the isolines of the panel."""
+    reach = REACH * small_radius(surface)
+    return replace(panel, heading="enlarged", views=("zoom",), zoom_vertex=panel.marks[0].vertex, zoom_radius=reach)

@@ -91,7 +91,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
                 known = zip(anchors.tolist(), values.tolist(), strict=True)
                 spots = tuple(Mark(v, "anchor", f"anchor, value {value:.2g}") for v, value in known)
                 spots += tuple(Mark(int(v), "minimum" if v in seen.minima else "maximum") for v in free)
-                panels.append(Panel(labels[kind], name, field, "interpolant", spots, ("back", "front")))
+                panels.append(Panel(labels[kind], name, field, "interpolant", spots, ("home-back", "home")))
         for which, counts in counted.items():
             found.add(which, counts[-1], not q)
         found.add(STATEMENTS["fig9-3"].names[0], over(ridges["geodesic"], ridges["biharmonic"]), not q)
@@ -114,14 +114,13 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     return Result(
         "fig9",
         TITLE,
-        f"Anchors: {SPREAD} by farthest-point sampling from vertex 0 (and {len(anchors_from) - 1} random vertices), "
-        "points on the head left out, and the nose; values evenly from 0 to 1 in that order. Starts that lead to the "
-        "same anchors count once. Extrema persist over at least "
-        "1 % of the range, and are counted with and without those at the tips of limbs (within a tenth of the root of "
-        "the area). A leg is what lies below 35 % of the "
-        "height; the least range of values on a leg without anchor is taken, and starts that leave no such leg are "
-        "left out. The anchor on the head moves from the nose to the top of the head; the shift is the mean change "
-        "there.",
+        f"The anchors are {SPREAD} farthest points from vertex 0 (and from {len(anchors_from) - 1} random vertices), "
+        "not on the head, and the nose; their values go evenly from 0 to 1 in that order. Starts that lead to the "
+        "same anchors count once. Extrema have a persistence of at least 1 % of the range, and are counted with and "
+        "without those at the tips of limbs (within a tenth of the root of the area). A leg is what lies below 35 % "
+        "of the height. Of the legs without anchor the one with the least range of values is taken; a leg inside one "
+        "interlevel set, between two of twenty isolines, is almost constant. The anchor on the head moves from the "
+        "nose to the top of the head, and the mean change there is measured.",
         {name: surface},
         tuple(panels),
         tables=(table,),

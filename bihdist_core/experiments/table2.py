@@ -79,13 +79,13 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
     return Result(
         "table2",
         TITLE,
-        "Each time is from a bare mesh to the distances among M random vertices (seed 0): that of the set-up, which is "
-        "done once in each repetition for all M, and that of the M vertices. Biharmonic: factorization, and M wide "
-        "solves; no diagonal is needed for pairs. Dijkstra: SciPy's, from M sources. Diffusion: eigenpairs until the "
-        "weight falls to 1e-8 of the first. Times are processor times of all threads together, with one BLAS "
-        f"thread, of {REPEATS} repetitions ({MOST_REPEATS} at the largest size; of meshes of more than {LARGE:,} "
-        "vertices what is not judged is timed once), the methods in turns. Judged is the geometric mean of the ratios "
-        "of two times in the same repetition, with its interval; tables and charts show medians.",
+        "Each time is that from a mesh to the distances among M random vertices (seed 0): the set-up, which is done "
+        "once in each repetition for all M, and the work for M. Biharmonic: factorization and M wide solves, without "
+        "the diagonal. Dijkstra: SciPy's, from M sources. Diffusion: eigenpairs until the weight falls to 1e-8 of "
+        f"the first. Times are processor times of all threads, with one BLAS thread, of {REPEATS} repetitions "
+        f"({MOST_REPEATS} at the largest size; above {LARGE:,} vertices, what is not judged is timed once) in which "
+        "the methods take turns. A ratio is the geometric mean over the repetitions, with Student's interval. Tables "
+        "and charts show medians.",
         charts=tuple(_chart(table, sizes, m) for m in SUBSETS),
         tables=(table,),
         claims=_claims(found, sizes),

@@ -88,10 +88,10 @@ def test_anchors_are_numbered_in_their_order_and_the_legend_has_their_values():
     assert {mark.vertex: mark.number for mark in figure.panels[0].marks} == {0: 1, 10: 2, 20: 3}
     assert [words for _, words in figure.legend] == ["anchor, value 0", "anchor, value 1", "anchor, value 2"]
     assert [words for _, words in correspondence().legend] == [
-        "1 to 3: known points",
-        "the target",
-        "the candidate",
-        "where it belongs",
+        "1 to 3: landmarks",
+        "the point to match",
+        "its match",
+        "ground truth",
     ]
 
 

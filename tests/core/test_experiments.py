@@ -68,7 +68,7 @@ def test_results_fit_together(result, id):
         assert panel.field is None or panel.field.shape == (len(surface.vertices),)
         assert all(0 <= mark.vertex < len(surface.vertices) for mark in panel.marks)
         assert {mark.kind for mark in panel.marks} <= set(MARKS)
-        assert set(panel.views) <= {"front", "back", "source", "zoom"}
+        assert set(panel.views) <= {"front", "back", "home", "home-back", "source", "zoom"}
         assert ("zoom" in panel.views) == (panel.zoom_vertex is not None)
         assert panel.style in ("surface", "height")
     for chart in r.charts:
@@ -174,11 +174,22 @@ def test_fig3_holes_change_little(result):
     for kind in ("biharmonic", "geodesic", "diffusion t = 1"):
         assert (numbers(table, "normalised mean", distance=kind) < 0.06).all()
         assert (numbers(table, "normalised mean", distance=kind) > 0).all()
-    for claim, damage in zip(r.claims, ("scan", "figure, punched"), strict=True):
+    for claim, damage in zip(r.claims[:2], ("scan", "figure, punched"), strict=True):
         means = numbers(table, "normalised mean", surface=damage, distance="biharmonic")
         found = claim.numbers["mean change, biharmonic"]
         assert (*found.pictured, *found.random) == tuple(means)
         assert len(found.random) == 4
+    intact, holed = (r.surfaces[name].face_areas.sum() for name in ("figure", "figure, punched"))
+    # Whole faces are taken, each some thousandth of the area of this small mesh.
+    assert 1 - holed / intact == pytest.approx(0.15, abs=0.003)
+    assert "which take 15" in r.protocol
+    over = numbers(table, "normalised mean", surface="figure, punched", distance="geodesic") / means
+    found = r.claims[2].numbers["mean change, geodesic over biharmonic"]
+    assert (*found.pictured, *found.random) == pytest.approx(tuple(over))
+    # A hole of radius r lengthens a way past it by at most (pi - 2) r; of three paths, in 0.045 roots of the area.
+    longest, _ = r.claims[3].numbers.values()
+    assert len((*longest.pictured, *longest.random)) == 3
+    assert all(0 < x < 0.1 for x in (*longest.pictured, *longest.random))
 
 
 def test_fig4_the_minimum_of_diffusion_is_on_the_front(result):
@@ -221,6 +232,17 @@ def test_fig6_changes_grow_with_noise_and_are_small_for_poses_and_meshes(result)
         assert normalised[0] < 0.01 < normalised[3] < 0.2
         for case in ("another pose", "1,500 to 450 vertices"):
             assert numbers(table, "normalised mean", change=case, distance=kind).max() < 0.03
+
+
+def test_fig6_compares_geodesic_distance_from_the_same_sources(result):
+    r = result("fig6")
+    row = {"change": "noise of 100 %", "source": "pictured"}
+    geodesic, biharmonic = (
+        r.table("changes").value("normalised mean", distance=kind, **row) for kind in ("geodesic", "biharmonic")
+    )
+    found = r.claims[-1].numbers["mean change, geodesic over biharmonic, noise on each coordinate"]
+    assert found.pictured == (geodesic / biharmonic,)
+    assert len(found.random) == 2
 
 
 def test_fig7_isolines_in_the_palm_and_isotropy_on_the_finger(result):
@@ -280,15 +302,19 @@ def test_fig10_candidates(result):
         # Counting the mirror image as right can only help.
         assert errors["median"] <= errors["median, mirror image wrong"]
         assert errors["90 %"] <= errors["90 %, mirror image wrong"]
+        assert 0 < errors["AUC of the PCK curve to 0.25"] < 1
+    # The mean of a curve is the AUC: equally many targets from each start.
+    for chart, layout in zip(r.charts, fig10.LAYOUTS, strict=True):
+        for series in chart.series:
+            areas = numbers(table, "AUC of the PCK curve to 0.25", landmarks=layout, distance=series.name)
+            assert np.trapezoid(series.y, series.x) / 0.25 == pytest.approx(areas.mean(), abs=0.005)
     # In the mean half of the candidates are within a quarter of the root of the area, about the width of the shoulders.
     means = r.table("mean errors")
     assert (numbers(means, "mean", error="median") < 0.25).all()
     assert (numbers(means, "low") <= numbers(means, "mean")).all()
     by_id = {claim.id: claim.numbers for claim in r.claims}
     for id, layout in (("fig10-1", "spread"), ("fig10-2", "clustered")):
-        own, other = (
-            numbers(table, "median", known_points=layout, distance=kind) for kind in ("biharmonic", "geodesic")
-        )
+        own, other = (numbers(table, "median", landmarks=layout, distance=kind) for kind in ("biharmonic", "geodesic"))
         found = by_id[id]["median error more than biharmonic's, geodesic"]
         assert found.count == 12
         assert found.value == pytest.approx((other - own).mean())

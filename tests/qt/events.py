@@ -16,6 +16,18 @@ def send_mouse(widget, place, button=None, buttons=None, keys=None, kind=None):
     QtWidgets.QApplication.sendEvent(widget, QtGui.QMouseEvent(kind, place, on_screen, button, buttons, keys))
 
 
+def turn_wheel(widget):
+    """Turn the wheel by one notch in the middle of a widget; return whether that uses it, and nothing around it can."""
+    from qtpy import QtCore, QtGui, QtWidgets
+
+    place, on_screen = QtCore.QPointF(widget.rect().center()), widget.mapToGlobal(widget.rect().center())
+    notch, nothing = QtCore.QPoint(0, 120), (QtCore.Qt.MouseButton.NoButton, QtCore.Qt.KeyboardModifier.NoModifier)
+    phase = QtCore.Qt.ScrollPhase.NoScrollPhase
+    event = QtGui.QWheelEvent(place, QtCore.QPointF(on_screen), QtCore.QPoint(), notch, *nothing, phase, False)
+    QtWidgets.QApplication.sendEvent(widget, event)
+    return event.isAccepted()
+
+
 def press(widget, name):
     """Press and release what is written "Shift+Left" on a widget."""
     from qtpy import QtCore, QtGui, QtTest

@@ -15,6 +15,7 @@ from app.main import main
 from app.qt.files.figure_actions import export_figure, export_movie
 from bihdist_core import SurfacePoint
 from bihdist_core.distances.distance_types import Spec
+from tests.qt.events import turn_wheel
 from tests.qt.parts import parts
 from tests.shapes import bumpy, grid
 
@@ -46,6 +47,21 @@ def test_the_window_exports_the_pixels_of_the_command_line(shared_screen, tmp_pa
     words = ["--sources", "5", "--camera=" + ",".join(map(repr, numbers)), "--size", "600x300"]
     assert main(["figure", recipe.document.mesh().path, *words, "-o", str(tmp_path / "options.png")]) == 0
     assert (tmp_path / "options.png").read_bytes() == window
+
+
+def test_the_wheel_scrolls_the_form_and_changes_nothing_that_has_no_focus(shared_screen):
+    s = shared_screen(bumpy(800))
+    dialog = export_figure(s.window.context)
+    dialog.form.setFocus()
+    before = dialog.chosen()
+    assert not any(turn_wheel(control) for control in (dialog.names, dialog.size.unit, dialog.letters, dialog.columns))
+    assert dialog.chosen() == before
+    dialog.names.setFocus()
+    s.until(dialog.names.hasFocus)
+    dialog.names.setCurrentIndex(1)
+    assert turn_wheel(dialog.names)
+    assert dialog.names.currentIndex() == 0
+    dialog.reject()
 
 
 def test_an_export_that_is_cancelled_leaves_nothing(shared_screen, tmp_path):

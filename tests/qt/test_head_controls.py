@@ -7,6 +7,7 @@ from qtpy import QtCore, QtGui, QtTest, QtWidgets
 
 from app.document.quantities import quantity
 from app.qt.look.look import LOOK
+from tests.qt.events import turn_wheel
 from tests.qt.heads import choose, entries, shown
 
 SHOWN = (
@@ -78,27 +79,12 @@ def test_the_wheel_turns_no_slider_that_has_no_focus(head):
     h = head("diffusion")
     slider = shown(h)[0].slider
     h.name.setFocus()
-
-    def turn():
-        point = QtCore.QPointF(slider.rect().center())
-        event = QtGui.QWheelEvent(
-            point,
-            QtCore.QPointF(slider.mapToGlobal(point.toPoint())),
-            QtCore.QPoint(),
-            QtCore.QPoint(0, 120),
-            QtCore.Qt.MouseButton.NoButton,
-            QtCore.Qt.KeyboardModifier.NoModifier,
-            QtCore.Qt.ScrollPhase.NoScrollPhase,
-            False,
-        )
-        QtWidgets.QApplication.sendEvent(slider, event)
-
-    turn()
+    turn_wheel(slider)
     assert h.choices == []
     h.window().activateWindow()
     slider.setFocus()
     assert QtTest.QTest.qWaitForWindowActive(h.window())
-    turn()
+    turn_wheel(slider)
     assert len(h.choices) == 1
 
 

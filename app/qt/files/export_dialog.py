@@ -108,7 +108,7 @@ class ExportDialog(LooksDialog):
         self.transparent = self.form.tick("Transparent &background", page.transparent, tip, "transparent")
         self.form.tick("&Ground", page.ground, "A soft shadow on the ground beneath the shape", "ground")
         tip = "Thin lines along sharp edges; the style Cover always has them"
-        self.form.tick("S&harp edges", page.feature_edges, tip, "feature_edges")
+        self.form.tick("Shar&p edges", page.feature_edges, tip, "feature_edges")
         self.crop = self.form.tick("Crop the &margins", page.crop, "Crop to what is drawn", "crop")
         self.form.tick("Panels (a), (b), (c)", page.panel_letters, "(a), (b), (c) over the panels", "panel_letters")
         self.values: QtWidgets.QCheckBox | None = None

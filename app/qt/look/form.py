@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from qtpy import QtCore, QtWidgets
+from qtpy import QtCore, QtGui, QtWidgets
 
 from .layouts import Parts, add_parts, heading, in_column, in_row, quiet_label
 from .look import LOOK
@@ -77,6 +77,21 @@ class Form(QtWidgets.QWidget):
         self.add(box)
         self._follow(box, name)
         return box
+
+    # ------------------------------------------------------------------ the wheel
+    def showEvent(self, event: QtGui.QShowEvent) -> None:
+        super().showEvent(event)
+        for kind in (QtWidgets.QComboBox, QtWidgets.QAbstractSpinBox, QtWidgets.QSlider):
+            for control in self.findChildren(kind):
+                control.setFocusPolicy(QtCore.Qt.FocusPolicy.StrongFocus)
+                control.installEventFilter(self)
+
+    def eventFilter(self, control: QtCore.QObject, event: QtCore.QEvent) -> bool:
+        """Let the wheel scroll the form, and not change a control that happens to come under the pointer."""
+        is_scroll = event.type() == QtCore.QEvent.Type.Wheel and not control.hasFocus()
+        if is_scroll:
+            event.ignore()
+        return is_scroll or bool(super().eventFilter(control, event))
 
     # ------------------------------------------------------------------ values
     def values(self) -> dict[str, Any]:

@@ -51,6 +51,7 @@ class PanelGrid(QtWidgets.QWidget):
     looked = QtCore.Signal(Camera, str)  # where the user has turned or moved the camera of a surface to
     activated = QtCore.Signal(int)  # a panel
     quantity_chosen = QtCore.Signal(int, object)  # in a panel's head
+    slider_let_go = QtCore.Signal(int)
     edit_chosen = QtCore.Signal(int, str)  # the text of a `PanelEdit`, in a panel's menu
     save_wanted = QtCore.Signal(int)  # the field of a panel
     bar_ended = QtCore.Signal(int, object)  # where a colour bar is to end, None for the field's own maximum
@@ -181,6 +182,7 @@ class PanelGrid(QtWidgets.QWidget):
         panel.head.clicked.connect(lambda: self.activate(panel.id))
         for signal, with_id in (
             (panel.head.changed, self.quantity_chosen),
+            (panel.head.let_go, self.slider_let_go),
             (panel.head.asked, self.edit_chosen),
             (panel.head.save_wanted, self.save_wanted),
             (panel.ended, self.bar_ended),

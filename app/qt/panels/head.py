@@ -50,6 +50,7 @@ class PanelHead(QtWidgets.QWidget):
     """
 
     changed = QtCore.Signal(object)
+    let_go = QtCore.Signal()  # of a slider
     asked = QtCore.Signal(str)
     save_wanted = QtCore.Signal()
     clicked = QtCore.Signal()
@@ -196,6 +197,11 @@ class PanelHead(QtWidgets.QWidget):
         self.setFixedHeight(round((COMPACT_HEIGHT if compact else HEIGHT) * LOOK.scale))
 
     # ------------------------------------------------------------------ choices
+    @property
+    def is_held(self) -> bool:
+        """Whether the user holds the slider of a parameter."""
+        return any(isinstance(control, NumberControl) and control.is_held for control in self.controls)
+
     def _choose(self, shows: Quantity) -> None:
         if shows != self.shows:
             self.show_quantity(shows)
@@ -241,6 +247,8 @@ class PanelHead(QtWidgets.QWidget):
                 bounded = self._choices.bounded(parameter)
                 control = parameter_control(self, bounded, next(signed), of_what)
                 control.chosen.connect(partial(self._set, place, parameter.name))
+                if isinstance(control, NumberControl):
+                    control.let_go.connect(self.let_go)
                 self._of_parameter[place, parameter.name] = control
         self.controls = list(self._of_parameter.values())
         if is_difference:
