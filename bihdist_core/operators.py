@@ -29,9 +29,10 @@ def operators(surface: Surface, areas: str = "voronoi", operator: str = COTAN) -
     Those of points are their own.  ParameterError for other areas and operators of points.
     """
     if isinstance(surface, PointCloud):
-        for given, usual in ((f"{areas} areas need", AREAS[0]), (f"the operator {operator} needs", COTAN)):
-            if usual not in given:
-                raise ParameterError(f"{surface.name}: {given} faces, and there are none.")
+        if areas != AREAS[0]:
+            raise ParameterError(f"{surface.name}: {areas} areas need faces, and there are none.")
+        if operator != COTAN:
+            raise ParameterError(f"{surface.name}: the operator {operator} needs faces, and there are none.")
         return surface.matrices
     if operator == TUFTED:
         return tufted(surface)
