@@ -119,6 +119,12 @@ class Quantity(ABC):
         """Return the quantity by another distance, or with other parameters of its own."""
         return self
 
+    def is_alike(self, other: "Quantity") -> bool:
+        """Return whether another quantity is this one, perhaps with other values of its parameters."""
+        pairs = list(zip(self.parts, other.parts, strict=False))
+        parts = tuple(p.with_spec(*q.specs) if p.word == q.word and q.specs else p for p, q in pairs)
+        return type(self) is type(other) and self.with_parts(parts) == other
+
     def moved_to(self, point: str) -> "Quantity":
         """Return the quantity from another point, where it starts from one."""
         return self

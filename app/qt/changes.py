@@ -1,6 +1,7 @@
 """Changes of the document: the panels are shown what differs."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
 from qtpy import QtCore
@@ -71,10 +72,8 @@ class Changes(QtCore.QObject):
         loaded = tuple(session.loaded(mesh.name) for mesh in document.surfaces)
         has_other_style = grid.show_style(self._style)  # in other colours
         is_other = loaded != self._loaded
-        other_panels = (
-            is_other or has_other_style or (document.panels, document.fields) != (before.panels, before.fields)
-        )
-        if other_panels:
+        other_panels = is_other or has_other_style or not _are_alike(document, before)
+        if other_panels or document.panels != before.panels:
             grid.show_panels(document)
         if is_other:
             shown, self._loaded = self._loaded, loaded
@@ -123,6 +122,16 @@ class Changes(QtCore.QObject):
             grid.show_answer(id)
         context.panels_cleared.emit()
         context[ProgressDisplay].show()
+
+
+def _are_alike(document: Document, before: Document) -> bool:
+    """Return whether the panels are those from before, perhaps with other values of parameters."""
+    pairs = list(zip(document.panels, before.panels, strict=False))
+    return (
+        document.fields == before.fields
+        and len(document.panels) == len(before.panels)
+        and all(panel.shows.is_alike(old.shows) and replace(panel, shows=old.shows) == old for panel, old in pairs)
+    )
 
 
 def _is_remade(before: tuple[LoadedMesh | None, ...], after: tuple[LoadedMesh | None, ...]) -> bool:

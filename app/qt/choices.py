@@ -18,6 +18,7 @@ from ..document.tools import tools
 from ..scene.colour_file import read_stops
 from ..session.base import no_scalars
 from .context import Context
+from .dragging import Dragging
 from .files.taken_ends import TakenEnds
 from .look.canvas import map_word
 from .look.look import LOOK, TALK
@@ -77,10 +78,18 @@ class Choices:
 
     def choose(self, panel: int, shows: Quantity) -> None:
         """Show another quantity in a panel, as one step; values that a slider passes are one step, too."""
-        document = self._context.document
-        words = [tuple(part.word for part in each.parts) for each in (document.panel(panel).shows, shows)]
-        key = f"{words[0]} in {panel}" if words[0] == words[1] else ""
-        self._context.session.show(show_in_row(document, panel, shows), key)
+        document, is_held = self._context.document, self._context.grid.panel(panel).head.is_held
+        if is_held:
+            self._context[Dragging].begin(keeps_steps=False)
+            self._context[Dragging].is_on = True
+        key = f"{shows.word} in {panel}" if document.panel(panel).shows.is_alike(shows) else ""
+        self._context.session.show(show_in_row(document, panel, shows), key, live=is_held)
+
+    def let_go(self) -> None:
+        """End the drag of a slider: ask for the final answers."""
+        self._context[Dragging].is_on = False
+        self._context[Dragging].end()
+        self._context.session.show(self._context.document)
 
     # ------------------------------------------------------------------ settings
     def set(self, setting: Setting, value: Any) -> None:

@@ -1,4 +1,4 @@
-"""Something that fields follow, on its way: a source, or a point that a tool has marked."""
+"""Something that fields follow, on its way: a source, a point that a tool has marked, or a parameter's slider."""
 
 import time
 from collections import deque
@@ -29,11 +29,11 @@ class Dragging:
         self.is_on, self.begun = False, 0.0
         self.rate = LiveRate(context.session, context.status)
 
-    def begin(self) -> None:
-        """Start a drag, unless one goes on; isolines keep their steps meanwhile."""
+    def begin(self, keeps_steps: bool = True) -> None:
+        """Start a drag, unless one goes on; isolines keep their steps meanwhile where what moves is a source."""
         self.begun = self.begun or monotonic()
         self.rate.begin()
-        self._context.grid.marks.keep_steps(True)
+        self._context.grid.marks.keep_steps(keeps_steps)
 
     def end(self) -> None:
         """End the drag."""

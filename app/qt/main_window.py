@@ -154,6 +154,7 @@ class MainWindow(QtWidgets.QMainWindow):
         choices, display = context[Choices], context[ProgressDisplay]
         grid.looked.connect(context[Views].moved)
         grid.quantity_chosen.connect(choices.choose)
+        grid.slider_let_go.connect(choices.let_go)
         grid.edit_chosen.connect(choices.edit_panel)
         grid.bar_ended.connect(choices.end_at)
         grid.save_wanted.connect(context[FieldFiles].save)

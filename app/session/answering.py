@@ -16,7 +16,7 @@ from bihdist_core.progress import Progress, part
 
 from .latest_request_worker import LatestRequestWorker
 from .loaded_mesh import LoadedMesh
-from .questions import Question, are_about_the_same
+from .questions import Question, are_about_the_same, are_alike
 
 MUCH_LONGER, AT_LEAST = 4.0, 0.2
 """In a drag, an answer that takes so many times as long as the one before, and so many seconds, gives way to the next:
@@ -170,12 +170,14 @@ class Answering:
 
     def _work(self, id: int, request: _Request, worker: LatestRequestWorker[_Request]) -> None:
         question, loaded = request.question, request.loaded
-        begun, took = time.monotonic(), self._took.get(id)
+        begun, took, is_there = time.monotonic(), self._took.get(id), False
 
         def is_wanted(latest: _Request) -> bool:
             if latest.question == question:
                 return True
-            if not (latest.live and are_about_the_same(latest.question, question)):
+            # Of a field that is there only the accuracy is to come, which is another for other parameters.
+            alike = are_about_the_same if is_there else are_alike
+            if not (latest.live and alike(latest.question, question)):
                 return False
             if took is None or time.monotonic() - begun < max(MUCH_LONGER * took, AT_LEAST):
                 return True
@@ -183,17 +185,24 @@ class Answering:
             self._took[id] = max(2 * took, AT_LEAST / MUCH_LONGER)
             return False
 
+        def is_awaited(latest: _Request) -> bool:
+            # The source may move while the distance is made ready: then the next question has it.
+            if are_about_the_same(latest.question, question):
+                return True
+            is_short = time.monotonic() - begun < AT_LEAST
+            return latest.live and is_short and are_alike(latest.question, question)
+
         known = self._kept.get(question)
         if known is not None:
             self._deliver(id, request, known)
             return
-        # The source may move while the distance is made ready: then the next question has it.
-        preparing = worker.progress(lambda latest: are_about_the_same(latest.question, question))
+        preparing = worker.progress(is_awaited)
         asking = worker.progress(is_wanted)
         distances = loaded.distances(question.areas)
         coarse = question.with_specs(tuple(distances.meanwhile(spec) or spec for spec in question.specs))
         if coarse != question:
             self._show_preview(id, request, coarse, preparing, asking)
+        preparing(0.0, str(question))
         for spec in question.specs:
             distances.get(spec, part(preparing, 0, 0.9))
         asking(0.9, str(question))
@@ -209,7 +218,13 @@ class Answering:
         ):
             self._took[id] = time.monotonic() - begun
             return
-        answer = question.answer(loaded, asking, lambda first: self._deliver(id, request, first))
+
+        def deliver(first: Answer) -> None:
+            nonlocal is_there
+            is_there = True
+            self._deliver(id, request, first)
+
+        answer = question.answer(loaded, asking, deliver)
         self._kept.put(question, answer)
         self._deliver(id, request, answer)
         if request.live:
@@ -254,10 +269,10 @@ class Answering:
         # What was under way when the user stopped it may be done all the same.
         if now is None or id in self.stopped:
             return
-        if new.question != now and not (live and are_about_the_same(new.question, now)):
+        if new.question != now and not (live and are_alike(new.question, now)):
             return
         old = self.shown.get(id)
-        if old is None or not are_about_the_same(old.question, new.question) or old.serial <= new.serial:
+        if old is None or not are_alike(old.question, new.question) or old.serial <= new.serial:
             self._show(id, new)
 
     def _show(self, id: int, new: Shown) -> None:

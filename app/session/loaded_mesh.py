@@ -11,7 +11,7 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
-from bihdist_core import Laplacian, ParameterError, PointCloud, Surface
+from bihdist_core import Laplacian, ParameterError, Surface
 from bihdist_core.analysis.first_view import FirstLook, first_look
 from bihdist_core.analysis.upright import guess_up
 from bihdist_core.applications.changes import Perturbation
@@ -127,7 +127,7 @@ class LoadedMesh:
         """Return all distances on it with these vertex areas, each built once for whoever asks."""
         with self._lock:
             if areas not in self._distances:
-                self._distances[areas] = Distances(Laplacian(self.surface, areas))
+                self._distances[areas] = Distances(Laplacian(self.surface, areas, self.mesh.repairs.operator))
             return self._distances[areas]
 
     def set_shown_with(self, others: Iterable["LoadedMesh"]) -> None:
@@ -287,11 +287,6 @@ def open_mesh(
         made, ids = perturbed(origin.surface, change, progress, pose)
         return LoadedMesh(replace(origin.mesh, name=mesh.name, change=change), made, given, origin, ids)
     surface, found = _read(mesh, remedy) if mesh.path else ((given or ArrayStore()).surface(mesh), mesh.sha256)
-    if isinstance(surface, PointCloud):
-        raise ParameterError(
-            f"{surface.name} has points and no faces, of which there are no pictures yet; `bihdist field` and "
-            "`bihdist pairs` measure their distances."
-        )
     repairs = mesh.repairs
     if repairs.cut and not repairs.cut_sha256:
         repairs = replace(repairs, cut_sha256=checksum(repairs.cut))

@@ -259,6 +259,12 @@ def are_about_the_same(one: Question, other: Question) -> bool:
     return one.about == other.about
 
 
+def are_alike(one: Question, other: Question) -> bool:
+    """Return whether they ask for the same, perhaps from elsewhere, or with other values of parameters."""
+    kinds = [[spec.distance_type for spec in each.specs] for each in (one, other)]
+    return kinds[0] == kinds[1] and are_about_the_same(one.with_specs(other.specs), other)
+
+
 def asks_of(question: Question, mesh: MeshFile) -> bool:
     """Return whether an answer depends on distances on this surface, too, on which it is not."""
     # Whatever they are called in documents.

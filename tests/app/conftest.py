@@ -84,10 +84,10 @@ class Desk:
         """A source, as a click chooses it."""
         self.session.show(move_source(self.session.document, panel, vertex), **options)
 
-    def choose(self, panel, spec):
+    def choose(self, panel, spec, **options):
         """Another distance in a panel, from the same point."""
         shows = self.session.document.panel(panel).shows
-        self.session.show(show_in(self.session.document, panel, replace(shows, spec=spec)))
+        self.session.show(show_in(self.session.document, panel, replace(shows, spec=spec)), **options)
 
     def post_later(self):
         """From now on what the session posts is kept: the list, and what to post through to let things go on."""

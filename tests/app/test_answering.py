@@ -19,6 +19,7 @@ from bihdist_core import BiharmonicDistance, Cancelled
 from bihdist_core.distances import distance_types
 from bihdist_core.distances.answers import Answer
 from bihdist_core.distances.distance_types import Spec
+from bihdist_core.distances.power import PowerDistance
 from bihdist_core.formats.mesh_io import surface_in
 from tests.shapes import bumpy, grid
 from tests.waiting import PATIENCE
@@ -320,6 +321,44 @@ def test_in_a_drag_what_gets_stuck_gives_way_to_the_next(desk, mesh_file, monkey
     is_made.set()
     d.complete()
     assert d.sources_shown == [5]
+
+
+def test_while_a_slider_moves_what_was_computed_is_shown_though_it_has_moved_on(desk, mesh_file):
+    d = desk([Spec.of("power", alpha=2.5)])
+    d.loaded(mesh_file(bumpy(200)), source=1)
+    kept, after = d.post_later()
+    d.choose(0, Spec.of("power", alpha=2.6), live=True)
+    d.until(lambda: any("_answered" in function.__code__.co_names for function in kept))
+    d.post = after
+    d.choose(0, Spec.of("power", alpha=2.7), live=True)
+    for function in kept:
+        function()
+    assert d.session.shown[0].question.spec["alpha"] == 2.6
+    assert not d.session.is_answered(0)
+    d.complete()
+    for function in kept:  # older than what is shown
+        function()
+    assert d.session.is_answered(0)
+
+
+def test_while_a_slider_moves_no_value_waits_for_the_accuracy_of_the_one_before(desk, mesh_file, monkeypatch):
+    d = desk([Spec.of("power", alpha=2.5)])
+    d.loaded(mesh_file(bumpy(200)), source=1)
+    error_estimate, checked = PowerDistance.error_estimate, []
+
+    def waiting(distance, components=None, progress=None, pieces=()):
+        checked.append(distance.alpha)
+        while distance.alpha == 2.6:
+            time.sleep(0.01)
+            progress(0.5, "checking")
+        return error_estimate(distance, components, progress, pieces)
+
+    monkeypatch.setattr(PowerDistance, "error_estimate", waiting)
+    d.choose(0, Spec.of("power", alpha=2.6), live=True)
+    d.until(lambda: checked == [2.6])
+    d.choose(0, Spec.of("power", alpha=2.7), live=True)
+    d.complete()
+    assert checked == [2.6, 2.7]
 
 
 def test_in_a_drag_geodesic_panels_are_approximate_until_release(desk, mesh_file, monkeypatch):

@@ -364,3 +364,26 @@ def painted_on(ground, widget, scale):
     widget.render(painter, QtCore.QPoint(1, 1), QtGui.QRegion(widget.rect()), nothing_else)
     painter.end()
     return pixels_of(image)[..., :3].astype(int)
+
+
+def test_a_slider_that_is_moved_draws_its_panel_alone_and_asks_for_the_exact_field_when_it_is_let_go(
+    shared_screen, monkeypatch
+):
+    s = shared_screen(bumpy(300), (Spec.of("biharmonic"), Spec.of("power", alpha=1.5)), source=5)
+    asked, show = [], s.session.show
+    monkeypatch.setattr(s.session, "show", lambda *some, **how: (asked.append(how), show(*some, **how)))
+    slider = s.panels[1].head.controls[0].slider
+    slider.setSliderDown(True)
+    for step in (-3, -6, -9):
+        before = [panel.view.pictures for panel in s.panels]
+        slider.setSliderPosition(slider.sliderPosition() + step)
+        s.until(lambda: s.session.is_answered(1))
+        s.settle()
+        drawn = [panel.view.pictures - count for panel, count in zip(s.panels, before, strict=True)]
+        assert drawn[0] == 0 < drawn[1]
+    assert [how["live"] for how in asked] == [True] * 3
+    slider.setSliderDown(False)
+    assert asked[3:] == [{}]
+    assert s.session.is_complete
+    s.session.undo()  # all of them are one step
+    assert s.document.panel(1).shows.spec["alpha"] == 1.5

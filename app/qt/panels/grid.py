@@ -41,6 +41,9 @@ LEAST_IN_ROW = 180
 LINE = 1
 """Pixels between panels."""
 
+BY_MENUS = (QtCore.Qt.FocusReason.PopupFocusReason, QtCore.Qt.FocusReason.MenuBarFocusReason)
+"""Reasons of focus that mean no panel."""
+
 
 class PanelGrid(QtWidgets.QWidget):
     """The panels of a document by their ids; `events` tells what the mouse does in each."""
@@ -48,6 +51,7 @@ class PanelGrid(QtWidgets.QWidget):
     looked = QtCore.Signal(Camera, str)  # where the user has turned or moved the camera of a surface to
     activated = QtCore.Signal(int)  # a panel
     quantity_chosen = QtCore.Signal(int, object)  # in a panel's head
+    slider_let_go = QtCore.Signal(int)
     edit_chosen = QtCore.Signal(int, str)  # the text of a `PanelEdit`, in a panel's menu
     save_wanted = QtCore.Signal(int)  # the field of a panel
     bar_ended = QtCore.Signal(int, object)  # where a colour bar is to end, None for the field's own maximum
@@ -178,6 +182,7 @@ class PanelGrid(QtWidgets.QWidget):
         panel.head.clicked.connect(lambda: self.activate(panel.id))
         for signal, with_id in (
             (panel.head.changed, self.quantity_chosen),
+            (panel.head.let_go, self.slider_let_go),
             (panel.head.asked, self.edit_chosen),
             (panel.head.save_wanted, self.save_wanted),
             (panel.ended, self.bar_ended),
@@ -370,7 +375,8 @@ class PanelGrid(QtWidgets.QWidget):
             panel.show_active(id == self.active and len(self._panels) > 1)
 
     def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
-        if event.type() == QtCore.QEvent.Type.FocusIn:
+        # A menu that closes gives the keys back to where they were, wherever one has pressed since.
+        if event.type() == QtCore.QEvent.Type.FocusIn and event.reason() not in BY_MENUS:
             for id, panel in self._panels.items():
                 if panel.view is watched:
                     self.activate(id)

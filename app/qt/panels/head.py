@@ -12,6 +12,7 @@ from bihdist_core.distances.distance_types import Spec, Value
 
 from ...document.panel_edits import panel_edits
 from ...document.quantities import Difference, Quantity, kind_name, quantity_name
+from ...document.repairs import OPERATORS
 from ...drawing.painters.qt import paint, rgba_of
 from ...drawing.shapes import Box, Path, Shape, Text, disc, rounded
 from ..look.icons import pixmap
@@ -33,6 +34,9 @@ WARNING_ROOM = 22
 LETTER_SIDE, LETTER_ROOM = 18, 24
 """Of the badge with the letter of the surface, and with what is beside it."""
 
+EXACT = "exact"
+"""Of quantities that leave no eigenpair out."""
+
 DOT_ROOM, DOT = 13, 4.0
 """For the dot of a curve, and its radius."""
 
@@ -46,6 +50,7 @@ class PanelHead(QtWidgets.QWidget):
     """
 
     changed = QtCore.Signal(object)
+    let_go = QtCore.Signal()  # of a slider
     asked = QtCore.Signal(str)
     save_wanted = QtCore.Signal()
     clicked = QtCore.Signal()
@@ -127,7 +132,12 @@ class PanelHead(QtWidgets.QWidget):
 
     def show_method(self, specs: tuple[Spec, ...], label: str, is_preview: bool = False) -> None:
         """Show what the field has been computed by, "geodesic, heat method", for the control that says "auto", and of a
-        stand-in for any."""
+        stand-in for any; and another operator than the paper's."""
+        operator = label.rpartition(", ")[2]
+        for control in self.controls:
+            if isinstance(control, FixedWord):
+                control.setText(f"{EXACT}, {operator}" if operator in OPERATORS else EXACT)
+                self._lay_out()
         self._method = specs, label.partition(", ")[2].partition(",")[0], is_preview
         self._show_method()
 
@@ -187,6 +197,11 @@ class PanelHead(QtWidgets.QWidget):
         self.setFixedHeight(round((COMPACT_HEIGHT if compact else HEIGHT) * LOOK.scale))
 
     # ------------------------------------------------------------------ choices
+    @property
+    def is_held(self) -> bool:
+        """Whether the user holds the slider of a parameter."""
+        return any(isinstance(control, NumberControl) and control.is_held for control in self.controls)
+
     def _choose(self, shows: Quantity) -> None:
         if shows != self.shows:
             self.show_quantity(shows)
@@ -232,6 +247,8 @@ class PanelHead(QtWidgets.QWidget):
                 bounded = self._choices.bounded(parameter)
                 control = parameter_control(self, bounded, next(signed), of_what)
                 control.chosen.connect(partial(self._set, place, parameter.name))
+                if isinstance(control, NumberControl):
+                    control.let_go.connect(self.let_go)
                 self._of_parameter[place, parameter.name] = control
         self.controls = list(self._of_parameter.values())
         if is_difference:
@@ -247,7 +264,7 @@ class PanelHead(QtWidgets.QWidget):
             self._by.chosen.connect(lambda word: self._choose(self._choices.with_part(self.shows, 0, word)))
             self.controls.insert(0, self._by)
         elif not self.controls and any(spec.distance_type.is_complete for spec in self.shows.parametrised):
-            self.controls.append(FixedWord(self, "exact", "Uses all eigenpairs; nothing to choose"))
+            self.controls.append(FixedWord(self, EXACT, "Uses all eigenpairs; nothing to choose"))
         order: list[QtWidgets.QWidget] = [self.name]
         for control in self.controls:
             inside: list[QtWidgets.QWidget] = [control]

@@ -86,9 +86,13 @@ class ChoiceControl(FlatButton):
 
 
 class NumberControl(QtWidgets.QWidget):
-    """A number: symbol, slider and value in a row, or symbol and value over a pop-up; `chosen(value)` by the user."""
+    """A number: symbol, slider and value in a row, or symbol and value over a pop-up; `chosen(value)` by the user.
+
+    `let_go` when the user lets go of the slider.
+    """
 
     chosen = QtCore.Signal(object)
+    let_go = QtCore.Signal()
 
     def __init__(self, parent: QtWidgets.QWidget, parameter: Parameter, sign: str, tip: str) -> None:
         super().__init__(parent)
@@ -105,7 +109,14 @@ class NumberControl(QtWidgets.QWidget):
         self.button.activated.connect(lambda: self.open_under(self))
         self.pop_up = NumberPopUp(parameter, self)
         self.pop_up.chosen.connect(self._choose)
+        for slider in (self.slider, self.pop_up.slider):
+            slider.sliderReleased.connect(self.let_go)
         self.show_slider(False)
+
+    @property
+    def is_held(self) -> bool:
+        """Whether the user holds the slider."""
+        return any(slider.isSliderDown() for slider in (self.slider, self.pop_up.slider))
 
     def show_value(self, value: Value) -> None:
         """Show a value without emitting."""
