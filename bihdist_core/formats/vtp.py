@@ -294,8 +294,8 @@ def write_poly_data(
     file.write(
         '<?xml version="1.0" encoding="UTF-8"?>\n'
         '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
-        f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="{len(verts)}" NumberOfLines="{len(lines)}" NumberOfStrips="0" '
-        f'NumberOfPolys="{len(polygons)}">\n{"".join(parts)}</Piece>\n</PolyData>\n'
+        f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="{len(verts)}" NumberOfLines="{len(lines)}" '
+        f'NumberOfStrips="0" NumberOfPolys="{len(polygons)}">\n{"".join(parts)}</Piece>\n</PolyData>\n'
         '<AppendedData encoding="raw">\n_'.encode()
     )
     for block in blocks:
