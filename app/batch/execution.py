@@ -225,6 +225,7 @@ def _mesh_metadata(task: Task, mesh: BatchMesh, work: str) -> dict[str, Any]:
         **({} if mesh.new_ids is None else {"new_ids": _ids_name(task)}),
         "warnings": list(notes.warnings),
         "areas": task.wanted.areas,
+        "operator": task.wanted.operator,
         "version": task.version,
     }
 

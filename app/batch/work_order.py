@@ -45,7 +45,7 @@ def _kind(
     return WorkKind(word, meaning, frozenset(fields.split()), by_distance, frozenset(options.split()), function)
 
 
-REPAIRS = "cut merge largest_component"
+REPAIRS = "cut merge largest_component operator"
 OF_IDS = f"areas {REPAIRS} sources arrays one_based mask normalise"
 OF_SOURCES = f"{OF_IDS} dtype"
 
@@ -58,7 +58,7 @@ KINDS = {
         _kind("eigen", "eigenpairs", f"areas eigenpairs dtype arrays normalise {REPAIRS}", function="eigen"),
         _kind("fps", "farthest points", OF_IDS, by_distance=True, function="fps"),
         _kind("figure", "a picture", f"recipe range maxima {REPAIRS}", options="sources distance areas clim"),
-        _kind("evaluate", "errors of maps", "areas samples arrays", options="maps truth symmetry"),
+        _kind("evaluate", "errors of maps", "areas operator samples arrays", options="maps truth symmetry"),
         _kind(MAXIMA, "", f"recipe {REPAIRS}"),
         _kind(STATEMENTS, "", "experiments quick up"),
     )
@@ -105,8 +105,8 @@ class WorkOrder:
     """The kinds of work and their options.
 
     `works` are of WORKS, in their order; `distances` specs in words; `nearest` the number of neighbours; `samples`
-    those of a map, 0 for all vertices. `cut`, `merge` and `largest_component` are those of `Repairs`. In the
-    paths `labels`, `mask`, `cut` and of the sources' file, {name} stands for the mesh's.
+    those of a map, 0 for all vertices. `cut`, `merge`, `largest_component` and `operator` are those of `Repairs`. In
+    the paths `labels`, `mask`, `cut` and of the sources' file, {name} stands for the mesh's.
 
     With `one_based`, vertex ids in .mat files count from 1. `layout` is one of LAYOUTS for pairs; `normalise` is
     "area" for distances and eigenpairs of the mesh scaled to area 1. `recipe` is the text of the one that figures
@@ -128,6 +128,7 @@ class WorkOrder:
     cut: str = ""
     merge: float | None = None
     largest_component: bool = False
+    operator: str = "cotan"
     labels: str = ""
     mask: str = ""
     layout: str = ""
@@ -176,7 +177,7 @@ class WorkOrder:
     @property
     def repairs(self) -> Repairs:
         """The repairs of each mesh."""
-        return Repairs(self.cut, merge=self.merge, largest_component=self.largest_component)
+        return Repairs(self.cut, "", self.merge, self.largest_component, self.operator)
 
     @property
     def files(self) -> dict[str, str]:

@@ -298,6 +298,7 @@ def _wanted(options: argparse.Namespace) -> WorkOrder:
         cut=os.path.abspath(options.cut) if options.cut else "",
         merge=options.merge,
         largest_component=bool(options.largest_component),
+        operator=options.operator or "cotan",
         labels=os.path.abspath(options.labels) if options.labels else "",
         mask=os.path.abspath(options.mask) if options.mask else "",
         recipe=recipe,
@@ -366,7 +367,8 @@ def _recipe(options: argparse.Namespace, distances: tuple[str, ...]) -> str:
         recipe = Recipe(comparison("mesh", shows, areas=options.areas or "voronoi"))
     if recipe.document.surfaces[0].repairs != NO_REPAIRS:
         raise ParameterError(
-            f"{options.recipe} repairs its own mesh; batch does what --cut, --merge and --largest-component say."
+            f"{options.recipe} repairs its own mesh; batch does what --cut, --merge, --largest-component and "
+            "--operator say."
         )
     document, members = recipe.document, options.sources.members if options.sources else ()
     first = members[0] if members else None

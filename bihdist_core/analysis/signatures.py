@@ -324,4 +324,5 @@ def _signature(laplacian: Laplacian, values: FloatArray, accuracy: float, label:
             "it is not given."
         )
     values.flags.writeable = False
+    label += laplacian.operator_words
     return Signature(values, accuracy, label, length_power, unit_of(length_power, laplacian.surface))

@@ -73,7 +73,7 @@ export class Stage {
   }
 
   start(shape) {
-    this.drawing = new Drawing(this.surface, shape, this.scene.panels.length);
+    this.drawing = new Drawing(this.surface, shape, this.scene.panels.length, this.choices.some(({ labels }) => labels));
   }
 
   /** Take the theme anew, which the maps depend on. */
@@ -85,7 +85,8 @@ export class Stage {
   }
 
   mapOf(k) {
-    return this.scene.panels[k].signed ? this.colours.diverging : this.colours.map;
+    const { labels, signed } = this.scene.panels[k];
+    return labels ? labels.map(({ colour }) => colour) : signed ? this.colours.diverging : this.colours.map;
   }
 
   /** Rows and columns for the room there is. */
