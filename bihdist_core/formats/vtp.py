@@ -260,6 +260,8 @@ def write_poly_data(
 ) -> None:
     """Write points (n, 3), and lines and polygons as the ids (k,) of their corners, or (m, k) where all have as many.
 
+    Where there are neither, the points are cells, without which programs show nothing.
+
     `point_data` and `cell_data` are arrays by name, with a value for each point or cell.
     """
     blocks: list[bytes] = []
@@ -284,15 +286,16 @@ def write_poly_data(
         section("CellData", "".join(array(name, values) for name, values in cell_data.items())),
         section("Points", array("Points", points, components=3)),
     ]
-    for name, cells in (("Lines", lines), ("Polys", polygons)):
+    verts = () if len(lines) or len(polygons) else np.arange(len(points))[:, None]
+    for name, cells in (("Verts", verts), ("Lines", lines), ("Polys", polygons)):
         if len(cells):
             corners, ends = _flat(cells)
             parts.append(section(name, array("connectivity", corners) + array("offsets", ends)))
     file.write(
         '<?xml version="1.0" encoding="UTF-8"?>\n'
         '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
-        f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="0" NumberOfLines="{len(lines)}" NumberOfStrips="0" '
-        f'NumberOfPolys="{len(polygons)}">\n{"".join(parts)}</Piece>\n</PolyData>\n'
+        f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="{len(verts)}" NumberOfLines="{len(lines)}" '
+        f'NumberOfStrips="0" NumberOfPolys="{len(polygons)}">\n{"".join(parts)}</Piece>\n</PolyData>\n'
         '<AppendedData encoding="raw">\n_'.encode()
     )
     for block in blocks:
