@@ -281,6 +281,8 @@ def _colours(word: str, colours: Colours) -> Json:
         "undefined": _bytes(light.undefined),
         "back": _bytes(light.back),
         "dark_back": _bytes(dark.back),
+        "section": _bytes(light.section),
+        "dark_section": _bytes(dark.section),
         "background": None,
         "dark_background": None,
     }

@@ -242,6 +242,7 @@ def test_colours_by_day_and_night_are_those_of_the_styles(scene, word):
     assert colours["background"] is None
     assert colours["back"] == [round(255 * x) for x in PAPER.back]
     assert colours["dark_back"] == [round(255 * x) for x in DARK.back]
+    assert colours["dark_section"] == [round(255 * x) for x in DARK.section]
 
 
 def test_a_map_that_stays_at_night_is_there_once(scene):

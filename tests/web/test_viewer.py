@@ -311,6 +311,7 @@ def test_maps_are_stretched_and_follow_the_theme():
     scene = {"colours": {
         "map": [[0, 0, 0], [255, 0, 0]], "dark_map": [[0, 0, 255], [255, 255, 255]], "diverging": None,
         "undefined": [1, 2, 3], "background": None, "dark_background": None, "back": [4, 4, 4], "dark_back": [5, 5, 5],
+        "section": [6, 6, 6], "dark_section": [7, 7, 7],
     }}  # fmt: skip
     light, dark = (ask("colours", scene=scene, isDark=is_dark) for is_dark in (False, True))
     assert light["map"] == [[k, 0, 0] for k in range(256)] == light["diverging"]
@@ -318,6 +319,7 @@ def test_maps_are_stretched_and_follow_the_theme():
     assert dark["map"][-1] == [255, 255, 255]
     assert dark["background"] == [22, 24, 27]
     assert dark["undefined"] == [1, 2, 3]
+    assert (light["section"], dark["section"]) == ([6, 6, 6], [7, 7, 7])
     assert (light["back"], dark["back"]) == ([4, 4, 4], [5, 5, 5])
     scene["colours"]["background"] = [9, 9, 9]
     assert ask("colours", scene=scene, isDark=False)["background"] == [9, 9, 9]

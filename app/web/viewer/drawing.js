@@ -117,8 +117,8 @@ export class Drawing {
   /**
    * Draw all panels.
    * @param {{x, y, width, height}[]} boxes of the views, in CSS pixels from the upper left
-   * @param {{background: number[], undefined: number[], back: number[], line: number[], width: number}} look colours
-   *   from 0 to 1
+   * @param {{background: number[], undefined: number[], back: number[], line: number[], section: number[],
+   *   width: number}} look colours from 0 to 1
    */
   draw(camera, boxes, scale, look) {
     const { gl, at, canvas } = this;
@@ -129,6 +129,7 @@ export class Drawing {
     gl.uniform3fv(at.backColour, look.back);
     gl.uniform1f(at.hasBacks, Number(this.shape.hasBacks));
     gl.uniform3fv(at.lineColour, look.line);
+    gl.uniform3fv(at.sectionColour, look.section);
     gl.uniform1f(at.halfWidth, Math.max(look.width * scale, 1) / 2);
     gl.uniform1f(at.parallel, Number(camera.parallel));
     for (const [k, { x, y, width, height }] of boxes.entries()) {

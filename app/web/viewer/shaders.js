@@ -39,7 +39,7 @@ export const FRAGMENT_SHADER = `#version 300 es
 precision highp float;
 in float clipAt, valueAt, lightAt, shineAt;
 uniform sampler2D colours, levels;
-uniform vec3 undefinedColour, backColour, lineColour;
+uniform vec3 undefinedColour, backColour, lineColour, sectionColour;
 uniform float hasBacks, opacity, lineFirst, lineStep, halfWidth, zeroAt;
 uniform int lineCount;
 out vec4 colour;
@@ -118,7 +118,8 @@ void main() {
     }
   }
 #ifdef CLIPPED
-  shown = mix(shown, INK, painted(clipAt / max(length(vec2(dFdx(clipAt), dFdy(clipAt))), 1e-9), 2.4 * halfWidth));
+  float fromCut = clipAt / max(length(vec2(dFdx(clipAt), dFdy(clipAt))), 1e-9);
+  shown = mix(shown, sectionColour, painted(fromCut, 2.4 * halfWidth));
 #endif
   colour = vec4(shown, opacity);
 }`;

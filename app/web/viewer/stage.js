@@ -113,10 +113,10 @@ export class Stage {
   }
 
   draw(camera) {
-    const fraction = (colour) => colour.map((x) => x / 255), { background, undefined: none, back } = this.colours;
+    const fraction = (colour) => colour.map((x) => x / 255), { background, undefined: none, back, section } = this.colours;
     const { colour, width } = this.scene.isolines;
-    const [ground, nothing, inside, line] = [background, none, back, colour].map(fraction);
-    const look = { background: ground, undefined: nothing, back: inside, line, width };
+    const [ground, nothing, inside, line, cut] = [background, none, back, colour, section].map(fraction);
+    const look = { background: ground, undefined: nothing, back: inside, line, section: cut, width };
     this.drawing.draw(camera, this.boxes, this.scale, look);
   }
 
