@@ -28,6 +28,10 @@ COUNTS = {
     "unreferenced_count": "vertices without a face",
 }
 """Attributes of a surface, and the words for them."""
+ON_POINTS = {"vertices": "points", "vertices without a face": "points left out", "mean edge length": "mean spacing"}
+"""What rows are called where there are points only."""
+OF_FACES = ("faces", "boundary loops", "genus", "non-manifold edges", "non-manifold vertices", "degenerate faces")
+"""Rows that are left out there."""
 SENTENCES = ("facts", "repairs", "warnings")
 
 WORDS = "describe a mesh file, and what would be repaired"
@@ -89,6 +93,8 @@ def _described(mesh: str, options: argparse.Namespace, solver: dict[str, str]) -
         **{name: "; ".join(facts[name]) or "none" for name in SENTENCES},
         **solver,
     }
+    if not len(s.faces):
+        rows = {ON_POINTS.get(name, name): value for name, value in rows.items() if name not in OF_FACES}
     if options.accuracy:
         facts["distances"] = _accuracies(s, options.areas or AREAS[0], repairs.operator)
         rows |= {each["label"]: each["failure"] or each["accuracy_text"] for each in facts["distances"]}

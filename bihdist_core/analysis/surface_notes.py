@@ -37,7 +37,7 @@ def surface_notes(surface: Surface) -> SurfaceNotes:
     thin = (heights < THIN) & (heights >= FLAT_RATIO)
     facts = [
         (surface.boundary_loop_count, "boundary loop", ""),
-        (surface.unreferenced_count, "vertex without a face", "vertices without a face"),
+        (surface.unreferenced_count if len(surface.faces) else 0, "vertex without a face", "vertices without a face"),
     ]
     warnings = [
         (

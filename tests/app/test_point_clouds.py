@@ -39,6 +39,11 @@ def test_field_pairs_and_info(cloud, capsys):
     assert main(["info", "scan.xyz", "--json"]) == 0
     (facts,) = json.loads(capsys.readouterr().out)["meshes"]
     assert (facts["n_vertices"], facts["n_faces"], facts["genus"]) == (400, 0, None)
+    assert main(["info", "scan.xyz"]) == 0
+    said = capsys.readouterr().out
+    assert "points                    400\n" in said
+    assert "mean spacing" in said
+    assert "genus" not in said
 
 
 @pytest.mark.parametrize(
