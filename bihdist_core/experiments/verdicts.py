@@ -27,7 +27,7 @@ CONFIDENCE = 0.95
 """The confidence level of the intervals of estimates."""
 SPREAD = 0.02
 """The share of its limit that a number moves by with another circle, draw or refinement: nearer it is not told apart.
-Isotropy ratios move by 0.1 %, changes by noise by 2 % from draw to draw."""
+Isotropy ratios move by 0.1 % with another circle, changes by noise on each coordinate by 2 % with another draw."""
 SURE = 3.0
 """Standard deviations of the numbers from five sources that most others are within, nearly surely: the tolerance factor
 of 90 % with the confidence 0.9 is 2.7."""
@@ -260,11 +260,11 @@ class Part:
         if known.pictured:
             ranges.append(f"{_span(self.limit, min(known.pictured), max(known.pictured))} pictured")
         elif numbers.pictured:
-            ranges.append("0/0 pictured")
+            ranges.append("undefined pictured")
         if known.random:
             ranges.append(f"{_span(self.limit, min(known.random), max(known.random))} {self._from(len(known.random))}")
         if missing := len(numbers.random) - len(known.random):
-            ranges.append(f"0/0 {self._from(missing)}")
+            ranges.append(f"undefined {self._from(missing)}")
         return "; ".join(ranges)
 
     def _from(self, count: int) -> str:
