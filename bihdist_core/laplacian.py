@@ -127,6 +127,8 @@ class Laplacian:
     ----------
     surface : Surface
         The mesh.
+    operator : str
+        The name of its operator.
     components : tuple of Component
         The connected components, the one with most vertices first.
     pickles_factors : bool
