@@ -82,7 +82,7 @@ def _claim(id: str, meshes: Mapping[str, MeshStatements], quick: bool) -> Claim:
     for verdict in (*VERDICTS, ""):
         those = [name for name, each in judged.items() if each == verdict]
         if those:
-            more = "" if len(those) <= NAMED else ", …"
+            more = f" and {len(those) - NAMED} more" if len(those) > NAMED else ""
             named = f" ({', '.join(those[:NAMED])}{more})" if verdict in (PARTLY, FAILS) else ""
             words.append(f"{verdict or 'not judged'} on {len(those)}{named}")
     note, failure = f"Mesh by mesh: {'; '.join(words)}.", "" if numbers else "No mesh has it."

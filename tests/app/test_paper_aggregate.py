@@ -59,7 +59,7 @@ def test_quick_numbers_of_many_meshes_are_judged_unless_their_sizes_decide():
     # Of many meshes some are named.
     failing = {f"mesh {k}": measured(0.2, 0.0) for k in range(14)}
     assert "(mesh 0, mesh 1," in (note := over_meshes(["fig3"], failing)[0].claims[1].note)
-    assert "mesh 11, …)" in note
+    assert "mesh 11 and 2 more)" in note
 
 
 def test_one_mesh_refutes_what_is_said_of_all():
