@@ -18,6 +18,7 @@ from .errors import ParameterError
 from .kernel.library import library
 from .point_cloud import PointCloud
 from .surface import FLAT_RATIO, Surface
+from .tetrahedra import TetrahedralMesh
 
 AREAS = ("voronoi", "barycentric")
 
@@ -28,9 +29,9 @@ Corners = tuple[FloatArray, FloatArray, FloatArray]
 def operators(surface: Surface, areas: str = "voronoi") -> tuple[sp.csr_matrix, FloatArray]:
     """Return `stiffness` (n, n) and `vertex_areas` (n,), for which the faces are measured once.
 
-    Those of points are their own.  ParameterError for other areas of points.
+    Those of points and tetrahedra are their own.  ParameterError for other areas of these.
     """
-    if isinstance(surface, PointCloud):
+    if isinstance(surface, PointCloud | TetrahedralMesh):
         if areas != AREAS[0]:
             raise ParameterError(f"{surface.name}: {areas} areas need faces, and there are none.")
         return surface.matrices

@@ -54,6 +54,8 @@ FORMATS = {
         MeshFormat(".vtk", "vtk"),
         MeshFormat(".vtp", "vtp"),
         MeshFormat(".vtu", "vtp"),
+        MeshFormat(".mesh", "tetrahedra"),
+        MeshFormat(".msh", "tetrahedra"),
         MeshFormat(".gltf", "gltf", y_bonus=4.0),
         MeshFormat(".glb", "gltf", y_bonus=4.0),
         MeshFormat(".gii", "gifti", y_bonus=-4.0),
