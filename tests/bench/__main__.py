@@ -24,6 +24,7 @@ from . import (
     growth_rows,
     live_row,
     machine,
+    matrix_rows,
     moving_row,
     other_rows,
     peers,
@@ -64,6 +65,7 @@ ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
     25: exact_rows.cholesky,
     26: thread_row.threads,
     27: geodesic_rows.exact_geodesics,
+    29: matrix_rows.matrices,
 }
 
 
