@@ -127,7 +127,8 @@ class TetrahedralMesh(Nodes):
         """The boundary: the sides (k, 3) of one tetrahedron alone, with the same vertices."""
         sides = self.tetrahedra[:, SIDES].reshape(-1, 3)
         _, first, count = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
-        return Surface(self.vertices, sides[np.sort(first[count == 1])], self.name)
+        fact = f"the boundary of {counted(len(self.tetrahedra), 'tetrahedron', 'tetrahedra')}"
+        return Surface(self.vertices, sides[np.sort(first[count == 1])], self.name, facts=(*self.facts, fact))
 
     @property
     def area(self) -> float:

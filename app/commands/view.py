@@ -6,7 +6,7 @@ import threading
 
 from bihdist_core.errors import ParameterError
 
-from ..document.document import COMPARISON, Document, MeshFile, comparison
+from ..document.document import Document, MeshFile, comparison, usual_specs
 from ..document.option import Row
 from ..document.page import Recipe
 from ..document.second_mesh_edits import open_second_mesh
@@ -81,7 +81,7 @@ def run(options: argparse.Namespace) -> Result:
         if options.beside is not None:
             raise ParameterError(f"A session names its meshes itself; leave out {options.beside}.")
     else:
-        chosen = quantities(options, options.distance or [spec.word for spec in COMPARISON])
+        chosen = quantities(options, options.distance or [spec.word for spec in usual_specs(path)])
         sources = sources_of_document(options.sources, path, chosen, options.areas, repairs_of(options, path))
         second = None
         if options.beside is not None:

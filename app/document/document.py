@@ -12,9 +12,11 @@ from typing import Any, TypeVar
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.distances.distance_types import Spec, distance_types
 from bihdist_core.errors import ParameterError
+from bihdist_core.formats.mesh_names import SOLIDS, holds_points, mesh_format
 from bihdist_core.scalars import whole_number
 from bihdist_core.sources.source import Source, checked_source
 
+from ..samples import mesh_path
 from .camera import SecondMeshView, View, checked_view
 from .looks import (
     AS_IT_IS,
@@ -41,6 +43,8 @@ AnyPart = TypeVar("AnyPart", bound=Part)
 Named = TypeVar("Named", "MeshFile", "Point", "FieldArray")
 
 COMPARISON = (Spec.of("biharmonic"), Spec.of("geodesic"), Spec.of("diffusion"))
+ON_POINTS = {Spec.of("geodesic"): Spec.of("commute-time")}
+"""What stands on points for a distance that needs faces."""
 """The panels of the window and of figures where nothing else is asked for."""
 
 AREAS = ("voronoi", "barycentric")
@@ -452,19 +456,27 @@ class Document:
         return tuple(dict.fromkeys(self.point(name).at for panel in self.panels for name in panel.shows.points))
 
 
+def usual_specs(path: str) -> tuple[Spec, ...]:
+    """Return the distances of a new document of a mesh: COMPARISON, without what points and solids do not have."""
+    path = mesh_path(path)
+    lacks_faces = holds_points(path) or mesh_format(path) in SOLIDS
+    return tuple(ON_POINTS.get(spec, spec) for spec in COMPARISON) if lacks_faces else COMPARISON
+
+
 def comparison(
     path: str,
-    shows: "tuple[Spec | Quantity, ...]" = COMPARISON,
+    shows: "tuple[Spec | Quantity, ...] | None" = None,
     sources: tuple[Source | str | None, ...] = (None,),
     areas: str = "voronoi",
     fields: tuple[FieldArray, ...] = (),
 ) -> Document:
     """Return a document of one mesh with a panel for each quantity from each source, source by source.
 
-    `fields` are the user's own; those that no quantity names have panels of their own at the end.
+    None stands for the usual ones. `fields` are the user's own; those that no quantity names have panels of their own
+    at the end.
     """
     names = free_names("source", len(sources), [])
-    shown = from_points(shows, names)
+    shown = from_points(usual_specs(path) if shows is None else shows, names)
     shown += unnamed_fields(fields, shown)
     return Document(
         surfaces=(MeshFile("A", path),),

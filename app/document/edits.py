@@ -8,7 +8,6 @@ from bihdist_core.sources.source import Source
 
 from .derived_surfaces import changed_mesh, without_changed
 from .document import (
-    COMPARISON,
     Document,
     FieldArray,
     MeshFile,
@@ -16,6 +15,7 @@ from .document import (
     Point,
     free_field_name,
     free_names,
+    usual_specs,
     with_new_point,
 )
 from .looks import Isolines
@@ -52,7 +52,7 @@ def open_mesh(document: Document, mesh: MeshFile, source: int | None = None) -> 
     """
     if not document.surfaces:
         document = put_point(replace(document, surfaces=(mesh,)), "source", source, mesh.name)
-        for spec in COMPARISON:
+        for spec in usual_specs(mesh.path):
             document = add_panel(document, DistanceFrom(spec), mesh.name)
         return document
     document = without_changed(document)
@@ -235,12 +235,13 @@ def add_another(document: Document, surface: str | None = None, is_distance: boo
     there is a difference already or `is_distance` asks for none; then any distance that is not shown yet.
     """
     shown = {spec.word for panel in document.panels_of(surface) for spec in panel.shows.specs}
-    words = [*(spec.word for spec in COMPARISON), *distance_types()]
-    word = next((word for word in words if word not in shown), words[0])
     surface = document.surfaces[0].name if surface is None else surface
+    usual = [spec.word for mesh in document.surfaces if mesh.name == surface for spec in usual_specs(mesh.path)]
+    words = [*usual, *distance_types()]
+    word = next((word for word in words if word not in shown), words[0])
     here = document.panels_of(surface)
     first = [panel.shows for panel in here if panel.shows.is_distance][:2]
-    has_usual = all(spec.word in shown for spec in COMPARISON)
+    has_usual = shown.issuperset(usual)
     may_differ = has_usual and not is_distance and not any(panel.shows.is_difference for panel in here)
     if may_differ and len(set(first)) == 2 and first[0].points == first[1].points:
         return add_panel(document, Difference(first[0], first[1]), surface)

@@ -74,6 +74,8 @@ class Tool:
         A tuple of `Action`: what menus and keys do beside opening the dock.
     add_panel
         A function from a document to one with more panels; None where it adds one panel, as usual.
+    needs_faces
+        Whether its dock has nothing to show of points.
     charts
         Functions from a `figures.arrangement.ChartRow` to the charts beside a row of a figure, by their names.
     """
@@ -100,6 +102,7 @@ class Tool:
     panel_edits: str = ""
     actions: str = ""
     add_panel: str = ""
+    needs_faces: bool = False
     charts: Mapping[str, str] = field(default_factory=dict)
 
     def load(self, name: str) -> Any:

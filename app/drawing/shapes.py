@@ -75,9 +75,15 @@ class Box:
         """Return the points (…, 2) at fractions of the sides."""
         return shares * [self.width, self.height] + [self.x, self.y]
 
-    def snapped(self, scale: float) -> Box:
-        """Return the box with its sides on whole pixels, `scale` of which are a unit."""
+    def snapped(self, scale: float, keeps_size: bool = False) -> Box:
+        """Return the box with its sides on whole pixels, `scale` of which are a unit.
+
+        With `keeps_size`, equal boxes have equal numbers of pixels wherever they stand.
+        """
         x, y = round(self.x * scale), round(self.y * scale)
+        if keeps_size:
+            width, height = max(round(self.width * scale), 1), max(round(self.height * scale), 1)
+            return Box(x / scale, y / scale, width / scale, height / scale)
         right, bottom = max(round(self.right * scale), x + 1), max(round(self.bottom * scale), y + 1)
         return Box(x / scale, y / scale, (right - x) / scale, (bottom - y) / scale)
 

@@ -238,6 +238,11 @@ class Figure:
         columns = min(self.columns or len(self.panels), len(self.panels))
         return -(-len(self.panels) // columns), columns
 
+    @property
+    def has_shadows(self) -> bool:
+        """Whether shadows are drawn, on the shape or on the ground."""
+        return self.style.occlusion > 0 or any(panel.ground for panel in self.panels)
+
     def upper_limits(self) -> list[float]:
         """Return the end of each panel's colours."""
         own = [p.upper_limit for p in self.panels]

@@ -98,7 +98,8 @@ def _flat(view: View, panel: FigurePanel, surface: Surface) -> tuple[FloatArray,
 
 def places(surface: Surface) -> FloatArray:
     """Return places (k, 3) all over a surface: the middles of faces, or of every so many."""
-    faces = surface.faces[:: max(len(surface.faces) // MOST_PLACES, 1)]
+    faces = surface.shape.faces
+    faces = faces[:: max(len(faces) // MOST_PLACES, 1)]
     middles: FloatArray = surface.vertices[faces].mean(axis=1)
     return middles
 

@@ -16,7 +16,7 @@ from bihdist_core.sources.source import Curve
 from bihdist_core.sources.words import EMPTY
 
 from ..document.derived_surfaces import COLUMNS
-from ..document.document import COMPARISON, from_points
+from ..document.document import from_points, usual_specs
 from ..document.option import NotExpressible, Option, Row, with_attribute
 from ..document.page import Recipe
 from ..document.quantities import Quantity, from_point, own_fields
@@ -146,7 +146,8 @@ def _panels_of(recipe: Recipe) -> dict[str, Any]:
         raise NotExpressible("One of several sources has not been placed.")
     starts = [Starts(at) for at in places if at is not None]
     words = [str(each) for each in shows]
-    usual = words in ([*map(str, COMPARISON), *shown_alone], [*map(str, COMPARISON)])
+    usual_words = [*map(str, usual_specs(document.surfaces[0].path))]
+    usual = words in ([*usual_words, *shown_alone], usual_words)
     values: dict[str, Any] = {} if usual else {"distances": words}
     if fields:
         values["fields"] = {

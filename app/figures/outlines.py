@@ -1,6 +1,7 @@
 """The outlines of a surface in a picture: where what is seen ends before something farther away, or before nothing."""
 
 from itertools import pairwise
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -23,7 +24,17 @@ BRIDGED, TICK = 6.0, 3.0
 """Pixels: shorter pieces of a fold that are no outline are drawn between others; shorter outlines are not drawn."""
 
 
+_found: WeakKeyDictionary[HiddenLineRemoval, list[Line]] = WeakKeyDictionary()
+
+
 def outlines(sight: HiddenLineRemoval) -> list[Line]:
+    """Return the outlines, found once for all that is seen alike, see `_outlines`."""
+    if sight not in _found:
+        _found[sight] = _outlines(sight)
+    return _found[sight]
+
+
+def _outlines(sight: HiddenLineRemoval) -> list[Line]:
     """Return lines (k, 2) in pixels, each with whether its last point joins its first.
 
     An outline lies on folds, edges whose faces lie to the same side of them in the picture or that have not two faces.

@@ -119,7 +119,11 @@ class Shadows:
             band = np.s_[start : min(start + rows, height)]
             face, _ = nearest_faces(self._faces, at - [0, start, 0], width, band.stop - start)
             is_ground = face >= len(self._own)
-            wanted = np.flatnonzero((face >= 0) if on_shape else is_ground)
+            # The ground's shadow is made smooth: every other pixel across and down will do.
+            taken = (face >= 0) if on_shape else is_ground
+            taken[::2][is_ground[::2]] = False
+            taken[:, ::2][is_ground[:, ::2]] = False
+            wanted = np.flatnonzero(taken)
             under = is_ground.ravel()[wanted]
             points, share = self._light(wanted, face.ravel()[wanted], at - [0, start, 0], width)
             light[band].ravel()[wanted[~under]] = share[~under]

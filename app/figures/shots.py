@@ -11,9 +11,10 @@ from itertools import chain
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from bihdist_core import ParameterError, Surface
+from bihdist_core import ParameterError, PointCloud, Surface
 from bihdist_core.arrays import AnyArray, ByteArray, FloatArray
 from bihdist_core.progress import Progress, part
+from bihdist_core.surface import with_faces
 
 from ..document.document import isolines_in
 from ..document.looks import Isolines, Shading
@@ -174,6 +175,12 @@ def take_shots(
         render_window = render_cache.render_window(figure.style)
         for index, (panel, cell) in enumerate(zip(figure.panels, layout.cells, strict=True)):
             surfaces, shown_now = shown_surfaces(panel, tops[index]), None
+            for is_asked, what in (
+                (panel.isolines.labels, "labels of isolines"),
+                (panel.feature_edges, "feature edges"),
+            ):
+                if is_asked:
+                    with_faces(panel.surface, what)
             curves = render_cache.curves or panel.isolines.labels  # which stand on curves
             views = zip(panel.views, cell.views, cell.parts, surfaces, strict=True)
             for number, (view, box, shown, surface) in enumerate(views):
@@ -191,9 +198,13 @@ def take_shots(
                 if key not in sights:
                     outward, ground = outward_faces(mesh, clip is not None, panel.opacity), has_ground(panel)
                     is_cast = figure.style.occlusion > 0 or ground
+                    solid = mesh
+                    if is_cast and isinstance(surface, PointCloud):
+                        # Hexagons would cast shadows on each other.
+                        solid = drawable(surface.shape, Shading("smooth"))
                     sights[key] = (
-                        HiddenLineRemoval(surface, framed.projection, size, outward, clip),
-                        Shadows(mesh, framed.projection, panel.up, ground, clip) if is_cast else None,
+                        HiddenLineRemoval(surface.shape, framed.projection, size, outward, clip),
+                        Shadows(solid, framed.projection, panel.up, ground, clip) if is_cast else None,
                     )
                 taker = _Taker(figure, index, surface, *sights[key], tops[index], framed, layout, render_window, curves)
                 shots.append(taker.take(box, panel.isolines, step))
@@ -209,7 +220,7 @@ def _show(panel: FigurePanel, mesh: vtkPolyData, top: float, clip: ClipPlane | N
     actor.show_surface(mesh)
     actor.show_shading(panel.shading)
     # Behind a translucent surface lines are painted; before it they are curves, like all of an opaque one.
-    actor.show_clip(clip, paints_section=panel.opacity < 1)
+    actor.show_clip(clip, paints_section=panel.opacity < 1 or isinstance(panel.surface, PointCloud))
     actor.show_opacity(panel.opacity)
     actor.show_selected(selected_colours(panel.areas, len(panel.surface.vertices)))
     if panel.field is not None:
@@ -251,14 +262,15 @@ class _Taker:
         self._per_unit = 1 / framed.projection.pixel_at(framed.depth, framed.whole.width)
         self._sight, self._shadows, self._curves = sight, shadows, curves
         self._is_translucent = figure.panels[index].opacity < 1
+        # Whose isolines and sections are painted, and which have no outlines.
+        self._is_of_points = isinstance(surface, PointCloud)
         self._found: dict[Isolines, list[Contour]] = {}
-        self._outlines: list[Line] | None = None
         panel = self._panel
         self._seen: set[str] = set()
         edges = []
-        if panel.feature_edges or self._style.feature_edges:
+        if panel.feature_edges or (self._style.feature_edges and not self._is_of_points):
             edges = sight.along(*feature_edges(surface, panel.shading, panel.feature_edges))
-        found = (FEATURE_EDGES, edges), (SECTION, sight.section())
+        found = (FEATURE_EDGES, edges), (SECTION, [] if self._is_of_points else sight.section())
         self._lines = {look: SeenLines(lines, []) for look, lines in found if lines}
         looks = sorted(dict.fromkeys(line.look for line in panel.lines), key=lambda look: look.rank)
         self._lines |= {look: self._seen_lines(look) for look in looks}
@@ -268,7 +280,7 @@ class _Taker:
         """Take what a box of the page shows: the view or, for an inset, a part of it enlarged, with these isolines."""
         _, _, width, height = box.pixels(self._scale)
         # Labels would stand on painted ones.
-        is_painted = not self._curves or (self._is_translucent and not wanted.labels)
+        is_painted = not self._curves or self._is_of_points or (self._is_translucent and not wanted.labels)
         self._render_window.shown.show_isolines(wanted if is_painted else Isolines(0), self._panel.through)
         seen = self._part(source or box)
         image = self._render_window.shade(
@@ -277,9 +289,8 @@ class _Taker:
         if self._shadows is not None:
             image = self._shadows.cast(image, seen, self._style.occlusion * self._panel.opacity)
         progress(0.7, "finding hidden marks")
-        contours = self._contours(wanted) if self._curves else []
-        if self._style.outline and self._outlines is None:
-            self._outlines = outlines(self._sight)
+        contours = self._contours(wanted) if self._curves and not self._is_of_points else []
+        outlined = outlines(self._sight) if self._style.outline and not self._is_of_points else []
         corner = np.array([self._box.x, self._box.y])
 
         def moved(points: FloatArray) -> FloatArray:
@@ -298,7 +309,7 @@ class _Taker:
             box,
             image,
             [replace(line, parts=moved_lines(line.parts)) for line in contours],
-            moved_lines(self._outlines or ()),
+            moved_lines(outlined),
             moved_marks(self._marks),
             self._projection.view[:3, :3].T,
             moved_marks(self._ghosts) if source is None else [],
@@ -366,7 +377,7 @@ class _Taker:
         return seen, hidden
 
     def _normal(self, mark: PointMark) -> FloatArray:
-        faces = self._surface.faces
+        faces = self._surface.shape.faces
         there = np.isin(faces, mark.corners).all(axis=1) if mark.corners else (faces == mark.vertex).any(axis=1)
         corners = self._surface.vertices[faces[there]]
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).sum(axis=0)

@@ -138,7 +138,7 @@ def _swept(
 
 def _facing(camera: Camera, axis: FloatArray, surface: Surface, looks: Sequence[tuple[float, int]]) -> float:
     """Return the least turn, in degrees, after which most of the looks show their vertices well."""
-    blocks = FaceBlocks(surface)
+    blocks = FaceBlocks(surface.shape)
     tolerance = 1e-6 * float(np.linalg.norm(np.ptp(surface.vertices, axis=0)))
 
     def seen(degrees: float) -> int:

@@ -14,7 +14,7 @@ from ..document.camera import ANATOMICAL, SAME_VIEWS
 from ..document.document import Document
 from ..document.on_surface import SOURCE, SurfaceItem, by_products, clear_surface, remove_items, surface_items
 from ..document.panel_edits import ADD, panel_edits
-from ..document.settings import BANDS, EQUAL_STEPS, FLIP_SCALARS, SWITCHES, Setting
+from ..document.settings import BANDS, EQUAL_STEPS, FLIP_SCALARS, ISOLINE_LABELS, SHOW_EDGES, SWITCHES, Setting
 from ..document.tools import Tool, docked_tools
 from ..scene.style import style_of
 from .actions import Action, actions_of_tools
@@ -120,6 +120,9 @@ def _edit_panel(word: str, context: Context) -> None:
     context[Choices].edit_panel(context.grid.active, word)
 
 
+NO_FACES = "points have no faces"
+
+
 def _dock(tool: Tool) -> Action:
     """Return the action that opens and closes the dock of a tool."""
     return Action(
@@ -130,6 +133,8 @@ def _dock(tool: Tool) -> Action:
         tool.tip,
         tool.icon,
         is_check=True,
+        can_run=_has_faces if tool.needs_faces else None,
+        lack=NO_FACES if tool.needs_faces else "",
         synonyms=tool.synonyms,
     )
 
@@ -145,8 +150,13 @@ def _switch(setting: Setting) -> Action:
         needs_mesh=not setting.is_preference,
         is_on=setting.is_on,
         can_run=CAN_SWITCH.get(setting.word),
+        lack=NO_FACES if CAN_SWITCH.get(setting.word) is _has_faces else "",
         synonyms=setting.synonyms,
     )
+
+
+def _has_faces(context: Context) -> bool:
+    return context.has_faces
 
 
 def _has_two(context: Context) -> bool:
@@ -179,7 +189,10 @@ def _has_steps(context: Context) -> bool:
     return bool(context.document.surfaces) and isolines.spacing is None and not isolines.values
 
 
-CAN_SWITCH = {BANDS.word: _has_colours, FLIP_SCALARS.word: _has_colours, EQUAL_STEPS.word: _has_steps}
+CAN_SWITCH = {
+    **{BANDS.word: _has_colours, FLIP_SCALARS.word: _has_colours, EQUAL_STEPS.word: _has_steps},
+    **{SHOW_EDGES.word: _has_faces, ISOLINE_LABELS.word: _has_faces},
+}
 """When a setting can be switched that cannot always be."""
 
 # fmt: off

@@ -106,6 +106,12 @@ class Context(QtCore.QObject):
 
     # ------------------------------------------------------------------ the panels
     @property
+    def has_faces(self) -> bool:
+        """Return whether the first mesh has faces, and is not of points."""
+        loaded = self.session.loaded()
+        return loaded is not None and bool(len(loaded.surface.faces))
+
+    @property
     def is_built(self) -> bool:
         """Return whether there are panels: the window is shown before what draws has been imported."""
         return self._grid is not None

@@ -28,7 +28,7 @@ class Snapping:
         """Return the source that a place in a panel means."""
         if self.is_on:
             return hit.vertex
-        faces = self._context.session.mesh(panel).surface.faces
+        faces = self._context.session.mesh(panel).surface.shape.faces
         return place_at(faces[hit.face], hit.face, hit.weights.tolist())
 
     def _follow(self, before: Preferences) -> None:

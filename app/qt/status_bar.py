@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 from qtpy import QtCore, QtGui, QtWidgets
 
-from bihdist_core import Surface
+from bihdist_core import PointCloud, Surface
 from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.counts import counted
 from bihdist_core.distances.answers import Answer
@@ -74,14 +74,12 @@ class StatusBar(QtWidgets.QStatusBar):
             self.show_time("")
             self.notes.show_lists()
         else:
-            self._vertices = counted(len(surface.vertices), "vertex", "vertices")
-            self._faces = counted(len(surface.faces), "face")
+            self._vertices = _size(surface)
+            self._faces = counted(len(surface.faces), "face") if len(surface.faces) else "no faces"
             lettered = [("", surface)]
             if beside:
                 lettered = list(zip("ABCDEFGH", (surface, *beside), strict=False))
-                self._vertices = "   ".join(
-                    f"{k}  {counted(len(each.vertices), 'vertex', 'vertices')}" for k, each in lettered
-                )
+                self._vertices = "   ".join(f"{k}  {_size(each)}" for k, each in lettered)
                 self._faces = ""
             notes = [(f"{letter}: " if letter else "", surface_notes(each)) for letter, each in lettered]
             self.notes.show_lists(
@@ -304,6 +302,11 @@ class ListBadge(StatusBadge):
         menu.addAction("Copy", lambda: QtWidgets.QApplication.clipboard().setText("\n".join(self.sentences)))
         menu.aboutToHide.connect(menu.deleteLater)
         menu.popup(self.mapToGlobal(QtCore.QPoint(0, -menu.sizeHint().height())))
+
+
+def _size(surface: Surface) -> str:
+    of_points = isinstance(surface, PointCloud)
+    return counted(len(surface.vertices), *(("point",) if of_points else ("vertex", "vertices")))
 
 
 def unseen(recipe: Recipe, style: Style) -> list[str]:

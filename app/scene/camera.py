@@ -203,7 +203,7 @@ def directions(view: str, up: str = "y", outwards: FloatArray | None = None) -> 
 
 def outwards_at(surface: Surface, vertex: int) -> FloatArray | None:
     """Return the unit normal (3,) that points out of a surface, averaged about a vertex; None where there is none."""
-    x, faces = surface.vertices, surface.faces
+    x, faces = surface.vertices, surface.shape.faces
     used = x[surface.component_of_vertex >= 0]
     reach = NEIGHBOURHOOD * float(np.linalg.norm(np.ptp(used, axis=0)))
     near = np.linalg.norm(x - x[vertex], axis=1) <= reach

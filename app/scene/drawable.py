@@ -7,12 +7,13 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray,
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
-from bihdist_core import Surface
+from bihdist_core import PointCloud, Surface
 from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 from bihdist_core.surface import connected
 
 from ..document.looks import AS_IT_IS, Shading
 from .creases import bends, face_normals, has_creases, point_normals, split, to_length_one
+from .splats import hexagons, put_slopes
 from .winding import Winding, winding
 
 SPECK = 0.02
@@ -29,6 +30,8 @@ def drawable(surface: Surface, shading: Shading = AS_IT_IS) -> vtkPolyData:
     normals
     of its own.  Safe to call on a background thread.
     """
+    if isinstance(surface, PointCloud):
+        return _splats(surface)
     wound, normals = _wound(surface)
     is_cut = np.zeros(len(surface.edges), bool)
     # Faces wound against each other have normals that point to opposite sides.
@@ -43,13 +46,27 @@ def drawable(surface: Surface, shading: Shading = AS_IT_IS) -> vtkPolyData:
     if len(drawn.copies):
         vertices = np.concatenate([vertices, vertices[drawn.copies]])
     mesh = poly_data(vertices, faces, point_normals(normals, faces, len(vertices)))
-    copies = numpy_to_vtkIdTypeArray(drawn.copies, deep=True)
-    copies.SetName(_COPIES)
-    mesh.GetFieldData().AddArray(copies)
+    _put_copies(mesh, drawn.copies)
     backs = numpy_to_vtk(np.array([wound.has_backs, wound.has_inside], np.int8), deep=True)
     backs.SetName(_BACKS)
     mesh.GetFieldData().AddArray(backs)
     return mesh
+
+
+def _splats(cloud: PointCloud) -> vtkPolyData:
+    """Return a cloud for VTK, as `drawable`: its points, and corners of hexagons as copies of them."""
+    corners, faces, copies = hexagons(cloud)
+    normals = np.concatenate([cloud.normals, cloud.normals[copies]]).astype(np.float32)
+    mesh = poly_data(np.concatenate([cloud.vertices, corners]), faces, normals)
+    _put_copies(mesh, copies)
+    put_slopes(mesh, cloud)
+    return mesh
+
+
+def _put_copies(mesh: vtkPolyData, copies: IntArray) -> None:
+    array = numpy_to_vtkIdTypeArray(copies, deep=True)
+    array.SetName(_COPIES)
+    mesh.GetFieldData().AddArray(array)
 
 
 def _wound(surface: Surface) -> tuple[Winding, list[FloatArray]]:
@@ -65,7 +82,7 @@ def _wound(surface: Surface) -> tuple[Winding, list[FloatArray]]:
 
 def crease_of(surface: Surface, shading: Shading) -> float | None:
     """Return the degrees from which on faces that meet are drawn with an edge: 0 for all of them, None for none."""
-    if shading.normals == "smooth":
+    if shading.normals == "smooth" or isinstance(surface, PointCloud):
         return None
     if shading.normals == "flat":
         return 0.0

@@ -20,6 +20,7 @@ from .drawable import copies_of, has_backs, vertex_faces
 from .face_look import map_attribute, pass_on, put_face_look
 from .levels import BOLD, ZERO, Levels, levels, too_many
 from .selected import PAINT_SELECTED
+from .splats import at_corners
 from .stand_in import StandInActor
 from .style import CASING, RIM, IsolineInk, Style
 
@@ -152,7 +153,7 @@ class FieldActor:
         own = vtkPolyData()
         own.ShallowCopy(mesh)
         self._copies = copies_of(mesh)
-        self._values = np.concatenate([values, values[self._copies]])
+        self._values = np.concatenate([values, self._at_copies(values)]).astype(np.float32, copy=False)
         self._array = numpy_to_vtk(self._values)
         self._array.SetName("distance")
         own.GetPointData().AddArray(self._array)
@@ -162,6 +163,11 @@ class FieldActor:
             kept = before.get(name)
             self._tint(name, kept if kept is not None and len(kept) == len(values) else None)
         self.actor.VisibilityOn()
+
+    def _at_copies(self, values: AnyArray) -> AnyArray:
+        """Return a field (n,) at the copies of vertices (k,), which stand beside them where they are of points."""
+        beside = at_corners(self.mesh, values, UNDEFINED)
+        return values[self._copies] if beside is None else beside
 
     def show_selected(self, colours: ByteArray | None) -> None:
         """Tint vertices that stand out with colours (n, 4) uint8, see `selected_colours`; None for none."""
@@ -275,7 +281,7 @@ class FieldActor:
         shares = field / top if top > 0 else np.zeros_like(field)
         values = np.where(np.isnan(field), UNDEFINED, (shares + 1) / 2 if signed else shares)
         self._values[: len(values)] = values
-        self._values[len(values) :] = values[self._copies]
+        self._values[len(values) :] = self._at_copies(values)
         self._array.Modified()
         self.maximum, self._own_maximum, self._has_lines = top, own, has_lines
         self._be_plain(False)

@@ -34,10 +34,13 @@ class Hit:
 
 
 class Picker:
-    """Finds what is under a point of the screen; a pick takes about a millisecond."""
+    """Finds what is under a point of the screen; a pick takes about a millisecond.
+
+    Where a surface is of points, it finds the nearest of these.
+    """
 
     def __init__(self, surface: Surface) -> None:
-        self._surface = surface
+        self._surface, self._is_of_points = surface.shape, surface.shape is not surface
 
     @cached_property
     def blocks(self) -> FaceBlocks:
@@ -58,6 +61,8 @@ class Picker:
         corners = self._surface.vertices[ids]
         away = np.linalg.norm(corners - position, axis=1)
         nearest = np.lexsort((away, ~is_kept(clip, corners)))[0]
+        if self._is_of_points:
+            weights, position = np.eye(3)[nearest], corners[nearest]
         return Hit(face, weights, position, int(ids[nearest]))
 
     def sees(self, renderer: vtkRenderer, point: FloatArray, clip: ClipPlane | None = None) -> bool:

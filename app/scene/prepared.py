@@ -105,7 +105,9 @@ def prepare(surface: Surface) -> Prepared:
     points = shown[:: max(1, len(shown) // FITTED)]
     picker = Picker(surface)
     _ = picker.blocks  # made here, and not at the first pick
-    return Prepared(Meshes(surface), picker, points, bounds, _samples(surface), is_flat(shown))
+    return Prepared(
+        Meshes(surface), picker, points, bounds, _samples(surface.shape), surface.shape is surface and is_flat(shown)
+    )
 
 
 def _samples(surface: Surface) -> FloatArray:

@@ -17,6 +17,7 @@ from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 
 from .drawable import copies_of, faces_of, poly_data, with_backs_of
 from .face_look import map_attribute
+from .splats import CORNERS, FAN, is_of_points
 
 CLUSTERS = 40_000
 """About how many there are."""
@@ -58,6 +59,8 @@ class StandIn:
 
 def stand_in(mesh: vtkPolyData, clusters: int = CLUSTERS) -> StandIn | None:
     """Make the stand-in of a mesh made by `drawable`, on any thread; None if that is small or has no area."""
+    if is_of_points(mesh):
+        return _some_hexagons(mesh, clusters // 2)
     x, faces = vtk_to_numpy(mesh.GetPoints().GetData()), faces_of(mesh)
     used = np.zeros(len(x), bool)
     used[faces.ravel()] = True
@@ -82,6 +85,23 @@ def stand_in(mesh: vtkPolyData, clusters: int = CLUSTERS) -> StandIn | None:
     made = poly_data(centres, kept, means.astype(np.float32))
     with_backs_of(made, mesh)
     return StandIn(made, of_point, count)
+
+
+def _some_hexagons(mesh: vtkPolyData, most: int) -> StandIn | None:
+    """Return every so many of a mesh's hexagons, larger, as a stand-in; None if there are few."""
+    x, copies = vtk_to_numpy(mesh.GetPoints().GetData()), copies_of(mesh)
+    step = -(-len(copies) // (CORNERS * most))
+    if step < WORTHWHILE:
+        return None
+    chosen = np.arange(len(copies)).reshape(-1, CORNERS)[::step].ravel()
+    corners = len(x) - len(copies) + chosen
+    centres = x[copies[chosen]]
+    places = centres + np.sqrt(step) * (x[corners] - centres)
+    faces = (CORNERS * np.arange(len(chosen) // CORNERS)[:, None, None] + FAN).reshape(-1, 3)
+    normals = vtk_to_numpy(mesh.GetPointData().GetNormals())[corners]
+    of_point = np.full(len(x), len(corners))
+    of_point[corners] = np.arange(len(corners))
+    return StandIn(poly_data(places, faces, normals), of_point, len(corners))
 
 
 def _side(x: FloatArray, faces: IntArray, clusters: int) -> float:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from bihdist_core import ParameterError, Surface
+from bihdist_core import ParameterError, PointCloud, Surface
 from bihdist_core.arrays import AnyArray, FloatArray
 from bihdist_core.distances.answers import Answer, given_answer
 from bihdist_core.file_content import open_regular
@@ -166,7 +166,8 @@ class ArrayStore:
                 if not mesh.path and mesh.change is None:
                     at = f"surface/{mesh.name}"
                     vertices, faces, name = (archived_array(archive, f"{at}/{part}", path) for part in PARTS)
-                    _check(given.add_surface(Surface(vertices, faces, str(name))), mesh, path)
+                    made = Surface(vertices, faces, str(name)) if len(faces) else PointCloud(vertices, str(name))
+                    _check(given.add_surface(made), mesh, path)
             for field in document.fields:
                 if not field.path:
                     _check(

@@ -17,6 +17,7 @@ from bihdist_core.distances.unfolding_mesh import unfolding_mesh
 from bihdist_core.file_output import atomic_write, check_output
 from bihdist_core.formats.vertex_count import announced_vertices
 from bihdist_core.progress import Progress, part
+from bihdist_core.surface import with_faces
 
 from ..document.document import MeshFile
 from ..document.page import Recipe
@@ -155,6 +156,7 @@ def page_of(
     document, surfaces = open_document(recipe, given or ArrayStore.read(recipe))
     contents = Contents.of(document)
     loaded = surfaces[document.surfaces[0].name]
+    with_faces(loaded.surface, "pages")
     check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path)
     _check_eigenpairs(contents, len(loaded.surface.vertices), eigenpairs)
     recipe = replace(recipe, document=contents.document)

@@ -44,7 +44,7 @@ class Brush:
     """
 
     def __init__(self, surface: MeshLike) -> None:
-        self._surface = Surface.of(surface)
+        self._surface = Surface.of(surface).shape
         self._tree = cKDTree(self._surface.vertices)
 
     @cached_property

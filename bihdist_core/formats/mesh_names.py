@@ -75,6 +75,8 @@ MESH_FORMATS = tuple(name for name in FORMATS if name.startswith("."))
 
 ARRAY_FILES = (".mat", ".npz", ".npy")
 """Those that hold arrays of any kind."""
+SOLIDS = (".mesh", ".msh")
+"""Those of tetrahedra, mostly."""
 SHARED = (".gii", FREESURFER, *ARRAY_FILES)
 """The formats of files that may hold something else than a mesh."""
 
@@ -86,6 +88,7 @@ _OTHER_GIFTI = re.compile(r"\.(func|shape|label|time|rgba|vector|tensor|coord|to
 _SURFACE = re.compile(rb"\xff\xff\xfe|#!ascii(?! *label)")
 _MNI = re.compile(rb"\s*[FLMPQTX]\s|[flmpqtx](?!\s)[^\0]{0,40}\0")
 """A letter for the kind of object, and its numbers as words, or as bytes, of which some are zero."""
+_PLY_FACES = re.compile(rb"element[ \t]+(face|tristrips)[ \t]+0*[1-9]")
 _SEARCHED = 1 << 26
 """So many bytes of a GIFTI file are searched for points."""
 
@@ -117,6 +120,15 @@ def beginning(path: str | os.PathLike[str], count: int = 200) -> bytes:
         ):
             return file.read(count)
     return b""
+
+
+def holds_points(path: str | os.PathLike[str]) -> bool:
+    """Return whether a mesh file has points without faces, by its name and its first bytes."""
+    form = mesh_format(path)
+    if form != ".ply":
+        return bool(form) and FORMATS[form].has_points
+    head, end, _ = beginning(path, 1 << 16).partition(b"end_header")
+    return bool(end) and not _PLY_FACES.search(head)
 
 
 def has_hemisphere(name: str) -> bool:

@@ -17,6 +17,7 @@ _PIECE = re.compile(rb"""\bNumberOfPoints\s*=\s*["'](\d{1,18})["']""")
 _IN_WORDS = {
     ".off": re.compile(rb"\A\s*\w*OFF\s+(\d{1,18})\s+\d+"),
     ".ply": re.compile(rb"[\r\n]element[ \t]+vertex[ \t]+(\d{1,18})"),
+    ".pcd": re.compile(rb"[\r\n]POINTS[ \t]+(\d{1,18})"),
     ".vtk": re.compile(rb"[\r\n]POINTS[ \t]+(\d{1,18})", re.IGNORECASE),
     FREESURFER: re.compile(rb"\A#![^\n]*\n\s*(\d{1,18})[ \t]+\d+"),
     MNI: re.compile(rb"\A\s*P(?:\s+\S+){5}\s+(\d{1,18})"),

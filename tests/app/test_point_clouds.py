@@ -5,9 +5,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
+from app.figures.picture import figure, figure_again
 from app.main import main
-from bihdist_core import BiharmonicDistance, PointCloud
+from app.scene.drawable import copies_of, drawable, faces_of
+from app.scene.field_actor import UNDEFINED
+from app.scene.prepared import prepare
+from app.scene.splats import CORNERS, at_corners
+from app.scene.stand_in import stand_in
+from app.tools.source.strokes import source_from_strokes
+from bihdist_core import BiharmonicDistance, PointCloud, SourceSet, SurfacePoint
 from tests.shapes import bumpy
 
 
@@ -41,6 +50,8 @@ def test_field_pairs_and_info(cloud, capsys):
         ("statistics scan.xyz --sources 3", "statistics need faces"),
         ("regions scan.xyz --sources 3,40 -o labels.csv", "regions need faces"),
         ("perturb scan.xyz --noise 0.1 -o noisy.ply", "changes need faces"),
+        ("page scan.xyz -o page.html", "pages need faces"),
+        ("figure scan.xyz --distance biharmonic --isoline-labels", "labels of isolines need faces"),
     ],
 )
 @pytest.mark.usefixtures("cloud")
@@ -54,3 +65,88 @@ def test_coloured_points(capsys):
     assert main(["field", "scan.xyz", "--sources", "3", "-o", "field.ply"]) == 0
     assert main(["info", "field.ply", "--json"]) == 0
     assert '"n_faces": 0' in capsys.readouterr().out
+
+
+# ---------------------------------------------------------------------- pictures
+@pytest.fixture(scope="module")
+def plane():
+    """Points at random in a plane."""
+    x = np.random.default_rng(2).random((800, 3))
+    return PointCloud(x * [1, 1, 0], "plane")
+
+
+def test_a_linear_field_goes_on_over_hexagons(plane):
+    mesh = drawable(plane)
+    x, field = vtk_to_numpy(mesh.GetPoints().GetData()), 2 * plane.vertices[:, 0] - plane.vertices[:, 1]
+    assert np.array_equal(copies_of(mesh), np.repeat(np.arange(800), CORNERS))
+    inside = ((plane.vertices[:, :2] > 0.15) & (plane.vertices[:, :2] < 0.85)).all(axis=1)
+    corners = at_corners(mesh, field, UNDEFINED).reshape(-1, CORNERS)
+    there = x[800:].reshape(-1, CORNERS, 3)
+    off = np.abs(corners - (2 * there[..., 0] - there[..., 1]))[inside]
+    # Corners that are farther than all neighbours have the values of these.
+    assert np.median(off) < 1e-12
+    assert off.max() < 0.1
+    lengths = np.linalg.norm(there - plane.vertices[:, None], axis=2)
+    assert np.allclose(lengths, lengths[:, :1])
+    assert (np.ptp(there[..., 2], axis=1) < 1e-9).all()
+
+
+def test_what_is_undefined_leaves_no_trace_beside_it(plane):
+    field = np.where(plane.vertices[:, 0] < 0.5, UNDEFINED, 1.0)
+    corners = at_corners(drawable(plane), field, UNDEFINED)
+    assert np.array_equal(corners, np.repeat(field, CORNERS))
+
+
+def test_a_large_cloud_moves_as_some_of_its_hexagons(plane):
+    mesh = drawable(plane)
+    standing = stand_in(mesh, 400)
+    assert standing.mesh.GetNumberOfPoints() == 200 * CORNERS
+    values = np.arange(800 * (1 + CORNERS), dtype=float)
+    assert standing.averaged(values, UNDEFINED)[:7].tolist() == [*values[800:806], values[800 + 4 * CORNERS]]
+    area = [len(faces_of(each)) for each in (mesh, standing.mesh)]
+    assert area[0] == 4 * area[1]
+    assert stand_in(mesh) is None
+
+
+def test_a_pick_finds_a_point_and_no_place_between(cloud):
+    prepared = prepare(cloud)
+    assert not prepared.is_flat
+    eye = np.array([0.0, 0.0, 10.0])
+    face, weights, _ = prepared.picker.blocks.first_hit(eye, -eye)
+    assert weights.sum() == pytest.approx(1)
+    assert cloud.shape.faces[face].max() < 400
+
+
+def test_a_stroke_over_points_is_a_set_of_them(cloud):
+    (a, b, c), face = cloud.shape.faces[0].tolist(), 0
+    stroke = [SurfacePoint(face, weights) for weights in ((1, 0, 0), (0, 1, 0), (1, 0, 0), (0, 0, 1))]
+    assert source_from_strokes([stroke], cloud) == SourceSet((a, b, c))
+    assert source_from_strokes([stroke[:1]], cloud) == a
+
+
+@pytest.mark.usefixtures("cloud")
+def test_a_figure_has_other_usual_distances_and_isolines(capsys):
+    assert main(["figure", "scan.xyz", "--sources", "3", "--json"]) == 0
+    panels = json.loads(capsys.readouterr().out)["panels"]
+    assert [each["distance"] for each in panels] == ["biharmonic", "commute-time", "diffusion"]
+    with Image.open("scan.png") as image:
+        first = np.asarray(image)
+    assert main(["figure", "--recipe", "scan.json", "-o", "again.png"]) == 0
+    with Image.open("again.png") as image:
+        assert np.array_equal(np.asarray(image), first)
+    colours = first[..., :3].reshape(-1, 3).astype(int)
+    assert (colours[:, 2] - colours[:, 0] > 60).mean() > 0.02  # blue near the source
+    assert (colours[:, 0] - colours[:, 2] > 60).mean() > 0.02  # red far from it
+    # Isolines are white and painted, so another number of them is another picture.
+    assert main(["figure", "scan.xyz", "--sources", "3", "--isolines", "0", "-o", "none.png"]) == 0
+    with Image.open("none.png") as image:
+        assert not np.array_equal(np.asarray(image), first)
+
+
+def test_points_from_python_are_drawn_and_kept(cloud, tmp_path):
+    first = figure(cloud, ["biharmonic"], source=3)
+    first.save(str(tmp_path / "cloud.png"))
+    again = figure_again(tmp_path / "cloud.json")
+    again.save(str(tmp_path / "again.png"))
+    with Image.open("cloud.png") as one, Image.open("again.png") as other:
+        assert np.array_equal(np.asarray(one), np.asarray(other))

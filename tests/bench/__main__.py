@@ -20,6 +20,7 @@ from . import (
     chart,
     drag_row,
     exact_rows,
+    figure_rows,
     geodesic_rows,
     growth_rows,
     live_row,
@@ -65,6 +66,7 @@ ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
     25: exact_rows.cholesky,
     26: thread_row.threads,
     27: geodesic_rows.exact_geodesics,
+    28: figure_rows.figures,
     29: matrix_rows.matrices,
 }
 

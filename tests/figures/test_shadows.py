@@ -10,6 +10,7 @@ from app.figures.draw import draw_figure, save_figure
 from app.figures.framing import Framed
 from app.figures.layout import lay_out
 from app.figures.occlusion import Occlusion
+from app.figures.shadows import Shadows
 from app.figures.shots import take_shots
 from app.figures.size import Size
 from app.scene.style import STYLES
@@ -114,6 +115,16 @@ def test_a_cover_drawn_again_is_equal(tmp_path, extension):
     for path in files:
         save_figure(Figure((panel,), size=SIZE, style=STYLES["cover"], transparent=True), path)
     assert files[0].read_bytes() == files[1].read_bytes()
+
+
+def test_panels_of_one_surface_share_their_shadows_on_pages_of_any_width(monkeypatch):
+    ball, made = bumpy(300), []
+    monkeypatch.setattr("app.figures.shots.Shadows", lambda *given: made.append(given) or Shadows(*given))
+    panels = tuple(FigurePanel(ball, np.abs(ball.vertices[:, k])) for k in range(3))
+    figure = Figure(panels, size=Size(400, 200, dpi=96), style=STYLES["cover"])
+    shots = take_shots(figure, lay_out(figure), silent)
+    assert len({shot.image.shape for shot in shots}) == len(made) == 1
+    assert len({shot.image[..., 3].tobytes() for shot in shots}) == 1
 
 
 # ---------------------------------------------------------------------- colours, see how-to/cover.md

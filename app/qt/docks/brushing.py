@@ -174,7 +174,7 @@ class Brushing(QtCore.QObject):
             has_ctrl = bool(keys & QtCore.Qt.KeyboardModifier.ControlModifier)
             self._is_erasing = has_ctrl and (self.cuts or self.current in known)
         self._faces.add(hit.face)
-        position = hit.weights @ surface.vertices[surface.faces[hit.face]]  # not that in a height field
+        position = hit.weights @ surface.vertices[surface.shape.faces[hit.face]]  # not that in a height field
         near = self._brush.near(hit.face, position, self.radius * pixel)
         new = near[~self._stroke[near]]
         if len(new):
@@ -199,7 +199,7 @@ class Brushing(QtCore.QObject):
             panel.marks.show_dabs(None)
         surface = self._shown
         if self.cuts and stroke is not None and surface is not None and surface is self._surface:
-            within = np.flatnonzero(stroke[surface.faces].all(axis=1))
+            within = np.flatnonzero(stroke[surface.shape.faces].all(axis=1))
             self.cut.emit(np.union1d(within, np.array(sorted(touched), np.int64)), self._is_erasing)
         elif stroke is not None and surface is self._surface:
             self.select(np.flatnonzero(stroke), "removed" if self._is_erasing else "added")
@@ -208,7 +208,7 @@ class Brushing(QtCore.QObject):
 
 def _prepare_brush(request: tuple[Surface], progress: Progress) -> Iterator[Brush]:
     brush = Brush(request[0])
-    brush.near(0, request[0].vertices[request[0].faces[0, 0]], 1e-300)  # its edges, too
+    brush.near(0, request[0].vertices[request[0].shape.faces[0, 0]], 1e-300)  # its edges, too
     yield brush
 
 

@@ -142,7 +142,7 @@ def label_request(panel: DistancePanel) -> LabelRequest | None:
     scene = view.scene
     if view.picture is None or scene.field_actor.stand_in.is_shown or not panel.isolines.labels:
         return None
-    if answer is None or answer.field is None or panel.shape is None:
+    if answer is None or answer.field is None or panel.shape is None or panel.shape.shape is not panel.shape:
         return None
     width, height = view.width(), view.height()
     whole = Box(0.0, 0.0, float(width), float(height))

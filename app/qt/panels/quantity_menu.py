@@ -149,6 +149,9 @@ def _add_parts(
         if is_offered(DistanceFrom(Spec.of(kind.word))):
             action = _add(menu, kind_name(kind), f"{kind.hint[:1].upper()}{kind.hint[1:]}", partial(choose, kind.word))
             tick(action, now is not None and bool(now.specs) and now.specs[0].word == kind.word)
+            if kind.word == "geodesic" and choices.surface is not None and not len(choices.surface.faces):
+                action.setEnabled(False)
+                action.setToolTip("Geodesic distance needs faces, and points have none")
     menu.addSeparator()
     for word, row in SIGNATURES.items():
         if is_offered(VertexSignature(SignatureSpec.of(word))):

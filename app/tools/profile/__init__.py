@@ -11,6 +11,7 @@ TOOL = Tool(
     tip="Values along a path: the chart of all panels' fields",
     icon="profile",
     synonyms="measure plot graph along geodesic path curve section",
+    needs_faces=True,
     dock="dock:ProfileDock",
     commands={"profile": "command"},
     parts=("part:Profile",),

@@ -11,6 +11,7 @@ TOOL = Tool(
     tip="Extrema, isotropy, kinks and triangles of every panel's distance",
     icon="quality",
     synonyms="measure accuracy error check triangles extrema isotropy",
+    needs_faces=True,
     dock="dock:QualityDock",
     findings="findings:QualityFindings",
     marks="marks:marks",

@@ -11,6 +11,7 @@ TOOL = Tool(
     tip="Points spread over the surface, and which part of it is nearest to each pin",
     icon="regions",
     synonyms="sampling voronoi segmentation clusters",
+    needs_faces=True,
     dock="dock:RegionsDock",
     commands={"samples": "samples_command", "regions": "command"},
     findings="findings:RegionFindings",

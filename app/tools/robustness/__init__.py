@@ -12,6 +12,7 @@ TOOL = Tool(
     icon="robustness",
     synonyms="compare noise holes decimate simplify perturb remesh difference",
     gesture="gestures:CutGestures",
+    needs_faces=True,
     dock="dock:RobustnessDock",
     commands={"perturb": "command"},
     quantities=("quantity:DistanceChange",),

@@ -117,7 +117,7 @@ class SourceGestures(Gesture):
         vertex = panel.marks.source
         if vertex is None:
             return
-        faces = surface.faces[(surface.faces == vertex).any(axis=1)]
+        faces = surface.shape.faces[(surface.shape.faces == vertex).any(axis=1)]
         others = np.setdiff1d(faces, [vertex])
         at = panel.view.place_of(panel.positions[vertex])
         places = [panel.view.place_of(panel.positions[other]) for other in others]
@@ -274,7 +274,7 @@ class SourceGestures(Gesture):
 
     def _on_view(self, panel: int) -> AnyArray:
         """Return the places (k, 2) in the view of what has been drawn."""
-        widget, faces = self._grid.panel(panel), self.context.session.mesh(panel).surface.faces
+        widget, faces = self._grid.panel(panel), self.context.session.mesh(panel).surface.shape.faces
         places = [place for stroke in self._strokes for place in stroke]
         points = [np.array(place.weights) @ widget.positions[faces[place.face]] for place in places]
         seen = [widget.view.place_of(point) for point in points]
@@ -284,7 +284,7 @@ class SourceGestures(Gesture):
         """Show the strokes on all panels of the surface."""
         surface, name = self.context.session.mesh(panel).surface, self._grid.panel(panel).surface
         strokes = [
-            (surface.faces[[place.face for place in stroke]], np.array([place.weights for place in stroke]))
+            (surface.shape.faces[[place.face for place in stroke]], np.array([place.weights for place in stroke]))
             for stroke in self._strokes
         ]
         for widget in self._grid.panels:

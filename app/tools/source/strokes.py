@@ -20,11 +20,14 @@ it behind."""
 
 
 def source_from_strokes(strokes: Sequence[Sequence[SurfacePoint]], surface: Surface, is_closed: bool = False) -> Source:
-    """Return the source of strokes on a surface: curves, and points for strokes of one place.
+    """Return the source of strokes on a surface: curves, and points for strokes of one place, or on points.
 
     Places that no path on the surface joins are cut apart. With `is_closed` the only stroke returns to where it
     began.
     """
+    if not len(surface.faces):
+        places = [place for stroke in strokes for place in stroke]
+        return source_from(list(dict.fromkeys(_member([place], surface.shape, False) for place in places)))
     joins = _Joins(strokes, surface)
     runs: list[list[SurfacePoint]] = []
     for stroke in strokes:

@@ -11,6 +11,7 @@ TOOL = Tool(
     tip="The active panel in numbers: mean, quantiles, histogram, isolines",
     icon="isolines",
     synonyms="measure mean quantiles histogram numbers average",
+    needs_faces=True,
     dock="dock:StatisticsDock",
     commands={"statistics": "command"},
     charts={"histogram": "..figures.histogram_figure:charts"},
