@@ -23,6 +23,7 @@ from .arrays import FloatArray, IntArray
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError, SolverError
 from .expected_time import Expected, expected_seconds
+from .intrinsic import COTAN, checked_operator
 from .machine_memory import check_memory
 from .memo import locked_cached_property
 from .mesh_arrays import check_size
@@ -59,12 +60,13 @@ class SurfaceOperators:
     before the garbage collector runs.
     """
 
-    def __init__(self, surface: Surface, areas_kind: str) -> None:
+    def __init__(self, surface: Surface, areas_kind: str, operator: str = COTAN) -> None:
         self.surface = surface
         self.areas_kind = areas_kind
+        self.operator = operator
 
-    def __reduce__(self) -> tuple[type[SurfaceOperators], tuple[Surface, str]]:
-        return SurfaceOperators, (self.surface, self.areas_kind)
+    def __reduce__(self) -> tuple[type[SurfaceOperators], tuple[Surface, str, str]]:
+        return SurfaceOperators, (self.surface, self.areas_kind, self.operator)
 
     @locked_cached_property
     def _assembled(self) -> Matrices:
@@ -74,11 +76,11 @@ class SurfaceOperators:
         return stiffness, areas
 
     def _assemble(self) -> Matrices:
-        return operators(self.surface, self.areas_kind)
+        return operators(self.surface, self.areas_kind, self.operator)
 
     @property
     def stiffness(self) -> sp.csr_matrix:
-        """The cotangent stiffness matrix (n, n), read-only; no unit."""
+        """The stiffness matrix (n, n), read-only; no unit."""
         return self._assembled[0]
 
     @property
@@ -116,11 +118,17 @@ class Laplacian:
         A surface or any other mesh that `Surface.of` takes.
     areas : {"voronoi", "barycentric"}
         The vertex areas; ``"voronoi"`` are mixed Voronoi areas.
+    operator : {"cotan", "intrinsic-delaunay", "tufted"}
+        The triangles whose cotangents the stiffness matrix has: the faces, as in the paper; those of an intrinsic
+        Delaunay triangulation, for thin faces; or of the tufted cover, for edges of more than two faces, which has
+        areas of its own and needs the package robust_laplacian.
 
     Attributes
     ----------
     surface : Surface
         The mesh.
+    operator : str
+        The name of its operator.
     components : tuple of Component
         The connected components, the one with most vertices first.
     pickles_factors : bool
@@ -132,7 +140,7 @@ class Laplacian:
     MeshError
         If the surface is larger than 1e50 or smaller than 1e-50.
     ParameterError
-        For other areas.
+        For other areas and operators.
 
     Notes
     -----
@@ -155,16 +163,17 @@ class Laplacian:
 
     pickles_factors = False
 
-    def __init__(self, surface: MeshLike, areas: str = "voronoi") -> None:
+    def __init__(self, surface: MeshLike, areas: str = "voronoi", operator: str = COTAN) -> None:
         if areas not in AREAS:
             raise ParameterError(f"There are no {areas!r} vertex areas; choose one of {', '.join(AREAS)}.")
         known = Surface.of(surface)
         if len(known.faces):
             check_size(known.vertices, known.faces, known.name)
-        self._set(SurfaceOperators(known, areas))
+        self._set(SurfaceOperators(known, areas, checked_operator(operator, areas)))
 
     def _set(self, operators: SurfaceOperators) -> None:
         self._operators, self.surface, self.areas_kind = operators, operators.surface, operators.areas_kind
+        self.operator = operators.operator
         self.components = tuple(Component(operators, k) for k in range(self.surface.n_components))
 
     @classmethod
@@ -213,7 +222,36 @@ class Laplacian:
         return laplacian
 
     def __repr__(self) -> str:
-        return f"Laplacian({self.surface!r}, {self.areas_kind} areas)"
+        return f"Laplacian({self.surface!r}, {self.areas_kind} areas{self.operator_words})"
+
+    @property
+    def operator_words(self) -> str:
+        """What labels say of the operator: nothing of the paper's.
+
+        Examples
+        --------
+        >>> import bihdist, pyvista
+        >>> bihdist.Laplacian(pyvista.Icosphere(nsub=1), operator="intrinsic-delaunay").operator_words
+        ', intrinsic-delaunay'
+        """
+        return "" if self.operator == COTAN else f", {self.operator}"
+
+    def of_faces(self) -> Laplacian:
+        """Return the Laplacian by the cotangents of the faces: itself, unless it has another operator.
+
+        Returns
+        -------
+        Laplacian
+            With the same areas, or Voronoi areas.
+
+        Examples
+        --------
+        >>> import bihdist, pyvista
+        >>> other = bihdist.Laplacian(pyvista.Icosphere(nsub=1), operator="intrinsic-delaunay")
+        >>> other.of_faces()
+        Laplacian(Surface(PolyData: 42 vertices, 80 faces), voronoi areas)
+        """
+        return self if self.operator == COTAN else Laplacian(self.surface, self.areas_kind)
 
     def __reduce__(self) -> tuple[Callable[..., Laplacian], tuple[object, ...]]:
         computed = tuple(component._computed for component in self.components) if self.pickles_factors else None
@@ -380,9 +418,17 @@ class Component:
         return whole if len(self.vertices) == whole.shape[0] else whole[self.vertices][:, self.vertices]
 
     @locked_cached_property
+    def measured(self) -> Surface:
+        """The component with the faces that the operator is made of, none if it has others."""
+        if self._whole.operator == COTAN:
+            return self.surface
+        alone = np.zeros(len(self.vertices), np.int64)
+        return Nodes(self.surface.vertices, name=self.surface.name, component_of_vertex=alone)
+
+    @locked_cached_property
     def flat(self) -> DegenerateFaces:
-        """The degenerate faces of the component."""
-        return DegenerateFaces.of(self.surface)
+        """The degenerate faces that the operator is made of."""
+        return DegenerateFaces.of(self.measured)
 
     @locked_cached_property
     def areas(self) -> FloatArray:

@@ -15,6 +15,7 @@ import scipy.sparse as sp
 from .arrays import FloatArray
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError
+from .intrinsic import COTAN, INTRINSIC, TUFTED, Corners, delaunay, stiffness_of, tufted
 from .kernel.library import library
 from .point_cloud import PointCloud
 from .surface import FLAT_RATIO, Surface
@@ -22,19 +23,24 @@ from .tetrahedra import TetrahedralMesh
 
 AREAS = ("voronoi", "barycentric")
 
-Corners = tuple[FloatArray, FloatArray, FloatArray]
-"""(3, m) cotangent of each corner, (3, m) squared length of the side opposite to it, (m,) face areas."""
 
+def operators(surface: Surface, areas: str = "voronoi", operator: str = COTAN) -> tuple[sp.csr_matrix, FloatArray]:
+    """Return `stiffness` (n, n) and `vertex_areas` (n,), for which the faces are measured once, or another operator's.
 
-def operators(surface: Surface, areas: str = "voronoi") -> tuple[sp.csr_matrix, FloatArray]:
-    """Return `stiffness` (n, n) and `vertex_areas` (n,), for which the faces are measured once.
-
-    Those of points and tetrahedra are their own.  ParameterError for other areas of these.
+    Those of points and tetrahedra are their own.  ParameterError for other areas and operators of these.
     """
     if isinstance(surface, PointCloud | TetrahedralMesh):
         if areas != AREAS[0]:
             raise ParameterError(f"{surface.name}: {areas} areas need faces, and there are none.")
+        if operator != COTAN:
+            raise ParameterError(f"{surface.name}: the operator {operator} needs faces, and there are none.")
         return surface.matrices
+    if operator == TUFTED:
+        return tufted(surface)
+    if operator == INTRINSIC:
+        faces, corners = delaunay(surface)
+        n, shares = len(surface.vertices), _shares(areas, corners)
+        return stiffness_of(n, faces, corners[0]), np.bincount(faces.T.ravel(), shares.ravel(), n).astype(float)
     corners = _corners(surface)
     return _assembled(surface, _weights(surface, corners)), _areas(surface, areas, corners)
 
@@ -92,16 +98,7 @@ def _areas(surface: Surface, kind: str, corners: Corners) -> FloatArray:
         areas = np.zeros(n)
         lib.bih_voronoi_areas(len(area), surface.faces, cotangents, squares, area, areas)
         return areas
-    if kind == "barycentric":
-        share = np.broadcast_to(area / 3, (3, len(area)))
-    else:
-        # Of an acute triangle, corner k gets the part nearer to it than to the others.
-        part = cotangents * squares
-        share = (part.sum(axis=0) - part) / 8
-        obtuse = np.flatnonzero(cotangents < 0)
-        face = obtuse % len(area)
-        share[:, face] = area[face] / 4
-        np.put(share, obtuse, area[face] / 2)
+    share = _shares(kind, corners)
     if not len(flat):
         return np.bincount(surface.faces.T.ravel(), share.ravel(), n).astype(float, copy=False)
     share = share.copy()
@@ -116,6 +113,21 @@ def _areas(surface: Surface, kind: str, corners: Corners) -> FloatArray:
     bare = faint & (np.bincount(component + 1, areas)[component + 1] == 0)
     areas[bare] = small
     return areas
+
+
+def _shares(kind: str, corners: Corners) -> FloatArray:
+    """Return (3, m) the shares of the areas of faces that their corners get."""
+    cotangents, squares, area = corners
+    if kind == "barycentric":
+        return np.broadcast_to(area / 3, (3, len(area)))
+    # Of an acute triangle, corner k gets the part nearer to it than to the others.
+    part = cotangents * squares
+    share: FloatArray = (part.sum(axis=0) - part) / 8
+    obtuse = np.flatnonzero(cotangents < 0)
+    face = obtuse % len(area)
+    share[:, face] = area[face] / 4
+    np.put(share, obtuse, area[face] / 2)
+    return share
 
 
 def face_sides(surface: Surface, true: bool = False) -> list[FloatArray]:

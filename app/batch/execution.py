@@ -43,9 +43,10 @@ from .jobs import (
 from .maps import evaluate_map
 from .memory import PART_BYTES, allowed, needed
 from .results import NORMALISED, ArrayBlocks, for_matlab, laid_out, write_metadata, write_result
+from .statements import write_statements
 from .storage import Folder
 from .task import Failure, Report, ResultRow, Task, TaskPart, existing_report, existing_row, failed_report
-from .work_order import KINDS, MAXIMA
+from .work_order import KINDS, MAXIMA, STATEMENTS
 
 MASKED = "vertices with 0 are left out of results; distances still cross them"
 """The remark on a mask in the metadata."""
@@ -133,12 +134,18 @@ def _sources_from_file(mesh: BatchMesh) -> int:
 
 def _compute(task: Task, mesh: BatchMesh, work: str, distance: str) -> dict[str, Any]:
     begin = time.monotonic()
-    if work == "figure":
-        from .figures import draw_figure
-
+    if work in ("figure", STATEMENTS):
         folder, name = Folder(task.out), task.result_name(work, distance)
-        metadata = {**draw_figure(task.mesh, mesh, folder, f"{name}.png"), **_mesh_metadata(task, mesh, work)}
-        return write_metadata(folder, name, task.key(work, distance), f"{name}.png", metadata, begin)
+        if work == "figure":
+            from .figures import draw_figure
+
+            file = f"{name}.png"
+            metadata = draw_figure(task.mesh, mesh, folder, file)
+        else:
+            file = f"{name}.csv"
+            metadata = write_statements(mesh, folder, file)
+        metadata |= _mesh_metadata(task, mesh, work)
+        return write_metadata(folder, name, task.key(work, distance), file, metadata, begin)
     if task.map is not None:
         made = evaluate_map(mesh, task.map)
     elif work == MAXIMA:
@@ -218,6 +225,7 @@ def _mesh_metadata(task: Task, mesh: BatchMesh, work: str) -> dict[str, Any]:
         **({} if mesh.new_ids is None else {"new_ids": _ids_name(task)}),
         "warnings": list(notes.warnings),
         "areas": task.wanted.areas,
+        "operator": task.wanted.operator,
         "version": task.version,
     }
 

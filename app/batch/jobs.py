@@ -55,7 +55,7 @@ class BatchMesh:
     @cached_property
     def distances(self) -> Distances:
         """The distances on the scaled surface, whose factor all kinds of work share."""
-        return Distances(Laplacian(self.scaled, self.wanted.areas))
+        return Distances(Laplacian(self.scaled, self.wanted.areas, self.wanted.operator))
 
     @cached_property
     def scaled(self) -> Surface:

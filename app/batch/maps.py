@@ -106,7 +106,7 @@ def _named(file: Path, meshes: Iterable[str]) -> tuple[str, str]:
 
 def evaluate_map(mesh: BatchMesh, given: Map) -> Computed:
     """Compute the errors (m,) of a map over the root of the area, at all vertices or at samples."""
-    other = Laplacian(read_surface(given.other), mesh.wanted.areas)
+    other = Laplacian(read_surface(given.other), mesh.wanted.areas, mesh.wanted.operator)
     found, right = (read_map(each, mesh.surface, other.surface) for each in (given.file, given.truth))
     ids = sampled_vertices(len(found), given.samples or None)
     partners = read_map(given.symmetry, other.surface, other.surface) if given.symmetry else None

@@ -6,7 +6,7 @@ import sys
 from bihdist_core.machine_memory import available
 
 from ..document.sources import ALL
-from .work_order import WorkOrder
+from .work_order import STATEMENTS, WorkOrder
 
 BASE_BYTES = 2.5e8
 BYTES_PER_VERTEX = 6e3
@@ -16,6 +16,9 @@ PART_BYTES = 2.5e8
 """A result larger than this is done in parts of no more."""
 FIELD_COPIES, PAIR_COPIES = 3, 6
 """Times the bytes of a part that are there at once while it is computed, of fields and of all pairs among sources."""
+
+FINEST = 111_000
+"""Vertices of the finest mesh that the paper's experiments make of another."""
 
 
 def needed(n: int, wanted: WorkOrder, from_file: int = 0) -> int:
@@ -28,6 +31,8 @@ def needed(n: int, wanted: WorkOrder, from_file: int = 0) -> int:
     of_both = max((sources if "pairs" in wanted.works else 0), (n if "fields" in wanted.works else 0))
     whole = sources * of_both * 8.0 if wanted.layout or wanted.arrays in ("npz", "mat") else 0.0
     eigen = n * wanted.eigenpairs * 8.0 * 4 if "eigen" in wanted.works else 0.0
+    if STATEMENTS in wanted.works and not wanted.quick:
+        n = max(n, FINEST)
     figure = 3e8 if "figure" in wanted.works else 0.0
     return int(BASE_BYTES + n * BYTES_PER_VERTEX + max(fields, whole, eigen) + figure)
 

@@ -11,8 +11,9 @@ from bihdist_core.errors import ParameterError
 from ..document.repairs import Repairs
 from ..document.sources import FARTHEST, HIGHEST, Sources
 
-MAXIMA = "maxima"
-"""A work that is done before figures that share their range: the largest value of each panel."""
+MAXIMA, STATEMENTS = "maxima", "statements"
+"""Works that `--do` does not name: the largest value of each panel, before figures that share their range; and the
+paper's statements, for `bihdist paper --aggregate`."""
 FILES = frozenset({"cut", "labels", "mask", "sources"})
 """Fields that name what is read beside a mesh."""
 
@@ -44,7 +45,7 @@ def _kind(
     return WorkKind(word, meaning, frozenset(fields.split()), by_distance, frozenset(options.split()), function)
 
 
-REPAIRS = "cut merge largest_component"
+REPAIRS = "cut merge largest_component operator"
 OF_IDS = f"areas {REPAIRS} sources arrays one_based mask normalise"
 OF_SOURCES = f"{OF_IDS} dtype"
 
@@ -57,12 +58,13 @@ KINDS = {
         _kind("eigen", "eigenpairs", f"areas eigenpairs dtype arrays normalise {REPAIRS}", function="eigen"),
         _kind("fps", "farthest points", OF_IDS, by_distance=True, function="fps"),
         _kind("figure", "a picture", f"recipe range maxima {REPAIRS}", options="sources distance areas clim"),
-        _kind("evaluate", "errors of maps", "areas samples arrays", options="maps truth symmetry"),
+        _kind("evaluate", "errors of maps", "areas operator samples arrays", options="maps truth symmetry"),
         _kind(MAXIMA, "", f"recipe {REPAIRS}"),
+        _kind(STATEMENTS, "", "experiments quick up"),
     )
 }
 
-WORKS = tuple(word for word in KINDS if word != MAXIMA)
+WORKS = tuple(word for word in KINDS if word not in (MAXIMA, STATEMENTS))
 """The kinds of work that can be asked for."""
 
 OPTIONS = {"format": "arrays"}
@@ -103,13 +105,14 @@ class WorkOrder:
     """The kinds of work and their options.
 
     `works` are of WORKS, in their order; `distances` specs in words; `nearest` the number of neighbours; `samples`
-    those of a map, 0 for all vertices. `cut`, `merge` and `largest_component` are those of `Repairs`. In the
-    paths `labels`, `mask`, `cut` and of the sources' file, {name} stands for the mesh's.
+    those of a map, 0 for all vertices. `cut`, `merge`, `largest_component` and `operator` are those of `Repairs`. In
+    the paths `labels`, `mask`, `cut` and of the sources' file, {name} stands for the mesh's.
 
     With `one_based`, vertex ids in .mat files count from 1. `layout` is one of LAYOUTS for pairs; `normalise` is
     "area" for distances and eigenpairs of the mesh scaled to area 1. `recipe` is the text of the one that figures
-    are drawn from, `range` one of RANGES, and `maxima` the ends of panels that share them. With `verify`, results
-    that are there must have their checksums.
+    are drawn from, `range` one of RANGES, and `maxima` the ends of panels that share them. `experiments` are those
+    whose statements are measured, `quick` or not, with the axis `up`, guessed if "". With `verify`, results that are
+    there must have their checksums.
     """
 
     works: tuple[str, ...]
@@ -125,6 +128,7 @@ class WorkOrder:
     cut: str = ""
     merge: float | None = None
     largest_component: bool = False
+    operator: str = "cotan"
     labels: str = ""
     mask: str = ""
     layout: str = ""
@@ -132,6 +136,9 @@ class WorkOrder:
     recipe: str = ""
     range: str = OWN
     maxima: tuple[float, ...] = ()
+    experiments: tuple[str, ...] = ()
+    quick: bool = False
+    up: str = ""
     verify: bool = False
 
     def __post_init__(self) -> None:
@@ -170,7 +177,7 @@ class WorkOrder:
     @property
     def repairs(self) -> Repairs:
         """The repairs of each mesh."""
-        return Repairs(self.cut, merge=self.merge, largest_component=self.largest_component)
+        return Repairs(self.cut, "", self.merge, self.largest_component, self.operator)
 
     @property
     def files(self) -> dict[str, str]:

@@ -162,10 +162,10 @@ def run(options: argparse.Namespace) -> Result:
     unnamed = [*failures]
     failures += [Failure(name, *each, why) for name, why in found.missing.items() for each in wanted.results()]
     evaluated = [*(map.name for map in maps), *(each.name for each in unnamed)] if "evaluate" in wanted.works else None
-    engine, outcome = _engine(options), Outcome(failures=failures)
+    engine, outcome = engine_of(options), Outcome(failures=failures)
     names = [*meshes, *found.missing]
     try:
-        run_batch(meshes, maps, wanted, address, version(), engine, _progress, outcome)
+        run_batch(meshes, maps, wanted, address, version(), engine, task_progress, outcome)
     except KeyboardInterrupt as error:
         done = counted(len(outcome.rows), "result")
         tell_failure(f"{words_of(error)}; {done} in {place}. Run the same command to resume.")
@@ -298,6 +298,7 @@ def _wanted(options: argparse.Namespace) -> WorkOrder:
         cut=os.path.abspath(options.cut) if options.cut else "",
         merge=options.merge,
         largest_component=bool(options.largest_component),
+        operator=options.operator or "cotan",
         labels=os.path.abspath(options.labels) if options.labels else "",
         mask=os.path.abspath(options.mask) if options.mask else "",
         recipe=recipe,
@@ -366,7 +367,8 @@ def _recipe(options: argparse.Namespace, distances: tuple[str, ...]) -> str:
         recipe = Recipe(comparison("mesh", shows, areas=options.areas or "voronoi"))
     if recipe.document.surfaces[0].repairs != NO_REPAIRS:
         raise ParameterError(
-            f"{options.recipe} repairs its own mesh; batch does what --cut, --merge and --largest-component say."
+            f"{options.recipe} repairs its own mesh; batch does what --cut, --merge, --largest-component and "
+            "--operator say."
         )
     document, members = recipe.document, options.sources.members if options.sources else ()
     first = members[0] if members else None
@@ -381,7 +383,8 @@ def _sources(options: argparse.Namespace) -> Sources:
     return replace(asked, file=os.path.abspath(asked.file)) if asked.file and not asked.text else asked
 
 
-def _engine(options: argparse.Namespace) -> "Engine":
+def engine_of(options: argparse.Namespace) -> "Engine":
+    """Return the engine of `--dask` or `--workers`."""
     from ..batch.engines import Cluster, Processes
 
     if options.dask:
@@ -393,7 +396,7 @@ def _engine(options: argparse.Namespace) -> "Engine":
 
 
 @contextmanager
-def _progress(total: int) -> "Iterator[Tell]":
+def task_progress(total: int) -> "Iterator[Tell]":
     """Show a bar with rate and time left on a terminal, a line for each task elsewhere, nothing if that is asked
     for."""
     if is_quiet():

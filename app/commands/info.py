@@ -28,6 +28,10 @@ COUNTS = {
     "unreferenced_count": "vertices without a face",
 }
 """Attributes of a surface, and the words for them."""
+ON_POINTS = {"vertices": "points", "vertices without a face": "points left out", "mean edge length": "mean spacing"}
+"""What rows are called where there are points only."""
+OF_FACES = ("faces", "boundary loops", "genus", "non-manifold edges", "non-manifold vertices", "degenerate faces")
+"""Rows that are left out there."""
 SENTENCES = ("facts", "repairs", "warnings")
 
 WORDS = "describe a mesh file, and what would be repaired"
@@ -68,7 +72,8 @@ def _described(mesh: str, options: argparse.Namespace, solver: dict[str, str]) -
 
     from ..session.repaired_surface import read_repaired
 
-    s = read_repaired(found_mesh(mesh), repairs_of(options, mesh))
+    repairs = repairs_of(options, mesh)
+    s = read_repaired(found_mesh(mesh), repairs)
     notes = surface_notes(s)
     facts = {
         "mesh": mesh,
@@ -88,8 +93,10 @@ def _described(mesh: str, options: argparse.Namespace, solver: dict[str, str]) -
         **{name: "; ".join(facts[name]) or "none" for name in SENTENCES},
         **solver,
     }
+    if not len(s.faces):
+        rows = {ON_POINTS.get(name, name): value for name, value in rows.items() if name not in OF_FACES}
     if options.accuracy:
-        facts["distances"] = _accuracies(s, options.areas or AREAS[0])
+        facts["distances"] = _accuracies(s, options.areas or AREAS[0], repairs.operator)
         rows |= {each["label"]: each["failure"] or each["accuracy_text"] for each in facts["distances"]}
     _print_rows(rows)
     if len(options.meshes) > 1:
@@ -99,7 +106,7 @@ def _described(mesh: str, options: argparse.Namespace, solver: dict[str, str]) -
 
 def _print_rows(rows: dict[str, Any]) -> None:
     for name, value in rows.items():
-        print(f"{name:<26}{f'{value:,}' if isinstance(value, int) else value}")
+        print(f"{name:<25} {f'{value:,}' if isinstance(value, int) else value}")
 
 
 def _loops(surface: "Surface") -> str:
@@ -118,14 +125,14 @@ def _loops(surface: "Surface") -> str:
     return f"{count} ({', '.join(lines)})" if lines else "0"
 
 
-def _accuracies(surface: "Surface", areas: str) -> list[Facts]:
+def _accuracies(surface: "Surface", areas: str, operator: str) -> list[Facts]:
     """Return the accuracy of each exact distance on all components, or why it is not given."""
     from bihdist_core import Laplacian
     from bihdist_core.distances.answers import Distances
 
     found = []
     with progress_line() as progress:
-        distances = Distances(Laplacian(surface, areas))
+        distances = Distances(Laplacian(surface, areas, operator))
         for word in (each.word for each in BUILT_IN if each.is_complete):
             try:
                 distance = distances.get(Spec.of(word), progress)

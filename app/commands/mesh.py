@@ -78,7 +78,7 @@ def laplacian_of(
     tell_repairs(surface)
     if ids is not None and ids_file is not None:
         _write_ids(ids_file, ids, surface.name)
-    return Laplacian(surface, areas or AREAS[0])
+    return Laplacian(surface, areas or AREAS[0], repairs.operator)
 
 
 def name_output(options: argparse.Namespace) -> None:

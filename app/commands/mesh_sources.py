@@ -77,7 +77,7 @@ def sources_of_document(
 
     surface = read_repaired(found_mesh(mesh), repairs)
     spec = first_spec(shows)
-    distances = Distances(Laplacian(surface, areas or "voronoi"))
+    distances = Distances(Laplacian(surface, areas or "voronoi", repairs.operator))
     return sources_of_mesh(asked, mesh, surface, lambda: distances.get(spec, progress), progress).sources
 
 

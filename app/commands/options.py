@@ -20,7 +20,7 @@ from ..document.quantities import Quantity, quantity
 from ..document.repairs import Repairs
 from ..document.sources import sources_from_words
 from ..figures.options import PAGE_ROWS, VERTEX_AREAS, with_rows
-from ..figures.repair_options import CUT, LARGEST, REPAIRS
+from ..figures.repair_options import COTAN, CUT, LARGEST, REPAIRS
 
 PANELS = f"a panel each (default: {','.join(str(spec) for spec in COMPARISON)})"
 PLACES = (
@@ -227,7 +227,7 @@ def chart_page(options: argparse.Namespace) -> Page:
 
 SECTIONS = {
     "look": "colours and shading", "isolines": "isolines", "view": "view", "layout": "page", "marks": "marks",
-    "areas": "mesh", "cut": "mesh", "merge": "mesh", "largest_component": "mesh",
+    "areas": "mesh", "cut": "mesh", "merge": "mesh", "largest_component": "mesh", "operator": "mesh",
     **dict.fromkeys(("maps", "predict", "pairs", "perturb"), "two meshes"),
 }  # fmt: skip
 """The sections of the help, by options and by their groups."""
@@ -304,7 +304,8 @@ def add_cut(parser: argparse.ArgumentParser) -> None:
 def repairs_of(options: argparse.Namespace, mesh: str) -> Repairs:
     """Return the repairs of a mesh that the options name."""
     merge = getattr(options, "merge", None)
-    return Repairs(options.cut or "", merge=merge, largest_component=bool(options.largest_component)).of(mesh)
+    operator = getattr(options, "operator", None) or COTAN
+    return Repairs(options.cut or "", "", merge, bool(options.largest_component), operator).of(mesh)
 
 
 def specs(options: argparse.Namespace, texts: Sequence[str], signatures: bool = False) -> list[Spec]:

@@ -10,6 +10,13 @@ from bihdist_core.formats.mesh_names import mesh_name
 if TYPE_CHECKING:
     from .document import Document, MeshFile
 
+OPERATORS = {
+    "cotan": "Cotangents of the faces",
+    "intrinsic-delaunay": "Intrinsic Delaunay",
+    "tufted": "Tufted cover",
+}
+"""The operators that a mesh can have, with their names in menus; the first is the paper's."""
+
 NAME = "{name}"
 """In a path it stands for the name of each mesh."""
 
@@ -29,16 +36,21 @@ class Repairs:
         The distance, in mesh units, up to which vertices become one, after the cut; None for no merging.
     largest_component
         Whether only the connected component with most vertices is kept, after cut and merge.
+    operator
+        One of OPERATORS, for faces that are too thin for the paper's, or edges of more than two.
     """
 
     cut: str = ""
     cut_sha256: str = ""
     merge: float | None = None
     largest_component: bool = False
+    operator: str = "cotan"
 
     def __post_init__(self) -> None:
         if self.merge is not None and not (math.isfinite(self.merge) and self.merge >= 0):
             raise ParameterError(f"Vertices are merged within a length, 0 or more, not {self.merge:g}.")
+        if self.operator not in OPERATORS:
+            raise ParameterError(f"There is no operator {self.operator!r}; choose one of {', '.join(OPERATORS)}.")
 
     def of(self, mesh: str) -> "Repairs":
         """These of the mesh at a path, whose name stands for {name}."""
@@ -63,6 +75,9 @@ def with_repairs(document: "Document", surface: str = "", **changes: Any) -> "Do
     `changes` are fields of `Repairs`; others stay as they are. ParameterError where two meshes would have one mask.
     """
     meant = _of_the_file(document, surface) if surface else document.surfaces
+    if surface and "operator" in changes:
+        # One mesh by two operators is two meshes.
+        meant = tuple(mesh for mesh in meant if mesh.name == surface or mesh.change is not None)
     cut = changes.get("cut")
     if cut is not None:
         changes["cut_sha256"] = ""

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from bihdist_core import ParameterError
 from bihdist_core.distances.answers import Answer
 from bihdist_core.distances.distance_types import Spec
+from bihdist_core.formats.mesh_names import mesh_name
 from bihdist_core.sources.words import short_words_of
 
 from ..document.document import Document, Panel, starting_points
@@ -113,7 +114,7 @@ def _words(
 ) -> tuple[str, str]:
     """Return the headings of a panel's row and column."""
     loaded, sources = surfaces[panel.surface], source_words(document, panel, surfaces)
-    mesh = loaded.surface.name if loaded.origin is None else f"after: {loaded.mesh.change}"
+    mesh = mesh_name(loaded.surface.name) if loaded.origin is None else f"after: {loaded.mesh.change}"
     others = [mesh] * (len(document.surfaces) > 1) + [sources] * bool(sources)
     if rows == "source":
         return sources, ", ".join([answer.label, *others[:-1]])

@@ -166,6 +166,7 @@ def figure(
     cut: str = "",
     merge: float | None = None,
     largest_component: bool = False,
+    operator: str = "cotan",
     perturb: str | Perturbation = "",
     pairs: npt.ArrayLike | str = (),
     maps: Sequence[str] = (),
@@ -202,6 +203,8 @@ def figure(
         Merge vertices that are no farther apart.
     largest_component : bool
         Keep only the connected component with most vertices.
+    operator : {"cotan", "intrinsic-delaunay", "tufted"}
+        The operator, see `Laplacian`.
     perturb : str
         A change to the mesh such as ``"noise=0.4,along=normals,seed=1"``: each distance before and after, and the
         difference.
@@ -249,7 +252,7 @@ def figure(
     >>> picture.pixels.shape
     (200, 400, 3)
     """
-    own = {"areas": areas, "cut": cut, "merge": merge, "largest_component": largest_component}
+    own = {"areas": areas, "cut": cut, "merge": merge, "largest_component": largest_component, "operator": operator}
     of_tools = {"perturb": perturb, "pairs": pairs, "maps": maps, "predict": predict}
     groups = {"isolines": isolines, "look": look, "view": view, "marks": marks, "layout": layout}
     values = option_values("figure", rows(), {**own, **of_tools, **groups, **others})

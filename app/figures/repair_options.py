@@ -9,13 +9,16 @@ from bihdist_core.errors import ParameterError
 
 from ..document.option import Option, Row, digits
 from ..document.page import Recipe
-from ..document.repairs import Repairs, with_repairs
+from ..document.repairs import OPERATORS, Repairs, with_repairs
+
+COTAN = next(iter(OPERATORS))
 
 
 def _get(recipe: Recipe) -> dict[str, Any]:
     repairs = recipe.document.surfaces[0].repairs if recipe.document.surfaces else Repairs()
     values: dict[str, Any] = {"cut": os.path.abspath(repairs.cut)} if repairs.cut else {}
     values |= {} if repairs.merge is None else {"merge": repairs.merge}
+    values |= {} if repairs.operator == COTAN else {"operator": repairs.operator}
     return values | ({LARGEST.name: True} if repairs.largest_component else {})
 
 
@@ -49,6 +52,15 @@ LARGEST = Option(
     group="",
 )
 
+OPERATOR = Option(
+    "operator",
+    "operator of the distances: by the faces, as in the paper; of an intrinsic Delaunay triangulation, for thin faces; "
+    f"or of the tufted cover, for edges of more than two faces (default: {COTAN})",
+    COTAN,
+    group="",
+    choices=tuple(OPERATORS),
+)
+
 REPAIRS = Row(
     (
         CUT,
@@ -61,8 +73,9 @@ REPAIRS = Row(
             write=digits,
         ),
         LARGEST,
+        OPERATOR,
     ),
-    ("Repairs.cut", "Repairs.merge", "Repairs.largest_component"),
+    ("Repairs.cut", "Repairs.merge", "Repairs.largest_component", "Repairs.operator"),
     _get,
     _put,
 )

@@ -32,7 +32,7 @@ class Section:
     """An experiment on the page: its result, pictures (caption, PNG) and charts (SVG), or why there are none.
 
     `missing` are the parts that could not be done of a section without result, `live` the pages that compute, with
-    their bytes.
+    their bytes, and `html` what else comes before the numbers.
     """
 
     experiment: "Experiment | Named"
@@ -42,6 +42,7 @@ class Section:
     failure: str = ""
     missing: tuple[NotDone, ...] = ()
     live: tuple[tuple[LivePage, int], ...] = ()
+    html: str = ""
 
     @property
     def not_done(self) -> tuple[NotDone, ...]:
@@ -51,8 +52,8 @@ class Section:
         return self.result.not_done if self.result else self.missing
 
 
-def page(title: str, introduction: str, sections: Sequence[Section], quick: bool = False) -> str:
-    """Return the whole page; with `quick` it says that its verdicts are quick ones."""
+def page(title: str, introduction: str, sections: Sequence[Section], note: str = "") -> str:
+    """Return the whole page; `note` is a warning on all verdicts."""
     claims = [(section.experiment.id, section.result.claims if section.result else ()) for section in sections]
     every = [claim for _, those in claims for claim in those]
     missing = [section for section in sections if section.not_done]
@@ -62,7 +63,7 @@ def page(title: str, introduction: str, sections: Sequence[Section], quick: bool
     body = "\n".join(_section(section) for section in sections)
     html = ""
     if every:
-        how = f"<p>{escape(verdicts.HOW)}</p>" + (f"<p class=warning>⚠ {escape(verdicts.QUICK)}</p>" if quick else "")
+        how = f"<p>{escape(verdicts.HOW)}</p>" + (f"<p class=warning>⚠ {escape(note)}</p>" if note else "")
         html = f"<h2>Verdicts</h2>{verdicts.counts(every)}{verdicts.overview(claims)}{how}"
     return f"""<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>
@@ -95,6 +96,7 @@ def _section(section: Section) -> str:
         parts.append(f'<figure>{html}<img {wide} src="data:image/png;base64,{code}">{links}</figure>')
     drawn = [caption for caption, _ in section.pictures]
     parts.append(_links([each for each in section.live if each[0].row not in drawn]))
+    parts.append(section.html)
     if section.charts:
         kind = "charts several" if len(section.charts) > 1 else "charts"
         parts.append(f'<div class="{kind}">' + "".join(section.charts) + "</div>")
@@ -102,7 +104,8 @@ def _section(section: Section) -> str:
         return "\n".join([*parts, "</section>"])
     parts.append(verdicts.statements(experiment.id, result.claims))
     parts += [_table(table) for table in result.tables]
-    parts.append(f"<p class=quiet>{escape(result.protocol)} {result.seconds:.1f} seconds.</p></section>")
+    seconds = f" {result.seconds:.1f} seconds." if result.seconds else ""
+    parts.append(f"<p class=quiet>{escape(result.protocol)}{seconds}</p></section>")
     return "\n".join(parts)
 
 
@@ -155,6 +158,7 @@ figcaption { text-align: center; color: #55606e; }
 table { border-collapse: collapse; margin: .8em 0; } th { text-align: left; font-weight: 600; }
 td, th { padding: .25em .7em; border-bottom: 1px solid #e8eaed; vertical-align: top; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; }
+.meshes { display: flex; flex-wrap: wrap; gap: .8em; } .meshes figure { margin: 0; width: 128px; font-size: .8em; }
 p.live { text-align: center; } p.live a { color: #1f4fbf; }
 p.no { color: #b3261e; font-weight: 600; }
 .quiet { color: #737880; font-size: .9em; } details { margin: .4em 0; } summary { cursor: pointer; color: #55606e; }

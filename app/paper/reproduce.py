@@ -26,6 +26,7 @@ from .drawing import Picture, Pictures, Written
 from .live import LivePage, live_pages
 from .page import Named, Section, page
 from .pictures import FINER, figure_of, name_of, rows_of
+from .verdicts import QUICK
 
 FOLDER_EXPERIMENTS = ("fig1", "claims")
 """The experiments that are run on each mesh of a folder, unless others are named: a picture and the numbers."""
@@ -98,7 +99,7 @@ def reproduce(
     Raises ParameterError for an unknown id, OutputError if something cannot be written.
     """
     check_offscreen()
-    experiments = _chosen(only, mesh)
+    experiments = chosen(only, mesh)
     folder = Path(out)
     _make(folder)
     with Pictures() as pictures:
@@ -129,14 +130,15 @@ def _up(up: str, surface: Surface, path: str | Path, parts: Parts) -> str:
     return parts.do(f"which way {Path(path).name} is up", guess_up, surface, mesh_format(path)) or "y"
 
 
-def _chosen(only: Sequence[str], mesh: str | None) -> list[Experiment]:
+def chosen(only: Sequence[str], mesh: str | None) -> list[Experiment]:
+    """Return the experiments of ids, all that there are for the mesh if there is none; ParameterError for others."""
     unknown = [name for name in only if name not in EXPERIMENTS]
     if unknown:
         raise ParameterError(f"There is no experiment {unknown[0]!r}; choose among {', '.join(EXPERIMENTS)}.")
-    chosen = [e for name, e in EXPERIMENTS.items() if not only or name in only]
+    named = [e for name, e in EXPERIMENTS.items() if not only or name in only]
     if mesh is None:
-        return chosen
-    possible = [experiment for experiment in chosen if experiment.any_mesh]
+        return named
+    possible = [experiment for experiment in named if experiment.any_mesh]
     if not possible:
         raise ParameterError(f"{', '.join(only)} makes sense on the bundled meshes only.")
     return possible
@@ -300,7 +302,7 @@ def _written(run: Run, sections: Sequence[Section], about: str) -> Reproduction:
     if run.quick:
         introduction += " This is the quick version, with smaller meshes and fewer sources."
     with atomic_write(run.page) as temporary:
-        text = page("Biharmonic Distance, reproduced", introduction, sections, run.quick)
+        text = page("Biharmonic Distance, reproduced", introduction, sections, QUICK if run.quick else "")
         temporary.write_text(text, encoding="utf-8")
     return Reproduction(run.page, sum(len(section.not_done) for section in sections))
 

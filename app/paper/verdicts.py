@@ -37,9 +37,9 @@ HOW = (
     f"is refuted by one counterexample. Means, ratios and differences are judged with their {100 * CONFIDENCE:g} % "
     f"intervals. A number within {100 * SPREAD:g} % of its limit, and an interval with the limit in it, count as "
     "partly. A statement with several numbers holds if it holds by all of them, and partly if it does by some; it "
-    "does not hold if a number marked as needed fails. 0/0 is not judged. Times are processor times. In the last "
-    "column but one, diamonds are pictured sources, dots are random ones, bars are intervals, and the shaded range is "
-    "what the rule allows."
+    "does not hold if a number marked as needed fails. What is undefined, such as 0/0, is not judged. Times are "
+    "processor times. In the last column but one, diamonds are pictured sources, dots are random ones, bars are "
+    "intervals, and the shaded range is what the rule allows."
 )
 QUICK = (
     "These are quick measurements, on smaller meshes and from fewer sources. A verdict is given only where all numbers "

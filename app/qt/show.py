@@ -312,6 +312,7 @@ def show(
     cut: str | os.PathLike[str] = "",
     merge: float | None = None,
     largest_component: bool = False,
+    operator: str = "cotan",
     viewup: str = "auto",
     second_mesh: Mesh | None = None,
     on_pick: Callable[[Pick], object] | None = None,
@@ -339,6 +340,8 @@ def show(
         Merge vertices that are no farther apart, after `cut`.
     largest_component : bool
         Keep only the connected component with most vertices.
+    operator : {"cotan", "intrinsic-delaunay", "tufted"}
+        The operator, see `Laplacian`.
     viewup : str
         Axis that points up, ``"z"`` or ``"-z"``; ``"auto"`` for what was chosen for the mesh before, or a guess.
     second_mesh : str or MeshLike, optional
@@ -379,7 +382,9 @@ def show(
     document = replace(document, up=viewup)
     if second_mesh is not None:
         document = with_second_mesh(document, given, second_mesh)
-    document = with_repairs(document, cut=os.fspath(cut), merge=merge, largest_component=largest_component)
+    document = with_repairs(
+        document, cut=os.fspath(cut), merge=merge, largest_component=largest_component, operator=operator
+    )
     for each in document.surfaces:
         checked_path(each)
     check_screen()

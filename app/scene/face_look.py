@@ -33,8 +33,10 @@ _LABELS = """//VTK::Color::Impl
   vec4 own[3];
   vec3 weight;
   for (int i = 0; i < 3; i++) {
-    weight[i] = abs(coloursOf[i].a);
-    own[i] = max(coloursOf[i] / weight[i], 0.0);
+    vec4 of = coloursOf[i];
+    weight[i] = max(abs(of.a), 1e-6);
+    // Means of labels and none, in a stand-in, may be of neither.
+    own[i] = of.a > max(max(of.r, of.g), of.b) - 1e-3 ? of / weight[i] : vec4(0.0);
   }
   mat3 alike;
   for (int i = 0; i < 3; i++)

@@ -143,7 +143,7 @@ def chosen_on(
     found = chosen_sources(
         asked,
         surface,
-        lambda: Distances(Laplacian(surface, areas)).get(spec, progress),
+        lambda: Distances(Laplacian(surface, areas, mesh.repairs.operator)).get(spec, progress),
         name or mesh_name(mesh.path),
         progress=progress,
     )

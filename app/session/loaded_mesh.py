@@ -134,7 +134,7 @@ class LoadedMesh:
         """Return all distances on it with these vertex areas, each built once for whoever asks."""
         with self._lock:
             if areas not in self._distances:
-                self._distances[areas] = Distances(Laplacian(self._measured, areas))
+                self._distances[areas] = Distances(Laplacian(self._measured, areas, self.mesh.repairs.operator))
             return self._distances[areas]
 
     def set_shown_with(self, others: Iterable["LoadedMesh"]) -> None:

@@ -44,6 +44,9 @@ class Contents:
             raise ParameterError(
                 f"A page that computes has one mesh, and here are {len(document.surfaces)}; make a page of each."
             )
+        operator = document.surfaces[0].repairs.operator
+        if operator != "cotan":
+            raise ParameterError(f"A page computes by the faces of a mesh; leave out the operator {operator}.")
         for number, panel in enumerate(document.panels, 1):
             _check_panel(document, panel, f"Panel {number} ({panel.shows})")
         _check_source(document)

@@ -188,12 +188,12 @@ def page_of(
 
 
 def _values(own: Answer) -> FloatArray:
-    """Return the values (n,) of a field of the user's own; ParameterError for labels."""
-    if own.field is None:
-        raise ParameterError(
-            f"{own.label} has labels, which no page that computes shows; leave it out, or draw it with bihdist figure."
-        )
-    return own.field
+    """Return the values (n,) of a field of the user's own: of labels their places among those that are there."""
+    if own.labels is None:
+        assert own.field is not None
+        return own.field
+    values = own.labels.values
+    return np.where(np.isnan(values), np.nan, np.searchsorted(np.flatnonzero(own.labels.counts), values))
 
 
 def _check_announced(mesh: MeshFile) -> None:

@@ -14,6 +14,7 @@ from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer
 from bihdist_core.distances.distance_types import Spec
+from bihdist_core.formats.vertex_arrays import VertexArray
 from bihdist_core.version import VERSION
 
 from ..citation import bibtex
@@ -84,7 +85,7 @@ def scene_of(
     """
     document = recipe.document
     for panel, answer in zip(document.panels, answers, strict=True):
-        if answer.field is None:
+        if answer.field is None and answer.labels is None:
             raise ParameterError(f"The panel {panel.shows} has no field: {answer.failure}")
     figure = figure_of(replace(recipe, page=replace(recipe.page, rows="", chart="")), surfaces, answers)
     surface = surfaces[document.surfaces[0].name].surface
@@ -93,7 +94,7 @@ def scene_of(
     notes += [f"{_text(own.name)} is a field of the user's own, the same from every source." for own in contents.own]
     if any(_ends_with_others(figure, k) for k in range(len(figure.panels))):
         notes.append(f"Colour bars of one unit end at their largest maximum from vertex {source}.")
-    first = next((each for each in figure.panels if not each.signed), figure.panels[0])
+    first = min(figure.panels, key=lambda each: (each.field is None, each.signed))
     style = style_of(recipe.page.style, document.colours)
     clip = clip_plane(document.clip, surface)
     scene = {
@@ -140,6 +141,8 @@ def _panel(contents: Contents, panel: Panel, figure: Figure, k: int, answer: Ans
     names = list(map(contents.name_of, panel.shows.parts))
     is_difference = len(names) > 1
     end = _end(figure, k)
+    range = None if end is None else [-end if answer.is_signed else 0.0, end]
+    labels = [] if answer.labels is None else _labels(answer.labels)
     lines = _isolines(shown)
     return {
         "distance": "difference" if is_difference else names[0],
@@ -148,12 +151,20 @@ def _panel(contents: Contents, panel: Panel, figure: Figure, k: int, answer: Ans
         "parameters": {} if is_difference else _parameters(panel.shows.specs),
         "signed": answer.is_signed,
         "note": _note(panel),
-        "range": None if end is None else [-end if answer.is_signed else 0.0, end],
+        "range": [-0.5, len(labels) - 0.5] if labels else range,
         "unit": answer.unit,
         "shares": figure.is_in_shares(k),
+        **({"labels": labels} if labels else {}),
         # Those of differences are in percentage points, where others are in mesh units.
         **({"isolines": lines} if lines != _isolines(usual) else {}),
     }
+
+
+def _labels(labels: VertexArray) -> list[Json]:
+    """Return the names and colours of the labels that vertices have, in the order of their table."""
+    assert labels.colours is not None
+    there = np.flatnonzero(labels.counts).tolist()
+    return [{"name": _text(labels.names[k]), "colour": _bytes(labels.colours[k])} for k in there]
 
 
 def offered_panel(name: str, spec: Spec, label: str, unit: str, range: str) -> Json:
@@ -200,6 +211,8 @@ def _ends_with_others(figure: Figure, k: int) -> bool:
 def _isolines(panel: FigurePanel) -> Json:
     """Return the number of isolines or their values; with `equal`, the number of equal steps up to the colour limit."""
     lines: Isolines = panel.isolines
+    if panel.field is None:
+        return {"count": 0, "values": None, "equal": False}
     if lines.spacing is not None:
         most = min(math.floor(MAXIMUM_FACTOR * panel.own_maximum / lines.spacing), MOST_ISOLINES // 2)
         steps = range(-most if panel.signed else 1, most + 1)
@@ -268,6 +281,8 @@ def _colours(word: str, colours: Colours) -> Json:
         "undefined": _bytes(light.undefined),
         "back": _bytes(light.back),
         "dark_back": _bytes(dark.back),
+        "section": _bytes(light.section),
+        "dark_section": _bytes(dark.section),
         "background": None,
         "dark_background": None,
     }

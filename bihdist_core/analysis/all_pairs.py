@@ -224,7 +224,8 @@ def _partial_path(distance: Distance, target: Path, dtype: np.dtype) -> Path:
     laplacian, surface = distance.laplacian, distance.surface
     # A label rounds its numbers; a spec does not, nor do the distance's own plain attributes where there is none.
     own = sorted((key, value) for key, value in vars(distance).items() if isinstance(value, (int, float, str)))
-    for text in (distance.label, distance.identity or repr(own), laplacian.areas_kind, dtype.str, target.name):
+    kind = laplacian.areas_kind + laplacian.operator_words
+    for text in (distance.label, distance.identity or repr(own), kind, dtype.str, target.name):
         digest.update(text.encode() + b"\0")
     for array in (surface.vertices, surface.faces):
         digest.update(array.tobytes())

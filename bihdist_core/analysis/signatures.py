@@ -325,4 +325,5 @@ def _signature(laplacian: Laplacian, values: FloatArray, accuracy: float, label:
         )
     values.flags.writeable = False
     length_power -= laplacian.surface.dimension - 2  # squares of eigenfunctions, which are normalised by volume there
+    label += laplacian.operator_words
     return Signature(values, accuracy, label, length_power, unit_of(length_power, laplacian.surface))

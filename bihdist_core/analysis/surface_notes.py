@@ -10,6 +10,11 @@ from ..surface import FLAT_RATIO, Surface
 COARSE = 1e-4
 """Coordinates that are rounded by more than this fraction of the mean edge are warned of."""
 
+THIN = 0.01
+"""Faces that are less high, as a share of their longest side, have weights against which others hardly count."""
+
+TUFTED, DELAUNAY = (f"for which there is the operator {name}" for name in ("tufted", "intrinsic-delaunay"))
+
 HELD = f"of almost no area, treated as {FLAT_RATIO:.0e} of the longest side high".replace("e-0", "e-")
 
 
@@ -28,18 +33,24 @@ class SurfaceNotes:
 
 def surface_notes(surface: Surface) -> SurfaceNotes:
     """Return the notes of a surface; those on large meshes take a moment the first time."""
-    parts = surface.n_components
+    parts, heights = surface.n_components, surface.face_heights
+    thin = (heights < THIN) & (heights >= FLAT_RATIO)
     facts = [
         (surface.boundary_loop_count, "boundary loop", ""),
-        (surface.unreferenced_count, "vertex without a face", "vertices without a face"),
+        (surface.unreferenced_count if len(surface.faces) else 0, "vertex without a face", "vertices without a face"),
     ]
     warnings = [
-        (surface.nonmanifold_edge_count, "edge with more than two faces", "edges with more than two faces"),
+        (
+            surface.nonmanifold_edge_count,
+            f"edge with more than two faces, {TUFTED}",
+            f"edges with more than two faces, {TUFTED}",
+        ),
         (
             surface.nonmanifold_vertex_count,
             "vertex where faces touch in a point",
             "vertices where faces touch in a point",
         ),
+        (int(thin.sum()), f"thin face, {DELAUNAY}", f"thin faces, {DELAUNAY}"),
         (len(surface.degenerate_faces), f"face {HELD}", f"faces {HELD}"),
         (parts if parts > 1 else 0, "", "components, with no distance from one to another (grey, NaN)"),
     ]

@@ -116,7 +116,7 @@ class Perturbation:
 
     def __init__(self, component: Component) -> None:
         self._component = component
-        self._surface: Surface = component.surface
+        self._surface: Surface = component.measured
         self._diagonal = component.stiffness.diagonal()
         self._weights, height = face_weights(self._surface), self._surface.face_heights
         self._flat = component.flat
@@ -202,7 +202,7 @@ def read_alike(component: Component, count: int) -> list[Surface]:
     None where distances cannot change by more than FINEST_ACCURACY.  Whole numbers and what single precision holds, as
     all of a file that is in single precision, count as exact.
     """
-    surface, x = component.surface, component.surface.vertices
+    surface, x = component.measured, component.measured.vertices
     with np.errstate(over="ignore", under="ignore"):
         is_exact = (x == x.astype(np.float32)) | ((x == np.rint(x)) & (np.abs(x) < 1 / EPS))
         half = np.where(is_exact, 0, np.spacing(np.abs(x)) / 2)
@@ -224,7 +224,7 @@ def _moved_by_reading(component: Component) -> float:
     |x_i - x_j| with x_i = D G e_i.  As in `biharmonic_accuracy`, random signs r tell how far these points move: by
     G (dD^T r - dL V) with V = G D^T r.
     """
-    first, *others = read_alike(component, TRIED_READINGS) or [component.surface]
+    first, *others = read_alike(component, TRIED_READINGS) or [component.measured]
     if not others:
         return 0.0
     signs = np.random.default_rng(3).choice([-1.0, 1.0], (len(others), 3, len(first.faces)))

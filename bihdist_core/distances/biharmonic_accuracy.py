@@ -149,7 +149,7 @@ def operator_changes(component: Component, products: AnyArray) -> AnyArray:
     """Return E V (m, k) for random roundings E of the operator, where `products` (m, k) is V; complex as they are."""
     if np.iscomplexobj(products):
         return operator_changes(component, products.real) + 1j * operator_changes(component, products.imag)
-    surface, flat, rng = component.surface, component.flat, np.random.default_rng(1)
+    surface, flat, rng = component.measured, component.flat, np.random.default_rng(1)
 
     def signs(n: int) -> FloatArray:
         return rng.choice([-RELATIVE_ROUNDING, RELATIVE_ROUNDING], (n, products.shape[1]))

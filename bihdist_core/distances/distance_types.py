@@ -347,6 +347,8 @@ class Spec:
         """Make the distance, which is where the long work is."""
         distance: Distance = self.load()(laplacian, **dict(self.values), progress=progress)
         distance.identity = self.canonical
+        if words := distance.laplacian.operator_words:
+            distance.label += words
         return distance
 
     def quick(self, distance: "Distance") -> "Spec | None":

@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 from ..errors import ParameterError, SolverError
 from ..kernel import library as kernel
-from ..laplacian import Component, Laplacian
+from ..laplacian import Component, Laplacian, as_laplacian
 from ..memo import locked_cached_property
 from ..mesh_like import MeshLike
 from ..progress import Progress, part
@@ -92,7 +92,8 @@ class GeodesicDistance(Distance):
         if method not in METHODS:
             raise ParameterError(f"There is no geodesic method {method!r}; choose one of {', '.join(METHODS)}.")
         check_radius(radius)
-        super().__init__(laplacian)
+        # The heat method needs gradients in faces.
+        super().__init__(as_laplacian(laplacian).of_faces())
         if not len(self.surface.faces):
             raise ParameterError(f"{self.surface.name}: geodesic distance needs faces, and there are none.")
         self.radius = radius

@@ -38,12 +38,13 @@ class Experiment:
     """A figure or table of the paper; its module is imported when first needed.
 
     `any_mesh` is True if it makes sense on a reader's own mesh, `is_timed` if it measures times, which other work on
-    the computer would disturb.
+    the computer would disturb, `is_parallel` if it can be run beside others even so.
     """
 
     id: str
     any_mesh: bool = True
     is_timed: bool = False
+    is_parallel: bool = True
 
     @property
     def title(self) -> str:
@@ -81,8 +82,8 @@ EXPERIMENTS = {
         Experiment("fig8"),
         Experiment("fig9", any_mesh=False),
         Experiment("fig10", any_mesh=False),
-        Experiment("table1", is_timed=True),
-        Experiment("table2", is_timed=True),
+        Experiment("table1", is_timed=True, is_parallel=False),
+        Experiment("table2", is_timed=True, is_parallel=False),
         Experiment("alpha"),
         Experiment("claims", is_timed=True),
     )

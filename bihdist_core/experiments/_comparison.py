@@ -42,7 +42,7 @@ def compared(
         for kind in DISTANCES:
             heading = distances[kind].label if kind in distances else kind
             reason = parts.why(f"{kind} on {name}")
-            spec = spec_of(kind, distances[kind]) if kind in fields else None
+            spec = spec_of(kind) if kind in fields else None
             panels.append(_panel(surface, name, heading, pictured, fields.get(kind), reason, spec))
         distances = {kind: distances[kind] for kind in fields}
         if "biharmonic" not in fields and "diffusion t = 1" not in fields:

@@ -38,7 +38,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
         rows += [row] if row is not None else []
         # The picture has marks where the statement fails, and nowhere else.
         shown = tuple(mark for mark in marks(surface, field, source) if mark.kind != "maximum")
-        spec = spec_of("biharmonic", biharmonic)
+        spec = spec_of("biharmonic")
         panels.append(Panel(name, name, field, "biharmonic", shown, ("front", "back"), distance=spec))
         count = QUICK if quick else RANDOM.get(name, 24 if shapes.own is not None else FEW)
         depths = {v: _depth(biharmonic, v) for v in dict.fromkeys([source, *random_sources(surface, count)])}

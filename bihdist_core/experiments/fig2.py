@@ -73,7 +73,7 @@ def compute(shapes: Shapes, quick: bool = False, progress: Progress | None = Non
                     "fields",
                     marks(surface, fields[kind], source),
                     style=style,
-                    distance=spec_of(kind, made),
+                    distance=spec_of(kind),
                 )
                 for kind, made in distances.items()
             ),
@@ -98,7 +98,7 @@ def _under_refinement(
     finer = refined(surface)
     laplacian = Laplacian(finer)
     there = {
-        "geodesic": distance(laplacian, "geodesic method = exact"),
+        "geodesic": distance(laplacian, "geodesic"),
         "biharmonic": distance(laplacian, "biharmonic"),
     }
     smooth, kinked = STATEMENTS["fig2-3"].names

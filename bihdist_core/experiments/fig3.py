@@ -127,12 +127,10 @@ def _measured(
             views = ("front", "back")
             if with_intact:
                 found.panels += [
-                    Panel(k, name, field, "intact", marks[0], views, distance=spec_of(k, on[k][0]))
-                    for k, field in whole.items()
+                    Panel(k, name, field, "intact", marks[0], views, distance=spec_of(k)) for k, field in whole.items()
                 ]
             found.panels += [
-                Panel(k, damage, field, damage, marks[1], views, distance=spec_of(k, on[k][1]))
-                for k, field in after.items()
+                Panel(k, damage, field, damage, marks[1], views, distance=spec_of(k)) for k, field in after.items()
             ]
     return found
 

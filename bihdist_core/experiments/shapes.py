@@ -13,7 +13,6 @@ from ..distances.answers import Distances
 from ..distances.distance import Distance
 from ..distances.distance_types import Spec
 from ..distances.edge_geodesic import EdgeGeodesic
-from ..distances.geodesic import GeodesicDistance
 from ..errors import ParameterError
 from ..formats.mesh_io import read_surface
 from ..laplacian import Laplacian
@@ -162,23 +161,18 @@ def distance(laplacian: Laplacian, kind: str, progress: Progress | None = None) 
     """Return a distance by the words of the experiments: "biharmonic", "diffusion t = 1/4" stands for
     "diffusion(t=1/4)".
 
-    Geodesic is exact where a field takes 5 s at most, else by the heat method; the label says which. SolverError if it
-    cannot be had, or not accurately.
+    Geodesic is exact on every mesh. SolverError if it cannot be had, or not accurately.
     """
-    made = Distances(laplacian).get(_spec(kind), progress)
+    made = Distances(laplacian).get(spec_of(kind), progress)
     made.error_estimate()
     return made
 
 
-def spec_of(kind: str, made: Distance) -> Spec:
-    """Return the spec of a distance by the words of the experiments, with the method by which it was made."""
-    spec = _spec(kind)
-    return spec.changed(method=made.method) if isinstance(made, GeodesicDistance) else spec
-
-
-def _spec(kind: str) -> Spec:
+def spec_of(kind: str) -> Spec:
+    """Return the spec of a distance by the words of the experiments."""
     word, _, parameters = kind.partition(" ")
-    return Spec.parse(f"{word}({parameters})")
+    # No verdict rests on an approximate one.
+    return Spec.parse(f"{word}({parameters or ('method=exact' if word == 'geodesic' else '')})")
 
 
 def distances_there(laplacian: Laplacian, parts: Parts, where: str) -> dict[str, Distance]:

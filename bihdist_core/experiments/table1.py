@@ -11,7 +11,7 @@ import numpy as np
 
 from ..arrays import AnyArray, FloatArray, IntArray
 from ..distances.biharmonic import BiharmonicDistance
-from ..distances.diffusion import DiffusionDistance
+from ..distances.diffusion import EigenpairDiffusion
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..laplacian import Laplacian
 from ..progress import Progress, part
@@ -123,7 +123,7 @@ def _columns(surface: Surface, method: str) -> Columns:
     if method == "Dijkstra":
         return EdgeGeodesic(surface).distances
     laplacian = Laplacian(surface)
-    distance = BiharmonicDistance(laplacian) if method == "biharmonic" else DiffusionDistance(laplacian, 0.125)
+    distance = BiharmonicDistance(laplacian) if method == "biharmonic" else EigenpairDiffusion(laplacian, 0.125)
     # What is computed when it is first needed belongs to the set-up.
     distance.from_source(int(surface.faces[0, 0]))
     return distance.from_sources

@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from ..arrays import FloatArray, IntArray, unit_columns
-from ..distances.diffusion import DiffusionDistance
+from ..distances.diffusion import EigenpairDiffusion
 from ..distances.edge_geodesic import EdgeGeodesic
 from ..laplacian import Laplacian
 from ..progress import Progress, part
@@ -110,7 +110,7 @@ def _set_up(surface: Surface, method: str) -> PairwiseDistances:
         edges = EdgeGeodesic(surface)
         return lambda vertices: edges.distances(vertices)[vertices]
     if method != "biharmonic":
-        return DiffusionDistance(Laplacian(surface), 0.125).pairwise
+        return EigenpairDiffusion(Laplacian(surface), 0.125).pairwise
     component = Laplacian(surface).components[0]
     component.factor()
     root = np.sqrt(component.areas)

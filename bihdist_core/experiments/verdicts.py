@@ -27,7 +27,7 @@ CONFIDENCE = 0.95
 """The confidence level of the intervals of estimates."""
 SPREAD = 0.02
 """The share of its limit that a number moves by with another circle, draw or refinement: nearer it is not told apart.
-Isotropy ratios move by 0.1 %, changes by noise by 2 % from draw to draw."""
+Isotropy ratios move by 0.1 % with another circle, changes by noise on each coordinate by 2 % with another draw."""
 SURE = 3.0
 """Standard deviations of the numbers from five sources that most others are within, nearly surely: the tolerance factor
 of 90 % with the confidence 0.9 is 2.7."""
@@ -214,7 +214,8 @@ class Part:
 
     `by` is "sources" (pictured first, random ones as a distribution), "everywhere" (each source of them, as a single
     counterexample refutes it), "interval" (an estimate with its interval) or "once" (a number that is computed, not
-    sampled); `of` says what is random, "sources" or "starts". Without a part that is `needed` the statement does not
+    sampled); `of` says what is random: "sources", "starts", or "meshes", of
+    which none is pictured. Without a part that is `needed` the statement does not
     hold at all; without another one it holds partly.
     """
 
@@ -234,6 +235,8 @@ class Part:
             return f"{rule}, the whole {100 * CONFIDENCE:g} % interval"
         if self.by == "everywhere":
             return f"{rule}, everywhere"
+        if self.of == "meshes":
+            return f"{rule}, {100 * MOST:g} % of the meshes"
         return f"{rule}, pictured {self.of} and {100 * MOST:g} % of random ones"
 
     def counts(self, numbers: Numbers) -> tuple[int, int | None]:
@@ -257,15 +260,16 @@ class Part:
         if known.pictured:
             ranges.append(f"{_span(self.limit, min(known.pictured), max(known.pictured))} pictured")
         elif numbers.pictured:
-            ranges.append("0/0 pictured")
+            ranges.append("undefined pictured")
         if known.random:
             ranges.append(f"{_span(self.limit, min(known.random), max(known.random))} {self._from(len(known.random))}")
         if missing := len(numbers.random) - len(known.random):
-            ranges.append(f"0/0 {self._from(missing)}")
+            ranges.append(f"undefined {self._from(missing)}")
         return "; ".join(ranges)
 
     def _from(self, count: int) -> str:
-        return f"from {count} random {self.of if count > 1 else self.of[:-1]}"
+        random = "" if self.of == "meshes" else "random "
+        return f"from {count} {random}{self.of if count > 1 else self.of[:-1]}"
 
     def judge(self, numbers: Numbers | None, surely: bool = False) -> Verdict | None:
         """Return the verdict of the numbers; None where there are none, or only 0/0 from the pictured sources.
@@ -299,7 +303,8 @@ class Part:
             return VERDICTS[1 - side] if side else None
         met, not_missed = random.count(1) / max(1, len(random)), 1 - random.count(-1) / max(1, len(random))
         least = min(pictured, default=-1)
-        if least == 1 and met >= MOST:
+        # Of many meshes none is the pictured one.
+        if met >= MOST and (least == 1 or self.of == "meshes"):
             return HOLDS
         return PARTLY if least >= 0 or (random and not_missed > MAJORITY) else FAILS
 

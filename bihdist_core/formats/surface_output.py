@@ -75,14 +75,14 @@ def _write_glb(file: BinaryIO, surface: Surface, columns: Columns, colours: Byte
     size = float(np.abs(surface.vertices - centre).max())
     if not SMALLEST < size < LARGEST:
         raise ParameterError(f".glb has single precision, and {surface.name} is {size:.3g} large; write .ply instead.")
-    normals = vertex_normals(surface)
+    normals = vertex_normals(surface.shape)
     normals[~normals.any(axis=1)] = (0, 0, 1)
     attributes = {"POSITION": surface.vertices - centre, "NORMAL": normals, "COLOR_0": _linear(colours / 255)}
     for word, values in zip(ply_names([word.upper() for word in columns]), columns.values(), strict=True):
         attributes[f"_{word}"] = np.where(np.isfinite(values), np.clip(values, UNDEFINED, LARGEST), UNDEFINED)
     arrays = {name: values.astype("<f4") for name, values in attributes.items()}
     triangles = surface.faces.astype("<u4").ravel()
-    views = [*arrays.values(), triangles]
+    views = [*arrays.values(), *([triangles] if len(triangles) else [])]
     accessors = [_accessor(k, array) for k, array in enumerate(views)]
     points, name = arrays["POSITION"], mesh_name(surface.name)
     accessors[0] |= {"min": points.min(axis=0).tolist(), "max": points.max(axis=0).tolist()}
@@ -97,7 +97,7 @@ def _write_glb(file: BinaryIO, surface: Surface, columns: Columns, colours: Byte
                 "primitives": [
                     {
                         "attributes": {name: k for k, name in enumerate(arrays)},
-                        "indices": len(arrays),
+                        **({"indices": len(arrays)} if len(surface.faces) else {"mode": 0}),
                         "material": 0,
                     }
                 ],
@@ -132,10 +132,10 @@ def _accessor(k: int, array: AnyArray) -> dict[str, Any]:
 
 
 def _buffer_views(arrays: list[AnyArray]) -> list[dict[str, int]]:
-    """Return a buffer view for each array, the last of which holds the corners of triangles."""
+    """Return a buffer view for each array; one of whole numbers holds the corners of triangles."""
     views, offset = [], 0
     for array in arrays:
-        target = 34963 if array is arrays[-1] else 34962
+        target = 34963 if array.dtype.kind == "u" else 34962
         views.append({"buffer": 0, "byteOffset": offset, "byteLength": array.nbytes, "target": target})
         offset += array.nbytes
     return views

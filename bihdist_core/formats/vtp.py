@@ -262,15 +262,18 @@ def write_poly_data(
 ) -> None:
     """Write points (n, 3), and lines and polygons as the ids (k,) of their corners, or (m, k) where all have as many.
 
+    Where there are neither, the points are cells, without which programs show nothing.
+
     `point_data` and `cell_data` are arrays by name, with a value for each point or cell.
     """
     arrays = _Appended()
     parts = [*arrays.data(point_data, cell_data), arrays.section("Points", {"Points": points})]
-    for name, cells in (("Lines", lines), ("Polys", polygons)):
+    verts = () if len(lines) or len(polygons) else np.arange(len(points))[:, None]
+    for name, cells in (("Verts", verts), ("Lines", lines), ("Polys", polygons)):
         if len(cells):
             corners, ends = _flat(cells)
             parts.append(arrays.section(name, {"connectivity": corners, "offsets": ends}))
-    counts = {"Points": len(points), "Verts": 0, "Lines": len(lines), "Strips": 0, "Polys": len(polygons)}
+    counts = {"Points": len(points), "Verts": len(verts), "Lines": len(lines), "Strips": 0, "Polys": len(polygons)}
     arrays.write(file, "PolyData", counts, parts)
 
 

@@ -253,8 +253,8 @@ def test_labels_are_no_values(mesh, labels, tmp_path, capsys):
     assert refused(capsys, "profile", *field, "--pins", "1,2", "-o", tmp_path / "p.csv").endswith("and no values.")
     difference = ("--distance", "biharmonic - sides", "-o", tmp_path / "f.png")
     assert "sides is shown in colours, and has no values to subtract" in refused(capsys, "figure", *field, *difference)
-    said = refused(capsys, "page", *field, "-o", tmp_path / "f.html")
-    assert "sides has labels, which no page that computes shows" in said
+    on_page = ("--distance", "biharmonic - sides", "-o", tmp_path / "f.html")
+    assert "sides is shown in colours, and has no values to subtract" in refused(capsys, "page", *field, *on_page)
 
 
 def test_a_field_is_added_once_and_where_there_is_room():

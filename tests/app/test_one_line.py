@@ -214,6 +214,7 @@ EXAMPLES = {
     "Repairs.cut": lambda d, p: (with_repairs(d, cut=mask_beside(d.surfaces[0].path)), p),
     "Repairs.merge": lambda d, p: (with_repairs(d, merge=0.1 + 0.2), p),
     "Repairs.largest_component": lambda d, p: (with_repairs(d, largest_component=True), p),
+    "Repairs.operator": lambda d, p: (with_repairs(d, operator="intrinsic-delaunay"), p),
     "Page.size": lambda d, p: (d, replace(p, size="160x80mm@300dpi")),
     "Page.style": lambda d, p: (d, replace(p, style="dark")),
     "Page.views": lambda d, p: (d, replace(p, views=("home", "back", CAMERA))),

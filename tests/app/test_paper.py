@@ -93,7 +93,7 @@ def test_an_experiment_on_the_readers_mesh(mesh_file, tmp_path):
 
 def test_a_quick_page_says_that_its_verdicts_are():
     section = Section(EXPERIMENTS["fig1"], result())
-    assert "These are quick measurements" in page("Title", "Introduction.", [section], quick=True)
+    assert "These are quick measurements" in page("Title", "Introduction.", [section], verdicts.QUICK)
     assert "These are quick measurements" not in page("Title", "Introduction.", [section])
 
 

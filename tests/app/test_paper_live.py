@@ -11,11 +11,11 @@ from app.paper import reproduce as reproducing
 from app.paper.live import live_pages
 from app.paper.reproduce import reproduce
 from app.scene.camera import directions
+from bihdist_core import Laplacian
 from bihdist_core.distances.distance_types import Spec
-from bihdist_core.distances.geodesic import GeodesicDistance
 from bihdist_core.experiments import Mark, Panel, Result, Shapes
 from bihdist_core.experiments.fig1 import compute
-from bihdist_core.experiments.shapes import spec_of
+from bihdist_core.experiments.shapes import distance as made_distance, spec_of
 from tests.shapes import bumpy, grid
 
 SURFACE, FLAT = bumpy(300), grid(6, 6)
@@ -74,9 +74,10 @@ def test_what_the_figure_has_and_the_page_has_not_is_said():
     assert not pages(bare, failed, heat, panel(distance=None), panel(marks=()))
 
 
-def test_the_spec_of_a_geodesic_distance_has_the_method_it_was_made_by():
-    made = GeodesicDistance(SURFACE, "heat")
-    assert str(spec_of("geodesic", made)) == "geodesic(method=heat)"
+def test_geodesic_distance_is_exact_in_every_experiment():
+    assert str(spec_of("geodesic")) == "geodesic(method=exact)"
+    assert made_distance(Laplacian(bumpy(60)), "geodesic").method == "exact"
+    assert str(spec_of("diffusion t = 1/4")) == "diffusion(t=1/4)"
 
 
 def test_the_index_links_to_the_pages_and_one_that_fails_is_named(tmp_path, monkeypatch):

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import pyvista
 from PIL import Image
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -16,7 +17,7 @@ from app.scene.prepared import prepare
 from app.scene.splats import CORNERS, at_corners
 from app.scene.stand_in import stand_in
 from app.tools.source.strokes import source_from_strokes
-from bihdist_core import BiharmonicDistance, PointCloud, SourceSet, SurfacePoint
+from bihdist_core import BiharmonicDistance, PointCloud, SourceSet, SurfacePoint, read_surface
 from tests.shapes import bumpy
 
 
@@ -38,6 +39,11 @@ def test_field_pairs_and_info(cloud, capsys):
     assert main(["info", "scan.xyz", "--json"]) == 0
     (facts,) = json.loads(capsys.readouterr().out)["meshes"]
     assert (facts["n_vertices"], facts["n_faces"], facts["genus"]) == (400, 0, None)
+    assert main(["info", "scan.xyz"]) == 0
+    said = capsys.readouterr().out
+    assert "points                    400\n" in said
+    assert "mean spacing" in said
+    assert "genus" not in said
 
 
 @pytest.mark.parametrize(
@@ -60,11 +66,16 @@ def test_what_needs_faces_is_refused(capsys, command, reason):
     assert f"scan.xyz: {reason}" in capsys.readouterr().err
 
 
-@pytest.mark.usefixtures("cloud")
-def test_coloured_points(capsys):
-    assert main(["field", "scan.xyz", "--sources", "3", "-o", "field.ply"]) == 0
-    assert main(["info", "field.ply", "--json"]) == 0
-    assert '"n_faces": 0' in capsys.readouterr().out
+def test_fields_of_points_in_files_of_other_programs(cloud):
+    for name in ("field.ply", "field.vtp", "field.glb", "field.obj"):
+        assert main(["field", "scan.xyz", "--sources", "3", "-o", name]) == 0
+    assert np.allclose(read_surface("field.ply").vertices, cloud.vertices)
+    assert pyvista.read("field.vtp").n_verts == 400
+    content = Path("field.glb").read_bytes()
+    data = json.loads(content[20 : 20 + int.from_bytes(content[12:16], "little")])
+    (primitive,) = data["meshes"][0]["primitives"]
+    assert (primitive["mode"], "indices" in primitive) == (0, False)
+    assert [each["count"] for each in data["accessors"]] == [400] * len(data["bufferViews"])
 
 
 # ---------------------------------------------------------------------- pictures

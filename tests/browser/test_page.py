@@ -75,6 +75,27 @@ def test_each_panel_shows_its_field_as_soon_as_it_is_there(browser, tmp_path):
     assert browser.errors == []
 
 
+def test_labels_have_their_colours_with_nothing_between_and_a_legend(browser, tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    s, path = bumpy(2000), tmp_path / "lh.sides.annot"
+    colours = np.array([(0, 0, 255, 0), (255, 0, 0, 0)])
+    nibabel.freesurfer.write_annot(path, (s.vertices[:, 0] > 0).astype(int), colours, ["left", "right"], fill_ctab=True)
+    page = bihdist.page(s, tmp_path / "p.html", [], fields={"sides": str(path)}, view={"cpos": "front"})
+    shown = ShownPage(browser, page, tmp_path / "p.html")
+    picture = np.array(Image.open(io.BytesIO(browser.screenshot())).convert("RGB")).astype(int)
+    red, green, blue = np.moveaxis(picture[60:-120], 2, 0)
+    is_red, is_blue = (red > 2 * blue + 40) & (green < 30), (blue > 2 * red + 40) & (green < 30)
+    assert min(is_red.sum(), is_blue.sum()) > 5000
+    between = (np.minimum(red, blue) > 50) & (green < 30)
+    assert between.sum() < 0.02 * (is_red | is_blue).sum()
+    bar = "document.querySelector('.bihdist .scale').getAttribute('aria-label')"
+    assert browser.evaluate(bar) == "Colours: left, right, labels"
+    browser.move(*shown.at(*shown.places(1)[0]))
+    browser.until(f"{VIEW}.pointing.place")
+    browser.until("/(left|right)/.test(document.querySelector('.bihdist .spoken').textContent)")
+    assert browser.errors == []
+
+
 def test_readers_choose_what_a_panel_shows(browser, tmp_path):
     page, path = made("hand", ("biharmonic", "geodesic"), tmp_path)
     shown = ShownPage(browser, page, path)

@@ -10,6 +10,7 @@ from scipy.spatial.distance import cdist
 import bihdist_core as bihdist
 from bihdist_core import BihdistError, MeshError, ParameterError, PointCloud, Surface, VertexError, read_surface
 from bihdist_core.analysis.first_view import first_look
+from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.analysis.upright import guess_up
 from bihdist_core.surface import vertex_normals
 from tests.core.mesh_samples import rows
@@ -175,6 +176,7 @@ def test_points_that_repeat_others_or_have_no_place_keep_ids_and_have_no_distanc
         "1 point without coordinates (NaN) left out (NaN)",
         "5 points that repeat others left out (NaN)",
     )
+    assert surface_notes(more).facts == more.facts
     field = bihdist.BiharmonicDistance(more).from_source(3)
     assert np.array_equal(field[:n], bihdist.BiharmonicDistance(cloud).from_source(3))
     assert np.isnan(field[n:]).all()

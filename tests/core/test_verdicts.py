@@ -209,7 +209,7 @@ def test_numbers_are_said_with_their_spread():
     assert part.formatted(BySource((0.021,), (0.018, 0.03))) == "2.1 % pictured; 1.8 to 3 % from 2 random sources"
     assert part.formatted(BySource((0.021, 0.05), (0.03,))) == "2.1 to 5 % pictured; 3 % from 1 random source"
     assert part.formatted(BySource((np.nan,), (0.03, np.nan, np.nan))) == (
-        "0/0 pictured; 3 % from 1 random source; 0/0 from 2 random sources"
+        "undefined pictured; 3 % from 1 random source; undefined from 2 random sources"
     )
     exponent = Part("exponent", at_most(2), "interval")
     assert exponent.formatted(Estimate(1.9, 1.7, 2.1, 4)) == "1.9 (1.7 to 2.1)"

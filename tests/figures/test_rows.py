@@ -70,7 +70,7 @@ def test_rows_of_what_else_panels_differ_in(rows, distances, row_heads, column_h
 
 
 def test_rows_of_meshes_are_named_by_them():
-    other = replace(BALL, vertices=2 * BALL.vertices, name="large")
+    other = replace(BALL, vertices=2 * BALL.vertices, name="large.off")
     figure = app.figure(replace(BALL, name="small"), TWO, 3, second_mesh=other, layout={"rows": "mesh"})._figure
     assert figure.row_heads == ("small", "large")
     assert figure.column_heads == ("biharmonic, exact", "geodesic, exact")

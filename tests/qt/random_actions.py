@@ -139,7 +139,7 @@ class RandomHands(InstrumentHands):
             self.window.actions_by_word["isoline_labels"].trigger()
         elif way == "through" and self.window.session.loaded() is not None:
             panel = self.panel()
-            vertex = self.chance.choice(self.window.session.mesh(panel).surface.faces.ravel().tolist())
+            vertex = self.chance.choice(self.window.session.mesh(panel).surface.shape.faces.ravel().tolist())
             choices.pass_through(panel, vertex)
         elif way == "none":
             choices.pass_through_none()

@@ -242,6 +242,7 @@ def test_colours_by_day_and_night_are_those_of_the_styles(scene, word):
     assert colours["background"] is None
     assert colours["back"] == [round(255 * x) for x in PAPER.back]
     assert colours["dark_back"] == [round(255 * x) for x in DARK.back]
+    assert colours["dark_section"] == [round(255 * x) for x in DARK.section]
 
 
 def test_a_map_that_stays_at_night_is_there_once(scene):
@@ -347,6 +348,27 @@ def test_a_field_of_ones_own_alone_has_its_sign_and_the_highest_vertex(tmp_path)
     assert (panel["signed"], panel["range"], panel["note"]) == (True, [-2.0, 2.0], "the same from every source")
     assert made.scene["source"] == first_source(s, "z")
     assert {*made.differs} == {"field mine"}
+
+
+def test_labels_are_places_among_those_that_are_there_and_have_no_isolines(tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    s, path = bumpy(200), tmp_path / "lh.parts.annot"
+    keys = np.where(s.vertices[:, 0] > 0, 3, 1)
+    keys[7] = -1
+    colours = np.array([(10 * k, 200, k, 0) for k in range(5)])
+    nibabel.freesurfer.write_annot(path, keys, colours, [f"part {k}" for k in range(5)], fill_ctab=True)
+    made = bihdist.page(s, tmp_path / "p.html", ["biharmonic"], 5, fields={"parts": str(path)}, isolines=12)
+    first, panel = made.scene["panels"]
+    assert panel["labels"] == [
+        {"name": "part 1", "colour": [10, 200, 1]}, {"name": "part 3", "colour": [30, 200, 3]},
+    ]  # fmt: skip
+    assert (panel["range"], panel["isolines"]["count"], panel["label"]) == ([-0.5, 1.5], 0, "parts")
+    assert "labels" not in first
+    assert made.scene["isolines"]["count"] == 12
+    stored = made.given["field parts"]
+    places = np.where(keys[made.mesh.ids] < 0, np.nan, keys[made.mesh.ids] == 3)
+    np.testing.assert_array_equal(stored.multiples * stored.scale, places)
+    assert made.differs["field parts"] == 0
 
 
 def test_a_field_of_another_length_is_refused(tmp_path):

@@ -311,6 +311,7 @@ def test_maps_are_stretched_and_follow_the_theme():
     scene = {"colours": {
         "map": [[0, 0, 0], [255, 0, 0]], "dark_map": [[0, 0, 255], [255, 255, 255]], "diverging": None,
         "undefined": [1, 2, 3], "background": None, "dark_background": None, "back": [4, 4, 4], "dark_back": [5, 5, 5],
+        "section": [6, 6, 6], "dark_section": [7, 7, 7],
     }}  # fmt: skip
     light, dark = (ask("colours", scene=scene, isDark=is_dark) for is_dark in (False, True))
     assert light["map"] == [[k, 0, 0] for k in range(256)] == light["diverging"]
@@ -318,6 +319,7 @@ def test_maps_are_stretched_and_follow_the_theme():
     assert dark["map"][-1] == [255, 255, 255]
     assert dark["background"] == [22, 24, 27]
     assert dark["undefined"] == [1, 2, 3]
+    assert (light["section"], dark["section"]) == ([6, 6, 6], [7, 7, 7])
     assert (light["back"], dark["back"]) == ([4, 4, 4], [5, 5, 5])
     scene["colours"]["background"] = [9, 9, 9]
     assert ask("colours", scene=scene, isDark=False)["background"] == [9, 9, 9]
@@ -347,3 +349,34 @@ def test_the_guide_lists_what_the_page_does():
     guide = (VIEWER.parents[2] / "assets/guide/reference/files.md").read_text(encoding="utf-8")
     for keys, meaning in ask("help"):
         assert f"\n| {keys} | {meaning} |" in guide
+
+
+# ---------------------------------------------------------------------- labels
+@pytest.mark.parametrize("crease", [None, 40.0])
+def test_faces_between_labels_have_corners_of_their_own_that_know_all_three(crease):
+    s = bumpy(300)
+    values = np.digitize(s.vertices[:, 0], [-0.3, 0.4]).astype(float)
+    values[s.vertices[:, 1] > 0.7] = np.nan
+    found = ask("labels", mesh=as_mesh(s) | {"crease": crease}, values=[None if np.isnan(v) else v for v in values])
+    places, labels, shares = (np.array(found[name]).reshape(-1, 3) for name in ("places", "labels", "shares"))
+    corners = np.array(found["corners"]).reshape(-1, 3)
+    at = labels[corners]
+    wanted = np.nan_to_num(values, nan=-1)[s.faces]
+    is_between = (wanted != wanted[:, :1]).any(axis=1)
+    assert 10 < is_between.sum() < len(s.faces) / 2
+    # All corners of a face tell the same three, so that it does not matter which of them the shader takes.
+    np.testing.assert_array_equal(at[is_between], np.repeat(wanted[is_between, None], 3, axis=1))
+    np.testing.assert_array_equal(shares[corners[is_between]], np.tile(np.eye(3), (is_between.sum(), 1, 1)))
+    np.testing.assert_array_equal(
+        at[~is_between], np.broadcast_to(wanted[~is_between, :1, None], (sum(~is_between), 3, 3))
+    )
+    assert len(np.unique(corners[is_between])) == 3 * is_between.sum()
+    drawn = ask("drawn", mesh=as_mesh(s) | {"crease": crease})
+    before = np.array(drawn["places"]).reshape(-1, 3)[np.array(drawn["corners"]).reshape(-1, 3)]
+    np.testing.assert_array_equal(places[corners], before)
+
+
+def test_labels_are_read_by_their_names():
+    labels = [{"name": "low", "colour": [1, 2, 3]}, {"name": "high", "colour": [4, 5, 6]}]
+    panel = {"distance": "field a", "signed": False, "note": "the same", "range": [-0.5, 1.5], "labels": labels}
+    assert ask("words", panel=panel, fields=[0, 1, None]) == ["low", "high", "no label", "low, high"]

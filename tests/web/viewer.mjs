@@ -68,6 +68,16 @@ const answers = {
     const { corners, copies, places, normals } = (await shapeOf(mesh)).drawn;
     return { corners: [...corners], copies, places: [...places], normals: [...normals] };
   },
+  async labels({ mesh, values }) {
+    const { withLabels } = await use("labels.js"), { drawn } = await shapeOf(mesh);
+    const found = withLabels(drawn, Float64Array.from(values, (x) => x ?? NaN));
+    return Object.fromEntries(Object.entries(found).map(([name, array]) => [name, [...array]]));
+  },
+  async words({ panel, fields, vertex }) {
+    const [{ panelAnswer }, { valueWords }, { barWords }] = [await use("fields.js"), await use("pins.js"), await use("colour_bar.js")];
+    const answer = panelAnswer(panel, { [panel.distance]: Float64Array.from(fields, (x) => x ?? NaN) });
+    return [...fields.map((_, k) => valueWords(answer, k)), barWords(panel, answer, null).left];
+  },
   async outside({ mesh }) {
     const { outside } = await use("shape.js");
     return outside(await shapeOf(mesh));

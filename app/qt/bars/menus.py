@@ -10,6 +10,7 @@ from bihdist_core.analysis.upright import DIRECTIONS
 
 from ...document.camera import ANATOMICAL
 from ...document.panel_edits import ADD, panel_edits
+from ...document.repairs import OPERATORS
 from ...document.settings import RANGE, SHADING, THEME, Setting, switches_in
 from ...document.tools import docked_tools
 from ...drawing.numbers import MINUS
@@ -19,6 +20,7 @@ from ..actions import actions_of_tools
 from ..choices import Choices
 from ..context import Context
 from ..files.files import Files
+from ..files.mesh_repairs import MeshRepairs
 from ..views import Views
 from .colour_menu import ColourMenu
 from .isoline_menu import IsolineMenu
@@ -122,7 +124,10 @@ class Menus:
                 None,
             ],
         )
-        self._fill(self.repairs, ["cut", "merge", "largest", None, "save ids", None, "put back"])
+        self.operators = self._choices(
+            "Operator", lambda word: context[MeshRepairs].choose_operator(word), OPERATORS.items()
+        )
+        self._fill(self.repairs, ["cut", "merge", "largest", None, self.operators, None, "save ids", None, "put back"])
         self._fill(file, [self.repairs, None])
         self._fill(file, ["save", "save as", None])
         self._fill(file, ["save fields", "figure", "movie", "page", "screenshot", None, "quit"])

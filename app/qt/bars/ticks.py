@@ -4,6 +4,7 @@ from ...document.edits import has_ends
 from ...document.settings import RANGE, SHADING
 from ..actions import Actions
 from ..context import Context
+from ..files.mesh_repairs import MeshRepairs
 from ..look.look import LOOK
 from ..views import Views
 from .colour_menu import colours_in_words
@@ -41,6 +42,7 @@ class Ticks:
             (menus.theme, LOOK.choice),
             (menus.shading, SHADING.value(self._context)),
             (menus.up, self._context[Views].up),
+            (menus.operators, self._context[MeshRepairs].operator),
         ):
             menus.show_choice(menu, word)
         self._actions.show()

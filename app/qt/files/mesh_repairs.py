@@ -39,6 +39,8 @@ class MeshRepairs(QtCore.QObject):
         document, active = self._context.document, self._context.active
         shown = document.mesh(document.panel(active.id).surface if active else document.surfaces[0].name)
         which = shown.path, shown.sha256
+        if shown.change is None:
+            return shown
         return next(mesh for mesh in document.surfaces if mesh.change is None and (mesh.path, mesh.sha256) == which)
 
     # ------------------------------------------------------------------ cutting
@@ -124,6 +126,17 @@ class MeshRepairs(QtCore.QObject):
         """Keep only the component with most vertices."""
         surface = self._mesh.name
         self._context.session.apply(lambda document: with_repairs(document, surface, largest_component=True))
+
+    # ------------------------------------------------------------------ the operator
+    @property
+    def operator(self) -> str:
+        """The operator of the mesh, "" without a mesh."""
+        return self._mesh.repairs.operator if self._context.document.surfaces else ""
+
+    def choose_operator(self, word: str) -> None:
+        """Let distances on the mesh be by another operator."""
+        surface = self._mesh.name
+        self._context.session.apply(lambda document: with_repairs(document, surface, operator=word))
 
     # ------------------------------------------------------------------ putting back
     def put_back(self) -> None:

@@ -41,6 +41,9 @@ LEAST_IN_ROW = 180
 LINE = 1
 """Pixels between panels."""
 
+BY_MENUS = (QtCore.Qt.FocusReason.PopupFocusReason, QtCore.Qt.FocusReason.MenuBarFocusReason)
+"""Reasons of focus that mean no panel."""
+
 
 class PanelGrid(QtWidgets.QWidget):
     """The panels of a document by their ids; `events` tells what the mouse does in each."""
@@ -372,7 +375,8 @@ class PanelGrid(QtWidgets.QWidget):
             panel.show_active(id == self.active and len(self._panels) > 1)
 
     def eventFilter(self, watched: QtCore.QObject, event: QtCore.QEvent) -> bool:
-        if event.type() == QtCore.QEvent.Type.FocusIn:
+        # A menu that closes gives the keys back to where they were, wherever one has pressed since.
+        if event.type() == QtCore.QEvent.Type.FocusIn and event.reason() not in BY_MENUS:
             for id, panel in self._panels.items():
                 if panel.view is watched:
                     self.activate(id)

@@ -12,6 +12,7 @@ from bihdist_core.distances.distance_types import Spec, Value
 
 from ...document.panel_edits import panel_edits
 from ...document.quantities import Difference, Quantity, kind_name, quantity_name
+from ...document.repairs import OPERATORS
 from ...drawing.painters.qt import paint, rgba_of
 from ...drawing.shapes import Box, Path, Shape, Text, disc, rounded
 from ..look.icons import pixmap
@@ -32,6 +33,9 @@ MARGIN, BETWEEN = 8, 4
 WARNING_ROOM = 22
 LETTER_SIDE, LETTER_ROOM = 18, 24
 """Of the badge with the letter of the surface, and with what is beside it."""
+
+EXACT = "exact"
+"""Of quantities that leave no eigenpair out."""
 
 DOT_ROOM, DOT = 13, 4.0
 """For the dot of a curve, and its radius."""
@@ -128,7 +132,12 @@ class PanelHead(QtWidgets.QWidget):
 
     def show_method(self, specs: tuple[Spec, ...], label: str, is_preview: bool = False) -> None:
         """Show what the field has been computed by, "geodesic, heat method", for the control that says "auto", and of a
-        stand-in for any."""
+        stand-in for any; and another operator than the paper's."""
+        operator = label.rpartition(", ")[2]
+        for control in self.controls:
+            if isinstance(control, FixedWord):
+                control.setText(f"{EXACT}, {operator}" if operator in OPERATORS else EXACT)
+                self._lay_out()
         self._method = specs, label.partition(", ")[2].partition(",")[0], is_preview
         self._show_method()
 
@@ -255,7 +264,7 @@ class PanelHead(QtWidgets.QWidget):
             self._by.chosen.connect(lambda word: self._choose(self._choices.with_part(self.shows, 0, word)))
             self.controls.insert(0, self._by)
         elif not self.controls and any(spec.distance_type.is_complete for spec in self.shows.parametrised):
-            self.controls.append(FixedWord(self, "exact", "Uses all eigenpairs; nothing to choose"))
+            self.controls.append(FixedWord(self, EXACT, "Uses all eigenpairs; nothing to choose"))
         order: list[QtWidgets.QWidget] = [self.name]
         for control in self.controls:
             inside: list[QtWidgets.QWidget] = [control]

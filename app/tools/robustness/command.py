@@ -113,7 +113,7 @@ def run(options: argparse.Namespace) -> Result:
         "n_faces": after.n_faces,
     }  # fmt: skip
     if chosen:
-        facts["fields"] = _print_changes(options, before, Laplacian(after), kept, chosen)
+        facts["fields"] = _print_changes(options, before, Laplacian(after, operator=before.operator), kept, chosen)
     return Result(facts)
 
 

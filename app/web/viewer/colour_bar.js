@@ -1,11 +1,12 @@
 /** A panel's colour bar: range, unit, round ticks, isolines, and the value at the pointer. */
 import { written, percentage, shortest, roundTicks } from "./numbers.js";
 
-const WIDEST = 440, MARGIN = 16, TICK_ROOM = 72, LINE_ROOM = 5, NARROW = 200;
+const WIDEST = 440, MARGIN = 16, TICK_ROOM = 72, LINE_ROOM = 5, NARROW = 200, LEGEND_ROWS = 3;
 
 /** The words above a bar: left, bold and quiet, and right. */
 export function barWords({ unit, note }, answer, value) {
   if (!answer) return { bold: "", left: "", right: "" };
+  if (answer.labels) return { bold: "", left: answer.labels.map(({ name }) => name).join(", "), right: "labels" };
   const most = `max ${answer.signed ? "±" : ""}${written(answer.own)}`;
   if (value === null) return { bold: "", left: unit || note, right: most };
   if (Number.isNaN(value)) return { bold: "", left: answer.gap, right: "" };
@@ -25,6 +26,7 @@ export function paintBar(brush, box, panel, answer, value, { map, levels, theme 
   const width = Math.min(box.width - 2 * MARGIN, WIDEST), x = Math.round(box.x + (box.width - width) / 2), y = box.y;
   const { bold, left, right } = barWords(panel, answer, value), isNarrow = width < NARROW;
   brush.textBaseline = "alphabetic";
+  if (answer?.labels) return paintLegend(brush, box, answer.labels, value, theme);
   paintWords(brush, theme, x, y + 16, width, bold, isNarrow && bold ? "" : left, right);
   brush.save();
   brush.beginPath();
@@ -58,6 +60,33 @@ function paintWords(brush, theme, x, y, width, bold, left, right) {
   write(bold, 600, theme.text, x);
   if (hasRoom || !bold) write(left, 400, theme.quiet, x + boldWidth);
   if (hasRoom || bold) write(right, 400, theme.quiet, x + width - rightWidth);
+}
+
+/** Names and colours in rows in the middle, that at the pointer bold, and how many have no room. */
+function paintLegend(brush, box, labels, value, theme) {
+  const room = box.width - 2 * MARGIN, rows = [];
+  brush.font = `600 12px ${theme.font}`;
+  for (const [k, { name, colour }] of labels.entries()) {
+    const wide = brush.measureText(name).width + 32, row = rows.at(-1), isLast = rows.length === LEGEND_ROWS;
+    if (row && row.wide + wide <= room - (isLast ? 64 : 0)) row.wide += wide;
+    else if (isLast) {
+      row.labels.push({ name: `${labels.length - k} more` });
+      row.wide += 64;
+      break;
+    } else rows.push({ wide, labels: [] });
+    rows.at(-1).labels.push({ name, colour, wide, isPointed: k === value });
+  }
+  for (const [k, row] of rows.entries()) {
+    let x = box.x + (box.width - row.wide + 16) / 2;
+    for (const { name, colour, wide, isPointed } of row.labels) {
+      brush.fillStyle = colour ? `rgb(${colour})` : "transparent";
+      brush.fillRect(x, box.y + 18 * k + 7, 10, 10);
+      brush.font = `${isPointed ? 600 : 400} 12px ${theme.font}`;
+      brush.fillStyle = colour ? theme.text : theme.quiet;
+      brush.fillText(name, x + (colour ? 16 : 0), box.y + 18 * k + 16);
+      x += wide;
+    }
+  }
 }
 
 function paintColours(brush, x, y, width, map, theme) {

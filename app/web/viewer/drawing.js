@@ -1,13 +1,15 @@
 /** The surface in WebGL: one context for all panels, drawn when asked. */
 import { outside } from "./shape.js";
+import { withLabels } from "./labels.js";
 import { VERTEX_SHADER, FRAGMENT_SHADER } from "./shaders.js";
 
 const UNDEFINED = -1000, MOST_PIXELS = 2 ** 24;
 
 export class Drawing {
   /** Throws an Error with a sentence where the browser cannot draw. */
-  constructor(canvas, shape, panels) {
+  constructor(canvas, shape, panels, hasLabels) {
     this.canvas = canvas;
+    this.hasLabels = hasLabels;
     this.shape = shape;
     this.isSoftware = isSoftware();
     const gl = (this.gl = canvas.getContext("webgl2", { antialias: !this.isSoftware, alpha: false }));
@@ -21,7 +23,7 @@ export class Drawing {
   /** All that the graphics hold; anew where they were lost. */
   #prepare(panels) {
     const { gl, shape } = this;
-    const program = linked(gl, shape.clip !== null);
+    const program = linked(gl, { CLIPPED: shape.clip !== null, LABELS: this.hasLabels });
     gl.useProgram(program);
     this.at = new Proxy({}, { get: (known, name) => (known[name] ??= gl.getUniformLocation(program, name)) });
     gl.uniform1i(this.at.levels, 1);
@@ -39,22 +41,10 @@ export class Drawing {
     const shared = [buffered(gl, gl.ARRAY_BUFFER, places), buffered(gl, gl.ARRAY_BUFFER, normals)];
     const corners = buffered(gl, gl.ELEMENT_ARRAY_BUFFER, drawn);
     this.panels = Array.from({ length: panels }, () => {
-      const held = gl.createVertexArray(),
-        values = buffered(gl, gl.ARRAY_BUFFER, new Float32Array(places.length / 3).fill(UNDEFINED));
-      gl.bindVertexArray(held);
-      for (const [k, [buffer, size]] of [
-        [shared[0], 3],
-        [shared[1], 3],
-        [values, 1],
-      ].entries()) {
-        gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-        gl.enableVertexAttribArray(k);
-        gl.vertexAttribPointer(k, size, gl.FLOAT, false, 0, 0);
-      }
-      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, corners);
-      gl.bindVertexArray(null);
+      const values = buffered(gl, gl.ARRAY_BUFFER, new Float32Array(places.length / 3).fill(UNDEFINED));
       return {
-        held,
+        held: vertexArray(gl, [...shared, values], corners),
+        labels: null,
         values,
         colours: gl.createTexture(),
         levels: gl.createTexture(),
@@ -78,8 +68,10 @@ export class Drawing {
   }
 
   /** Values of a panel, see `panelAnswer`, and its isolines, see `isolineLevels`. */
-  setAnswer(panel, { values, low, high, signed }, { values: levels, step }) {
+  setAnswer(panel, { values, low, high, signed, labels }, { values: levels, step }) {
     const { gl } = this, held = this.panels[panel], scale = high > low ? 1 / (high - low) : 0;
+    if (!labels) held.labels = null;
+    else if (held.labels?.values !== values) held.labels = { values, held: this.#labelled(values) };
     const { copies } = this.shape.drawn, shares = new Float32Array(values.length + copies.length);
     const share = (value) => (value === value ? (value - low) * scale : UNDEFINED);
     for (let k = 0; k < values.length; k++) shares[k] = share(values[k]);
@@ -104,6 +96,14 @@ export class Drawing {
     sampled(gl);
   }
 
+  /** The faces with their labels, see `withLabels`. */
+  #labelled(values) {
+    const { gl } = this, { places, normals, labels, shares, corners } = withLabels(this.shape.drawn, values);
+    const none = new Float32Array(places.length / 3).fill(UNDEFINED);
+    const buffers = [places, normals, none, labels, shares].map((each) => buffered(gl, gl.ARRAY_BUFFER, each));
+    return vertexArray(gl, buffers, buffered(gl, gl.ELEMENT_ARRAY_BUFFER, corners));
+  }
+
   /** Let the picture have this size in CSS pixels. @returns {number} pixels of the screen for each, at most `wanted` */
   resize(width, height, wanted) {
     const { gl } = this, [widest, highest] = gl.getParameter(gl.MAX_VIEWPORT_DIMS);
@@ -117,8 +117,8 @@ export class Drawing {
   /**
    * Draw all panels.
    * @param {{x, y, width, height}[]} boxes of the views, in CSS pixels from the upper left
-   * @param {{background: number[], undefined: number[], back: number[], line: number[], width: number}} look colours
-   *   from 0 to 1
+   * @param {{background: number[], undefined: number[], back: number[], line: number[], section: number[],
+   *   width: number}} look colours from 0 to 1
    */
   draw(camera, boxes, scale, look) {
     const { gl, at, canvas } = this;
@@ -129,6 +129,7 @@ export class Drawing {
     gl.uniform3fv(at.backColour, look.back);
     gl.uniform1f(at.hasBacks, Number(this.shape.hasBacks));
     gl.uniform3fv(at.lineColour, look.line);
+    gl.uniform3fv(at.sectionColour, look.section);
     gl.uniform1f(at.halfWidth, Math.max(look.width * scale, 1) / 2);
     gl.uniform1f(at.parallel, Number(camera.parallel));
     for (const [k, { x, y, width, height }] of boxes.entries()) {
@@ -148,7 +149,8 @@ export class Drawing {
       gl.bindTexture(gl.TEXTURE_2D, panel.levels);
       gl.activeTexture(gl.TEXTURE0);
       gl.bindTexture(gl.TEXTURE_2D, panel.colours);
-      gl.bindVertexArray(panel.held);
+      gl.uniform1i(at.hasLabels, Number(panel.labels !== null));
+      gl.bindVertexArray((panel.labels ?? panel).held);
       if (this.shape.opacity < 1) this.#drawLayers();
       else this.#drawFaces();
     }
@@ -188,20 +190,37 @@ function buffered(gl, kind, data) {
   return made;
 }
 
+const SIZES = [3, 3, 1, 3, 3];
+
+/** Buffers of attributes, in the order of their places in the shader, and of faces. */
+function vertexArray(gl, buffers, corners) {
+  const made = gl.createVertexArray();
+  gl.bindVertexArray(made);
+  for (const [k, buffer] of buffers.entries()) {
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.enableVertexAttribArray(k);
+    gl.vertexAttribPointer(k, SIZES[k], gl.FLOAT, false, 0, 0);
+  }
+  gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, corners);
+  gl.bindVertexArray(null);
+  return made;
+}
+
 function sampled(gl) {
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
 }
 
-function linked(gl, isClipped) {
-  const program = gl.createProgram();
+function linked(gl, defined) {
+  const program = gl.createProgram(), names = Object.keys(defined).filter((name) => defined[name]);
+  const head = names.map((name) => `\n#define ${name}`).join("");
   for (const [kind, text] of [
     [gl.VERTEX_SHADER, VERTEX_SHADER],
     [gl.FRAGMENT_SHADER, FRAGMENT_SHADER],
   ]) {
     const shader = gl.createShader(kind);
-    gl.shaderSource(shader, isClipped ? text.replace("\n", "\n#define CLIPPED\n") : text);
+    gl.shaderSource(shader, text.replace("\n", `${head}\n`));
     gl.compileShader(shader);
     gl.attachShader(program, shader);
   }

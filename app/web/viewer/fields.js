@@ -1,5 +1,5 @@
 /** What panels show of the solver's fields. */
-import { roundStep } from "./numbers.js";
+import { roundStep, written } from "./numbers.js";
 
 const PERCENTAGE_POINTS = "percentage points";
 
@@ -21,14 +21,15 @@ export function panelAt(scene, panel, value) {
 
 /**
  * A panel's values and range.
- * @returns {{values: Float64Array, own: number, low: number, high: number, signed: boolean, gap: string}} own: the
- *   largest value, of a signed field in size; gap: what a vertex without a value is
+ * @returns {{values: Float64Array, own: number, low: number, high: number, signed: boolean, gap: string,
+ *   labels?: {name: string, colour: number[]}[]}} own: the largest value, of a signed field in size; gap: what a vertex
+ *   without a value is; labels: of which values are the places
  */
 export function panelAnswer(panel, fields) {
-  const { signed, note } = panel;
+  const { signed, note, labels } = panel;
   const values = panel.distance === "difference" ? difference(panel, fields) : fields[panel.distance];
   const own = largest(values), [low, high] = panel.range ?? [signed ? -own : 0, own];
-  return { values, own, low, high, signed, gap: note ? "undefined" : "not connected" };
+  return { values, own, low, high, signed, labels, gap: labels ? "no label" : note ? "undefined" : "not connected" };
 }
 
 function difference({ of, unit }, fields) {
@@ -65,5 +66,9 @@ export function isolineLevels({ count, values, equal }, { own, high, signed }) {
 /** A value as it stands in tables and is read out, with its fraction of the maximum. */
 export const reading = (answer, vertex) => {
   const value = answer.values[vertex];
-  return { value, fraction: answer.signed || !(answer.own > 0) ? NaN : value / answer.own };
+  return { value, fraction: answer.labels || answer.signed || !(answer.own > 0) ? NaN : value / answer.own };
 };
+
+/** A value or a label in words. */
+export const valueText = ({ labels, signed, gap }, value) =>
+  Number.isNaN(value) ? gap : labels ? labels[value].name : written(value, signed);

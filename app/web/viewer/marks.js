@@ -1,5 +1,6 @@
 /** Marks and the pointer's place, painted over the surface; the scene has their shapes. */
-import { written, percentage } from "./numbers.js";
+import { percentage } from "./numbers.js";
+import { valueText } from "./fields.js";
 
 const DARK = "#14161A", DIGITS = [1, 10 / 11, 8 / 11];
 
@@ -59,8 +60,8 @@ export function paintCursor(brush, x, y) {
 }
 
 /** Value and fraction of the maximum beside the pointer, inside the view's box. */
-export function paintLabel(brush, x, y, box, { value, fraction }, { gap, signed }, theme) {
-  const bold = Number.isNaN(value) ? gap : written(value, signed);
+export function paintLabel(brush, x, y, box, { value, fraction }, answer, theme) {
+  const bold = valueText(answer, value);
   const light = Number.isNaN(fraction) ? "" : percentage(fraction);
   brush.font = `600 13px ${theme.font}`;
   const boldWidth = brush.measureText(bold).width;

@@ -1,7 +1,7 @@
 /** The table of pins: their values in each panel, their names, and a box for another one. */
 import { element, iconButton } from "./elements.js";
-import { written, percentage } from "./numbers.js";
-import { reading } from "./fields.js";
+import { percentage } from "./numbers.js";
+import { reading, valueText } from "./fields.js";
 
 export class PinTable {
   /** @param {import("./viewer.js").Viewer} viewer */
@@ -108,6 +108,5 @@ export class PinTable {
 export function valueWords(answer, vertex) {
   if (!answer) return "…";
   const { value, fraction } = reading(answer, vertex);
-  if (Number.isNaN(value)) return answer.gap;
-  return written(value, answer.signed) + (Number.isNaN(fraction) ? "" : ` (${percentage(fraction)})`);
+  return valueText(answer, value) + (Number.isNaN(fraction) ? "" : ` (${percentage(fraction)})`);
 }

@@ -9,6 +9,12 @@ uniform mat4 view, picture;
 uniform float parallel;
 uniform vec4 clip;
 out float clipAt, valueAt, lightAt, shineAt;
+#ifdef LABELS
+layout(location = 3) in vec3 labels;
+layout(location = 4) in vec3 shares;
+flat out vec3 labelsAt;
+out vec3 sharesAt;
+#endif
 const vec3 KEY = normalize(vec3(-0.5, 0.6, 1.0)), FILL = normalize(vec3(0.8, -0.2, 0.7));
 void main() {
   vec4 local = view * vec4(place, 1.0);
@@ -21,6 +27,10 @@ void main() {
   lightAt = 0.26 + 0.8 * (0.85 * max(dot(n, KEY), 0.0) + 0.42 * max(dot(n, FILL), 0.0));
   shineAt = 0.05 * pow(max(dot(reflect(-KEY, n), toEye), 0.0), 20.0);
   valueAt = value;
+#ifdef LABELS
+  labelsAt = labels;
+  sharesAt = shares;
+#endif
   clipAt = dot(clip, vec4(place, 1.0));
 }`;
 
@@ -29,7 +39,7 @@ export const FRAGMENT_SHADER = `#version 300 es
 precision highp float;
 in float clipAt, valueAt, lightAt, shineAt;
 uniform sampler2D colours, levels;
-uniform vec3 undefinedColour, backColour, lineColour;
+uniform vec3 undefinedColour, backColour, lineColour, sectionColour;
 uniform float hasBacks, opacity, lineFirst, lineStep, halfWidth, zeroAt;
 uniform int lineCount;
 out vec4 colour;
@@ -48,6 +58,37 @@ int nearestLine() {
   return above;
 }
 
+#ifdef LABELS
+uniform bool hasLabels;
+flat in vec3 labelsAt;
+in vec3 sharesAt;
+
+vec3 labelColour(float label) {
+  return label < 0.0 ? undefinedColour : texelFetch(colours, ivec2(int(label), 0), 0).rgb;
+}
+
+/** Each place in a face has the label with most of its share, blended where another is less than half a pixel away. */
+vec3 labelled() {
+  mat3 alike;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) alike[i][j] = float(labelsAt[i] == labelsAt[j]);
+  vec3 share = alike * sharesAt, shareX = alike * dFdx(sharesAt), shareY = alike * dFdy(sharesAt);
+  int most = share.y > share.x ? 1 : 0;
+  if (share.z > share[most]) most = 2;
+  int next = most;
+  float ahead = 0.5;
+  for (int k = 0; k < 3; k++) {
+    float steep = length(vec2(shareX[most] - shareX[k], shareY[most] - shareY[k]));
+    float away = (share[most] - share[k]) / max(steep, 1e-9);
+    if (alike[most][k] == 0.0 && away < ahead) {
+      ahead = away;
+      next = k;
+    }
+  }
+  return mix(labelColour(labelsAt[next]), labelColour(labelsAt[most]), 0.5 + ahead);
+}
+#endif
+
 float painted(float fromLine, float reach) { return 1.0 - smoothstep(reach - 0.6, reach + 0.6, fromLine); }
 
 void main() {
@@ -57,7 +98,11 @@ void main() {
   float perPixel = length(vec2(dFdx(valueAt), dFdy(valueAt)));
   bool isUndefined = valueAt < -900.0, isBack = hasBacks > 0.5 && !gl_FrontFacing;
   int along = int(0.5 + 255.0 * clamp(valueAt, 0.0, 1.0));
-  vec3 shown = (isUndefined ? undefinedColour : texelFetch(colours, ivec2(along, 0), 0).rgb) * lightAt + shineAt;
+  vec3 shown = isUndefined ? undefinedColour : texelFetch(colours, ivec2(along, 0), 0).rgb;
+#ifdef LABELS
+  if (hasLabels) shown = labelled();
+#endif
+  shown = shown * lightAt + shineAt;
   if (isBack) shown = (0.4 + 0.56 * lightAt) * backColour;
   // None where all is of one value but for rounding, nor where the range passes in a few pixels.
   if (lineCount > 0 && !isUndefined && !isBack && perPixel > 5e-7) {
@@ -73,7 +118,8 @@ void main() {
     }
   }
 #ifdef CLIPPED
-  shown = mix(shown, INK, painted(clipAt / max(length(vec2(dFdx(clipAt), dFdy(clipAt))), 1e-9), 2.4 * halfWidth));
+  float fromCut = clipAt / max(length(vec2(dFdx(clipAt), dFdy(clipAt))), 1e-9);
+  shown = mix(shown, sectionColour, painted(fromCut, 2.4 * halfWidth));
 #endif
   colour = vec4(shown, opacity);
 }`;

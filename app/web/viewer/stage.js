@@ -73,7 +73,7 @@ export class Stage {
   }
 
   start(shape) {
-    this.drawing = new Drawing(this.surface, shape, this.scene.panels.length);
+    this.drawing = new Drawing(this.surface, shape, this.scene.panels.length, this.choices.some(({ labels }) => labels));
   }
 
   /** Take the theme anew, which the maps depend on. */
@@ -85,7 +85,8 @@ export class Stage {
   }
 
   mapOf(k) {
-    return this.scene.panels[k].signed ? this.colours.diverging : this.colours.map;
+    const { labels, signed } = this.scene.panels[k];
+    return labels ? labels.map(({ colour }) => colour) : signed ? this.colours.diverging : this.colours.map;
   }
 
   /** Rows and columns for the room there is. */
@@ -112,10 +113,10 @@ export class Stage {
   }
 
   draw(camera) {
-    const fraction = (colour) => colour.map((x) => x / 255), { background, undefined: none, back } = this.colours;
+    const fraction = (colour) => colour.map((x) => x / 255), { background, undefined: none, back, section } = this.colours;
     const { colour, width } = this.scene.isolines;
-    const [ground, nothing, inside, line] = [background, none, back, colour].map(fraction);
-    const look = { background: ground, undefined: nothing, back: inside, line, width };
+    const [ground, nothing, inside, line, cut] = [background, none, back, colour, section].map(fraction);
+    const look = { background: ground, undefined: nothing, back: inside, line, section: cut, width };
     this.drawing.draw(camera, this.boxes, this.scale, look);
   }
 

@@ -15,12 +15,13 @@ export function themeOf(root) {
 const bytesOf = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16));
 
 /**
- * The scene's colours under a theme: maps of distances and of differences, and those of the surface, of its inside, too.
+ * The scene's colours under a theme: maps of distances and of differences, and those of the surface, of its inside,
+ * and of where it is cut.
  * @returns {{map: number[][], diverging: number[][], background: number[], undefined: number[],
- *   back: number[]}} from 0 to 255
+ *   back: number[], section: number[]}} from 0 to 255
  */
 export function coloursOf({ colours }, theme) {
-  const { map, dark_map, diverging, background, dark_background, back, dark_back } = colours;
+  const { map, dark_map, diverging, background, dark_background, back, dark_back, section, dark_section } = colours;
   const chosen = theme.isDark ? (dark_map ?? map) : map;
   const behind = (theme.isDark ? dark_background : background) ?? bytesOf(theme.canvas);
   return {
@@ -29,6 +30,7 @@ export function coloursOf({ colours }, theme) {
     background: behind,
     undefined: colours.undefined,
     back: theme.isDark ? (dark_back ?? back) : back,
+    section: theme.isDark ? dark_section : section,
   };
 }
 

@@ -26,7 +26,7 @@ CHANGES = [
 """Patterns in pages, and what stands there instead."""
 MOST = 10_000_000
 """Bytes of all files, compressed as they are in a wheel."""
-QUALITY = 84
+QUALITY = 80
 """Of drawings; pictures of the window, in few colours, lose nothing."""
 
 
