@@ -59,11 +59,11 @@ class TetrahedralMesh(Nodes):
     >>> import bihdist
     >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]]
     >>> solid = bihdist.TetrahedralMesh(corners, [[0, 1, 2, 3], [4, 1, 2, 3]], "solid")
-    >>> solid, solid.volume, solid.shape.n_faces
+    >>> solid, round(solid.volume, 3), solid.shape.n_faces
     (TetrahedralMesh(solid: 5 vertices, 2 tetrahedra), 0.5, 6)
     >>> distance = bihdist.BiharmonicDistance(solid)
     >>> distance.from_source(0).round(3).tolist(), distance.unit
-    ([0.0, 0.571, 0.571, 0.571, 1.0], 'mesh units^0.5')
+    ([0.0, 0.697, 0.697, 0.697, 1.173], 'mesh units^0.5')
     """
 
     dimension: ClassVar[int] = 3
