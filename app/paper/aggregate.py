@@ -13,13 +13,15 @@ import numpy as np
 from bihdist_core.errors import ParameterError
 from bihdist_core.experiments import EXPERIMENTS, Claim, NotDone, Result
 from bihdist_core.experiments.result import STATEMENTS
-from bihdist_core.experiments.verdicts import HOLDS, MOST, VERDICTS, BySource, Statement, Verdict
+from bihdist_core.experiments.verdicts import FAILS, MOST, PARTLY, VERDICTS, BySource, Statement
 from bihdist_core.file_output import atomic_write
 
 from .page import Named, Section, page
 from .verdicts import KINDS, SIGNS
 
 PAGE = "index.html"
+NAMED = 12
+"""Meshes that are named at most, of those on which a statement does not hold, or partly."""
 
 
 @dataclass(frozen=True)
@@ -51,11 +53,6 @@ class ClaimOverMeshes(Claim):
         parts = (replace(p, by="everywhere" if p.by == "everywhere" else "sources", of="meshes") for p in stated.parts)
         return replace(stated, parts=tuple(parts))
 
-    @property
-    def verdict(self) -> Verdict | None:
-        """The verdict by the rule; None of numbers of the quick version where sizes decide."""
-        return None if self.quick and self.statement.whole else self.statement.judge(self.numbers)
-
 
 def over_meshes(ids: Sequence[str], meshes: Mapping[str, MeshStatements], quick: bool = False) -> list[Result]:
     """Return the experiments of these ids with their statements over all meshes, by their names."""
@@ -85,7 +82,8 @@ def _claim(id: str, meshes: Mapping[str, MeshStatements], quick: bool) -> Claim:
     for verdict in (*VERDICTS, ""):
         those = [name for name, each in judged.items() if each == verdict]
         if those:
-            named = "" if verdict == HOLDS else f" ({', '.join(those)})"
+            more = f" and {len(those) - NAMED} more" if len(those) > NAMED else ""
+            named = f" ({', '.join(those[:NAMED])}{more})" if verdict in (PARTLY, FAILS) else ""
             words.append(f"{verdict or 'not judged'} on {len(those)}{named}")
     note, failure = f"Mesh by mesh: {'; '.join(words)}.", "" if numbers else "No mesh has it."
     return ClaimOverMeshes(id, numbers, note, failure=failure, quick=quick)

@@ -293,8 +293,8 @@ class Part:
         pictured, random = ([self.limit.side_of(x) for x in each] for each in (known.pictured, known.random))
         if self.by == "everywhere":
             worst = min(pictured + random)
-            return None if surely and worst >= 0 else VERDICTS[1 - worst]
-        if surely:
+            return None if surely and worst >= 0 and self.of != "meshes" else VERDICTS[1 - worst]
+        if surely and self.of != "meshes":
             every = np.array([*known.pictured, *known.random])
             with np.errstate(invalid="ignore"):
                 spread = SURE * every.std(ddof=min(1, len(every) - 1))

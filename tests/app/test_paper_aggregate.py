@@ -1,5 +1,6 @@
 """`bihdist paper --aggregate`: each statement over a folder of meshes."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -44,6 +45,21 @@ def test_a_statement_holds_if_it_does_on_most_meshes(changes, verdict):
     assert f"does not hold on {len(failing)} ({', '.join(failing)})" in claim.note
     # What no mesh has is there, too.
     assert [each.id for each in result.claims if each.failure] == ["fig3-1", "fig3-3", "fig3-4"]
+
+
+def test_quick_numbers_of_many_meshes_are_judged_unless_their_sizes_decide():
+    meshes = {f"mesh {k}": measured(0.01 + 0.003 * k, 0.0) for k in range(14)}
+    claim = over_meshes(["fig3"], meshes, quick=True)[0].claims[1]
+    part = claim.statement.parts[0]
+    assert (claim.verdict, part.judge(claim.numbers[CHANGE], surely=True)) == ("holds", "holds")
+    assert STATEMENTS["fig1-2"].whole
+    trend = STATEMENTS["fig1-2"].names[0]
+    whole = type(claim)("fig1-2", {trend: BySource((), (0.5,) * 14)}, quick=True)
+    assert (whole.verdict, replace(whole, quick=False).verdict) == (None, "holds")
+    # Of many meshes some are named.
+    failing = {f"mesh {k}": measured(0.2, 0.0) for k in range(14)}
+    assert "(mesh 0, mesh 1," in (note := over_meshes(["fig3"], failing)[0].claims[1].note)
+    assert "mesh 11 and 2 more)" in note
 
 
 def test_one_mesh_refutes_what_is_said_of_all():

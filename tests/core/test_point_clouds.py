@@ -16,6 +16,7 @@ from bihdist_core.surface import vertex_normals
 from tests.core.mesh_samples import rows
 from tests.shapes import MESHES, bumpy, needs_meshes
 
+pytestmark = pytest.mark.skipif(sys.version_info >= (3, 15), reason="no wheels of robust_laplacian")
 CLOSE = 1e-9
 POINTS = np.round(np.random.default_rng(3).normal(size=(40, 3)), 3).astype(np.float32).astype(float)
 
