@@ -79,6 +79,7 @@ from .sources.source import BoundaryLoop, Curve, SourceSet, SurfacePoint
 from .sources.words import source_from_words
 from .sparse_inverse import SparseFactor, diagonal_of_inverse, inverse_on_pattern
 from .surface import Surface
+from .tetrahedra import TetrahedralMesh
 
 __all__ = [
     "Agreement",
@@ -134,6 +135,7 @@ __all__ = [
     "Surface",
     "SurfacePath",
     "SurfacePoint",
+    "TetrahedralMesh",
     "TriangleSample",
     "TruncatedBiharmonicDistance",
     "TruncationLoss",

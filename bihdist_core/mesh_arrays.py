@@ -51,9 +51,7 @@ def checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[IntArray, li
     whole = np.ascontiguousarray(whole)
     if f.dtype.kind in "iu" and _are_proper(whole, n):
         return whole, []
-    bad = np.flatnonzero(((whole < 0) | (whole >= n) | (whole != f)).any(axis=1))
-    if len(bad):
-        raise MeshError(f"{name}: face {bad[0]} has the vertices {_row(f[bad[0]])}; ids run from 0 to {n - 1}.")
+    _check_range(f, whole, n, f"{name}: face")
     a, b, c = whole.T
     proper = np.flatnonzero((a != b) & (b != c) & (c != a))
     unique = _without_repeats(whole, proper)
@@ -68,6 +66,21 @@ def checked_faces(faces: npt.ArrayLike, n: int, name: str) -> tuple[IntArray, li
     if not len(unique):
         raise MeshError(f"{name}: every face names a vertex twice; a surface needs at least one triangle.")
     return whole[unique], repairs
+
+
+def checked_tetrahedra(tetrahedra: npt.ArrayLike, n: int, name: str) -> IntArray:
+    """Return the tetrahedra (m, 4) of n vertices; MeshError for bad ones."""
+    t, whole = _converted(tetrahedra, np.int64, f"{name}: the tetrahedra are not an array of vertex ids")
+    if t.ndim != 2 or t.shape[1] != 4 or not len(t):
+        raise MeshError(f"{name}: tetrahedra must have shape (m, 4), not {t.shape}.")
+    _check_range(t, whole, n, f"{name}: tetrahedron")
+    return np.ascontiguousarray(whole)
+
+
+def _check_range(given: AnyArray, whole: AnyArray, n: int, what: str) -> None:
+    bad = np.flatnonzero(((whole < 0) | (whole >= n) | (whole != given)).any(axis=1))
+    if len(bad):
+        raise MeshError(f"{what} {bad[0]} has the vertices {_row(given[bad[0]])}; ids run from 0 to {n - 1}.")
 
 
 def check_size(vertices: FloatArray, faces: IntArray, name: str) -> None:

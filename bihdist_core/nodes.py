@@ -4,12 +4,13 @@ corners."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp
 
-from .arrays import FloatArray, IntArray, real_numbers
+from .arrays import BoolArray, FloatArray, IntArray, real_numbers
 from .errors import ParameterError
 from .sparse_inverse import ROUNDING, checked_symmetric
 from .surface import Surface, connected, ranked_components
@@ -45,6 +46,18 @@ class Nodes(Surface):
         if len(ids) == len(self.vertices):
             return self, ids
         return Nodes(self.vertices[ids], name=self.name, component_of_vertex=np.zeros(len(ids), np.int64)), ids
+
+    @property
+    def nonmanifold_vertices(self) -> IntArray:
+        return np.empty(0, np.int64)
+
+    @property
+    def genus(self) -> None:
+        return None
+
+    @cached_property
+    def in_proper_face(self) -> BoolArray:
+        return self.component_of_vertex >= 0
 
     def _without_distances(self, vertex: int) -> str:
         return f"node {vertex} is joined to no other, so no distance is defined from it."
@@ -107,3 +120,11 @@ def _checked_kernel(matrix: sp.csr_matrix, name: str) -> IntArray:
         raise ParameterError(f"{name}: no entry joins two rows, so there is no distance.")
     label = connected(np.stack([rows[joined], matrix.indices[joined]]).astype(np.int64), n)
     return ranked_components(label, diagonal > 0)
+
+
+def spread(matrices: Matrices, ids: IntArray, n: int) -> Matrices:
+    """Return matrices of n rows, of which `ids` (k,) are those given, and others are empty."""
+    if len(ids) == n:
+        return matrices
+    there = sp.csr_matrix((np.ones(len(ids)), (ids, np.arange(len(ids)))), shape=(n, len(ids)))
+    return sp.csr_matrix(there @ matrices[0] @ there.T), there @ matrices[1]

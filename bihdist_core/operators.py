@@ -19,6 +19,7 @@ from .intrinsic import COTAN, INTRINSIC, TUFTED, Corners, delaunay, stiffness_of
 from .kernel.library import library
 from .point_cloud import PointCloud
 from .surface import FLAT_RATIO, Surface
+from .tetrahedra import TetrahedralMesh
 
 AREAS = ("voronoi", "barycentric")
 
@@ -26,9 +27,9 @@ AREAS = ("voronoi", "barycentric")
 def operators(surface: Surface, areas: str = "voronoi", operator: str = COTAN) -> tuple[sp.csr_matrix, FloatArray]:
     """Return `stiffness` (n, n) and `vertex_areas` (n,), for which the faces are measured once, or another operator's.
 
-    Those of points are their own.  ParameterError for other areas and operators of points.
+    Those of points and tetrahedra are their own.  ParameterError for other areas and operators of these.
     """
-    if isinstance(surface, PointCloud):
+    if isinstance(surface, PointCloud | TetrahedralMesh):
         if areas != AREAS[0]:
             raise ParameterError(f"{surface.name}: {areas} areas need faces, and there are none.")
         if operator != COTAN:

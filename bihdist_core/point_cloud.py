@@ -10,12 +10,12 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
 from scipy.spatial import cKDTree
 
-from .arrays import BoolArray, FloatArray, IntArray
+from .arrays import FloatArray, IntArray
 from .coincident_points import merged, merged_within
 from .counts import counted
 from .errors import MeshError, ParameterError
 from .mesh_arrays import check_size, checked_vertices
-from .nodes import Matrices, Nodes, nodes_of
+from .nodes import Matrices, Nodes, nodes_of, spread
 from .progress import Progress
 from .solver.aside import aside
 from .surface import Surface
@@ -100,7 +100,7 @@ class PointCloud(Nodes):
         label[ids] = nodes.component_of_vertex
         said = tuple(f"{each} left out (NaN)" for each in told if not each.startswith("0 "))
         super().__init__(x, name=name, facts=(*facts, *said), component_of_vertex=label)
-        object.__setattr__(self, "matrices", _spread(matrices, ids, len(x)))
+        object.__setattr__(self, "matrices", spread(matrices, ids, len(x)))
 
     def __getstate__(self) -> dict[str, object]:
         return {**super().__getstate__(), "matrices": self.matrices}
@@ -176,20 +176,8 @@ class PointCloud(Nodes):
         return normals
 
     @property
-    def nonmanifold_vertices(self) -> IntArray:
-        return np.empty(0, np.int64)
-
-    @property
-    def genus(self) -> None:
-        return None
-
-    @property
     def area(self) -> float:
         return float(self.matrices[1].sum())
-
-    @cached_property
-    def in_proper_face(self) -> BoolArray:
-        return self.component_of_vertex >= 0
 
 
 def _found(points: FloatArray, name: str) -> tuple[Nodes, Matrices]:
@@ -216,11 +204,3 @@ def _matrices(points: FloatArray, progress: Progress | None = None) -> Matrices:
 
     stiffness, masses = point_cloud_laplacian(points, n_neighbors=min(NEIGHBOURS, len(points) - 1))
     return sp.csr_matrix(stiffness), masses.diagonal()
-
-
-def _spread(matrices: Matrices, ids: IntArray, n: int) -> Matrices:
-    """Return matrices of n rows, of which `ids` (k,) are those given, and others are empty."""
-    if len(ids) == n:
-        return matrices
-    there = sp.csr_matrix((np.ones(len(ids)), (ids, np.arange(len(ids)))), shape=(n, len(ids)))
-    return sp.csr_matrix(there @ matrices[0] @ there.T), there @ matrices[1]

@@ -8,7 +8,7 @@ from functools import cached_property
 from importlib import import_module
 from math import isfinite
 from operator import index
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -64,6 +64,8 @@ class Surface:
     >>> square, square.area, square.n_components, len(square.boundary_edges)
     (Surface(surface: 4 vertices, 2 faces), 1.0, 1, 4)
     """
+
+    dimension: ClassVar[int] = 2
 
     vertices: FloatArray
     faces: IntArray

@@ -38,7 +38,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command `field` to its parser."""
     add_meshes(parser)
     add_sources(parser, "where distances start, a field each")
-    files = "a .npy, .csv, .vtp, .func.gii or .shape.gii file, or with colours .ply, .obj or .glb"
+    files = "a .npy, .csv, .vtp, .vtu, .func.gii or .shape.gii file, or with colours .ply, .obj or .glb"
     add_output(parser, f"{files}; {NAME} is that of each mesh", usual="-field.npy")
     add_distance(parser, is_field=True)
     add_areas(parser)

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 from bihdist_core.applications.changes import Perturbation
 from bihdist_core.distances.distance_types import Spec, distance_types
 from bihdist_core.errors import ParameterError
-from bihdist_core.formats.mesh_names import holds_points
+from bihdist_core.formats.mesh_names import SOLIDS, holds_points, mesh_format
 from bihdist_core.scalars import whole_number
 from bihdist_core.sources.source import Source, checked_source
 
@@ -457,8 +457,10 @@ class Document:
 
 
 def usual_specs(path: str) -> tuple[Spec, ...]:
-    """Return the distances of a new document of a mesh: COMPARISON, without what points do not have."""
-    return tuple(ON_POINTS.get(spec, spec) for spec in COMPARISON) if holds_points(mesh_path(path)) else COMPARISON
+    """Return the distances of a new document of a mesh: COMPARISON, without what points and solids do not have."""
+    path = mesh_path(path)
+    lacks_faces = holds_points(path) or mesh_format(path) in SOLIDS
+    return tuple(ON_POINTS.get(spec, spec) for spec in COMPARISON) if lacks_faces else COMPARISON
 
 
 def comparison(

@@ -23,6 +23,7 @@ from bihdist_core.formats.mesh_io import mesh_content, read_surface, surface_in
 from bihdist_core.formats.mesh_names import files_of, is_there, mesh_format
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
+from bihdist_core.tetrahedra import boundary_of
 
 from ..document.camera import View
 from ..document.document import Document, FieldArray, MeshFile, starting_points
@@ -77,7 +78,8 @@ class LoadedMesh:
         self.new_ids = new_ids
         self.ids = np.arange(len(surface.vertices)) if ids is None else ids
         self.mesh = mesh
-        self.surface = surface
+        self.surface = boundary_of(surface)
+        self._measured = surface
         self.prepared: Any = None
         self._given = given or ArrayStore()
         self._looks: dict[str, FirstLook] = {}
@@ -86,6 +88,11 @@ class LoadedMesh:
         self._last: dict[Question, Answer] = {}
         self._shown_with: tuple[weakref.ref[LoadedMesh], ...] = ()
         self._lock = threading.Lock()
+
+    @property
+    def is_solid(self) -> bool:
+        """Whether distances run through tetrahedra, of which the surface is the boundary."""
+        return self._measured is not self.surface
 
     def is_of(self, mesh: MeshFile) -> bool:
         """Return whether this is the surface of a mesh."""
@@ -127,7 +134,7 @@ class LoadedMesh:
         """Return all distances on it with these vertex areas, each built once for whoever asks."""
         with self._lock:
             if areas not in self._distances:
-                self._distances[areas] = Distances(Laplacian(self.surface, areas, self.mesh.repairs.operator))
+                self._distances[areas] = Distances(Laplacian(self._measured, areas, self.mesh.repairs.operator))
             return self._distances[areas]
 
     def set_shown_with(self, others: Iterable["LoadedMesh"]) -> None:
@@ -283,6 +290,8 @@ def open_mesh(
     if mesh.change is not None:
         itself = replace(mesh, change=None)
         origin = next((each for each in there if is_same(itself, each.mesh)), None) or open_mesh(itself, given, remedy)
+        if origin.is_solid:
+            raise ParameterError(f"{origin.surface.name} has tetrahedra, and only a surface can be changed.")
         change, pose = _with_pose(mesh.change, remedy)
         made, ids = perturbed(origin.surface, change, progress, pose)
         return LoadedMesh(replace(origin.mesh, name=mesh.name, change=change), made, given, origin, ids)

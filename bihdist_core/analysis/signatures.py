@@ -324,5 +324,6 @@ def _signature(laplacian: Laplacian, values: FloatArray, accuracy: float, label:
             "it is not given."
         )
     values.flags.writeable = False
+    length_power -= laplacian.surface.dimension - 2  # squares of eigenfunctions, which are normalised by volume there
     label += laplacian.operator_words
     return Signature(values, accuracy, label, length_power, unit_of(length_power, laplacian.surface))

@@ -40,8 +40,8 @@ TOLERANCE = 1e-7
 """Of the maximum: how exact distances are by eigenpairs."""
 LONG_TIME = 2.0
 """From here on eigenpairs are taken: their number is small, and weights fall below the error of rational functions."""
-SMALL, MODERATE = 400, 20_000
-"""All eigenpairs of so few vertices are found at once, and from t = 1 on those that count of so many in half a second;
+SMALL, MODERATE, FEW = 400, 20_000, 96
+"""All eigenpairs of so few vertices are found at once, and of so many vertices so many eigenpairs in half a second;
 rounding leaves them more digits of the smallest distances."""
 WEIGHED = 32.0
 """Eigenvalues, times t / lambda_1, with a weight that counts."""
@@ -174,8 +174,8 @@ def is_faster_by_eigenpairs(component: Component, t: float, progress: Progress |
     """Return whether the eigenpairs that have a weight at a time are expected to take less time than poles."""
     component.spectrum(1, progress)
     count, n = expected_count(component, t), len(component.areas)
-    few = max(FIRST_EIGENPAIRS, component.eigenpairs_there)
-    if t >= LONG_TIME or count <= few or n <= (MODERATE if t >= 1 else SMALL):
+    there = max(FIRST_EIGENPAIRS, component.eigenpairs_there)
+    if t >= LONG_TIME or count <= there or n <= (MODERATE if count <= FEW else SMALL):
         return True
     if served(component, t / float(component.spectrum(1).eigenvalues[0])):
         return False

@@ -16,13 +16,14 @@ from ..point_cloud import PointCloud
 from ..progress import Progress, silent, steps
 from ..sources.pieces import Pieces
 from ..surface import Surface
+from ..tetrahedra import TetrahedralMesh
 from .accuracy import FINEST_ACCURACY, POOR_ACCURACY, ErrorEstimate, accurate_to, rounded_up
 from .pair_questions import PairQuestions
 
 
 def unit_of(length_power: float, surface: Surface | None = None) -> str:
     """Return the unit of values that scale with this power of lengths, on a mesh or this surface, in words."""
-    if surface is not None and not (len(surface.faces) or isinstance(surface, PointCloud)):
+    if surface is not None and not (len(surface.faces) or isinstance(surface, PointCloud | TetrahedralMesh)):
         return "the unit of the matrices"
     known = {1.0: "mesh units", 0.0: "no unit", -1.0: "1 / mesh units", -2.0: "1 / mesh units^2"}
     return known.get(length_power, f"mesh units^{length_power:g}")
@@ -89,7 +90,8 @@ class Distance(PairQuestions):
         >>> bihdist.CommuteTimeDistance(sphere).unit
         'no unit'
         """
-        return unit_of(self.length_power, self.surface)
+        # Eigenfunctions are normalised by area, or by volume.
+        return unit_of(self.length_power - (self.surface.dimension - 2) / 2, self.surface)
 
     @property
     def accuracy(self) -> float | None:

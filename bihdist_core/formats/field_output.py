@@ -16,9 +16,10 @@ from ..errors import ParameterError
 from ..file_output import atomic_write, check_output
 from ..mesh_like import MeshLike
 from ..surface import Surface
+from ..tetrahedra import TetrahedralMesh, boundary_of
 from .array_file import put_array
 from .gifti import write_gifti_values
-from .vtp import write_poly_data
+from .vtp import write_grid, write_poly_data
 
 Columns = dict[str, AnyArray]
 """(n,) float64 arrays by name, in order."""
@@ -32,7 +33,7 @@ def write_fields(path: str | os.PathLike[str], surface: MeshLike, fields: Mappin
           there is no value.
     .ply: binary little-endian; the surface with a double property for each field (names reduced to letters, digits
           and underscores).
-    .vtp: the surface with a point data array for each field.
+    .vtp, .vtu: the surface, or in .vtu the tetrahedra, with a point data array for each field.
     .func.gii, .shape.gii: GIFTI, a float32 array for each field, with its name.
 
     Raises OutputError if the file cannot be written (what was at `path` before then stays), ParameterError for fields
@@ -42,7 +43,7 @@ def write_fields(path: str | os.PathLike[str], surface: MeshLike, fields: Mappin
     extension = check_output(path, FIELD_FORMATS)
     columns = checked_columns(fields, len(surface.vertices))
     with atomic_write(path) as temporary, temporary.open("wb") as file:
-        _FIELD_WRITERS[extension](file, surface, columns)
+        _FIELD_WRITERS[extension](file, surface if extension == ".vtu" else boundary_of(surface), columns)
 
 
 def write_array(path: str | os.PathLike[str], array: npt.ArrayLike, header: Sequence[str] | None = None) -> None:
@@ -161,6 +162,11 @@ def _write_vtp(file: BinaryIO, surface: Surface, columns: Columns) -> None:
     write_poly_data(file, surface.vertices, polygons=surface.faces, point_data=columns)
 
 
+def _write_vtu(file: BinaryIO, surface: Surface, columns: Columns) -> None:
+    cells = surface.tetrahedra if isinstance(surface, TetrahedralMesh) else surface.faces
+    write_grid(file, surface.vertices, cells, columns)
+
+
 def _write_gifti(file: BinaryIO, surface: Surface, columns: Columns) -> None:
     write_gifti_values(file, surface.name, columns)
 
@@ -170,6 +176,7 @@ _FIELD_WRITERS: dict[str, Callable[[BinaryIO, Surface, Columns], None]] = {
     ".csv": _write_fields_csv,
     ".ply": write_ply_mesh,
     ".vtp": _write_vtp,
+    ".vtu": _write_vtu,
     ".func.gii": _write_gifti,
     ".shape.gii": _write_gifti,
 }

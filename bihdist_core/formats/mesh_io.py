@@ -18,6 +18,7 @@ from ..errors import MeshError, MissingFileError
 from ..mesh_arrays import check_size
 from ..point_cloud import PointCloud
 from ..surface import Surface
+from ..tetrahedra import TetrahedralMesh
 from .compression import unpacked
 from .gifti import with_external_data
 from .gltf_file import with_buffers
@@ -37,9 +38,9 @@ def read_surface(path: str | os.PathLike[str]) -> Surface:
     Returns
     -------
     Surface
-        The surface, a `PointCloud` where there are no faces; vertex ids are the file's. Polygons are divided into
-        triangles, and in STL files coincident vertices are merged, which `Surface.facts` says; what cannot be part of a
-        surface is left out, which `Surface.repairs` says.
+        The surface, a `PointCloud` or `TetrahedralMesh` where the file holds these; vertex ids are the file's.
+        Polygons are divided into triangles, and in STL files coincident vertices are merged, which `Surface.facts`
+        says; what cannot be part of a surface is left out, which `Surface.repairs` says.
 
     Raises
     ------
@@ -90,6 +91,8 @@ def surface_in(content: bytes, name: str) -> Surface:
                 if not content:
                     raise MeshError(f"{name} is empty.")
             polygons = read_polygons(content, name)
+            if len(polygons.tetrahedra):
+                return TetrahedralMesh(polygons.vertices, polygons.tetrahedra, name, polygons.facts)
             if not len(polygons.sizes) and FORMATS[mesh_format(name, content)].has_points:
                 return PointCloud(polygons.vertices, name, facts=polygons.facts)
             if not len(polygons.sizes):

@@ -54,6 +54,8 @@ FORMATS = {
         MeshFormat(".vtk", "vtk"),
         MeshFormat(".vtp", "vtp"),
         MeshFormat(".vtu", "vtp"),
+        MeshFormat(".mesh", "tetrahedra"),
+        MeshFormat(".msh", "tetrahedra"),
         MeshFormat(".gltf", "gltf", y_bonus=4.0),
         MeshFormat(".glb", "gltf", y_bonus=4.0),
         MeshFormat(".gii", "gifti", y_bonus=-4.0),
@@ -73,6 +75,8 @@ MESH_FORMATS = tuple(name for name in FORMATS if name.startswith("."))
 
 ARRAY_FILES = (".mat", ".npz", ".npy")
 """Those that hold arrays of any kind."""
+SOLIDS = (".mesh", ".msh")
+"""Those of tetrahedra, mostly."""
 SHARED = (".gii", FREESURFER, *ARRAY_FILES)
 """The formats of files that may hold something else than a mesh."""
 

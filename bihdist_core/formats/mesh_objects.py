@@ -12,6 +12,7 @@ import numpy.typing as npt
 from ..errors import MeshError, ParameterError
 from ..sentences import shortened
 from ..surface import Surface
+from ..tetrahedra import TetrahedralMesh
 from .mesh_io import read_surface
 from .polygons import Polygons, triangulated
 
@@ -67,6 +68,8 @@ def _of_meshio(mesh: Any, name: str) -> Surface:
     for block in mesh.cells:
         if block.type in ("triangle", "quad") or block.type.startswith("polygon"):
             rings += list(np.asarray(block.data))
+    if "tetra" in kinds:
+        return TetrahedralMesh(mesh.points, mesh.get_cells_type("tetra"), name)
     if not rings and kinds:
         raise MeshError(f"{name} has cells of the type {', '.join(kinds)} only; extract its surface first.")
     return _of_polygons(np.asarray(mesh.points), rings, name)

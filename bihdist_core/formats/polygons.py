@@ -1,7 +1,7 @@
 """Polygons as mesh files hold them, and their division into triangles."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -17,7 +17,8 @@ EAR_CLIPPING_LIMIT = 512
 class Polygons:
     """The polygons of a file: `vertices` (n, 3), `sizes` (p,) and `corners` (sum of sizes,) as vertex ids.
 
-    `repairs` tells in words what reading has already changed or left out, `facts` how else the file was taken.
+    Of a solid its `tetrahedra` (m, 4) instead. `repairs` tells in words what reading has already changed or left out,
+    `facts` how else the file was taken.
     """
 
     vertices: FloatArray
@@ -25,6 +26,7 @@ class Polygons:
     corners: IntArray
     repairs: tuple[str, ...] = ()
     facts: tuple[str, ...] = ()
+    tetrahedra: IntArray = field(default_factory=lambda: np.empty((0, 4), np.int64))
 
 
 def runs(starts: IntArray, sizes: IntArray) -> IntArray:

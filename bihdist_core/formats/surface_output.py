@@ -15,6 +15,7 @@ from ..errors import ParameterError
 from ..file_output import atomic_write, check_output
 from ..mesh_like import MeshLike
 from ..surface import Surface, vertex_normals
+from ..tetrahedra import boundary_of
 from ..version import VERSION
 from .field_output import Columns, checked_columns, ply_names, write_ply_mesh
 from .gltf import UNDEFINED
@@ -53,7 +54,7 @@ def write_coloured(
     ParameterError
         For fields that are not (n,) real numbers, and for a surface too large or too small for single precision.
     """
-    surface = Surface.of(surface)
+    surface = boundary_of(Surface.of(surface))
     extension = check_output(path, COLOURED_FORMATS)
     columns = checked_columns(fields, len(surface.vertices))
     with atomic_write(path) as temporary, temporary.open("wb") as file:
@@ -183,7 +184,7 @@ def write_mesh(path: str | os.PathLike[str], surface: MeshLike) -> None:
     >>> bihdist.read_surface("triangle.off")
     Surface(triangle.off: 3 vertices, 1 faces)
     """
-    surface = Surface.of(surface)
+    surface = boundary_of(Surface.of(surface))
     extension = check_output(path, MESH_FORMATS)
     with atomic_write(path) as temporary, temporary.open("wb") as file:
         _MESH_WRITERS[extension](file, surface)

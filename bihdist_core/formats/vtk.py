@@ -24,6 +24,7 @@ _TYPES = {
 _LOOSE = ("VERTICES", "LINES")
 _CELLS = ("POLYGONS", "TRIANGLE_STRIPS", "CELLS", *_LOOSE)
 _POLYGON_CELLS, _STRIP_CELL, _PIXEL_CELL = (5, 7, 9), 6, 8
+_TETRAHEDRON = 10
 _VOLUME_CELLS = (10, 11, 12, 13, 14, 15, 16, 24, 25, 26, 27, 29, 32, 33, 37, 41, 42, 71, 72, 73, 74)
 """Tetrahedra, voxels, hexahedra, wedges, pyramids, prisms, polyhedra, and those of higher order."""
 
@@ -59,7 +60,15 @@ def read_vtk(raw: bytes, name: str) -> Polygons:
 
 
 def polygons_of_cells(points: FloatArray, cells: Mapping[str, Cells], name: str) -> Polygons:
-    """Return polygons, then the triangles of strips; all other kinds of cells are counted and left out."""
+    """Return polygons, then the triangles of strips, or, if there are any, tetrahedra; all other kinds of cells are
+    counted and left out."""
+    solids, solid_corners = cells.get("TETRAHEDRA", NO_CELLS)
+    if len(solids):
+        ids = checked_corners(solid_corners, solids, len(points), lambda k: f"{name}: tetrahedron {k}")
+        rest = sum(len(each[0]) for each in cells.values()) - len(solids)
+        facts = (f"{counted(rest, 'cell')} other than tetrahedra ignored",) if rest else ()
+        none = np.empty(0, np.int64)
+        return Polygons(points, none, none, facts=facts, tetrahedra=ids.reshape(-1, 4))
     sizes, corners = cells.get("POLYGONS", NO_CELLS)
     ids = checked_corners(corners, sizes, len(points), lambda k: f"{name}: polygon {k}")
     left_out, divided = [], []
@@ -200,7 +209,7 @@ def cells_of_offsets(offsets: IntArray, corners: AnyArray, where: str) -> Cells:
 
 
 def cells_by_type(cells: Cells, types: IntArray, name: str) -> dict[str, Cells]:
-    """Return the cells of a grid by their kinds; MeshError where there are volumes and no polygons."""
+    """Return the cells of a grid by their kinds; MeshError where there are volumes, but no polygons or tetrahedra."""
     sizes, corners = cells
     if len(types) != len(sizes):
         raise MeshError(f"{name} has {len(sizes):,} cells and {len(types):,} types of cells.")
@@ -213,7 +222,8 @@ def cells_by_type(cells: Cells, types: IntArray, name: str) -> dict[str, Cells]:
     polygon = np.isin(types, _POLYGON_CELLS)
     polygon[pixel] = True
     strip, volumes = types == _STRIP_CELL, int(np.isin(types, _VOLUME_CELLS).sum())
-    if volumes and not (polygon | strip).any():
-        raise MeshError(f"{name} holds only volume cells ({volumes:,}); extract the surface first.")
-    chosen = {"POLYGONS": polygon, "TRIANGLE_STRIPS": strip, "other": ~(polygon | strip)}
+    solid = (types == _TETRAHEDRON) & (sizes == 4) & ~(polygon | strip).any()
+    if volumes and not (polygon | strip | solid).any():
+        raise MeshError(f"{name} holds only volume cells ({volumes:,}), no tetrahedra; extract the surface first.")
+    chosen = {"POLYGONS": polygon, "TRIANGLE_STRIPS": strip, "TETRAHEDRA": solid, "other": ~(polygon | strip | solid)}
     return {kind: (sizes[mask], corners[np.repeat(mask, sizes)]) for kind, mask in chosen.items()}

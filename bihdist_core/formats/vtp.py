@@ -29,6 +29,8 @@ _TYPES = {f"{sign}Int{8 * size}": f"{sign.lower() or 'i'}{size}" for sign in (""
 _TYPES |= {"Float32": "f4", "Float64": "f8"}
 _KINDS = {"Polys": "POLYGONS", "Strips": "TRIANGLE_STRIPS", "Lines": "LINES", "Verts": "VERTICES"}
 _GRID = {"Cells": "CELLS"}
+_CELL_TYPES = {3: 5, 4: 10}
+"""Of triangles and tetrahedra, by their corners."""
 
 
 def read_vtp(raw: bytes, name: str) -> Polygons:
@@ -264,43 +266,66 @@ def write_poly_data(
 
     `point_data` and `cell_data` are arrays by name, with a value for each point or cell.
     """
-    blocks: list[bytes] = []
-    offset = 0
-
-    def array(name: str, values: AnyArray, components: int = 1) -> str:
-        nonlocal offset
-        kind = "Float64" if values.dtype.kind == "f" else "Int64"
-        content = values.astype("<f8" if kind == "Float64" else "<i8").tobytes()
-        tag = f'<DataArray type="{kind}" Name={quoteattr(name)}'
-        tag += f' NumberOfComponents="{components}"' if components > 1 else ""
-        tag += f' format="appended" offset="{offset}"/>\n'
-        blocks.extend([len(content).to_bytes(8, "little"), content])
-        offset += 8 + len(content)
-        return tag
-
-    def section(name: str, tags: str) -> str:
-        return f"<{name}>\n{tags}</{name}>\n" if tags else ""
-
-    parts = [
-        section("PointData", "".join(array(name, values) for name, values in point_data.items())),
-        section("CellData", "".join(array(name, values) for name, values in cell_data.items())),
-        section("Points", array("Points", points, components=3)),
-    ]
+    arrays = _Appended()
+    parts = [*arrays.data(point_data, cell_data), arrays.section("Points", {"Points": points})]
     verts = () if len(lines) or len(polygons) else np.arange(len(points))[:, None]
     for name, cells in (("Verts", verts), ("Lines", lines), ("Polys", polygons)):
         if len(cells):
             corners, ends = _flat(cells)
-            parts.append(section(name, array("connectivity", corners) + array("offsets", ends)))
-    file.write(
-        '<?xml version="1.0" encoding="UTF-8"?>\n'
-        '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n'
-        f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="{len(verts)}" NumberOfLines="{len(lines)}" '
-        f'NumberOfStrips="0" NumberOfPolys="{len(polygons)}">\n{"".join(parts)}</Piece>\n</PolyData>\n'
-        '<AppendedData encoding="raw">\n_'.encode()
-    )
-    for block in blocks:
-        file.write(block)
-    file.write(b"\n</AppendedData>\n</VTKFile>\n")
+            parts.append(arrays.section(name, {"connectivity": corners, "offsets": ends}))
+    counts = {"Points": len(points), "Verts": len(verts), "Lines": len(lines), "Strips": 0, "Polys": len(polygons)}
+    arrays.write(file, "PolyData", counts, parts)
+
+
+def write_grid(file: BinaryIO, points: FloatArray, cells: IntArray, point_data: Mapping[str, FloatArray]) -> None:
+    """Write points (n, 3) and triangles (m, 3) or tetrahedra (m, 4) as an unstructured grid."""
+    arrays, (corners, ends) = _Appended(), _flat(cells)
+    types = np.full(len(cells), _CELL_TYPES[cells.shape[1]], np.uint8)
+    parts = [
+        *arrays.data(point_data, {}),
+        arrays.section("Points", {"Points": points}),
+        arrays.section("Cells", {"connectivity": corners, "offsets": ends, "types": types}),
+    ]
+    arrays.write(file, "UnstructuredGrid", {"Points": len(points), "Cells": len(cells)}, parts)
+
+
+class _Appended:
+    """Arrays that follow the tags which name them."""
+
+    def __init__(self) -> None:
+        self._blocks: list[bytes] = []
+        self._offset = 0
+
+    def section(self, name: str, arrays: Mapping[str, AnyArray]) -> str:
+        """Return an element with arrays; "" without any."""
+        tags = "".join(self._array(word, values) for word, values in arrays.items())
+        return f"<{name}>\n{tags}</{name}>\n" if tags else ""
+
+    def data(self, point_data: Mapping[str, AnyArray], cell_data: Mapping[str, AnyArray]) -> list[str]:
+        """Return the elements with a value for each point or cell."""
+        return [self.section("PointData", point_data), self.section("CellData", cell_data)]
+
+    def _array(self, name: str, values: AnyArray) -> str:
+        kind, written = {"f": ("Float64", "<f8"), "u": ("UInt8", "u1")}.get(values.dtype.kind, ("Int64", "<i8"))
+        content = values.astype(written).tobytes()
+        components = f' NumberOfComponents="{values.shape[1]}"' if values.ndim > 1 else ""
+        tag = (
+            f'<DataArray type="{kind}" Name={quoteattr(name)}{components} format="appended" offset="{self._offset}"/>\n'
+        )
+        self._blocks.extend([len(content).to_bytes(8, "little"), content])
+        self._offset += 8 + len(content)
+        return tag
+
+    def write(self, file: BinaryIO, kind: str, counts: Mapping[str, int], parts: Sequence[str]) -> None:
+        numbers = " ".join(f'NumberOf{name}="{count}"' for name, count in counts.items())
+        file.write(
+            '<?xml version="1.0" encoding="UTF-8"?>\n'
+            f'<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<{kind}>\n'
+            f'<Piece {numbers}>\n{"".join(parts)}</Piece>\n</{kind}>\n<AppendedData encoding="raw">\n_'.encode()
+        )
+        for block in self._blocks:
+            file.write(block)
+        file.write(b"\n</AppendedData>\n</VTKFile>\n")
 
 
 def _flat(cells: Sequence[IntArray] | IntArray) -> tuple[IntArray, IntArray]:

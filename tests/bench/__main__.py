@@ -25,6 +25,7 @@ from . import (
     growth_rows,
     live_row,
     machine,
+    matrix_rows,
     moving_row,
     other_rows,
     peers,
@@ -66,6 +67,7 @@ ROWS: dict[int, Callable[[Size], Iterator[Line]]] = {
     26: thread_row.threads,
     27: geodesic_rows.exact_geodesics,
     28: figure_rows.figures,
+    29: matrix_rows.matrices,
 }
 
 

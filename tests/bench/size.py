@@ -11,10 +11,10 @@ from .meshes import bumpy_sphere
 class Size:
     """main: vertices of rows 1 to 6, 9 to 11, 25; pairs: of row 4; growth: of row 7, row 8 takes the last; window: of
     rows 13 and 14; drag: of row 15; moving: of row 16; scatter: of row 18; live: of row 19; meshes: how many of row 21;
-    cortex and parcels: of row 22; small: how many meshes of row 23; geodesic and
-    geodesic_growth: of row 27; figure and figure_width: of row 28; read: vertices of row 24; moves: of the source in
-    row 15; seconds: of a drag in row 19; pointed: places in row 13; file: a mesh that takes the place of the bumpy
-    sphere of `main` vertices."""
+    cortex and parcels: of row 22; small: how many meshes of row 23; geodesic and geodesic_growth: of row 27; figure and
+    figure_width: of row 28; graph: nodes of row 29; read: vertices of row 24; moves: of the source in row 15; seconds:
+    of a drag in row 19; pointed: places in row 13; file: a mesh that takes the place of the bumpy sphere of `main`
+    vertices."""
 
     main: int = 112_000
     pairs: int = 16_000
@@ -35,6 +35,7 @@ class Size:
     read: int = 1_000_000
     figure: int = 100_000
     figure_width: int = 4000
+    graph: int = 1_000_000
     moves: int = 188
     seconds: float = 3.0
     pointed: int = 100
@@ -77,6 +78,7 @@ QUICK = Size(
     read=2000,
     figure=2000,
     figure_width=400,
+    graph=2000,
     moves=20,
     seconds=0.3,
     pointed=20,

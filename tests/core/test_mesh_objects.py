@@ -120,7 +120,7 @@ def test_what_does_not_fit_is_one_sentence():
         (pyvista.ImageData(), "take mesh.extract_surface"),
         (pyvista.PolyData(V), "PolyData has no faces"),
         (of_pyvista(V, F).strip(), "take mesh.triangulate"),
-        (meshio.Mesh(V, [("tetra", [[0, 1, 2, 3]])]), "cells of the type tetra only"),
+        (meshio.Mesh(V, [("pyramid", [[0, 1, 2, 3, 4]])]), "cells of the type pyramid only"),
         (nibabel.gifti.GiftiImage(), "no array of points"),
     ):
         with pytest.raises(BihdistError, match=words) as caught:

@@ -239,7 +239,11 @@ REFUSED = {
     "gzip damaged": ("a.off.gz", gzip.compress(off().encode())[:-8] + bytes(8), "is damaged (CRC check failed"),
     "no gzip": ("a.off.gz", off(), "is not a gzip file, or is damaged"),
     "gzip of nothing": ("a.off.gz", gzip.compress(b""), "is empty"),
-    "VTK volumes": ("a.vtk", TETRAHEDRON, "holds only volume cells (1); extract the surface first"),
+    "VTK volumes": (
+        "a.vtk",
+        TETRAHEDRON.replace("TYPES 1\n10", "TYPES 1\n14"),
+        "holds only volume cells (1), no tetrahedra; extract the surface first",
+    ),
     "VTK dataset": ("a.vtk", vtk_old().replace(b"POLYDATA", b"STRUCTURED_POINTS"), "so extract the surface first"),
     "VTK types": ("a.vtk", TETRAHEDRON.replace("TYPES 1\n10", "TYPES 2\n10 10"), "1 cells and 2 types of cells"),
     "VTK points": (

@@ -20,6 +20,7 @@ NAMES = {
     ".csv": "Table",
     ".ply": "PLY mesh",
     ".vtp": "VTK PolyData",
+    ".vtu": "VTK unstructured grid",
     ".func.gii": "GIFTI values",
     ".shape.gii": "GIFTI shape",
     ".obj": "OBJ",

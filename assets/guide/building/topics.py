@@ -9,8 +9,8 @@ TOPICS: dict[str, tuple[str, str, list[str]]] = {
     "meshes": (
         "Meshes and files",
         "Surfaces, and what is read from and written to files.",
-        ["Surface", "PointCloud", "MeshLike", "read_surface", "sample", "write_mesh", "read_vertex_values", "Pins",
-         "read_pins", "write_pins", "read_map", "write_map"],
+        ["Surface", "PointCloud", "TetrahedralMesh", "MeshLike", "read_surface", "sample", "write_mesh",
+         "read_vertex_values", "Pins", "read_pins", "write_pins", "read_map", "write_map"],
     ),
     "distances": (
         "Distances",
