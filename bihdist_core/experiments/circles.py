@@ -29,6 +29,8 @@ LARGEST, HALVED = 0.04, 4
 around most sources are local on the mesh at hand."""
 RADII = 1 / 2.0 ** np.arange(5)
 """Of the circles, largest first, as shares of the largest; the last is a sixteenth of the first."""
+FLAT = 0.2
+"""A circle is local if its length is that of one in the plane within this share."""
 EDGES = 5
 """A circle is at least this many edges wide."""
 BEYOND = 1.25
@@ -38,9 +40,9 @@ BEYOND = 1.25
 PROTOCOL = (
     "The isotropy ratio is that of the greatest to the least distance on a geodesic circle around the source; its "
     f"excess is the ratio less 1. Circles shrink to a sixteenth, from {100 * LARGEST:g} % of the root of the area, or "
-    f"from a radius so small that around {100 * MOST:g} % of the sources the circle is local: a single closed curve. "
-    f"The mesh is refined around the sources, so that each circle is at least {EDGES} edges wide, and geodesic "
-    "distance there is exact. Sources whose largest circle is not local are left out of the trend."
+    f"from a radius so small that around {100 * MOST:g} % of the sources the circle is local: a single closed curve, "
+    f"2πr long within 20 %. The mesh is refined around the sources, so that each circle is at least {EDGES} edges "
+    "wide, and geodesic distance there is exact. Sources whose largest circle is not local are left out of the trend."
 )
 """A description of how isotropy is measured."""
 
@@ -132,9 +134,12 @@ def _local_radius(surface: Surface, sources: IntArray, unit: float) -> float:
 
 
 def _is_local(surface: Surface, lengths: FloatArray, radius: float) -> bool:
-    """Return whether the geodesic circle around a source is a single closed curve, given distances (n,) from it."""
+    """Return whether the geodesic circle around a source is one closed curve about as long as in the plane.
+
+    Given are the distances (n,) from the source. Round a fingertip it is closed and much shorter.
+    """
     found = isolines(surface, lengths, [radius])
-    return len(found) == 1 and found[0].closed
+    return len(found) == 1 and found[0].closed and abs(found[0].length / (2 * np.pi * radius) - 1) <= FLAT
 
 
 def shared_circles(shapes: Shapes, name: str, random: int, progress: Progress | None = None) -> Circles:
