@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from bihdist_core import Surface
-from bihdist_core.experiments.circles import LARGEST, RADII, circles
+from bihdist_core import Laplacian, Surface
+from bihdist_core.analysis.isoline_tracing import isolines
+from bihdist_core.distances.geodesic import GeodesicDistance
+from bihdist_core.experiments.circles import LARGEST, RADII, _is_local, circles
 from bihdist_core.experiments.result import Gathered
 from bihdist_core.experiments.verdicts import BySource
 from tests.shapes import bumpy, grid, two_pieces
@@ -45,6 +47,18 @@ def test_circles_that_a_boundary_cuts_say_nothing_of_the_trend(strip):
     found = circles(strip, [middle, edge], KINDS)
     assert found.are_local.tolist() == [True, False]
     assert np.isfinite(found.ratios["biharmonic"]).all()
+
+
+def test_a_closed_curve_round_a_limb_is_no_local_circle(strip):
+    limb = Surface(bumpy(800).vertices * [0.2, 3, 0.2], bumpy(800).faces, "limb")
+    tip = int(limb.vertices[:, 1].argmax())
+    lengths = GeodesicDistance(Laplacian(limb), "exact").from_source(tip)
+    # 1.5 along the limb, which is some 1.2 round.
+    (curve,) = isolines(limb, lengths, [1.5])
+    assert curve.closed
+    assert not _is_local(limb, lengths, 1.5)
+    middle = int(np.linalg.norm(strip.vertices - [2, 0.5, 0], axis=1).argmin())
+    assert _is_local(strip, GeodesicDistance(Laplacian(strip), "exact").from_source(middle), 0.3)
 
 
 def test_what_hangs_by_a_vertex_beyond_the_largest_circle_changes_little(strip):
