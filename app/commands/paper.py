@@ -17,7 +17,6 @@ from .terminal import progress_line, tell_failure
 WORDS = "recompute every figure and table of the paper, as one page"
 EXAMPLES = (
     "bihdist paper -o paper --quick",
-    "bihdist paper -o paper --only fig4,table2",
     "bihdist paper -o paper --mesh hand.ply",
     "bihdist paper -o shrec --mesh meshes --aggregate --quick",
 )
