@@ -29,7 +29,7 @@ from .memo import locked_cached_property
 from .mesh_arrays import check_size
 from .mesh_like import MeshLike, Rows
 from .nodes import Matrices, Nodes, nodes_of, why_not_factored
-from .operators import AREAS, operators
+from .operators import checked_areas, operators, operators_by_lengths
 from .progress import Progress, part, turn
 from .scalars import whole_number
 from .solver.aside import aside
@@ -164,8 +164,7 @@ class Laplacian:
     pickles_factors = False
 
     def __init__(self, surface: MeshLike, areas: str = "voronoi", operator: str = COTAN) -> None:
-        if areas not in AREAS:
-            raise ParameterError(f"There are no {areas!r} vertex areas; choose one of {', '.join(AREAS)}.")
+        checked_areas(areas)
         known = Surface.of(surface)
         if len(known.faces):
             check_size(known.vertices, known.faces, known.name)
@@ -220,6 +219,53 @@ class Laplacian:
         laplacian = cls.__new__(cls)
         laplacian._set(GivenOperators(*nodes_of(stiffness, masses, positions, name)))
         return laplacian
+
+    @classmethod
+    def from_edge_lengths(
+        cls,
+        faces: npt.ArrayLike,
+        lengths: npt.ArrayLike,
+        areas: str = "voronoi",
+        operator: str = COTAN,
+        name: str = "faces",
+    ) -> Laplacian:
+        """Return the Laplacian of triangles of which no positions are known, but the lengths of their sides.
+
+        Parameters
+        ----------
+        faces : (m, 3) array_like of int
+            Vertex ids from 0 on.
+        lengths : (m, 3) array_like
+            The lengths of the sides, in each face that opposite to the same corner; unit length.
+        areas : {"voronoi", "barycentric"}
+            The vertex areas.
+        operator : {"cotan", "intrinsic-delaunay"}
+            As of a surface.
+        name : str
+            Name for messages.
+
+        Returns
+        -------
+        Laplacian
+            For every distance but the geodesic one; sources are vertices, and sets of vertices.
+
+        Raises
+        ------
+        MeshError
+            For faces that do not fit.
+        ParameterError
+            For a face whose sides make no triangle, an edge with two lengths, and a vertex of no face.
+
+        Examples
+        --------
+        >>> import bihdist
+        >>> # a square with its diagonal
+        >>> flat = bihdist.Laplacian.from_edge_lengths([[0, 1, 2], [0, 2, 3]], [[1, 2**0.5, 1], [1, 1, 2**0.5]])
+        >>> bihdist.BiharmonicDistance(flat).from_source(0).round(3).tolist()
+        [0.0, 0.559, 0.707, 0.559]
+        """
+        checked_operator(operator, checked_areas(areas))
+        return cls.from_matrices(*operators_by_lengths(faces, lengths, areas, operator, name), name=name)
 
     def __repr__(self) -> str:
         return f"Laplacian({self.surface!r}, {self.areas_kind} areas{self.operator_words})"

@@ -10,18 +10,29 @@ other faces stay exactly as they are.
 """
 
 import numpy as np
+import numpy.typing as npt
 import scipy.sparse as sp
 
-from .arrays import FloatArray
+from .arrays import FloatArray, IntArray, real_numbers
 from .degenerate_faces import DegenerateFaces
 from .errors import ParameterError
-from .intrinsic import COTAN, INTRINSIC, TUFTED, Corners, delaunay, stiffness_of, tufted
+from .intrinsic import COTAN, INTRINSIC, TUFTED, Corners, corners_of, delaunay, flip, stiffness_of, tufted
 from .kernel.library import library
+from .mesh_arrays import checked_faces
 from .point_cloud import PointCloud
 from .surface import FLAT_RATIO, Surface
 from .tetrahedra import TetrahedralMesh
 
 AREAS = ("voronoi", "barycentric")
+ALIKE = 1e-9
+"""The lengths of an edge in its faces may differ by this share, for rounding."""
+
+
+def checked_areas(kind: str) -> str:
+    """Return the name of vertex areas; ParameterError for another."""
+    if kind not in AREAS:
+        raise ParameterError(f"There are no {kind!r} vertex areas; choose one of {', '.join(AREAS)}.")
+    return kind
 
 
 def operators(surface: Surface, areas: str = "voronoi", operator: str = COTAN) -> tuple[sp.csr_matrix, FloatArray]:
@@ -38,11 +49,47 @@ def operators(surface: Surface, areas: str = "voronoi", operator: str = COTAN) -
     if operator == TUFTED:
         return tufted(surface)
     if operator == INTRINSIC:
-        faces, corners = delaunay(surface)
-        n, shares = len(surface.vertices), _shares(areas, corners)
-        return stiffness_of(n, faces, corners[0]), np.bincount(faces.T.ravel(), shares.ravel(), n).astype(float)
+        return _of_corners(len(surface.vertices), *delaunay(surface), areas)
     corners = _corners(surface)
     return _assembled(surface, _weights(surface, corners)), _areas(surface, areas, corners)
+
+
+def operators_by_lengths(
+    faces: npt.ArrayLike, lengths: npt.ArrayLike, areas: str, operator: str, name: str
+) -> tuple[sp.csr_matrix, FloatArray]:
+    """Return the matrices of `operators` of triangles (m, 3) with sides of lengths (m, 3), each opposite to a corner.
+
+    MeshError for faces that do not fit, and ParameterError for lengths that do not, which are named.
+    """
+    if operator == TUFTED:
+        raise ParameterError(f"{name}: the operator tufted needs positions, and there are lengths alone.")
+    sides = real_numbers(lengths, "Lengths").copy()
+    n = int(np.max(faces, initial=-1)) + 1
+    triangles, repairs = checked_faces(faces, n, name)
+    if repairs or sides.shape != triangles.shape:
+        raise ParameterError(f"{name}: faces have three vertices each, no other face has, and three lengths.")
+    short = np.flatnonzero(~((sides > 0).all(axis=1) & (2 * sides.max(axis=1) < sides.sum(axis=1))))
+    if len(short):
+        raise ParameterError(f"{name}: the sides of face {short[0]}, {sides[short[0]].tolist()}, make no triangle.")
+    if len(unused := np.setdiff1d(np.arange(n), triangles)):
+        raise ParameterError(f"{name}: vertex {unused[0]} belongs to no face.")
+    pairs = np.sort(triangles[:, [[1, 2], [2, 0], [0, 1]]].reshape(-1, 2), axis=1)
+    edges, number = np.unique(pairs, axis=0, return_inverse=True)
+    most, least = np.zeros(len(edges)), np.full(len(edges), np.inf)
+    np.maximum.at(most, number.ravel(), sides.ravel())
+    np.minimum.at(least, number.ravel(), sides.ravel())
+    wrong = np.flatnonzero(most - least > ALIKE * most)
+    if len(wrong):
+        i, j = edges[wrong[0]]
+        raise ParameterError(f"{name}: edge {i}, {j} is {least[wrong[0]]:g} long in a face, and {most[wrong[0]]:g}.")
+    if operator == INTRINSIC:
+        flip(triangles, sides)
+    return _of_corners(n, triangles, corners_of(sides), areas)
+
+
+def _of_corners(n: int, faces: IntArray, corners: Corners, areas: str) -> tuple[sp.csr_matrix, FloatArray]:
+    shares = _shares(areas, corners)
+    return stiffness_of(n, faces, corners[0]), np.bincount(faces.T.ravel(), shares.ravel(), n).astype(float)
 
 
 def stiffness(surface: Surface) -> sp.csr_matrix:
@@ -90,8 +137,7 @@ def vertex_areas(surface: Surface, kind: str = "voronoi") -> FloatArray:
 
 
 def _areas(surface: Surface, kind: str, corners: Corners) -> FloatArray:
-    if kind not in AREAS:
-        raise ParameterError(f"There are no {kind!r} vertex areas; choose one of {', '.join(AREAS)}.")
+    checked_areas(kind)
     cotangents, squares, area = corners
     flat, n = surface.degenerate_faces, len(surface.vertices)
     if kind == "voronoi" and not len(flat) and (lib := library()):

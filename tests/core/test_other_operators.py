@@ -181,3 +181,42 @@ def test_shared_meshes_that_are_not_manifold(name, operator):
     wanted = np.linalg.norm(points - points[0], axis=1)
     found = distance.from_source(int(component.vertices[0]))[component.vertices]
     assert np.abs(found - wanted).max() < 1e-9 * wanted.max()
+
+
+# ---------------------------------------------------------------------- lengths without positions
+def sides_of(surface):
+    x = surface.vertices[surface.faces]
+    return np.linalg.norm(np.roll(x, -1, axis=1) - np.roll(x, -2, axis=1), axis=2)
+
+
+@pytest.mark.parametrize("operator", ["cotan", "intrinsic-delaunay"])
+@pytest.mark.parametrize("areas", ["voronoi", "barycentric"])
+def test_lengths_of_sides_give_the_operators_of_the_surface(operator, areas):
+    surface = bumpy(300)
+    known = Laplacian(surface, areas, operator)
+    found = Laplacian.from_edge_lengths(surface.faces, sides_of(surface), areas, operator)
+    scale = abs(known.stiffness).max()
+    assert abs(found.stiffness - known.stiffness).max() < 1e-11 * scale
+    np.testing.assert_allclose(found.areas, known.areas, rtol=1e-11)
+    np.testing.assert_allclose(
+        BiharmonicDistance(found).from_source(7), BiharmonicDistance(known).from_source(7), rtol=0, atol=1e-10
+    )
+
+
+SQUARE, SIDES = [[0, 1, 2], [0, 2, 3]], [[1, 1.4, 1], [1, 1, 1.4]]
+
+
+@pytest.mark.parametrize(
+    ("faces", "lengths", "options", "words"),
+    [
+        (SQUARE, [[1, 1.4, 1], [1, 1, 1.5]], {}, "edge 0, 2 is 1.4 long in a face, and 1.5"),
+        (SQUARE, [[1, 1.4, 1], [1, 3, 1.4]], {}, r"the sides of face 1, \[1.0, 3.0, 1.4\], make no triangle"),
+        (SQUARE, [[1, 1.4, 1]], {}, "three lengths"),
+        ([[0, 1, 2], [0, 2, 4]], SIDES, {}, "vertex 3 belongs to no face"),
+        (SQUARE, SIDES, {"operator": "tufted"}, "tufted needs positions"),
+        (SQUARE, SIDES, {"areas": "circles"}, "no 'circles' vertex areas"),
+    ],
+)
+def test_lengths_that_do_not_fit_are_named(faces, lengths, options, words):
+    with pytest.raises(ParameterError, match=words):
+        Laplacian.from_edge_lengths(faces, lengths, **options)
