@@ -23,6 +23,18 @@ FLAT = 1e-12
 """A tetrahedron of less volume, in cubes of its longest edge, has none."""
 
 
+class SolidBoundary(Surface):
+    """The boundary of tetrahedra.
+
+    Attributes
+    ----------
+    tetrahedra : (m, 4) int64 ndarray
+        Vertex ids.
+    """
+
+    tetrahedra: IntArray
+
+
 class TetrahedralMesh(Nodes):
     """A mesh of tetrahedra, checked once and never changed.
 
@@ -123,12 +135,14 @@ class TetrahedralMesh(Nodes):
         return np.unique(pairs, axis=0), np.empty(0, np.int64)
 
     @cached_property
-    def shape(self) -> Surface:
+    def shape(self) -> SolidBoundary:
         """The boundary: the sides (k, 3) of one tetrahedron alone, with the same vertices."""
         sides = self.tetrahedra[:, SIDES].reshape(-1, 3)
         _, first, count = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
         fact = f"the boundary of {counted(len(self.tetrahedra), 'tetrahedron', 'tetrahedra')}"
-        return Surface(self.vertices, sides[np.sort(first[count == 1])], self.name, facts=(*self.facts, fact))
+        boundary = SolidBoundary(self.vertices, sides[np.sort(first[count == 1])], self.name, facts=(*self.facts, fact))
+        object.__setattr__(boundary, "tetrahedra", self.tetrahedra)
+        return boundary
 
     @property
     def area(self) -> float:

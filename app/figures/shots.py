@@ -15,6 +15,7 @@ from bihdist_core import ParameterError, PointCloud, Surface
 from bihdist_core.arrays import AnyArray, ByteArray, FloatArray
 from bihdist_core.progress import Progress, part
 from bihdist_core.surface import with_faces
+from bihdist_core.tetrahedra import SolidBoundary
 
 from ..document.document import isolines_in
 from ..document.looks import Isolines, Shading
@@ -22,7 +23,7 @@ from ..drawing.line_looks import FEATURE_EDGES, SECTION, LineLook
 from ..drawing.shapes import Box
 from ..marks.primitives import PointMark
 from ..scene.bands import band_edges
-from ..scene.clipping import ClipPlane, clip_plane, is_kept
+from ..scene.clipping import ClipPlane, clip_plane, cut_through, is_kept
 from ..scene.drawable import drawable, feature_edges, normals_shading, outward_faces
 from ..scene.field_actor import FieldActor
 from ..scene.levels import levels, too_many
@@ -221,6 +222,7 @@ def _show(panel: FigurePanel, mesh: vtkPolyData, top: float, clip: ClipPlane | N
     actor.show_shading(panel.shading)
     # Behind a translucent surface lines are painted; before it they are curves, like all of an opaque one.
     actor.show_clip(clip, paints_section=panel.opacity < 1 or isinstance(panel.surface, PointCloud))
+    actor.show_cut(cut_through(panel.surface, clip))
     actor.show_opacity(panel.opacity)
     actor.show_selected(selected_colours(panel.areas, len(panel.surface.vertices)))
     if panel.field is not None:
@@ -264,6 +266,8 @@ class _Taker:
         self._is_translucent = figure.panels[index].opacity < 1
         # Whose isolines and sections are painted, and which have no outlines.
         self._is_of_points = isinstance(surface, PointCloud)
+        has_cut = isinstance(surface, SolidBoundary) and figure.panels[index].clip is not None
+        self._paints_isolines = not curves or self._is_of_points or has_cut
         self._found: dict[Isolines, list[Contour]] = {}
         panel = self._panel
         self._seen: set[str] = set()
@@ -280,7 +284,7 @@ class _Taker:
         """Take what a box of the page shows: the view or, for an inset, a part of it enlarged, with these isolines."""
         _, _, width, height = box.pixels(self._scale)
         # Labels would stand on painted ones.
-        is_painted = not self._curves or self._is_of_points or (self._is_translucent and not wanted.labels)
+        is_painted = self._paints_isolines or (self._is_translucent and not wanted.labels)
         self._render_window.shown.show_isolines(wanted if is_painted else Isolines(0), self._panel.through)
         seen = self._part(source or box)
         image = self._render_window.shade(
@@ -289,7 +293,7 @@ class _Taker:
         if self._shadows is not None:
             image = self._shadows.cast(image, seen, self._style.occlusion * self._panel.opacity)
         progress(0.7, "finding hidden marks")
-        contours = self._contours(wanted) if self._curves and not self._is_of_points else []
+        contours = [] if self._paints_isolines else self._contours(wanted)
         outlined = outlines(self._sight) if self._style.outline and not self._is_of_points else []
         corner = np.array([self._box.x, self._box.y])
 

@@ -12,6 +12,7 @@ from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 from bihdist_core.surface import connected
 
 from ..document.looks import AS_IT_IS, Shading
+from .clipping import Cut
 from .creases import bends, face_normals, has_creases, point_normals, split, to_length_one
 from .splats import hexagons, put_slopes
 from .winding import Winding, winding
@@ -130,6 +131,17 @@ def poly_data(vertices: FloatArray, faces: IntArray, normals: AnyArray) -> vtkPo
     mesh.GetPointData().SetNormals(numpy_to_vtk(normals))
     mesh.ComputeBounds()
     return mesh
+
+
+def with_cut(mesh: vtkPolyData, cut: Cut) -> vtkPolyData:
+    """Return a mesh with the faces of a cut behind its own, and the cut's points behind its own."""
+    points = vtk_to_numpy(mesh.GetPoints().GetData())
+    normals = vtk_to_numpy(mesh.GetPointData().GetNormals())
+    ours = np.broadcast_to(cut.normal, cut.points.shape).astype(normals.dtype)
+    faces = np.concatenate([faces_of(mesh), cut.faces + len(points)])
+    joined = poly_data(np.concatenate([points, cut.points]), faces, np.concatenate([normals, ours]))
+    joined.GetFieldData().ShallowCopy(mesh.GetFieldData())
+    return joined
 
 
 def copies_of(mesh: vtkPolyData) -> IntArray:

@@ -15,8 +15,8 @@ from bihdist_core.arrays import AnyArray, ByteArray, FloatArray, IntArray
 from ..document.looks import MOST_ISOLINES, NO_LINES, TWENTY_STEPS, Isolines, Shading
 from ..drawing.line_looks import SECTION
 from ..session.base import Greys
-from .clipping import ClipPlane
-from .drawable import copies_of, has_backs, vertex_faces
+from .clipping import ClipPlane, Cut
+from .drawable import copies_of, has_backs, vertex_faces, with_cut
 from .face_look import map_attribute, pass_on, put_face_look
 from .levels import BOLD, ZERO, Levels, levels, too_many
 from .selected import PAINT_SELECTED
@@ -126,6 +126,7 @@ class FieldActor:
         self._own = vtkPolyData()
         self._has_edges = False
         self.clip: ClipPlane | None = None
+        self._cut: Cut | None = None
         self._paints_section = True
         self._followed: tuple[object, ...] | None = None
         self._tints: dict[str, AnyArray] = {}
@@ -139,6 +140,7 @@ class FieldActor:
 
     def show_surface(self, mesh: vtkPolyData) -> None:
         """Show a surface made by `drawable`, without a field yet."""
+        self._cut = None
         count = mesh.GetNumberOfPoints() - len(copies_of(mesh))
         self._put_mesh(mesh, np.full(count, UNDEFINED, np.float32))
 
@@ -151,8 +153,10 @@ class FieldActor:
         self.stand_in.take(None)
         self.mesh = mesh
         own = vtkPolyData()
-        own.ShallowCopy(mesh)
+        own.ShallowCopy(mesh if self._cut is None else with_cut(mesh, self._cut))
         self._copies = copies_of(mesh)
+        if self._cut is not None:
+            self._copies = np.concatenate([self._copies, self._cut.ends[:, 0]])
         self._values = np.concatenate([values, self._at_copies(values)]).astype(np.float32, copy=False)
         self._array = numpy_to_vtk(self._values)
         self._array.SetName("distance")
@@ -167,7 +171,10 @@ class FieldActor:
     def _at_copies(self, values: AnyArray) -> AnyArray:
         """Return a field (n,) at the copies of vertices (k,), which stand beside them where they are of points."""
         beside = at_corners(self.mesh, values, UNDEFINED)
-        return values[self._copies] if beside is None else beside
+        found = values[self._copies] if beside is None else beside
+        if self._cut is not None:
+            found[len(found) - len(self._cut.ends) :] = self._cut.at_points(values, UNDEFINED)
+        return found
 
     def show_selected(self, colours: ByteArray | None) -> None:
         """Tint vertices that stand out with colours (n, 4) uint8, see `selected_colours`; None for none."""
@@ -388,6 +395,13 @@ class FieldActor:
         if is_other:
             self._show_backs()
             self._put_shaders(self._has_edges)
+
+    def show_cut(self, cut: Cut | None) -> None:
+        """Close the surface of a solid where a plane cuts it, or no longer."""
+        if cut is not self._cut:
+            count = len(self._values) - len(self._copies)
+            self._cut = cut
+            self._put_mesh(self.mesh, self._values[:count])
 
     @property
     def opacity(self) -> float:

@@ -8,6 +8,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from bihdist_core import Surface
 from bihdist_core.arrays import FloatArray
+from bihdist_core.tetrahedra import SolidBoundary
 
 from .clipping import ClipPlane, is_kept
 from .face_blocks import FaceBlocks
@@ -54,7 +55,7 @@ class Picker:
         """
         ends = _ray(renderer, x, y, clip)
         hit = None if ends is None else self.blocks.first_hit(*ends)
-        if hit is None:
+        if ends is None or hit is None or self._is_behind_cut(hit[0], ends, clip):
             return None
         face, weights, position = hit
         ids = self._surface.faces[face]
@@ -70,7 +71,17 @@ class Picker:
         if not is_kept(clip, point[None])[0]:
             return False
         ends = _ray(renderer, *pixel_of(renderer, point), clip)
+        hit = None if ends is None or clip is None else self.blocks.first_hit(*ends)
+        if ends is not None and hit is not None and self._is_behind_cut(hit[0], ends, clip):
+            return False
         return ends is None or self.blocks.sees(ends[0], point, 2 * self._surface.mean_edge_length)
+
+    def _is_behind_cut(self, face: int, ends: tuple[FloatArray, FloatArray], clip: ClipPlane | None) -> bool:
+        """Return whether the first face on a line of sight is seen from within a solid, which its cut hides."""
+        if clip is None or not isinstance(self._surface, SolidBoundary):
+            return False
+        a, b, c = self._surface.vertices[self._surface.faces[face]]
+        return bool(np.cross(b - a, c - a) @ (ends[1] - ends[0]) > 0)
 
 
 def pixel_of(renderer: vtkRenderer, point: FloatArray) -> tuple[float, float]:

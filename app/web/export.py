@@ -156,6 +156,8 @@ def page_of(
     document, surfaces = open_document(recipe, given or ArrayStore.read(recipe))
     contents = Contents.of(document)
     loaded = surfaces[document.surfaces[0].name]
+    if loaded.is_solid:
+        raise ParameterError(f"{loaded.surface.name}: pages cannot measure through tetrahedra.")
     with_faces(loaded.surface, "pages")
     check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path)
     _check_eigenpairs(contents, len(loaded.surface.vertices), eigenpairs)

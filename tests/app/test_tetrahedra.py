@@ -2,13 +2,22 @@
 
 import numpy as np
 import pytest
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (mappers are of it)
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
 from app.document.document import usual_specs
+from app.scene.clipping import INWARDS, ClipPlane, cut_through
+from app.scene.drawable import drawable
+from app.scene.field_actor import UNDEFINED, FieldActor
+from app.scene.picking import Picker
+from app.scene.style import STYLES
 from bihdist_core import BiharmonicDistance, TetrahedralMesh
 from bihdist_core.distances.distance_types import Spec
 from bihdist_core.formats.field_output import write_fields
 from tests.commands import ran, refused
 from tests.core.test_tetrahedra import ball
+from tests.shapes import bumpy
 
 
 @pytest.fixture(scope="module")
@@ -46,3 +55,65 @@ def test_files_of_tetrahedra_are_opened_without_geodesic_distance():
 
 def test_what_needs_a_surface_is_refused(path, tmp_path, capsys):
     assert "changes need faces" in refused(capsys, "perturb", path, "--noise", "1", "-o", tmp_path / "a.ply")
+    assert "pages cannot measure through tetrahedra" in refused(capsys, "page", path, "-o", tmp_path / "a.html")
+
+
+# ---------------------------------------------------------------------- the cut
+@pytest.fixture(scope="module")
+def cut(solid):
+    return cut_through(solid.shape, ClipPlane((0.6, 0.0, 0.8), 0.1))
+
+
+def test_a_cut_lies_in_the_plane_and_faces_what_is_cut_away(solid, cut):
+    plane = ClipPlane((0.6, 0.0, 0.8), 0.1 - INWARDS * np.ptp(solid.vertices, axis=0).max())
+    np.testing.assert_allclose(plane.depths(cut.points), 0, atol=1e-12)
+    p, q, r = (cut.points[cut.faces[:, k]] for k in range(3))
+    twice = np.cross(q - p, r - p) @ cut.normal
+    assert (twice >= 0).all()
+    # Of a ball of radius 1, but for what its coarse boundary leaves out.
+    assert 0.75 * np.pi < twice.sum() / 2 < np.pi
+
+
+def test_fields_are_linear_on_the_edges_that_are_cut(solid, cut):
+    slope = np.array([0.3, -1.0, 2.0])
+    shift = INWARDS * np.ptp(solid.vertices, axis=0).max() * cut.normal
+    found = cut.at_points(solid.vertices @ slope, UNDEFINED)
+    np.testing.assert_allclose(found, (cut.points + shift) @ slope, atol=1e-12)
+    assert (cut.at_points(np.full(300, UNDEFINED), UNDEFINED) == UNDEFINED).all()
+
+
+def test_only_solids_are_closed_where_they_are_cut(solid):
+    plane = ClipPlane((1.0, 0.0, 0.0), 0.0)
+    assert cut_through(solid.shape, None) is None
+    assert cut_through(bumpy(100), plane) is None
+
+
+def test_an_actor_shows_the_field_on_the_cut_until_there_is_none(solid, cut):
+    actor = FieldActor(STYLES["paper"])
+    actor.show_surface(drawable(solid.shape))
+    before = actor.actor.GetMapper().GetInput().GetNumberOfPolys()
+    field = solid.vertices[:, 2] + 2
+    actor.show_field(field, 4.0)
+    actor.show_cut(cut)
+    mesh = actor.actor.GetMapper().GetInput()
+    values = vtk_to_numpy(mesh.GetPointData().GetArray("distance"))
+    assert mesh.GetNumberOfPolys() == before + len(cut.faces)
+    np.testing.assert_allclose(values[-len(cut.points) :], cut.at_points(field / 4, UNDEFINED), atol=1e-6)
+    actor.show_field(field, 8.0)
+    np.testing.assert_allclose(values[-len(cut.points) :], cut.at_points(field / 8, UNDEFINED), atol=1e-6)
+    actor.show_cut(None)
+    assert actor.actor.GetMapper().GetInput().GetNumberOfPolys() == before
+
+
+def test_what_is_behind_the_cut_is_neither_picked_nor_seen(solid):
+    plane, window, renderer = ClipPlane((1.0, 0.0, 0.0), 0.2), vtkRenderWindow(), vtkRenderer()
+    window.SetSize(200, 200)
+    window.AddRenderer(renderer)
+    renderer.GetActiveCamera().SetPosition(5, 0, 0)
+    renderer.ResetCameraClippingRange(-1, 1, -1, 1, -1, 1)
+    picker, far = Picker(solid.shape), solid.vertices[solid.vertices[:, 0].argmin()]
+    assert picker.pick(renderer, 100, 100).position[0] > 0.2
+    assert picker.pick(renderer, 100, 100, plane) is None
+    assert not picker.sees(renderer, far, plane)
+    other = ClipPlane((-1.0, 0.0, 0.0), 0.2)
+    assert picker.pick(renderer, 100, 100, other).position[0] > 0.2

@@ -17,7 +17,7 @@ from ...document.quantities import DistanceFrom
 from ...marks.field_marks import label_rows
 from ...marks.primitives import Caption
 from ...scene.bands import band_edges, beyond
-from ...scene.clipping import clip_plane
+from ...scene.clipping import clip_plane, cut_through
 from ...scene.drawable import drawable, rise, warp_by_scalar
 from ...scene.field_actor import FieldActor
 from ...scene.levels import in_unit, with_kept_step
@@ -157,7 +157,9 @@ class DistancePanel(QtWidgets.QWidget):
         """Cut the surface as it is drawn by a plane, and let it be translucent; return whether that is otherwise."""
         actor = self._field_actor
         self._inside, before = (clip, opacity), (actor.clip, actor.opacity)
-        actor.show_clip(None if self.shape is None else clip_plane(clip, self.shape))
+        plane = None if self.shape is None else clip_plane(clip, self.shape)
+        actor.show_clip(plane)
+        actor.show_cut(None if self.shape is None else cut_through(self.shape, plane))
         actor.show_opacity(opacity)
         self.view.redraw()
         return (actor.clip, actor.opacity) != before
