@@ -162,7 +162,7 @@ class ProgressDisplay(QtCore.QObject):
             words = "A preview; the exact field follows"
             panel.show_waiting((fraction, words) if text else None, is_old=False)
         elif context[Dragging].is_on and shown is not None:
-            panel.show_behind(self._is_late or self._is_behind(id, shown))
+            panel.show_behind(self._is_behind(id, shown))
         elif text or self._is_late:
             panel.show_waiting((fraction, self._words(id, fraction, text)) if text else WAITING)
 

@@ -210,4 +210,4 @@ def test_a_recipe_with_a_cut_of_its_own_is_refused(tmp_path, capsys):
     recipe = with_repairs(comparison(str(mesh)), cut=str(cut))
     (tmp_path / "r.json").write_text(recipe_text(Recipe(recipe), "1"))
     assert batch(mesh, tmp_path / "out", "--do", "figure", "--recipe", tmp_path / "r.json") == 2
-    assert "batch does what --cut, --merge and --largest-component say" in capsys.readouterr().err
+    assert "batch does what --cut, --merge, --largest-component and --operator say" in capsys.readouterr().err

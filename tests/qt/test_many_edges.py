@@ -67,7 +67,7 @@ def test_many_edges_and_a_long_name_move_nothing_and_are_told_in_a_list(loaded):
     assert places(s.window) == before
     assert fits(s.window)
 
-    sentence = f"{COUNT:,} edges with more than two faces"
+    sentence = f"{COUNT:,} edges with more than two faces, for which there is the operator tufted"
     assert chip.words == "2 notes"
     assert chip.sentences[0] == sentence
     assert chip.isVisible()
