@@ -24,6 +24,7 @@ from bihdist_core.laplacian import eigenpairs
 from bihdist_core.sources.pieces import Pieces, pieces_of
 from bihdist_core.sources.source import Source
 from bihdist_core.sources.words import short_words_of
+from bihdist_core.surface import with_faces
 
 from ..document.sources import ALL, FARTHEST
 from ..session.chosen_sources import Chosen, chosen_sources
@@ -67,7 +68,9 @@ class BatchMesh:
     @property
     def scale(self) -> float:
         """The factor of the vertices: 1, or the one that makes the area 1."""
-        return 1 / float(np.sqrt(self.surface.face_areas.sum())) if self.wanted.normalise else 1.0
+        if not self.wanted.normalise:
+            return 1.0
+        return 1 / float(np.sqrt(with_faces(self.surface, "areas scaled to 1").face_areas.sum()))
 
     def distance(self, words: str) -> Distance:
         """Return the distance of these words, such as "diffusion(t=1/4)"; ParameterError for other words."""

@@ -53,6 +53,15 @@ def test_files_of_tetrahedra_are_opened_without_geodesic_distance():
     assert [spec.word for spec in usual_specs("ball.mesh")] == ["biharmonic", "commute-time", "diffusion"]
 
 
+def test_a_batch_measures_solids_and_says_that_they_have_no_areas(solid, path, tmp_path, capsys):
+    words = ["batch", path, "--do", "fields", "--sources", "250", "--workers", "1", "-o"]
+    ran(capsys, *words, tmp_path / "out")
+    (found,) = (tmp_path / "out").glob("*.npy")
+    np.testing.assert_allclose(np.load(found).ravel(), BiharmonicDistance(solid).from_source(250), rtol=1e-6)
+    said = ran(capsys, *words, tmp_path / "scaled", "--normalise", "area", status=1).err
+    assert "areas scaled to 1 need faces" in said
+
+
 def test_what_needs_a_surface_is_refused(path, tmp_path, capsys):
     assert "changes need faces" in refused(capsys, "perturb", path, "--noise", "1", "-o", tmp_path / "a.ply")
     assert "pages cannot measure through tetrahedra" in refused(capsys, "page", path, "-o", tmp_path / "a.html")
