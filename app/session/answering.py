@@ -22,6 +22,9 @@ MUCH_LONGER, AT_LEAST = 4.0, 0.2
 """In a drag, an answer that takes so many times as long as the one before, and so many seconds, gives way to the next:
 it waits for something that is made beside it, such as a longer flow of heat, and the others need not."""
 
+REST = 0.2
+"""Seconds for which a slider rests before long work for its value begins, of which something coarse is shown."""
+
 
 class AnswerView(Protocol):
     """Who is told, on the view's thread, by the ids of the panels."""
@@ -170,7 +173,8 @@ class Answering:
 
     def _work(self, id: int, request: _Request, worker: LatestRequestWorker[_Request]) -> None:
         question, loaded = request.question, request.loaded
-        begun, took, is_there = time.monotonic(), self._took.get(id), False
+        begun, took, is_live = time.monotonic(), self._took.get(id), request.live
+        is_coarse_there = is_there = False
 
         def is_wanted(latest: _Request) -> bool:
             if latest.question == question:
@@ -186,10 +190,12 @@ class Answering:
             return False
 
         def is_awaited(latest: _Request) -> bool:
+            nonlocal is_live
+            is_live = latest.live
             # The source may move while the distance is made ready: then the next question has it.
             if are_about_the_same(latest.question, question):
                 return True
-            is_short = time.monotonic() - begun < AT_LEAST
+            is_short = not is_coarse_there and time.monotonic() - begun < AT_LEAST
             return latest.live and is_short and are_alike(latest.question, question)
 
         known = self._kept.get(question)
@@ -202,7 +208,11 @@ class Answering:
         coarse = question.with_specs(tuple(distances.meanwhile(spec) or spec for spec in question.specs))
         if coarse != question:
             self._show_preview(id, request, coarse, preparing, asking)
+            is_coarse_there = True
         preparing(0.0, str(question))
+        while is_coarse_there and is_live and time.monotonic() < begun + REST:
+            time.sleep(0.01)
+            preparing(0.0, str(question))
         for spec in question.specs:
             distances.get(spec, part(preparing, 0, 0.9))
         asking(0.9, str(question))

@@ -361,6 +361,22 @@ def test_while_a_slider_moves_no_value_waits_for_the_accuracy_of_the_one_before(
     assert checked == [2.6, 2.7]
 
 
+def test_while_a_slider_moves_coarse_fields_follow_and_long_work_waits_until_it_rests(desk, mesh_file, monkeypatch):
+    monkeypatch.setattr("app.session.answering.REST", 1000.0)
+    d = desk([Spec.of("diffusion", t=4.0)])
+    session = d.loaded(mesh_file(bumpy(2000)), source=1)
+    build, built = Spec.build, []
+    monkeypatch.setattr(Spec, "build", lambda spec, *rest, **how: built.append(spec) or build(spec, *rest, **how))
+    for t in (1 / 15, 1 / 20, 1 / 25):
+        d.choose(0, Spec.of("diffusion", t=t), live=True)
+        d.until(lambda t=t: session.shown[0].question.spec["t"] == t)
+        assert session.is_preview(0)
+    assert built == []
+    session.show(session.document)  # let go
+    d.complete()
+    assert [spec["t"] for spec in built] == [1 / 25]
+
+
 def test_in_a_drag_geodesic_panels_are_approximate_until_release(desk, mesh_file, monkeypatch):
     monkeypatch.setattr(distance_types, "FRAME_VERTICES", 0)  # as on a large mesh
     d = desk([Spec.of("geodesic", method="exact")])
