@@ -122,7 +122,7 @@ class Quantity(ABC):
     def is_alike(self, other: "Quantity") -> bool:
         """Return whether another quantity is this one, perhaps with other values of its parameters."""
         pairs = list(zip(self.parts, other.parts, strict=False))
-        parts = tuple(p.with_spec(*q.specs) if p.word == q.word and q.specs else p for p, q in pairs)
+        parts = tuple(p.with_spec(*q.parametrised) if p.word == q.word and q.parametrised else p for p, q in pairs)
         return type(self) is type(other) and self.with_parts(parts) == other
 
     def moved_to(self, point: str) -> "Quantity":

@@ -82,3 +82,6 @@ def test_other_parameters_make_another_quantity():
     assert isinstance(shows, VertexSignature)
     assert str(shows.with_spec(shows.spec.changed(t=2))) == "hks(t=2)"
     assert shows.points == shows.specs == ()
+    assert shows.is_alike(quantity("hks(t=2)"))  # values that a slider passes are one step
+    assert quantity("hks - biharmonic").is_alike(quantity("hks(t=2) - biharmonic"))
+    assert not shows.is_alike(quantity("bks"))

@@ -35,7 +35,7 @@ class StartPage(QtWidgets.QWidget):
     def __init__(self, parent: QtWidgets.QWidget | None = None) -> None:
         super().__init__(parent)
         self.message = Refusal()
-        self.title = QtWidgets.QLabel("Open a triangle mesh", objectName="title")
+        self.title = QtWidgets.QLabel("Open a mesh", objectName="title")
         self.zone = DropZone()
         self.zone.open.clicked.connect(lambda: self.open_wanted.emit())
         self.rows = [RecentRow() for _ in range(ROWS)]
