@@ -1,7 +1,5 @@
 """Points without faces in the window: picking, fields, and what needs faces."""
 
-import sys
-
 import numpy as np
 import pytest
 from qtpy import QtCore, QtTest, QtWidgets
@@ -10,8 +8,6 @@ from app.document.document import usual_specs
 from bihdist_core import BiharmonicDistance, PointCloud
 from tests.qt.parts import parts
 from tests.shapes import bumpy
-
-pytestmark = pytest.mark.skipif(sys.version_info >= (3, 15), reason="no wheels of robust_laplacian")
 
 
 @pytest.fixture
