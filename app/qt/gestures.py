@@ -7,13 +7,12 @@ from qtpy import QtCore, QtWidgets
 from ..document.document import Document, content
 from ..document.tools import tools
 from ..drawing.numbers import coordinates
+from .choices import IsolineChoices
 from .context import Context
 from .dragging import Dragging
-from .files.field_files import FieldFiles
-from .files.isoline_files import save_isolines
+from .files.field_files import FieldFiles, save_isolines
 from .gesture import Gesture
 from .held_keys import HeldKeys
-from .isoline_choices import IsolineChoices
 from .panels.events import Click, Hover, MarkClick, MarkDrag, MarkRelease, MenuWanted, SecondClick
 from .snapping import Snapping
 

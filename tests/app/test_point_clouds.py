@@ -17,7 +17,7 @@ from app.scene.field_actor import UNDEFINED
 from app.scene.prepared import prepare
 from app.scene.splats import CORNERS, at_corners
 from app.scene.stand_in import stand_in
-from app.tools.source.strokes import source_from_strokes
+from app.tools.source.gestures import source_from_strokes
 from bihdist_core import BiharmonicDistance, PointCloud, SourceSet, SurfacePoint, read_surface
 from tests.shapes import bumpy
 

@@ -5,8 +5,8 @@ from qtpy import QtWidgets
 from ...document.looks import Isolines
 from ...document.settings import switches_in
 from ...drawing.numbers import tick
+from ..choices import IsolineChoices
 from ..context import Context
-from ..isoline_choices import IsolineChoices
 
 ISOLINES = (0, 10, 20, 30, 50)
 

@@ -13,8 +13,8 @@ from bihdist_core.distances.answers import Answer
 
 from ...document.file import recipe_text
 from ...document.file_names import file_name
+from ...document.option import curves_in
 from ...document.page import Recipe
-from ...document.starts import curves_in
 from ...figures import one_line
 from ...figures.draw import whole_picture
 from ...figures.export import Surfaces, figure_of

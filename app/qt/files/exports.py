@@ -1,4 +1,4 @@
-"""Files that are drawn in the background, and the badge in the status bar with their progress."""
+"""Files that are drawn in the background, charts among them, and the badge in the status bar with their progress."""
 
 import os
 import threading
@@ -9,16 +9,20 @@ from functools import partial
 from qtpy import QtCore, QtGui, QtWidgets
 
 from bihdist_core import OutputError
+from bihdist_core.file_output import check_output
 
 from ...document.page import Page
 from ...drawing.painters.qt import number_width, paint_number
 from ...figures.worker import FigureJob
-from ..look.bare_button import BareButton
+from ...scene.style import style_of
+from ..context import Context
+from ..look.controls import BareButton
+from ..look.form import in_row
 from ..look.icons import pixmap, put_icon
-from ..look.layouts import in_row
-from ..look.look import LOOK
-from ..look.painting import baseline, paint_rounded, smooth_painter
+from ..look.look import LOOK, baseline, paint_rounded, smooth_painter
+from ..look.theme import DARK, LIGHT, Theme, lightness
 from .preview import PreviewRenderer
+from .saving import ask_path
 
 PATIENCE = 5.0
 """Seconds that closing waits for drawings to stop; what still goes on then stops by itself, without a file."""
@@ -321,3 +325,27 @@ class _Share(BareButton):
             painter.setClipRect(QtCore.QRectF(box.left(), box.top(), box.width() * self._fraction, box.height()))
             paint_rounded(painter, box, 2, LOOK.theme.accent)
             painter.setClipping(False)
+
+
+FORMATS = (".pdf", ".png", ".svg", ".eps")
+
+
+def paper_theme(context: Context) -> Theme:
+    """Return the theme that suits the background of a figure style."""
+    style = style_of(context.page.style, context.document.colours)
+    ground = "#" + "".join(f"{round(255 * x):02X}" for x in style.background)
+    return LIGHT if lightness(ground) > 0.5 else DARK
+
+
+def save_figure(
+    context: Context, title: str, name: str, save: Callable[..., None], figure: Callable[[], object], path: str = ""
+) -> None:
+    """Save the chart of `figure()` in the background; asks for a path if none is given."""
+    from ...figures.chart_page import draw_chart
+
+    with context.errors_shown():
+        shown = figure()
+        path = path or ask_path(context, title, name, FORMATS)
+        if path:
+            check_output(path, FORMATS)
+            context[Exports].start(partial(draw_chart, save, shown, path), path, "Figure")

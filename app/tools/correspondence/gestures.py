@@ -11,8 +11,8 @@ from ...qt.context import Context
 from ...qt.dragging import Dragging
 from ...qt.gesture import Gesture
 from ...qt.panels.events import Click
-from .candidate_findings import CandidateFindings
-from .pair_locations import Candidate, candidate_in
+from .answers import Candidate, candidate_in
+from .candidate_errors import CandidateFindings
 from .pairs import (
     Pair,
     Pairs,

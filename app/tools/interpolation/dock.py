@@ -1,5 +1,6 @@
 """The dock of interpolation: anchors with their values, how they are weighed, and the extrema that are at no anchor."""
 
+import time
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -8,6 +9,7 @@ from typing import Any
 from qtpy import QtCore, QtWidgets
 
 from bihdist_core import ParameterError
+from bihdist_core.counts import counted
 from bihdist_core.formats.anchors import ANCHOR_FORMATS, read_anchors, write_anchors
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
 from bihdist_core.scalars import with_decimal_point
@@ -17,24 +19,61 @@ from ...document.file_names import file_name
 from ...document.quantities import Quantity
 from ...document.shared_parts.pins import Pins
 from ...qt.context import Context
-from ...qt.docks.dock import PAD
-from ...qt.docks.instrument import Instrument
-from ...qt.docks.plain import fill
-from ...qt.docks.row_list import RowList
+from ...qt.docks.instrument import PAD, Instrument
+from ...qt.docks.plain import RowList, fill
 from ...qt.files.saving import ask_file, file_filter, save
-from ...qt.look.form import Form, describe
-from ...qt.look.layouts import in_column, push_button, quiet_label
+from ...qt.look.controls import Segments, TextBox, mark_wrong
+from ...qt.look.form import Form, describe, in_column, push_button, quiet_label
 from ...qt.look.look import LOOK
-from ...qt.look.segments import Segments
-from ...qt.look.text_box import TextBox, mark_wrong
+from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import vertex_at
-from .clock import AnchorClock
+from .answers import InterpolantMemory
 from .extrema import AnchorExtrema
 from .gestures import AnchorGestures
 from .part import Anchor, Anchors, add_anchor, change_anchor, remove_anchors
 from .quantity import Interpolant, interpolants, interpolate, interpolated, show_distances
 from .row import BOX_WIDTH_PX, AnchorRow
 from .samples import AnchorSamples
+
+
+class AnchorClock:
+    """Measures how long all panels take to follow the values of anchors."""
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._begun: float | None = None
+        self._columns = 0
+        self._anchors: tuple[Anchor, ...] = ()
+
+    def begin(self, anchors: tuple[Anchor, ...]) -> None:
+        """Start the clock: the values become these."""
+        session = self._context.session
+        loaded = session.loaded()
+        if loaded is not None and anchors != session.document[Anchors].anchors:
+            self._begun, self._columns, self._anchors = time.perf_counter(), _columns(loaded), anchors
+
+    def note(self) -> None:
+        """Note that a panel shows another field; the time is told when all do, after they were painted."""
+        session = self._context.session
+        if session.document[Anchors].anchors != self._anchors:
+            self._begun = None  # something else has been done meanwhile
+        if self._begun is not None and all(session.is_answered(panel.id) for panel in session.document.panels):
+            QtCore.QTimer.singleShot(0, self._say)
+
+    def _say(self) -> None:
+        begun, self._begun = self._begun, None
+        loaded = self._context.session.loaded()
+        if begun is None or loaded is None:
+            return
+        count = _columns(loaded) - self._columns
+        solved = f", with {counted(count, 'new solve')}" if count else ", without solving again"
+        self._context.status.show_time(f"Updated in {1000 * (time.perf_counter() - begun):.0f} ms{solved}")
+
+
+def _columns(loaded: LoadedMesh) -> int:
+    """Return the number of columns of distances solved for so far."""
+    return loaded.memory(InterpolantMemory).columns
+
 
 LABEL_WIDTH_PX = 88
 

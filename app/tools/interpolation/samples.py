@@ -9,7 +9,7 @@ from bihdist_core.sources.source import SourceSet
 from ...document.document import Document, Panel
 from ...drawing.numbers import progress_words
 from ...qt.context import Context
-from ...qt.look.layouts import in_row, push_button
+from ...qt.look.form import in_row, push_button
 from ...session.farthest_points import SamplesRequest, find_samples
 from ...session.questions import first_source, vertex_at
 from .part import Anchors, add_anchor

@@ -13,7 +13,7 @@ TOOL = Tool(
     synonyms="measure accuracy error check triangles extrema isotropy",
     needs_faces=True,
     dock="dock:QualityDock",
-    findings="findings:QualityFindings",
+    findings="quality_worker:QualityFindings",
     marks="marks:marks",
     items="marks:items",
 )

@@ -8,14 +8,12 @@ from ...document.document import Document
 from ...document.edits import mark_extrema
 from ...document.quantities import quantity_name
 from ...qt.context import Context
-from ...qt.docks.dock import PAD
-from ...qt.docks.instrument import Instrument
+from ...qt.docks.instrument import PAD, Instrument
 from ...qt.docks.plain import PanelTable, fill
-from ...qt.look.layouts import in_column, in_row
+from ...qt.look.form import in_column, in_row
 from ...qt.look.look import LOOK
-from .findings import QualityFindings
 from .measures import MEASURES, NONE, WAITING
-from .quality_worker import KnownQuality
+from .quality_worker import KnownQuality, QualityFindings
 
 MIN_COLUMN_WIDTH_PX = 50
 """Logical pixels of a panel's column."""
