@@ -128,10 +128,8 @@ class Choices:
         now, edit = session.document.unit, QtWidgets.QLineEdit.EchoMode.Normal
         unit, chosen = QtWidgets.QInputDialog.getText(self._context.widget, "Unit of lengths", words, edit, now)
         if chosen:
-            try:
+            with self._context.errors_shown():
                 session.show(replace(session.document, unit=unit.strip()))
-            except ParameterError as error:
-                self._context.fail(error)
 
     def style(self, word: str) -> None:
         """Choose a style for panels and later figures; the colour map stays as it is."""
@@ -168,10 +166,8 @@ class Choices:
     def take_colours(self, path: str) -> None:
         """Choose the colour map in a file, or tell why it cannot be read."""
         now = self._context.document.colours
-        try:
+        with self._context.errors_shown():
             self._colour(Colours(Path(path).stem, read_stops(path), now.reversed, now.bands))
-        except ParameterError as error:
-            self._context.fail(error)
 
     def base(self, scalars: str) -> None:
         """Draw scalars in grey under the isolines, or nothing."""

@@ -15,6 +15,7 @@ from ...document.removal import without_orphans
 from .part import Anchor, Anchors
 
 if TYPE_CHECKING:
+    from bihdist_core.formats.anchors import Anchors as FileAnchors
     from bihdist_core.surface import Surface
 
 Marks = list[tuple[int, float | None]]
@@ -27,7 +28,7 @@ class AnchorFile:
     path: str
     text: str = ""
 
-    def read(self, surface: "Surface") -> "Anchors":
+    def read(self, surface: "Surface") -> "FileAnchors":
         """Return its anchors at vertices of a surface; ParameterError as `read_anchors`."""
         from bihdist_core.formats.anchors import anchors_at, read_anchors
         from bihdist_core.formats.landmarks import LANDMARKS
@@ -57,12 +58,12 @@ def anchors_from_words(text: str) -> Marks | AnchorFile:
     return found
 
 
-def anchors_on(asked: Marks | AnchorFile, surface: "Surface") -> "Anchors":
+def anchors_on(asked: Marks | AnchorFile, surface: "Surface") -> "FileAnchors":
     """Return the anchors on a surface; ParameterError for one without a value, VertexError for one that is not
     there."""
     import numpy as np
 
-    from bihdist_core.formats.anchors import Anchors
+    from bihdist_core.formats.anchors import Anchors as FileAnchors
 
     if isinstance(asked, AnchorFile):
         return asked.read(surface)
@@ -75,7 +76,7 @@ def anchors_on(asked: Marks | AnchorFile, surface: "Surface") -> "Anchors":
         seen.add(vertex)
     vertices = surface.check_vertices([vertex for vertex, _ in asked])
     values = np.array([value for _, value in asked], float)
-    return Anchors(vertices, values, ("",) * len(asked), np.zeros(len(asked)))
+    return FileAnchors(vertices, values, ("",) * len(asked), np.zeros(len(asked)))
 
 
 def _anchors_of(recipe: Recipe) -> dict[str, Any]:
