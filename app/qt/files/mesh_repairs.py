@@ -277,7 +277,9 @@ class MeshRepairs(QtCore.QObject):
                 left = int(ids.max()) + 1
                 gone = counted(len(ids) - left, "vertex", "vertices")
                 where = "File > Repair mesh > Save vertex id table… saves the old and new ids"
-                context.tell(f"{gone} merged, {left:,} left; {where}", _same(mesh, context))
+                context.tell(
+                    f"{gone} merged, {left:,} left; {where}", lambda mesh=mesh: mesh in context.document.surfaces
+                )
 
     # ------------------------------------------------------------------ components
     def keep_largest_component(self) -> None:
@@ -304,8 +306,3 @@ class MeshRepairs(QtCore.QObject):
             self._context.tell("This mesh has not been cut or merged.")
         elif mesh.repairs.merge is None or not self._is_refused():
             self._context.session.apply(lambda document: without_repairs(document, mesh.name))
-
-
-def _same(mesh: MeshFile, context: Context) -> Callable[[], bool]:
-    """Return a function that tells whether the document still has a mesh."""
-    return lambda: mesh in context.document.surfaces

@@ -160,16 +160,13 @@ class PairGestures(Gesture):
         """Accept a candidate; let another pin marker stand out, or no longer."""
         document = self.document
         pair, surface = document[Pairs].pairs[number - 1], document.panel(panel).surface
-        if not self._has_point(pair, surface):
+        if all(document.point(name).surface != surface for name in pair.points):
             found = candidate_in(document, document.panel(panel), self.context.session.answer(panel))
             if found is not None:
                 self.put(panel, found.vertex)
             return
         name = pair.points[0]
         self.choose("" if name in self._grid.marks.highlighted(self.tool) else name)
-
-    def _has_point(self, pair: Pair, surface: str) -> bool:
-        return any(self.document.point(name).surface == surface for name in pair.points)
 
     def drag(self, panel: int, number: int, hit: "Hit") -> None:
         """Move a point as one step of the history, past places that another pair has."""

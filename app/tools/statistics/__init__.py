@@ -14,5 +14,5 @@ TOOL = Tool(
     needs_faces=True,
     dock="dock:StatisticsDock",
     commands={"statistics": "command"},
-    charts={"dock": "..figures.histogram_figure:charts"},
+    charts={"histogram": "..figures.histogram_figure:charts"},
 )
