@@ -22,8 +22,7 @@ from ..context import Context
 from ..files.files import Files
 from ..files.mesh_repairs import MeshRepairs
 from ..views import Views
-from .colour_menu import ColourMenu
-from .isoline_menu import IsolineMenu
+from .colour_menu import ColourMenu, IsolineMenu
 
 THUMBNAIL = 56
 

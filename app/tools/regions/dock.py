@@ -33,7 +33,7 @@ from ...qt.look.look import LOOK
 from ...qt.panels.badges import curve_colour, disc_icon
 from ...qt.panels.flat_button import add_entry, menu_button
 from ...scene.style import PINS
-from ...session.farthest_points import SamplesRequest, find_samples
+from ...session.chosen_sources import SamplesRequest, find_samples
 from .division import RegionFindings
 from .part import DividedPanels, can_divide, show_regions
 

@@ -11,7 +11,7 @@ from app.document.panel_edits import panel_edits, possible_edits
 from app.document.quantities import OwnField, quantity
 from app.document.shared_parts.pins import Pins, add_pins, remove_pins
 from app.drawing.glyphs import BOUNDARY, TRIANGLE_DOWN, TRIANGLE_UP
-from app.session.farthest_points import SamplesRequest, find_samples
+from app.session.chosen_sources import SamplesRequest, find_samples
 from app.session.session import Session
 from app.tools.quality.quality_worker import KnownQuality, QualityWorker
 from app.tools.regions.division import Dividing, regions_questions
