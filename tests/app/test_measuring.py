@@ -7,8 +7,8 @@ import pytest
 
 from app.document.document import DockPlaces, FieldArray, Panel, comparison
 from app.document.edits import open_mesh, remove_panel, show_dock
-from app.document.lists import ids_of, runs_from_words, runs_of
 from app.document.quantities import OwnField
+from app.document.runs import ids_of, runs_from_words, runs_of
 from app.document.shared_parts.pins import MOST_PINS, Pin, Pins, add_pins, change_pin, move_pin, remove_pins
 from app.document.shared_parts.selections import Selection, Selections, select, select_instead
 from app.tools.interpolation.part import Anchor, Anchors

@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from app.document.file import read_recipe
-from app.document.lists import ids_of
+from app.document.runs import ids_of
 from app.document.shared_parts.selections import Selections
 from app.figures.picture import figure
 from app.main import main

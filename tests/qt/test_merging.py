@@ -9,7 +9,7 @@ from qtpy import QtCore, QtTest
 
 from app.document.document import Inset
 from app.document.edits import move_source
-from app.document.lists import ids_of
+from app.document.runs import ids_of
 from app.document.shared_parts.pins import Pins, add_pins
 from app.document.shared_parts.selections import Selections, select
 from app.qt.files.mesh_repairs import MergeDialog, MeshRepairs, usual_tolerance

@@ -8,8 +8,8 @@ from bihdist_core.arrays import IntArray
 from bihdist_core.errors import ParameterError
 
 from ..document import Document, check_unique, free_names
-from ..lists import ids_of, runs_of
 from ..part import MARK_COLOURS, Part, check_colour, check_name, next_colour
+from ..runs import ids_of, runs_of
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from bihdist_core.arrays import AnyArray, IntArray
 from bihdist_core.progress import Progress
 
 from ...document.document import free_names
-from ...document.lists import ids_of
+from ...document.runs import ids_of
 from ...document.shared_parts.selections import Selections, select
 from ...scene.style import PINS
 from ..context import Context

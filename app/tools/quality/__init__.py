@@ -13,7 +13,7 @@ TOOL = Tool(
     synonyms="measure accuracy error check triangles extrema isotropy",
     needs_faces=True,
     dock="dock:QualityDock",
-    findings="quality_worker:QualityFindings",
+    findings="findings:QualityFindings",
     marks="marks:marks",
     items="marks:items",
 )

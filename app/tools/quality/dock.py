@@ -12,8 +12,9 @@ from ...qt.docks.instrument import PAD, Instrument
 from ...qt.docks.plain import PanelTable, fill
 from ...qt.look.form import in_column, in_row
 from ...qt.look.look import LOOK
+from .findings import QualityFindings
 from .measures import MEASURES, NONE, WAITING
-from .quality_worker import KnownQuality, QualityFindings
+from .quality_worker import KnownQuality
 
 MIN_COLUMN_WIDTH_PX = 50
 """Logical pixels of a panel's column."""

@@ -1,5 +1,5 @@
-"""The regions of the pins by panels' distances, divided in the background and drawn on panels; fields are kept, so that
-a pin that is moved costs one.
+"""The regions of the pins by panels' distances, divided in the background; fields are kept, so that a pin that is moved
+costs one.
 
 `ask` and `divided` are called on the view's thread.
 """
@@ -11,7 +11,6 @@ from functools import partial
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from qtpy import QtCore
 
 from bihdist_core.analysis.region_boundaries import Boundary, region_boundaries
 from bihdist_core.analysis.regions import Regions, voronoi_regions
@@ -24,7 +23,6 @@ from bihdist_core.sources.source import Source
 
 from ...document.document import Document, MeshFile
 from ...document.shared_parts.pins import Pins
-from ...qt.context import Context
 from ...session.latest_request_worker import LatestRequestWorker
 from ...session.loaded_mesh import LoadedMesh
 from .part import DividedPanels
@@ -185,39 +183,3 @@ class Dividing:
 
 def _is_asked_about(about: Hashable, latest: _Request) -> bool:
     return any(question.about == about for question, _ in latest.values())
-
-
-class RegionFindings(QtCore.QObject):
-    """Asks `dividing` for the regions of what is shown; `changed` is emitted with a panel's id when it has others."""
-
-    changed = QtCore.Signal(int)
-
-    def __init__(self, context: Context) -> None:
-        super().__init__(context)
-        self._context = context
-        self.dividing = Dividing(context.post, self._show)
-        context.document_changed.connect(self.document_changed)
-        context.panels_cleared.connect(self.show_again)
-        context.closed.connect(self.dividing.close)
-
-    def document_changed(self, _: object = None) -> None:
-        """Ask for the regions of what is shown now."""
-        session = self._context.session
-        if session.loaded() is None:
-            return
-        asked = {}
-        for id, question in regions_questions(session.document).items():
-            loaded = session.loaded(session.document.panel(id).surface)
-            if loaded is not None:
-                asked[id] = (question, loaded)
-        self.dividing.ask(asked)
-
-    def show_again(self) -> None:
-        """Draw the regions again on panels that were cleared."""
-        for panel in self._context.grid.panels:
-            self._show(panel.id)
-
-    def _show(self, panel: int) -> None:
-        if any(shown.id == panel for shown in self._context.grid.panels):
-            self._context.show_found(panel, Divided, self.dividing.divided(panel))
-        self.changed.emit(panel)

@@ -34,7 +34,7 @@ from ...qt.panels.badges import curve_colour, disc_icon
 from ...qt.panels.flat_button import add_entry, menu_button
 from ...scene.style import PINS
 from ...session.chosen_sources import SamplesRequest, find_samples
-from .division import RegionFindings
+from .findings import RegionFindings
 from .part import DividedPanels, can_divide, show_regions
 
 USUAL_POINTS, MAX_POINTS = 10, 10_000

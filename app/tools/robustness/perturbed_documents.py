@@ -134,7 +134,7 @@ def cut_by(cut: Runs, faces: "IntArray", is_restored: bool = False) -> Runs:
     """Return the faces that are cut out, with these (k,) added to them or, if they are restored, taken away."""
     import numpy as np
 
-    from ...document.lists import ids_of, runs_of
+    from ...document.runs import ids_of, runs_of
 
     known = ids_of(cut) if cut else np.empty(0, np.int64)
     return runs_of(np.setdiff1d(known, faces) if is_restored else np.union1d(known, faces))

@@ -18,8 +18,8 @@ from bihdist_core.progress import Progress
 
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.lists import ids_of
 from ...document.quantities import quantity_name
+from ...document.runs import ids_of
 from ...document.shared_parts.selections import Selections
 from ...drawing.chart import Axis
 from ...drawing.numbers import number, share

@@ -7,8 +7,8 @@ from bihdist_core.analysis.field_scatter import FieldScatter
 from bihdist_core.analysis.field_statistics import Agreement
 
 from ...document.document import Document
-from ...document.lists import ids_of
 from ...document.page import Page
+from ...document.runs import ids_of
 from ...document.shared_parts.selections import Selections
 from ...figures.arrangement import ChartRow
 from ...figures.chart_look import ChartLook

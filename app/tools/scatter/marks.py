@@ -1,6 +1,6 @@
 """Selected vertices."""
 
-from ...document.lists import ids_of
+from ...document.runs import ids_of
 from ...document.shared_parts.selections import Selections
 from ...marks.marked_panel import MarkedPanel
 from ...marks.primitives import AreaMark

@@ -46,7 +46,7 @@ def _runs(chosen: Any) -> Runs:
 
     from bihdist_core.analysis.selecting import is_ids_file, read_ids
 
-    from ...document.lists import runs_from_words, runs_of
+    from ...document.runs import runs_from_words, runs_of
 
     if not isinstance(chosen, str):
         return runs_of(np.asarray(chosen))

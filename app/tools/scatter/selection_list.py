@@ -8,7 +8,7 @@ from bihdist_core.applications.changes import count_of
 
 from ...document.document import Document
 from ...document.file_names import file_name
-from ...document.lists import ids_of
+from ...document.runs import ids_of
 from ...document.shared_parts.selections import Selection, Selections, change_selection, select
 from ...qt.context import Context
 from ...qt.docks.brushing import Brushing

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from app.document.file import read_recipe, recipe_text
-from app.document.lists import ids_of
 from app.document.page import Page, Recipe
+from app.document.runs import ids_of
 from app.document.shared_parts.selections import Selections
 from app.tools.scatter.part import Scatter
 from bihdist_core import field_agreement

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from app.document.lists import ids_of
 from app.document.quantities import quantity
+from app.document.runs import ids_of
 from app.document.shared_parts.selections import Selections
 from app.drawing.numbers import number
 from bihdist_core import band, field_statistics, rank_correlation, read_surface
