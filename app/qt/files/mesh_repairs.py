@@ -277,9 +277,10 @@ class MeshRepairs(QtCore.QObject):
                 left = int(ids.max()) + 1
                 gone = counted(len(ids) - left, "vertex", "vertices")
                 where = "File > Repair mesh > Save vertex id table… saves the old and new ids"
-                context.tell(
-                    f"{gone} merged, {left:,} left; {where}", lambda mesh=mesh: mesh in context.document.surfaces
-                )
+                context.tell(f"{gone} merged, {left:,} left; {where}", partial(self._has, mesh))
+
+    def _has(self, mesh: MeshFile) -> bool:
+        return mesh in self._context.document.surfaces
 
     # ------------------------------------------------------------------ components
     def keep_largest_component(self) -> None:
