@@ -1,7 +1,6 @@
 """Clicks, drags and keys on panels that predict: they place, accept, choose, move and remove the points of pairs."""
 
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 from qtpy import QtCore, QtWidgets
 
@@ -11,6 +10,7 @@ from ...qt.context import Context
 from ...qt.dragging import Dragging
 from ...qt.gesture import Gesture
 from ...qt.panels.events import Click
+from ...scene.picking import Hit
 from .answers import Candidate, candidate_in
 from .candidate_errors import CandidateErrorRequest, CandidateErrors, CandidateErrorWorker, candidate_request
 from .pairs import (
@@ -25,9 +25,6 @@ from .pairs import (
     whole_pairs,
 )
 from .quantity import predicts_in
-
-if TYPE_CHECKING:
-    from ...scene.picking import Hit
 
 
 class CandidateFindings(QtCore.QObject):
@@ -136,7 +133,7 @@ class PairGestures(Gesture):
             self.context.session.show(place_point(document, surface, vertex))
             self.choose("")
 
-    def follow(self, panel: int, hit: "Hit") -> None:
+    def follow(self, panel: int, hit: Hit) -> None:
         """Move the point without a partner to the pointer, unless its partner is placed on this surface."""
         document, surface = self.document, self.document.panel(panel).surface
         waiting = waiting_point(document)
@@ -203,7 +200,7 @@ class PairGestures(Gesture):
         self._grid.marks.highlight(self.tool, points)
         self.chosen.emit(point)
 
-    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
+    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: Hit) -> None:
         """Add what can be done at a place to a menu."""
         document = self.document
         pair, half = self._pair_at(document.panel(panel).surface, hit.vertex), half_pair(document)
@@ -237,7 +234,7 @@ class PairGestures(Gesture):
         name = pair.points[0]
         self.choose("" if name in self._grid.marks.highlighted(self.tool) else name)
 
-    def drag(self, panel: int, number: int, hit: "Hit") -> None:
+    def drag(self, panel: int, number: int, hit: Hit) -> None:
         """Move a point as one step of the history, past places that another pair has."""
         session, document = self.context.session, self.document
         surface, pair = document.panel(panel).surface, document[Pairs].pairs[number - 1]

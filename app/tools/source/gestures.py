@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from qtpy import QtCore, QtWidgets
@@ -32,9 +31,7 @@ from ...qt.files.curve_files import CurveFiles
 from ...qt.gesture import LAST, Gesture
 from ...qt.panels.events import Click, Stroke, StrokeEnd
 from ...qt.snapping import Snapping
-
-if TYPE_CHECKING:
-    from ...scene.picking import Hit
+from ...scene.picking import Hit
 
 MAX_DETOUR = 3.0
 """A way on the surface between two places drawn one after another is at most so many times as long as the straight
@@ -143,7 +140,7 @@ class SourceGestures(Gesture):
         else:
             self._move(panel, self.at(panel, click.hit))
 
-    def follow(self, panel: int, hit: "Hit") -> None:
+    def follow(self, panel: int, hit: Hit) -> None:
         self._move(panel, self.at(panel, hit), key="live", live=True)
 
     def cancel(self) -> bool:
@@ -156,7 +153,7 @@ class SourceGestures(Gesture):
         self.context.session.show(move_source(self.document, panel, at), key, live=live)
 
     # ------------------------------------------------------------------ points
-    def drag(self, panel: int, number: int, hit: "Hit") -> None:
+    def drag(self, panel: int, number: int, hit: Hit) -> None:
         """Move a member of the source of a panel."""
         session = self.context.session
         if self._moved is None:
@@ -208,7 +205,7 @@ class SourceGestures(Gesture):
         self.context.session.show(self.document, key=f"steps in {self._grid.active}")
 
     # ------------------------------------------------------------------ members
-    def add_or_remove(self, panel: int, hit: "Hit") -> None:
+    def add_or_remove(self, panel: int, hit: Hit) -> None:
         """Add a place to the source by Ctrl and a click, or remove a member that is there."""
         member, at = self._member_at(panel, hit), self.at(panel, hit)
         if member is None and at in self._members(panel):
@@ -255,7 +252,7 @@ class SourceGestures(Gesture):
         name = source_name(document, panel)
         return members_of(document.point(name).at) if name else ()
 
-    def _member_at(self, panel: int, hit: "Hit") -> Member | None:
+    def _member_at(self, panel: int, hit: Hit) -> Member | None:
         """Return the member of the source near a place, None if there is none."""
         members = self._members(panel)
         if not members:
@@ -264,7 +261,7 @@ class SourceGestures(Gesture):
         best = int(np.argmin([np.linalg.norm(x - hit.position) for x in nearest]))
         return members[best] if self._is_near(panel, nearest[best], hit, POINTER_REACH_PX / 2) else None
 
-    def _nearest_of(self, panel: int, member: Member, hit: "Hit") -> AnyArray:
+    def _nearest_of(self, panel: int, member: Member, hit: Hit) -> AnyArray:
         """Return the point (3,) of a member that is nearest to a place."""
         pieces = pieces_of(member, self.context.session.mesh(panel).surface)
         start, stop = pieces.positions(self._grid.panel(panel).positions)
@@ -274,13 +271,13 @@ class SourceGestures(Gesture):
         nearest: AnyArray = points[np.linalg.norm(points - hit.position, axis=1).argmin()]
         return nearest
 
-    def _is_near(self, panel: int, point: FloatArray, hit: "Hit", pixels: float) -> bool:
+    def _is_near(self, panel: int, point: FloatArray, hit: Hit, pixels: float) -> bool:
         view = self._grid.panel(panel).view
         away = view.place_of(point) - view.place_of(hit.position)
         return float(np.hypot(away.x(), away.y())) <= pixels
 
     # ------------------------------------------------------------------ the menu
-    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: "Hit") -> None:
+    def offer(self, menu: QtWidgets.QMenu, panel: int, hit: Hit) -> None:
         """Add what can be done to the source to a menu."""
         menu.addAction("Source here\tClick", lambda: self._click_by_menu(panel, hit))
         member, members = self._member_at(panel, hit), self._members(panel)
@@ -296,11 +293,11 @@ class SourceGestures(Gesture):
             if members and loop not in members:
                 menu.addAction("Add this boundary to the source", lambda: self.add(panel, loop))
 
-    def _click_by_menu(self, panel: int, hit: "Hit") -> None:
+    def _click_by_menu(self, panel: int, hit: Hit) -> None:
         self.context.picked.emit(panel, hit)
         self.click(panel, Click(hit))
 
-    def _loop_near(self, panel: int, hit: "Hit") -> BoundaryLoop | None:
+    def _loop_near(self, panel: int, hit: Hit) -> BoundaryLoop | None:
         surface, positions = self.context.session.mesh(panel).surface, self._grid.panel(panel).positions
         edges = surface.boundary_edges
         if not len(edges):
@@ -321,7 +318,7 @@ class SourceGestures(Gesture):
         self._grid.marks.draw_on(is_drawing)
         self.context.tell("Drag over the surface to draw a source; Ctrl adds the curve, Esc ends" * is_drawing)
 
-    def _draw(self, panel: int, hit: "Hit | None") -> None:
+    def _draw(self, panel: int, hit: Hit | None) -> None:
         if hit is None:
             self._is_beside = True
             return
