@@ -12,7 +12,7 @@ from bihdist_core.arrays import BoolArray, FloatArray
 from ..drawing.glyphs import NAMED, TRIANGLE_DOWN, TRIANGLE_UP, glyph_shapes
 from ..drawing.shapes import Box, Group, Path, Pen, Shape, opaque, polyline, rectangle
 from ..marks.primitives import PointMark, cut_away_words
-from ..scene.clipping import clip_plane, is_kept
+from ..scene.clipping import clip_plane, is_kept, lines_cut_away
 from ..scene.corners import Rectangle, inside, joins
 from .page_layout import ComposedPage
 from .shots import Shot
@@ -230,10 +230,11 @@ def hidden_words(page: ComposedPage) -> list[str]:
                 found[f"{mark.title} is {rest}"] = None
         plane, x = clip_plane(panel.clip, panel.surface), panel.surface.vertices
         gone = [mark for mark in panel.marks if not is_kept(plane, mark.on(x)[None])[0]]
-        if gone and not panel.warp_factor:
-            found[cut_away_words(gone)] = None
+        lines = lines_cut_away(plane, ((line.name, line.positions(x)) for line in panel.lines))
+        if (gone or lines) and not panel.warp_factor:
+            found[cut_away_words(gone, lines)] = None
         for name in dict.fromkeys(line.name for line in panel.lines if line.name):
-            if not any(name in shot.seen for shot in shots):
+            if name not in lines and not any(name in shot.seen for shot in shots):
                 rest = ", or cut away" if plane is not None else "; try --cpos source or --cpos front,back"
                 found[f"{name} is hidden in {views}{rest}."] = None
     return list(found)

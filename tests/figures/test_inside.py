@@ -214,14 +214,22 @@ def test_the_inside_of_a_closed_body_shows_no_isolines_once_it_is_cut():
 
 def test_marks_that_are_cut_away_are_named(tmp_path):
     surface = bumpy(300)
-    far, near = int(surface.vertices[:, 0].argmax()), int(surface.vertices[:, 0].argmin())
+    order = surface.vertices[:, 0].argsort()
+    far, near = int(order[-1]), int(order[0])
     marks = PointMark(far), PointMark(near), PointMark(far, number=2)
-    for given, said in (
-        (marks[1:2], []),
-        (marks[:2], [f"Vertex {far} is cut away by the clip plane."]),
-        (marks, [f"Vertex {far} and 1 other mark are cut away by the clip plane."]),
+
+    def line(name, vertices):
+        return LineMark(np.repeat(vertices[:, None], 3, 1), np.array([[1.0, 0, 0]] * len(vertices)), name=name)
+
+    gone, partly, unnamed = line("The curve", order[-3:]), line("Half", order[[0, -1]]), line("", order[-3:])
+    for given, lines, said in (
+        (marks[1:2], (partly, unnamed), []),
+        (marks[:2], (), [f"Vertex {far} is cut away by the clip plane."]),
+        (marks, (), [f"Vertex {far} and 1 other mark are cut away by the clip plane."]),
+        (marks[1:2], (gone, partly), ["The curve is cut away by the clip plane."]),
+        (marks[2:], (gone,), ["The curve and 1 other mark are cut away by the clip plane."]),
     ):
-        panel = FigurePanel(surface, None, views=("left", "right"), marks=given, clip=Clip())
+        panel = FigurePanel(surface, None, views=("left", "right"), marks=given, lines=lines, clip=Clip())
         assert save_figure(Figure((panel,), size=Size.parse("200x200")), tmp_path / "cut.png") == said
 
 
