@@ -490,7 +490,8 @@ class FieldActor:
 def _weighted(colours: ByteArray, faces: IntArray) -> FloatArray:
     """Return colours (n, 4) of labels at vertices of faces (m, 3), multiplied by weights, which draw borders."""
     signed = np.where(colours[:, 3:] == 0, [0, 0, 0, -1], colours / 255)
-    weighted: FloatArray = signed * label_weights(colours.view(np.int32).ravel(), faces)[:, None]
+    labels = colours.view(np.uint32).ravel().astype(np.int64)
+    weighted: FloatArray = signed * label_weights(labels, faces)[:, None]
     return weighted
 
 
