@@ -456,10 +456,10 @@ class Document:
         return tuple(dict.fromkeys(self.point(name).at for panel in self.panels for name in panel.shows.points))
 
 
-def usual_specs(path: str) -> tuple[Spec, ...]:
+def usual_specs(path: str, has_faces: bool = True) -> tuple[Spec, ...]:
     """Return the distances of a new document of a mesh: COMPARISON, without what points and solids do not have."""
     path = mesh_path(path)
-    lacks_faces = holds_points(path) or mesh_format(path) in SOLIDS
+    lacks_faces = not has_faces or holds_points(path) or mesh_format(path) in SOLIDS
     return tuple(ON_POINTS.get(spec, spec) for spec in COMPARISON) if lacks_faces else COMPARISON
 
 
