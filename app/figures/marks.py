@@ -91,8 +91,11 @@ def _words_beside(
 
 
 def _covered(page: ComposedPage, shot: Shot, words: TextLines) -> bool:
-    """Return whether words stand on the shape."""
+    """Return whether words stand on the shape, or across the frame of what an inset enlarges."""
     box = _box_of(page, words).grown(2)
+    frames = [inset.source for inset in page.insets_of(shot.panel) if shot.source is None]
+    if any(frame and frame.meets(box) and not frame.contains(box) for frame in frames):
+        return True
     across, down = np.meshgrid(np.linspace(box.x, box.right, 9), np.linspace(box.y, box.bottom, 3))
     return bool((shot.cover_at(np.column_stack([across.ravel(), down.ravel()])) > 0).any())
 
