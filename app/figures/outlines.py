@@ -126,8 +126,8 @@ def _lines(nodes: AnyArray, places: FloatArray, drawn: AnyArray) -> list[Line]:
         return []
     segments = segments[_long_enough(segments, places)]
     count = np.bincount(segments.ravel())
-    found = [(places[chain], closed, count[chain[[0, -1]]]) for chain, closed in chains(segments)]
-    return [(points, closed) for points, closed, ends in found if closed or not _is_spur(points, ends)]
+    traced = [(places[chain], closed, count[chain[[0, -1]]]) for chain, closed in chains(segments)]
+    return [(points, closed) for points, closed, ends in traced if closed or not _is_spur(points, ends)]
 
 
 def _is_spur(points: FloatArray, ends: IntArray) -> bool:
