@@ -114,7 +114,7 @@ def eigenvalues(shapes: Shapes, name: str, quick: bool, progress: Progress) -> F
         {"exponent of k": slope} if count >= FEWEST else {},
         f"Fitted over {len(fitted)} numbers k from {fitted[0]} to {count}, evenly in log k; the last eigenvalue over "
         f"4πk / area: {ratio:.2f}.",
-        failure="" if count >= FEWEST else f"It is judged over {FEWEST} eigenvalues or more; the mesh resolves {most:,}.",
+        failure="" if count >= FEWEST else f"It takes {FEWEST} eigenvalues or more; the mesh resolves {most:,}.",
     )
     chart = Chart("eigenvalues", "k", "eigenvalue", series, log_x=True, log_y=True)
     return Findings(charts=[chart], claims=[claim])
