@@ -30,6 +30,7 @@ def page(
     cut: str = "",
     merge: float | None = None,
     largest_component: bool = False,
+    operator: str = "cotan",
     isolines: int | IsolineOptions = 20,
     look: LookOptions | None = None,
     view: ViewOptions | None = None,
@@ -63,6 +64,8 @@ def page(
         Merge vertices that are no farther apart.
     largest_component : bool
         Keep only the connected component with most vertices.
+    operator : {"cotan", "intrinsic-delaunay", "tufted"}
+        The operator, see `Laplacian`.
     isolines : int or IsolineOptions
         About how many isolines, at round values; or ``count``, ``equal``, ``spacing``, ``values`` and ``through``.
     look : LookOptions, optional
@@ -106,8 +109,8 @@ def page(
     >>> max(page.differs.values()) < 1e-6
     True
     """
-    own = {"areas": areas, "cut": cut, "merge": merge, "largest_component": largest_component, "isolines": isolines}
-    groups = {"look": look, "view": view, "marks": marks, "layout": layout}
+    own = {"areas": areas, "cut": cut, "merge": merge, "largest_component": largest_component, "operator": operator}
+    groups = {"isolines": isolines, "look": look, "view": view, "marks": marks, "layout": layout}
     recipe, given = recipe_of("page", mesh, distances, source, fields, {**own, **groups, **others}, progress)
     page, _ = write_page(recipe, path, given, precision, eigenpairs, progress, credit)
     return page

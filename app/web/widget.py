@@ -35,6 +35,7 @@ def widget(
     cut: str = "",
     merge: float | None = None,
     largest_component: bool = False,
+    operator: str = "cotan",
     isolines: int | IsolineOptions = 20,
     look: LookOptions | None = None,
     view: ViewOptions | None = None,
@@ -67,6 +68,8 @@ def widget(
         Merge vertices that are no farther apart.
     largest_component : bool
         Keep only the connected component with most vertices.
+    operator : {"cotan", "intrinsic-delaunay", "tufted"}
+        The operator, see `Laplacian`.
     isolines : int or IsolineOptions
         About how many isolines, at round values; or ``count``, ``equal``, ``spacing``, ``values`` and ``through``.
     look : LookOptions, optional
@@ -111,8 +114,8 @@ def widget(
         from .distance_widget import DistanceWidget
     except ImportError:
         raise ParameterError(f"Widgets need the package anywidget: {install_command('anywidget')}") from None
-    own = {"areas": areas, "cut": cut, "merge": merge, "largest_component": largest_component, "isolines": isolines}
-    groups = {"look": look, "view": view, "marks": marks, "layout": layout}
+    own = {"areas": areas, "cut": cut, "merge": merge, "largest_component": largest_component, "operator": operator}
+    groups = {"isolines": isolines, "look": look, "view": view, "marks": marks, "layout": layout}
     recipe, given = recipe_of("widget", mesh, distances, source, fields, {**own, **groups, **others}, progress)
     made = DistanceWidget.of(page_of(recipe, given, precision, eigenpairs, progress))
     if on_pick is not None:

@@ -64,7 +64,6 @@ def test_a_batch_measures_solids_and_says_that_they_have_no_areas(solid, path, t
 
 def test_what_needs_a_surface_is_refused(path, tmp_path, capsys):
     assert "changes need faces" in refused(capsys, "perturb", path, "--noise", "1", "-o", tmp_path / "a.ply")
-    assert "pages cannot measure through tetrahedra" in refused(capsys, "page", path, "-o", tmp_path / "a.html")
 
 
 # ---------------------------------------------------------------------- the cut
