@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from bihdist_core.counts import counted
-from bihdist_core.distances.distance_types import Spec
 from bihdist_core.formats.mesh_names import mesh_name
 
 from ..document.document import usual_specs
@@ -61,7 +60,7 @@ def run(options: argparse.Namespace) -> Result:
     from ..web.html_file import embed_code
 
     if options.distance is None and options.recipe is None and options.mesh:
-        usual = usual_specs(options.mesh, tuple(map(Spec.of, USUAL)))
+        usual = usual_specs(options.mesh)[: len(USUAL)]
         options.distance = [*map(str, usual), *(field.name for field in options.fields or ())]
     recipe = chosen_recipe(options)
     path = options.output or f"{mesh_name(recipe.document.surfaces[0].path)}.html"

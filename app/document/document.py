@@ -456,11 +456,11 @@ class Document:
         return tuple(dict.fromkeys(self.point(name).at for panel in self.panels for name in panel.shows.points))
 
 
-def usual_specs(path: str, usual: tuple[Spec, ...] = COMPARISON) -> tuple[Spec, ...]:
-    """Return the usual distances of a new document of a mesh, without what points and solids do not have."""
+def usual_specs(path: str, has_faces: bool = True) -> tuple[Spec, ...]:
+    """Return the distances of a new document of a mesh: COMPARISON, without what points and solids do not have."""
     path = mesh_path(path)
-    lacks_faces = holds_points(path) or mesh_format(path) in SOLIDS
-    return tuple(ON_POINTS.get(spec, spec) for spec in usual) if lacks_faces else usual
+    lacks_faces = not has_faces or holds_points(path) or mesh_format(path) in SOLIDS
+    return tuple(ON_POINTS.get(spec, spec) for spec in COMPARISON) if lacks_faces else COMPARISON
 
 
 def comparison(

@@ -20,7 +20,7 @@ from bihdist_core.distances.answers import Answer
 from bihdist_core.progress import Progress
 from bihdist_core.sources.source import Source
 
-from ..document.document import Document
+from ..document.document import COMPARISON, Document
 from ..document.file import read_recipe
 from ..document.looks import Isolines
 from ..document.page import Page, Recipe
@@ -157,7 +157,7 @@ class Picture:
 
 def figure(
     mesh: Mesh,
-    distances: Sequence[str | Quantity] = ("biharmonic", "geodesic", "diffusion"),
+    distances: Sequence[str | Quantity] | None = None,
     source: Source | str | Sequence[Source | str] | npt.NDArray[np.integer] | None = None,
     *,
     fields: Mapping[str, npt.ArrayLike | os.PathLike[str]] | None = None,
@@ -185,8 +185,9 @@ def figure(
     ----------
     mesh : str or MeshLike
         A file, the name of a sample, or the mesh itself.
-    distances : sequence of str
-        The distances, a panel each, such as ``"diffusion(t=1/4)"`` or ``"biharmonic - geodesic"``.
+    distances : sequence of str, optional
+        The distances, a panel each, such as ``"diffusion(t=1/4)"`` or ``"biharmonic - geodesic"``; by default
+        biharmonic, geodesic, or commute-time where there are no faces, and diffusion.
     source : int, str, Source or sequence of these, optional
         The vertex where distances start, by default the highest, or another source (``"12+40"``). Several sources get
         a row of panels each; with a second mesh, one source each mesh.
@@ -268,7 +269,7 @@ def figure(
             )
         sources, second = sources[:1], sources[1] if len(sources) > 1 else None
     document, store = comparison_of_arrays(mesh, distances, {} if fields is None else fields, sources)
-    columns = len(distances) if several and len(sources) > 1 else None
+    columns = len(COMPARISON if distances is None else distances) if several and len(sources) > 1 else None
 
     def with_second(document: Document) -> Document:
         return document if second_mesh is None else with_second_mesh(document, store, second_mesh, second)

@@ -54,8 +54,8 @@ LARGEST = Option(
 
 OPERATOR = Option(
     "operator",
-    "operator of the distances: by the faces, as in the paper; of an intrinsic Delaunay triangulation, for thin faces; "
-    f"or of the tufted cover, for edges of more than two faces (default: {COTAN})",
+    "operator of the distances, the same for all meshes: by the faces, as in the paper; of an intrinsic Delaunay "
+    f"triangulation, for thin faces; or of the tufted cover, for edges of more than two faces (default: {COTAN})",
     COTAN,
     group="",
     choices=tuple(OPERATORS),

@@ -304,7 +304,7 @@ _open: set[Viewer] = set()
 
 def show(
     mesh: Mesh,
-    distances: Sequence[str | Quantity] = ("biharmonic", "geodesic", "diffusion"),
+    distances: Sequence[str | Quantity] | None = None,
     fields: Mapping[str, npt.ArrayLike | os.PathLike[str]] | None = None,
     source: Source | str | None = None,
     *,
@@ -324,8 +324,9 @@ def show(
     ----------
     mesh : str or MeshLike
         A file, the name of a sample, or the mesh itself.
-    distances : sequence of str
-        The distances, a panel each, such as ``"diffusion(t=1/4)"`` or ``"biharmonic - geodesic"``.
+    distances : sequence of str, optional
+        The distances, a panel each, such as ``"diffusion(t=1/4)"`` or ``"biharmonic - geodesic"``; by default
+        biharmonic, geodesic, or commute-time where there are no faces, and diffusion.
     fields : mapping of str to (n,) array_like or file, optional
         Your own fields by name, NaN where undefined, or files of them: ``"lh.thickness"``, ``"all.npz:curv"``.  Each
         has a panel, coloured from 0 (if it has negative values, from minus its largest absolute value), or is used in

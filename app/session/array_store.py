@@ -15,15 +15,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from bihdist_core import ParameterError, PointCloud, Surface
-from bihdist_core.arrays import AnyArray, FloatArray
+from bihdist_core import ParameterError, PointCloud, Surface, TetrahedralMesh
+from bihdist_core.arrays import AnyArray, FloatArray, IntArray
 from bihdist_core.distances.answers import Answer, given_answer
 from bihdist_core.file_content import open_regular
 from bihdist_core.formats.array_file import archived_array, opened_archive
 from bihdist_core.mesh_like import MeshLike
 from bihdist_core.sources.source import Source, checked_source
 
-from ..document.document import Document, FieldArray, MeshFile, comparison
+from ..document.document import Document, FieldArray, MeshFile, comparison, usual_specs
 from ..document.page import Recipe
 from ..document.quantities import Quantity, quantity
 from ..document.second_mesh_edits import open_second_mesh
@@ -50,7 +50,7 @@ class ArrayStore:
 
     def add_surface(self, surface: Surface, name: str = "A") -> MeshFile:
         """Keep a surface; what a document calls it."""
-        digest = _checksum(surface.vertices, surface.faces)
+        digest = _checksum(surface.vertices, _corners(surface))
         self._surfaces[digest] = surface
         return MeshFile(name, "", digest)
 
@@ -142,7 +142,7 @@ class ArrayStore:
         for mesh in document.surfaces:
             if not mesh.path and mesh.change is None:
                 surface, at = self.surface(mesh), f"surface/{mesh.name}"
-                arrays |= {f"{at}/vertices": surface.vertices, f"{at}/faces": surface.faces}
+                arrays |= {f"{at}/vertices": surface.vertices, f"{at}/faces": _corners(surface)}
                 arrays[f"{at}/name"] = np.array(surface.name)
         given = (field for field in document.fields if not field.path)
         return arrays | {f"field/{field.name}": self.field(field.sha256, field.name) for field in given}
@@ -166,8 +166,7 @@ class ArrayStore:
                 if not mesh.path and mesh.change is None:
                     at = f"surface/{mesh.name}"
                     vertices, faces, name = (archived_array(archive, f"{at}/{part}", path) for part in PARTS)
-                    made = Surface(vertices, faces, str(name)) if len(faces) else PointCloud(vertices, str(name))
-                    _check(given.add_surface(made), mesh, path)
+                    _check(given.add_surface(_made(vertices, faces, str(name))), mesh, path)
             for field in document.fields:
                 if not field.path:
                     _check(
@@ -195,12 +194,15 @@ def is_archive(path: str | os.PathLike[str]) -> bool:
 
 def comparison_of_arrays(
     mesh: Mesh,
-    distances: Sequence[str | Quantity],
+    distances: Sequence[str | Quantity] | None,
     fields: Mapping[str, Values],
     sources: tuple[Source | str | None, ...],
     areas: str = "voronoi",
 ) -> tuple[Document, ArrayStore]:
-    """Return a mesh with a panel for each distance from each source, and one for each field that none of them names."""
+    """Return a mesh with a panel for each distance from each source, and one for each field that none of them names.
+
+    None stands for the usual distances.
+    """
     if isinstance(distances, str):
         raise ParameterError(f"Distances are given as a list, such as [{distances!r}], not a text.")
     if not isinstance(fields, Mapping):
@@ -208,7 +210,9 @@ def comparison_of_arrays(
     given = ArrayStore()
     entry = _entry(mesh, given)
     own = tuple(given.add_field(name, values) for name, values in fields.items())
-    shows = tuple(_quantity(each, fields) for each in distances)
+    has_faces = bool(entry.path) or len(given.surface(entry).faces) > 0
+    usual = usual_specs(entry.path, has_faces)
+    shows = usual if distances is None else tuple(_quantity(each, fields) for each in distances)
     return replace(comparison(entry.path, shows, sources, areas, own), surfaces=(entry,)), given
 
 
@@ -227,6 +231,18 @@ def _quantity(shows: Any, fields: Collection[str]) -> Quantity:
     if not isinstance(shows, Quantity):
         raise ParameterError(f"{shows!r} is not a distance; write it in words, such as 'diffusion(t=1/4)'.")
     return shows
+
+
+def _corners(surface: Surface) -> IntArray:
+    """Return the faces (m, 3) of a surface, or the tetrahedra (m, 4) of a solid."""
+    return surface.tetrahedra if isinstance(surface, TetrahedralMesh) else surface.faces
+
+
+def _made(vertices: AnyArray, corners: AnyArray, name: str) -> Surface:
+    """Return what has these corners: points if there are none."""
+    if not len(corners):
+        return PointCloud(vertices, name)
+    return TetrahedralMesh(vertices, corners, name) if corners.shape[1] == 4 else Surface(vertices, corners, name)
 
 
 def _checksum(*arrays: AnyArray) -> str:

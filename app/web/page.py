@@ -16,13 +16,12 @@ from ..figures.arguments import IsolineOptions, LayoutOptions, LookOptions, Mark
 from ..session.array_store import Mesh
 from .arguments import recipe_of
 from .export import Page, write_page
-from .options import USUAL
 
 
 def page(
     mesh: Mesh,
     path: str | os.PathLike[str],
-    distances: Sequence[str | Quantity] = USUAL,
+    distances: Sequence[str | Quantity] | None = None,
     source: Source | str | None = None,
     *,
     fields: Mapping[str, npt.ArrayLike | os.PathLike[str]] | None = None,
@@ -50,8 +49,9 @@ def page(
         A file, the name of a sample, or the mesh itself.
     path : str or path
         The .html file.
-    distances : sequence of str
-        The distances, a panel each, such as ``"geodesic"`` or ``"biharmonic - commute-time"``.
+    distances : sequence of str, optional
+        The distances, a panel each, such as ``"geodesic"`` or ``"biharmonic - commute-time"``; by default biharmonic,
+        and geodesic, or commute-time where there are no faces.
     source : int, str or Source, optional
         Vertex that distances start from at first, by default the highest.
     fields : mapping of str to (n,) array_like or file, optional

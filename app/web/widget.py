@@ -18,7 +18,6 @@ from ..session.array_store import Mesh
 from ..version import install_command
 from .arguments import recipe_of
 from .export import page_of
-from .options import USUAL
 
 if TYPE_CHECKING:
     from .distance_widget import DistanceWidget
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
 
 def widget(
     mesh: Mesh,
-    distances: Sequence[str | Quantity] = USUAL,
+    distances: Sequence[str | Quantity] | None = None,
     source: Source | str | None = None,
     *,
     fields: Mapping[str, npt.ArrayLike | os.PathLike[str]] | None = None,
@@ -52,8 +51,9 @@ def widget(
     ----------
     mesh : str or MeshLike
         A file, the name of a sample, or the mesh itself.
-    distances : sequence of str
-        The distances, a panel each, such as ``"geodesic"`` or ``"biharmonic - commute-time"``.
+    distances : sequence of str, optional
+        The distances, a panel each, such as ``"geodesic"`` or ``"biharmonic - commute-time"``; by default biharmonic,
+        and geodesic, or commute-time where there are no faces.
     source : int, str or Source, optional
         Vertex that distances start from, by default the highest.
     fields : mapping of str to (n,) array_like or file, optional

@@ -40,7 +40,10 @@ def _npy(raw: bytes, name: str) -> FloatArray:
     except ParameterError as error:
         raise MeshError(f"{name} cannot be read: {error}") from None
     if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "iuf":
-        raise MeshError(f"{name} has {array.dtype} of the shape {array.shape}; points are real numbers (n, 3).")
+        raise MeshError(
+            f"{name} has {array.dtype} of the shape {array.shape}; points are real numbers (n, 3), "
+            "and values at vertices need their mesh first."
+        )
     return array.astype(np.float64)
 
 

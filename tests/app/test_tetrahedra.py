@@ -7,6 +7,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
 from app.document.document import usual_specs
+from app.figures.picture import figure, figure_again
 from app.scene.clipping import INWARDS, ClipPlane, cut_through
 from app.scene.drawable import drawable
 from app.scene.field_actor import UNDEFINED, FieldActor
@@ -51,6 +52,15 @@ def test_a_session_shows_the_boundary_with_distances_through_the_solid(desk, sol
 
 def test_files_of_tetrahedra_are_opened_without_geodesic_distance():
     assert [spec.word for spec in usual_specs("ball.mesh")] == ["biharmonic", "commute-time", "diffusion"]
+
+
+def test_a_figure_of_a_solid_from_python_is_drawn_again_from_its_archive(solid, tmp_path):
+    drawn = figure(solid, source=5, layout={"size": "300x150"})
+    assert [answer.label.partition(",")[0] for answer in drawn.answers] == ["biharmonic", "commute-time", "diffusion"]
+    drawn.save(tmp_path / "ball.png")
+    again = figure_again(tmp_path / "ball.json")
+    assert np.array_equal(again.answers[0].field, drawn.answers[0].field)
+    assert np.array_equal(again.pixels, drawn.pixels)
 
 
 def test_a_batch_measures_solids_and_says_that_they_have_no_areas(solid, path, tmp_path, capsys):

@@ -25,6 +25,7 @@ OPTIONAL = {
     "trimesh": "trimesh",
     "libigl": "igl",
     "cholespy": "cholespy",
+    "pypardiso": "pypardiso",
     "pygeodesic": "pygeodesic",
 }
 """What takes part where it is installed, and the modules' names."""
@@ -84,6 +85,15 @@ def cholmod(matrix: sp.csc_matrix) -> Callable[[np.ndarray], np.ndarray]:
         return x
 
     return solve
+
+
+def pardiso(matrix: sp.csc_matrix) -> Callable[[np.ndarray], np.ndarray]:
+    """The same by PARDISO of Intel's library, through pypardiso."""
+    from pypardiso import PyPardisoSolver
+
+    solver, upper = PyPardisoSolver(mtype=2), sp.csr_matrix(sp.triu(matrix))
+    solver.factorize(upper)
+    return lambda b: solver.solve(upper, b)
 
 
 def read_by_vtk(path: str) -> Any:

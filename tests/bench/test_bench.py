@@ -44,7 +44,7 @@ def is_a_rate(line):
 def test_every_row_is_there_with_its_bound(quick):
     printed, written = quick
     lines = written["lines"]
-    assert {line["row"] for line in lines} == set(ROWS) == set(range(1, 29))
+    assert {line["row"] for line in lines} == set(ROWS) == set(range(1, 30))
     assert all(
         line["bound"] is not None for line in lines if "folded" not in line["work"] and "needle" not in line["work"]
     )

@@ -48,9 +48,16 @@ SAID = {
         # A thin tube changes geodesic distances by half of the maximum, biharmonic ones by less than a tenth.
         r"BiharmonicDistance mean +\d\.\d+%, most +\d\.\d+%\nGeodesicDistance +mean +\d\.\d+%, most 5\d\.\d+%\njoined",
     ],
+    "graphs": [
+        r"binary tree +31 +30 +\de-1\d +nan +1\.00.*\nbarbell +23 +94 +\de-1\d +0\.47 +1\.00",
+        r"karate club +34 +78 .* 0\.37 .*\n.*\n.* +0\.36 +0\.83 +0\.94",
+        r"groups, 2 % between +1\.00 +1\.00 +1\.00 +0\.[0-5]\d +1\.00 +1\.00 +1\.00\n",
+        r"groups, 10 % between +0\.[0-6]\d +0\.[89]\d +(1\.00|0\.9\d) +0\.3\d +0\.3\d +0\.3\d +0\.[89]",
+        r"binary tree +0 +.* never\n(.*\n)+.*Medici(.*\n)+Southern women .* never, never\n.*Valjean +0\.7[45]",
+    ],
     "solver": [r"off by \de-1\d of the maximum\noff by \de-1\d of the maximum", r"less than the set-up: True"],
 }
-"""What the blocks of two pages print, where the words beside them say so; `test_pages` runs those of all pages."""
+"""What the blocks of these pages print, where the words beside them say so; `test_pages` runs those of all pages."""
 
 
 @pytest.mark.parametrize("name", SAID)

@@ -52,6 +52,18 @@ def test_what_needs_faces_is_disabled_with_the_reason(scan):
     assert (geodesic.isEnabled(), geodesic.toolTip()) == (False, "Geodesic distance needs faces, and points have none")
 
 
+def test_a_numpy_array_of_points_is_opened_unless_it_has_values_of_the_mesh(scan, mesh_file, tmp_path):
+    np.save(tmp_path / "few.npy", np.ones(7))
+    np.save(tmp_path / "more.npy", bumpy(60).vertices)
+    scan.open(mesh_file(bumpy(300), "mesh.off"), 3)
+    scan.until(lambda: scan.session.is_complete)
+    parts(scan.window).files.open(str(tmp_path / "few.npy"))
+    scan.until(lambda: scan.refusals)
+    assert scan.refusals == ["few.npy has 7 values, and mesh.off has 300 vertices."]
+    parts(scan.window).files.open(str(tmp_path / "more.npy"))
+    scan.until(lambda: scan.session.is_complete and scan.window.status.counts.text == "60 points  no faces")
+
+
 def test_a_mesh_after_points_has_all_tools(scan, mesh_file):
     scan.open(mesh_file(bumpy(300), "mesh.off"), 3)
     scan.until(lambda: scan.session.is_complete)

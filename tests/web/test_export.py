@@ -313,6 +313,9 @@ def test_a_page_of_points_leaves_out_what_needs_faces_and_says_so(cloud, in_fold
     assert [each["label"] for each in scene["offered"]] == [
         "commute-time, exact", "1/λ^1.5, exact", "diffusion, t = 1", "biharmonic, 200 eigenpairs",
     ]  # fmt: skip
+    assert bihdist.page(cloud, "q.html", source=7, fields={"x": cloud.vertices[:, 0]}).labels == (
+        "biharmonic, exact", "commute-time, exact", "x",
+    )  # fmt: skip
     page = bihdist.page(cloud, "q.html", ["biharmonic", "diffusion(t=1/4)"], 7)
     assert 0 < max(page.differs.values()) < 1e-6
     with pytest.raises(ParameterError, match=r"scan.xyz: geodesic distance needs faces"):

@@ -11,7 +11,7 @@ from bihdist_core import Surface
 from bihdist_core.arrays import ByteArray, FloatArray
 from bihdist_core.counts import counted
 from bihdist_core.formats.field_output import FIELD_FORMATS, write_fields
-from bihdist_core.formats.mesh_names import GZIP
+from bihdist_core.formats.mesh_names import GZIP, holds_points
 from bihdist_core.formats.surface_output import COLOURED_FORMATS, write_coloured
 from bihdist_core.progress import Progress
 
@@ -72,8 +72,13 @@ class FieldFiles:
         ask_file(self._context, "Add field", file_filter("Fields", (*ARRAY_FORMATS, GZIP, "lh.*", "rh.*")), self.add)
 
     def add(self, path: str) -> None:
-        """Show an array of a file, which the user chooses if there are several; or tell why that is not possible."""
-        if self._context.session.loaded() is None:
+        """Show an array of a file, which the user chooses if there are several; or tell why that is not possible.
+
+        An array (n, 3) without a mesh that has n vertices is opened as points.
+        """
+        if self._context.session.loaded() is None and holds_points(path):
+            self._context.open(path)
+        elif self._context.session.loaded() is None:
             self._context.fail(f"{os.path.basename(path)} has values at vertices; open its mesh first.")
         else:
             self._reading.ask(path)
@@ -87,6 +92,9 @@ class FieldFiles:
         counts = {name: len(session.mesh(name).surface.vertices) for name in names if session.loaded(name)}
         fitting = [(each, name) for each in arrays for name, n in counts.items() if n == len(each.values)]
         fitting = list({each.name: (each, name) for each, name in reversed(fitting)}.values())[::-1]
+        if not fitting and len(arrays) == 3 and holds_points(path):
+            self._context.open(path)
+            return
         if not fitting:
             values = " or ".join(dict.fromkeys(f"{len(each.values):,}" for each in arrays[:3]))
             there = " and ".join(f"{session.mesh(name).surface.name} has {n:,} vertices" for name, n in counts.items())

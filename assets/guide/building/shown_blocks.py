@@ -71,7 +71,8 @@ class ShownBlock(SphinxDirective):
         return self._placed([*shown, *pictures, *below])
 
     def _code(self, code: str) -> nodes.Node:
-        literal = nodes.literal_block(code, code, language=LANGUAGES[self.name])
+        is_script = self.arguments[:1] and self.arguments[0].endswith(".py")
+        literal = nodes.literal_block(code, code, language="python" if is_script else LANGUAGES[self.name])
         self.set_source_info(literal)
         return container_wrapper(self, literal, self.arguments[0]) if self.name == "file" else literal
 
