@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bihdist_core import BihdistError, Laplacian, ParameterError, PointCloud, TetrahedralMesh
+from bihdist_core import BihdistError, Laplacian, ParameterError, PointCloud, Surface, TetrahedralMesh
 from bihdist_core.arrays import FloatArray
 from bihdist_core.distances.answers import Answer, Distances
 from bihdist_core.distances.distance import unit_of
@@ -16,6 +16,7 @@ from bihdist_core.distances.distance_types import BUILT_IN, Spec
 from bihdist_core.distances.spectral import SpectralDistance
 from bihdist_core.distances.unfolding_mesh import unfolding_mesh
 from bihdist_core.file_output import atomic_write, check_output
+from bihdist_core.formats.mesh_names import holds_points
 from bihdist_core.formats.vertex_count import announced_vertices
 from bihdist_core.intrinsic import COTAN, TUFTED
 from bihdist_core.progress import Progress, part
@@ -38,6 +39,9 @@ FORMATS = (".html",)
 
 MOST_VERTICES = 200_000
 """Largest mesh of a page; beyond it browsers run out of memory, or take minutes."""
+
+MOST_OF_SOLIDS = 50_000
+"""Of tetrahedra, whose factor takes a browser about a minute then."""
 
 SIMPLIFIED = 100_000
 
@@ -159,7 +163,7 @@ def page_of(
     document, surfaces = open_document(recipe, given or ArrayStore.read(recipe))
     contents = Contents.of(document)
     loaded = surfaces[document.surfaces[0].name]
-    check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path)
+    check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path, loaded.surface)
     laplacian, left_out = loaded.distances(document.areas).laplacian, list[str]()
     has_faces = len(laplacian.surface.faces) > 0
     if not has_faces:
@@ -237,13 +241,16 @@ def _check_announced(mesh: MeshFile) -> None:
         check_size(os.path.basename(path), announced_vertices(path) or 0, mesh.path)
 
 
-def check_size(name: str, vertices: int, path: str = "") -> None:
+def check_size(name: str, vertices: int, path: str = "", surface: Surface | None = None) -> None:
     """Raise ParameterError for a mesh that is too large for a page, with what makes it smaller."""
-    if vertices > MOST_VERTICES:
-        raise ParameterError(
-            f"{name} has {vertices:,} vertices, and a page has up to {MOST_VERTICES:,}; make it "
-            f"smaller with: bihdist perturb {path or 'MESH'} --simplify {SIMPLIFIED} -o smaller.ply"
-        )
+    most, remedy = MOST_VERTICES, "make it smaller with: "
+    remedy += f"bihdist perturb {path or 'MESH'} --simplify {SIMPLIFIED} -o smaller.ply"
+    if isinstance(surface, SolidBoundary):
+        most, remedy = MOST_OF_SOLIDS, "take coarser tetrahedra"
+    elif isinstance(surface, PointCloud) or (path and holds_points(path)):
+        remedy = "join near points with --merge TOLERANCE"
+    if vertices > most:
+        raise ParameterError(f"{name} has {vertices:,} vertices, and a page has up to {most:,}; {remedy}")
 
 
 def needed_eigenpairs(contents: Contents) -> dict[str, int]:

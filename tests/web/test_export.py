@@ -189,6 +189,17 @@ def test_a_large_mesh_is_refused_with_what_makes_it_smaller(monkeypatch, mesh_fi
     assert main(["page", "smaller.ply", "-o", "p.html"]) == 0
 
 
+def test_points_and_tetrahedra_that_are_too_many_have_remedies_of_their_own(monkeypatch, in_folder, cloud):
+    monkeypatch.setattr(export, "MOST_VERTICES", 100)
+    monkeypatch.setattr(export, "MOST_OF_SOLIDS", 200)
+    np.savetxt("scan.xyz", cloud.vertices)
+    for mesh in (cloud, "scan.xyz"):
+        with pytest.raises(ParameterError, match=r"300 vertices, .* up to 100; join near points with --merge"):
+            bihdist.page(mesh, "p.html")
+    with pytest.raises(ParameterError, match="250 vertices, and a page has up to 200; take coarser tetrahedra"):
+        bihdist.page(TetrahedralMesh(*ball(250)), "p.html")
+
+
 def test_a_file_that_announces_too_many_vertices_is_not_read(monkeypatch, mesh_file, in_folder, capsys):
     monkeypatch.setattr(export, "MOST_VERTICES", 100)
     mesh = mesh_file(bumpy(200))
