@@ -68,7 +68,7 @@ def _aggregated(options: argparse.Namespace, only: list[str]) -> Result:
     from ..batch.work_order import STATEMENTS, WorkOrder, thumbnail_name
     from ..document.document import comparison
     from ..document.file import recipe_text
-    from ..document.page import Recipe
+    from ..document.page import Page, Recipe
     from ..paper.aggregate import MeshStatements, write_page
     from ..paper.reproduce import chosen
     from ..version import version
@@ -76,7 +76,7 @@ def _aggregated(options: argparse.Namespace, only: list[str]) -> Result:
     if not options.mesh or not os.path.isdir(options.mesh):
         raise ParameterError("--aggregate needs a folder of meshes: --mesh FOLDER.")
     ids = tuple(each.id for each in chosen(only, options.mesh) if only or each.is_parallel)
-    recipe = recipe_text(Recipe(comparison("mesh", (Spec.of("biharmonic"),))), version())
+    recipe = recipe_text(Recipe(comparison("mesh", (Spec.of("biharmonic"),)), Page(title="none")), version())
     order = WorkOrder(
         ("figure", STATEMENTS), recipe=recipe, experiments=ids, quick=options.quick, up=options.viewup or ""
     )
@@ -99,7 +99,8 @@ def _aggregated(options: argparse.Namespace, only: list[str]) -> Result:
     }
     for failure in outcome.failures:
         tell_failure(f"{failure.name}: {failure.work}: {failure.reason}")
-    page = write_page(Path(out), f"{len(meshes)} meshes of {Path(options.mesh).name}", ids, meshes, options.quick)
+    about = f"the {len(meshes)} meshes in the folder {Path(options.mesh).resolve().name}"
+    page = write_page(Path(out), about, ids, meshes, options.quick)
     print(f"{os.path.join(options.output, page.name)}: open it in a browser")
     not_done = len(outcome.failures) + sum(len(mesh.not_done) for mesh in meshes.values())
     return Result({"outputs": [str(page)], "n_not_done": not_done}, int(not_done > 0))

@@ -88,7 +88,7 @@ def test_a_folder_is_measured_as_a_batch_that_resumes(mesh_file, tmp_path, capsy
     assert "b: statements: " in ran(capsys, *words, status=1).err
     page = (out / "index.html").read_text(encoding="utf-8")
     assert page.count("data:image/jpeg") == 2
-    assert "measured on 2 meshes of meshes" in page
+    assert "measured on the 2 meshes in the folder meshes" in page
     assert 'id="alpha--alpha-3"' in page
     assert "from 2 meshes (2 within)" in page
     before = (out / "a.statements.csv").stat().st_mtime_ns
