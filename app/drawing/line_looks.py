@@ -37,6 +37,8 @@ PATH = LineLook(
     rank=1,
 )
 """The look of a profile's path."""
+LABELS = LineLook("labels", (Stroke("outline_colour", 0.7),), rank=-3)
+"""The look of borders between labels."""
 FEATURE_EDGES = LineLook("feature-edges", (Stroke("outline_colour", 0.7),), rank=-2)
 """The look of lines along sharp edges."""
 SECTION = LineLook("section", (Stroke("section", 1.8),), rank=-1)

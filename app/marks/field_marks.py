@@ -4,8 +4,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from bihdist_core import Surface
+from bihdist_core import PointCloud, Surface
 from bihdist_core.analysis.chains import chains
+from bihdist_core.analysis.label_borders import label_borders
 from bihdist_core.distances.answers import Answer
 from bihdist_core.sources.pieces import Pieces, pieces_of
 from bihdist_core.sources.source import BoundaryLoop, Curve, Source, SurfacePoint
@@ -15,6 +16,7 @@ from ..document.document import Document, Panel
 from ..document.on_surface import SOURCE, Hidden
 from ..document.source_edits import members_of
 from ..drawing.glyphs import DOT, LARGEST, SWATCH
+from ..drawing.line_looks import LABELS
 from ..session.isoline_points import IsolinePoint, passed
 from ..session.loaded_mesh import LoadedMesh
 from ..session.questions import source_at
@@ -22,10 +24,12 @@ from .primitives import LegendRow, LineMark, PointMark, SurfaceMark
 
 
 def field_marks(document: Document, panel: Panel, loaded: LoadedMesh, answer: Answer) -> list[SurfaceMark]:
-    """Return dots on isolines through points, marks where the field starts, and the largest of a difference."""
+    """Return dots on isolines through points, marks where the field starts, borders of labels, and the largest of a
+    difference."""
     return [
         *isoline_points(passed(document, panel.surface, loaded, answer), answer),
         *starts(document, panel, loaded.surface),
+        *_label_lines(loaded.surface, answer),
         *largest(answer),
     ]
 
@@ -96,6 +100,14 @@ def source_lines(pieces: Pieces, name: str = "") -> list[LineMark]:
     found = chains(segments) if len(segments) else []
     at = np.array(places, np.int64)
     return [LineMark(corners[at[ids]], weights[at[ids]], closed, name=name) for ids, closed in found]
+
+
+def _label_lines(surface: Surface, answer: Answer) -> list[LineMark]:
+    """Return the borders between labels; the discs of a point cloud have none."""
+    if answer.labels is None or isinstance(surface, PointCloud):
+        return []
+    labels = np.where(np.isnan(answer.labels.values), -1, answer.labels.values).astype(np.int64)
+    return [LineMark(*border, LABELS) for border in label_borders(labels, surface.faces)]
 
 
 def label_rows(answer: Answer, most: int) -> list[LegendRow]:

@@ -46,7 +46,7 @@ def test_lines_that_pass_beside_the_eye_are_painted_about_the_view_only(shared_s
     eye = np.array(view.camera.GetPosition())
     ahead = np.array(view.camera.GetDirectionOfProjection())
     right = np.cross(ahead, view.camera.GetViewUp())
-    view.over.lines.show([(SOURCE, np.stack([eye + ahead, eye + 1e-7 * ahead + right]))])
+    view.over.lines.show([("", SOURCE, np.stack([eye + ahead, eye + 1e-7 * ahead + right]))])
     view.redraw()
     s.settle(0.1)
     assert np.nanmax(view.over.lines.pixels) > 1e7

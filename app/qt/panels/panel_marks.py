@@ -139,8 +139,9 @@ class PanelMarks:
 
     def _put_lines(self) -> None:
         placed = [(line, line.positions(self.positions)) for line in self._all(LineMark)]
-        closed = [(line.look, np.concatenate([at, at[:1]]) if line.is_closed else at) for line, at in placed]
-        self._view.over.lines.show(closed)
+        self._view.over.lines.show(
+            [(line.name, line.look, np.concatenate([at, at[:1]]) if line.is_closed else at) for line, at in placed]
+        )
         self._view.redraw()
 
     # ------------------------------------------------------------------ what is being done
