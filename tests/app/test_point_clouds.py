@@ -59,7 +59,7 @@ def test_field_pairs_and_info(cloud, capsys):
         ("statistics scan.xyz --sources 3", "statistics need faces"),
         ("regions scan.xyz --sources 3,40 -o labels.csv", "regions need faces"),
         ("perturb scan.xyz --noise 0.1 -o noisy.ply", "changes need faces"),
-        ("page scan.xyz -o page.html", "pages need faces"),
+        ("page scan.xyz -o page.html --distance geodesic", "geodesic distance needs faces"),
         ("figure scan.xyz --distance biharmonic --isoline-labels", "labels of isolines need faces"),
     ],
 )

@@ -40,7 +40,7 @@ class PageDialog(JobDialog):
         document = self._recipe.document
         contents = Contents.of(document)
         loaded = self._surfaces[document.surfaces[0].name]
-        check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path)
+        check_size(loaded.surface.name, len(loaded.surface.vertices), loaded.mesh.path, loaded.surface)
         needed = needed_eigenpairs(contents).values()
         size = eigenpair_bytes(sum(needed), len(loaded.surface.vertices))
         self._allowed = None if size <= EIGENPAIR_BYTES else max(needed)

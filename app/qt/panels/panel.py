@@ -336,6 +336,7 @@ class DistancePanel(QtWidgets.QWidget):
         """Show what is being computed, None for nothing; `is_old` where the field is not the one asked for."""
         self._stand_back(progress is not None and is_old)
         self._place_waiting()
+        self.view.over.cover_top(progress is not None and not self._is_compact)
         if progress is None:
             self.waiting.hide()
         else:
@@ -344,6 +345,7 @@ class DistancePanel(QtWidgets.QWidget):
     def show_behind(self, is_behind: bool) -> None:
         """Let the field be pale, without words, while it is too far behind a source that moves."""
         self.waiting.hide()
+        self.view.over.cover_top(False)
         self._stand_back(is_behind)
 
     def _stand_back(self, is_behind: bool) -> None:
