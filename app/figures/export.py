@@ -150,6 +150,7 @@ def figure_of(recipe: Recipe, surfaces: Surfaces, answers: Sequence[Answer]) -> 
         crop=page.crop,
         title=page.title,
         letters=page.panel_letters,
+        dashes_all=not page.layout,
         font=page.font_family,
         text=page.font_size,
     )

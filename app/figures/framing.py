@@ -14,8 +14,10 @@ from bihdist_core.arrays import FloatArray
 from ..document.camera import Camera, View
 from ..drawing.shapes import Box
 from ..scene.camera import Projection, outwards_at, standard_camera
+from ..scene.clipping import clip_plane
 from ..scene.drawable import bounds_of, rise, warp_by_scalar
 from .description import FigurePanel
+from .hidden_lines import cut_faces
 from .shadows import FRAMED, ground_around
 
 FREE = 0.03
@@ -109,9 +111,15 @@ def _used(surface: Surface) -> FloatArray:
 
 
 def _framed(panel: FigurePanel, surface: Surface) -> FloatArray:
-    """Return the points that have room in a picture: vertices of faces, and the ground about them."""
+    """Return the points that have room in a picture: corners of what is left of faces, and the ground about them."""
     used = _used(surface)
-    return np.concatenate([used, ground_around(used, panel.up, FRAMED)]) if has_ground(panel) else used
+    about = ground_around(used, panel.up, FRAMED) if has_ground(panel) else np.empty((0, 3))
+    plane = clip_plane(panel.clip, panel.surface if panel.parts else surface)
+    if plane is not None:
+        x, faces = surface.shape.vertices, surface.shape.faces
+        x, faces, _ = cut_faces(x, faces, np.arange(len(faces)), plane.depths(x))
+        used = x[np.unique(faces)]
+    return np.concatenate([used, about])
 
 
 def has_ground(panel: FigurePanel) -> bool:

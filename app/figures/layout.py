@@ -264,7 +264,8 @@ class _Sizes:
             wide = self.columns[0] / most_views(figure) / view_width(figure)
             free = VIEW_HEIGHT * wide
             self.high = free if grid.height is None else (grid.height - strip.height - sum(self.words)) / grid.rows
-            self.high = max(min(self.high, _tallest(figure, self.columns[0])) if grid.height else self.high, 4.0)
+            is_low = grid.height or figure.panels[0].parts  # hemispheres are
+            self.high = max(min(self.high, _tallest(figure, self.columns[0])) if is_low else self.high, 4.0)
             self.rows = [self.high] * grid.rows
             self.width = grid.width
         else:

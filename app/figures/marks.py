@@ -12,7 +12,7 @@ from bihdist_core.arrays import BoolArray, FloatArray
 from ..drawing.glyphs import NAMED, TRIANGLE_DOWN, TRIANGLE_UP, glyph_shapes
 from ..drawing.shapes import Box, Group, Path, Pen, Shape, opaque, polyline, rectangle
 from ..marks.primitives import PointMark, cut_away_words
-from ..scene.clipping import clip_plane, is_kept
+from ..scene.clipping import clip_plane, is_kept, lines_cut_away
 from ..scene.corners import Rectangle, inside, joins
 from .page_layout import ComposedPage
 from .shots import Shot
@@ -91,8 +91,11 @@ def _words_beside(
 
 
 def _covered(page: ComposedPage, shot: Shot, words: TextLines) -> bool:
-    """Return whether words stand on the shape."""
+    """Return whether words stand on the shape, or across the frame of what an inset enlarges."""
     box = _box_of(page, words).grown(2)
+    frames = [inset.source for inset in page.insets_of(shot.panel) if shot.source is None]
+    if any(frame and frame.meets(box) and not frame.contains(box) for frame in frames):
+        return True
     across, down = np.meshgrid(np.linspace(box.x, box.right, 9), np.linspace(box.y, box.bottom, 3))
     return bool((shot.cover_at(np.column_stack([across.ravel(), down.ravel()])) > 0).any())
 
@@ -230,10 +233,11 @@ def hidden_words(page: ComposedPage) -> list[str]:
                 found[f"{mark.title} is {rest}"] = None
         plane, x = clip_plane(panel.clip, panel.surface), panel.surface.vertices
         gone = [mark for mark in panel.marks if not is_kept(plane, mark.on(x)[None])[0]]
-        if gone and not panel.warp_factor:
-            found[cut_away_words(gone)] = None
+        lines = lines_cut_away(plane, ((line.name, line.positions(x)) for line in panel.lines))
+        if (gone or lines) and not panel.warp_factor:
+            found[cut_away_words(gone, lines)] = None
         for name in dict.fromkeys(line.name for line in panel.lines if line.name):
-            if not any(name in shot.seen for shot in shots):
+            if name not in lines and not any(name in shot.seen for shot in shots):
                 rest = ", or cut away" if plane is not None else "; try --cpos source or --cpos front,back"
                 found[f"{name} is hidden in {views}{rest}."] = None
     return list(found)

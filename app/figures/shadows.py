@@ -109,6 +109,8 @@ class Shadows:
 
     def _shares(self, width: int, height: int, part: Rectangle, on_shape: bool) -> tuple[AnyArray, AnyArray]:
         """Return the share of the light that reaches the shape, and the opacity of the ground's shadow, (h, w) each."""
+        from scipy.ndimage import grey_closing
+
         left, right, bottom, top = part
         x, y, depth = self._projection(self._shown).T
         near = -depth if self._projection.is_parallel else 1 / np.where(depth > 0, depth, np.nan)
@@ -128,7 +130,8 @@ class Shadows:
             points, share = self._light(wanted, face.ravel()[wanted], at - [0, start, 0], width)
             light[band].ravel()[wanted[~under]] = share[~under]
             ground[band].ravel()[wanted[under]] = self._ground(points[under], share[under])
-        return _filled(light, 1.0), _filled(ground, max(BLUR * width, 1.0), is_smooth=True)
+        # Where faces nearly touch, single pixels are dark.
+        return grey_closing(_filled(light, 1.0), 3), _filled(ground, max(BLUR * width, 1.0), is_smooth=True)
 
     def _light(self, pixels: IntArray, face: IntArray, at: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
         """Return the points (k, 3) of faces (k,) seen at pixels (k,), and the share (k,) of the light that reaches

@@ -19,7 +19,7 @@ from bihdist_core.tetrahedra import SolidBoundary
 
 from ..document.document import isolines_in
 from ..document.looks import Isolines, Shading
-from ..drawing.line_looks import FEATURE_EDGES, SECTION, LineLook
+from ..drawing.glyphs import FEATURE_EDGES, SECTION, LineLook
 from ..drawing.shapes import Box
 from ..marks.primitives import PointMark
 from ..scene.bands import band_edges
@@ -51,7 +51,7 @@ PlacedMark = tuple[int, float, float]
 class SeenLines:
     """The parts of lines of one look that are seen.
 
-    `course` holds all of their parts, if what is hidden is drawn, too.
+    `course` holds all of their parts, if what is hidden is drawn, too, or seen through the surface.
     """
 
     seen: list[Line]
@@ -353,11 +353,12 @@ class _Taker:
         lines = [line for line in self._panel.lines if line.look == look and (component[line.spans] >= 0).all()]
         curves = [Curve(line.positions(x), line.spans, line.is_closed) for line in lines]
         outlined = [self._sight.outlined([curve]) for curve in curves if look.hidden or self._is_translucent]
-        seen = outlined if self._is_translucent else self._sight.visible(curves)
+        seen = self._sight.visible(curves)
+        found = outlined if self._is_translucent else seen
         self._seen |= {
-            line.name for line, parts in zip(lines, seen, strict=True) if sum(map(_length, parts)) > LEAST_SEEN
+            line.name for line, parts in zip(lines, found, strict=True) if sum(map(_length, parts)) > LEAST_SEEN
         }
-        return SeenLines(list(chain.from_iterable(seen)), list(chain.from_iterable(outlined)) if look.hidden else [])
+        return SeenLines(list(chain.from_iterable(seen)), list(chain.from_iterable(outlined)))
 
     def _placed_marks(self) -> tuple[list[PlacedMark], list[PlacedMark]]:
         """Return the marks that are seen, and those that the shape hides."""

@@ -8,8 +8,7 @@ import numpy as np
 from bihdist_core.arrays import FloatArray, IntArray
 from bihdist_core.counts import counted
 
-from ..drawing.glyphs import DISC, Glyph
-from ..drawing.line_looks import SOURCE, LineLook
+from ..drawing.glyphs import DISC, SOURCE, Glyph, LineLook
 
 
 @dataclass(frozen=True)
@@ -60,11 +59,11 @@ class PointMark:
         return self.name or (f"Pin {self.number}" if self.number is not None else f"Vertex {self.vertex}")
 
 
-def cut_away_words(marks: Sequence[PointMark]) -> str:
-    """Return a sentence on marks that are cut away, one or more; it names one without a number, if there is any."""
-    first = next((mark for mark in marks if mark.number is None), marks[0])
-    others = f" and {counted(len(marks) - 1, 'other mark')} are" if len(marks) > 1 else " is"
-    return f"{first.title}{others} cut away by the clip plane."
+def cut_away_words(marks: Sequence[PointMark], lines: Sequence[str] = ()) -> str:
+    """Return a sentence on marks and named lines that are cut away, one or more; it names pins last."""
+    titles = [*lines, *(mark.title for mark in sorted(marks, key=lambda mark: mark.number is not None))]
+    others = f" and {counted(len(titles) - 1, 'other mark')} are" if len(titles) > 1 else " is"
+    return f"{titles[0]}{others} cut away by the clip plane."
 
 
 @dataclass(frozen=True, eq=False)

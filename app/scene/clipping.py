@@ -1,5 +1,6 @@
 """Clip planes: which half of a surface is left, and the cut through a solid."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -65,6 +66,14 @@ def clip_plane(clip: Clip | None, surface: Surface) -> ClipPlane | None:
 def is_kept(plane: ClipPlane | None, points: FloatArray) -> BoolArray:
     """Return whether points (n, 3) are left, (n,)."""
     return np.ones(len(points), bool) if plane is None else plane.depths(points) >= 0
+
+
+def lines_cut_away(plane: ClipPlane | None, lines: Iterable[tuple[str, FloatArray]]) -> list[str]:
+    """Return the names of lines, points (k, 3) each, of which nothing is left; "" names none."""
+    left: dict[str, bool] = {}
+    for name, points in lines:
+        left[name] = left.get(name, False) or bool(is_kept(plane, points).any())
+    return [name for name, is_left in left.items() if name and not is_left]
 
 
 INWARDS = 1e-4

@@ -10,10 +10,11 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
 
+from bihdist_core.analysis.label_borders import label_weights
 from bihdist_core.arrays import AnyArray, ByteArray, FloatArray, IntArray
 
 from ..document.looks import MOST_ISOLINES, NO_LINES, TWENTY_STEPS, Isolines, Shading
-from ..drawing.line_looks import SECTION
+from ..drawing.glyphs import SECTION
 from ..session.base import Greys
 from .clipping import ClipPlane, Cut
 from .drawable import copies_of, has_backs, vertex_faces, with_cut
@@ -42,9 +43,6 @@ _LIT = "//VTK::Light::Impl"
 
 # Light from behind, where the surface turns away: form is seen in dark colours, too.
 _RIM = "  fragOutput0.rgb += {} * pow(1.0 - clamp(normalVCVSOutput.z, 0.0, 1.0), 3.0);\n"
-
-STEPS, LEAST_WEIGHT = 3, 0.25
-"""Of labels: how far their neighbours are looked at, and the weight that one of a single vertex has."""
 
 MOST_PEELS = 8
 """Each of them has two layers of what is translucent, the nearest and the farthest that are left."""
@@ -490,26 +488,10 @@ class FieldActor:
 
 
 def _weighted(colours: ByteArray, faces: IntArray) -> FloatArray:
-    """Return colours (n, 4) of labels at vertices of faces (m, 3), multiplied by weights, which draw borders.
-
-    The weight is how likely a few steps to neighbours stay in the label: less at a tooth, which so becomes shorter.
-    """
-    label, weights = colours.view(np.uint32).ravel(), np.ones(len(colours))
-    a, b, c = label[faces.T]
-    is_near = (a != b) | (b != c)
-    for _ in range(STEPS):
-        near = np.zeros(len(label), bool)
-        near[faces[is_near]] = True
-        is_near = near[faces].any(axis=1)
-    corners = faces[is_near]
-    ends = np.concatenate([corners.ravel(), np.roll(corners, 1, axis=1).ravel()])
-    others = np.roll(ends, corners.size)
-    count = np.bincount(ends, minlength=len(label)) + 1
-    stays = label[ends] == label[others]
-    for _ in range(STEPS):
-        weights = (weights + np.bincount(ends[stays], weights[others[stays]], len(label))) / count
+    """Return colours (n, 4) of labels at vertices of faces (m, 3), multiplied by weights, which draw borders."""
     signed = np.where(colours[:, 3:] == 0, [0, 0, 0, -1], colours / 255)
-    weighted: FloatArray = signed * np.maximum(weights, LEAST_WEIGHT)[:, None]
+    labels = colours.view(np.uint32).ravel().astype(np.int64)
+    weighted: FloatArray = signed * label_weights(labels, faces)[:, None]
     return weighted
 
 

@@ -11,6 +11,7 @@ from ..laplacian import Laplacian
 from ..progress import Progress
 from ..solver.elimination_tree import EliminationTree
 from ..surface import Surface
+from .fig8 import resolved_by
 from .measures import percent
 from .parts import Parts
 from .result import Cell, Chart, Claim, Findings, Series, Table
@@ -25,7 +26,8 @@ STRETCH = 2.0
 REPEATS, COLUMNS = 2, 10
 """How often the set-up is timed, and how many columns after each."""
 CONFORMAL = ("commute-time", "biharmonic")
-EIGENVALUES, QUICK_EIGENVALUES = 400, 200
+EIGENVALUES, FEWEST = 400, 200
+"""How many are computed, if the mesh resolves them, and the fewest that are judged; the quick version has these."""
 DECADE = 10
 """The law is one of large k: the last decade of the eigenvalues is fitted, at numbers spaced evenly in their logarithm,
 as neighbours tell the same."""
@@ -94,7 +96,8 @@ def _set_up(surface: Surface) -> BiharmonicDistance:
 
 def eigenvalues(shapes: Shapes, name: str, quick: bool, progress: Progress) -> Findings:
     """Check that eigenvalues of a surface grow like k (Weyl): lambda_k ~ 4 pi k / area."""
-    count = min(QUICK_EIGENVALUES if quick else EIGENVALUES, shapes.laplacian(name).components[0].most_eigenpairs)
+    most = min(resolved_by(shapes[name]), shapes.laplacian(name).components[0].most_eigenpairs)
+    count = max(min(FEWEST if quick else EIGENVALUES, most), 1)
     spectrum = shapes.laplacian(name).components[0].spectrum(count, progress)
     k = np.arange(1, count + 1)
     values = spectrum.eigenvalues[:count]
@@ -108,9 +111,10 @@ def eigenvalues(shapes: Shapes, name: str, quick: bool, progress: Progress) -> F
     )
     claim = Claim(
         "claims-weyl",
-        {"exponent of k": slope},
+        {"exponent of k": slope} if count >= FEWEST else {},
         f"Fitted over {len(fitted)} numbers k from {fitted[0]} to {count}, evenly in log k; the last eigenvalue over "
         f"4πk / area: {ratio:.2f}.",
+        failure="" if count >= FEWEST else f"It takes {FEWEST} eigenvalues or more; the mesh resolves {most:,}.",
     )
     chart = Chart("eigenvalues", "k", "eigenvalue", series, log_x=True, log_y=True)
     return Findings(charts=[chart], claims=[claim])

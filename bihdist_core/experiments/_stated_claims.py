@@ -153,6 +153,7 @@ CLAIMS = (
         "Eigenvalues grow like k.",
         *("paper", "section 4"),
         (Part("exponent of k", between(1 - AGREES, 1 + AGREES), "once"),),
+        whole=True,
     ),
     Statement(
         "claims-commute",

@@ -226,6 +226,7 @@ def test_labels_have_colours_names_and_a_legend(mesh, labels, tmp_path, capsys):
     on_surface, between = (green == 0) & (red + blue > 200), (green == 0) & (red > 60) & (blue > 60)
     assert on_surface.sum() > 20_000
     assert between.sum() < 0.03 * on_surface.sum()
+    assert 'id="labels-0"' in picture.save(tmp_path / "f.svg").read_text()
     out = tmp_path / "f.png"
     said = ran(capsys, "figure", mesh, "--field", labels, "--distance", "sides", *SMALL, "-o", out).err
     assert "There is no legend of labels on a page of given height; give its width only." in said

@@ -1,5 +1,7 @@
 """Views of brains by name, and lateral and medial views of each hemisphere."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -94,4 +96,8 @@ def test_each_picture_shows_one_hemisphere_with_its_marks_and_a_line_draws_it_ag
     assert [len(part.faces) for part in shown.panels[0].parts] == [len(BALL.faces)] * 4
     shots = take_shots(shown, lay_out(shown), silent)
     vertices = [[shown.panels[0].marks[k].vertex for k, *_ in (*shot.marks, *shot.ghosts)] for shot in shots]
-    assert vertices == [[5], [5], [300], [300]]
+    # A source that one view of its hemisphere shows is not dashed in the other.
+    assert vertices == [[], [5], [300], []]
+    free = replace(shown, size=replace(shown.size, height=None))
+    usual = replace(free, panels=(replace(shown.panels[0], parts=()),))
+    assert lay_out(free).height < lay_out(usual).height

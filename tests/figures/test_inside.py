@@ -14,7 +14,7 @@ from app.document.document import comparison
 from app.document.file import recipe_from_text, recipe_text
 from app.document.looks import AXES, NO_LINES, Clip
 from app.document.page import Recipe
-from app.drawing.line_looks import PATH, SECTION
+from app.drawing.glyphs import PATH, SECTION
 from app.figures.description import Figure, FigurePanel
 from app.figures.draw import lay_out, save_figure
 from app.figures.hidden_lines import Curve, HiddenLineRemoval
@@ -98,8 +98,9 @@ def test_no_pixel_no_line_and_no_mark_is_left_of_what_is_cut_away():
         PATH,
     )
     marks = PointMark(left), PointMark(right)
-    whole = shot_of(surface, None, "lines", marks=marks, lines=(path,))
-    cut = shot_of(surface, Clip(kept=0.4), "lines", marks=marks, lines=(path,))
+    shown = {"marks": marks, "lines": (path,), "views": (standard_camera(surface.vertices, 1.0, "front", "y"),)}
+    whole = shot_of(surface, None, "lines", **shown)
+    cut = shot_of(surface, Clip(kept=0.4), "lines", **shown)
     plane = clip_plane(Clip(kept=0.4), surface)
     # Along z, x in the picture is x on the shape.
     low, high = (next(mark[1] for mark in whole.marks if mark[0] == k) for k in (0, 1))
@@ -214,14 +215,22 @@ def test_the_inside_of_a_closed_body_shows_no_isolines_once_it_is_cut():
 
 def test_marks_that_are_cut_away_are_named(tmp_path):
     surface = bumpy(300)
-    far, near = int(surface.vertices[:, 0].argmax()), int(surface.vertices[:, 0].argmin())
+    order = surface.vertices[:, 0].argsort()
+    far, near = int(order[-1]), int(order[0])
     marks = PointMark(far), PointMark(near), PointMark(far, number=2)
-    for given, said in (
-        (marks[1:2], []),
-        (marks[:2], [f"Vertex {far} is cut away by the clip plane."]),
-        (marks, [f"Vertex {far} and 1 other mark are cut away by the clip plane."]),
+
+    def line(name, vertices):
+        return LineMark(np.repeat(vertices[:, None], 3, 1), np.array([[1.0, 0, 0]] * len(vertices)), name=name)
+
+    gone, partly, unnamed = line("The curve", order[-3:]), line("Half", order[[0, -1]]), line("", order[-3:])
+    for given, lines, said in (
+        (marks[1:2], (partly, unnamed), []),
+        (marks[:2], (), [f"Vertex {far} is cut away by the clip plane."]),
+        (marks, (), [f"Vertex {far} and 1 other mark are cut away by the clip plane."]),
+        (marks[1:2], (gone, partly), ["The curve is cut away by the clip plane."]),
+        (marks[2:], (gone,), ["The curve and 1 other mark are cut away by the clip plane."]),
     ):
-        panel = FigurePanel(surface, None, views=("left", "right"), marks=given, clip=Clip())
+        panel = FigurePanel(surface, None, views=("left", "right"), marks=given, lines=lines, clip=Clip())
         assert save_figure(Figure((panel,), size=Size.parse("200x200")), tmp_path / "cut.png") == said
 
 
@@ -231,6 +240,13 @@ def test_figures_take_a_plane_in_python_and_draw_it_again(tmp_path):
     assert (pixels != app.figure("hand", ["biharmonic"], 12, layout={"size": "160x160"}).pixels).any()
     picture.save(tmp_path / "cut.png")
     np.testing.assert_array_equal(app.figure_again(tmp_path / "cut.json").pixels, pixels)
+
+
+def test_what_is_left_fills_the_picture():
+    whole, cut = (shot_of(bumpy(2000), clip).image[..., 3] for clip in (None, Clip((0.0, 1.0, 0.0), 0.3)))
+    assert cut.any(axis=0).mean() > 0.9 > whole.any(axis=0).mean()
+    rows = np.flatnonzero(cut.any(axis=1))
+    assert abs(rows[0] + rows[-1] - len(cut)) < 0.02 * len(cut)
 
 
 # ---------------------------------------------------------------------- translucency
@@ -278,14 +294,15 @@ def test_what_is_behind_a_translucent_surface_is_drawn():
     assert [mark[0] for mark in solid.marks] == []
     assert [mark[0] for mark in glass.marks] == [0]
 
-    def drawn(shot):
-        parts = [np.concatenate([p, p[:1]]) if closed else p for p, closed in shot.lines[PATH].seen]
+    def drawn(lines):
+        parts = [np.concatenate([p, p[:1]]) if closed else p for p, closed in lines]
         return sum(np.linalg.norm(np.diff(p, axis=0), axis=1).sum() for p in parts)
 
-    whole = [np.concatenate([p, p[:1]]) if closed else p for p, closed in solid.lines[PATH].course]
-    length = sum(np.linalg.norm(np.diff(p, axis=0), axis=1).sum() for p in whole)
-    assert drawn(glass) == pytest.approx(length)
-    assert drawn(solid) < 0.7 * length
+    length = drawn(solid.lines[PATH].course)
+    assert drawn(glass.lines[PATH].course) == pytest.approx(length)
+    # What is behind the surface is drawn paler.
+    assert drawn(glass.lines[PATH].seen) == pytest.approx(drawn(solid.lines[PATH].seen))
+    assert drawn(solid.lines[PATH].seen) < 0.7 * length
     # Isolines before it are curves all the same, and those behind it are painted.
     assert len(glass.isolines) == len(solid.isolines)
     bare = shot_of(surface, opacity=0.4, isolines=NO_LINES)

@@ -6,7 +6,7 @@ import numpy as np
 
 from app.document import tools
 from app.document.edits import move_source
-from app.drawing.line_looks import SOURCE
+from app.drawing.glyphs import SOURCE
 from app.qt.panels import line_marks
 from tests.figures.marked_tool import FLAG, TOOL
 from tests.shapes import bumpy
@@ -46,7 +46,7 @@ def test_lines_that_pass_beside_the_eye_are_painted_about_the_view_only(shared_s
     eye = np.array(view.camera.GetPosition())
     ahead = np.array(view.camera.GetDirectionOfProjection())
     right = np.cross(ahead, view.camera.GetViewUp())
-    view.over.lines.show([(SOURCE, np.stack([eye + ahead, eye + 1e-7 * ahead + right]))])
+    view.over.lines.show([("", SOURCE, np.stack([eye + ahead, eye + 1e-7 * ahead + right]))])
     view.redraw()
     s.settle(0.1)
     assert np.nanmax(view.over.lines.pixels) > 1e7

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from qtpy import QtCore, QtGui
 
-from ...drawing.line_looks import LineLook, Stroke
+from ...drawing.glyphs import LineLook, Stroke
 from ...drawing.painters import qt
 from ...drawing.shapes import Box, Pen, opaque
-from ...scene.clipping import is_kept
+from ...scene.clipping import is_kept, lines_cut_away
 from ...scene.line_clipping import clipped
 from ...scene.lines_of_sight import seen_in
 from ...scene.style import Style
@@ -17,8 +17,8 @@ from ...scene.style import Style
 if TYPE_CHECKING:
     from .view import View
 
-Course = tuple[LineLook, np.ndarray]
-"""A look, and points (k, 3) of a line."""
+Course = tuple[str, LineLook, np.ndarray]
+"""The name, the look, and points (k, 3) of a line."""
 
 FINE = 0.005
 """Longest step along lines, as a fraction of their extent, for finding hidden marks."""
@@ -39,6 +39,7 @@ class LineMarks:
 
     def __init__(self, view: "View") -> None:
         self._view = view
+        self._names: list[str] = []
         self._looks: list[LineLook] = []
         self.points, self._ends = np.empty((0, 3)), np.empty(0, int)
         self._forget()
@@ -49,12 +50,16 @@ class LineMarks:
 
     def show(self, lines: Sequence[Course]) -> None:
         """Show these lines and no others, from the next picture on."""
-        lines = sorted(lines, key=lambda line: line[0].rank)
-        extent = max((float(np.ptp(points, axis=0).max()) for _, points in lines), default=0.0)
-        courses = [_refined(points, FINE * extent) for _, points in lines]
-        self._looks = [look for look, _ in lines]
+        lines = sorted(lines, key=lambda line: line[1].rank)
+        extent = max((float(np.ptp(points, axis=0).max()) for _, _, points in lines), default=0.0)
+        courses = [_refined(points, FINE * extent) for _, _, points in lines]
+        self._names, self._looks = [name for name, _, _ in lines], [look for _, look, _ in lines]
         self.points = np.concatenate([np.empty((0, 3)), *courses])
         self._ends = np.cumsum([len(points) for points in courses])[:-1]
+
+    def cut_away(self) -> list[str]:
+        """Return the names of lines that are cut away."""
+        return lines_cut_away(self._view.clip, zip(self._names, np.split(self.points, self._ends), strict=False))
 
     def find_hidden(self) -> None:
         """Find what is seen in the picture that has just been drawn, and in its insets."""

@@ -9,12 +9,12 @@ from qtpy import QtCore, QtGui
 from bihdist_core.arrays import AnyArray, FloatArray
 
 from ...drawing.axes import axes_shapes, middle
-from ...drawing.line_looks import SOURCE
+from ...drawing.glyphs import SOURCE
 from ...drawing.painters.qt import box_of, paint, rectangle, rgba_of
 from ...drawing.pointer import REACH, ring_shapes
 from ...drawing.scale_bar import corner_of_bar, scale_bar_shapes
 from ...drawing.shapes import Box, Path, Shape, polyline
-from ...marks.primitives import LegendRow
+from ...marks.primitives import LegendRow, cut_away_words
 from ...scene.camera import camera_seen, frame
 from ...scene.lines_of_sight import pixels_in
 from ..look.look import LOOK
@@ -45,6 +45,7 @@ class MarksOver:
         self.pointed: Pointed | None = None
         self.sentence = ""
         self.notes: Sequence[str] = ()
+        self._is_covered = False  # at the top, by the progress
         self.strokes: Sequence[AnyArray] = ()  # (k, 3) each: what has been drawn
         self._has_axes = False
         self._scale_unit = ""
@@ -62,6 +63,12 @@ class MarksOver:
         """Show how many extrema there are, in the first words for which there is room; () for nothing."""
         if notes != self.notes:
             self.notes = notes
+            self._view.update()
+
+    def cover_top(self, is_covered: bool) -> None:
+        """Leave out the legend and the notes while the progress lies over them."""
+        if is_covered != self._is_covered:
+            self._is_covered = is_covered
             self._view.update()
 
     def show_axes(self, has_axes: bool) -> None:
@@ -103,6 +110,14 @@ class MarksOver:
             self._dabs.append((colour, QtGui.QPolygonF([QtCore.QPointF(*place) for place in at.tolist()])))
         self._view.update()
 
+    def cut_away(self) -> tuple[str, ...]:
+        """Return words on marks that are cut away, from the longest to the shortest; () for none."""
+        points, lines = self.points.cut_away(), self.lines.cut_away()
+        if not points and not lines:
+            return ()
+        words = cut_away_words(points, lines)
+        return words, words.replace(" by the clip plane", "")
+
     def find_hidden(self) -> None:
         """Find what is hidden in the picture that has just been drawn."""
         self.points.find_hidden()
@@ -126,10 +141,10 @@ class MarksOver:
             *text_shapes(self.points.texts(), room),
             *self.points.standing_shapes(),
         ]
-        if not self.sentence:
+        if not self.sentence and not self._is_covered:
             shapes += overlay.legend_shapes(room, view.scene.style, self.legend)
             top = ROW * LOOK.scale if self.legend else 0.0
-            for notes, of_extrema in ((self.notes, True), (self.points.cut_away(), False)):
+            for notes, of_extrema in ((self.notes, True), (self.cut_away(), False)):
                 below = Box(0.0, top, room.width, room.height - top)
                 shapes += overlay.note_shapes(below, view.scene.style, notes, of_extrema) if notes else []
                 top += ROW * LOOK.scale * bool(notes)

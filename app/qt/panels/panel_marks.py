@@ -11,7 +11,7 @@ from bihdist_core import Surface
 from bihdist_core.arrays import FloatArray, IntArray
 from bihdist_core.distances.answers import Answer
 
-from ...marks.field_marks import isoline_points, largest
+from ...marks.marked_panel import isoline_points, largest
 from ...marks.primitives import AreaMark, LegendRow, LineMark, PointMark, SurfaceMark
 from ...scene.selected import selected_colours
 from ...session.isoline_points import IsolinePoint
@@ -139,8 +139,9 @@ class PanelMarks:
 
     def _put_lines(self) -> None:
         placed = [(line, line.positions(self.positions)) for line in self._all(LineMark)]
-        closed = [(line.look, np.concatenate([at, at[:1]]) if line.is_closed else at) for line, at in placed]
-        self._view.over.lines.show(closed)
+        self._view.over.lines.show(
+            [(line.name, line.look, np.concatenate([at, at[:1]]) if line.is_closed else at) for line, at in placed]
+        )
         self._view.redraw()
 
     # ------------------------------------------------------------------ what is being done

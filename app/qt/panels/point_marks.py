@@ -9,7 +9,7 @@ from qtpy import QtCore, QtGui
 
 from ...drawing.painters.qt import box_of, paint
 from ...drawing.shapes import Box, Point, Shape
-from ...marks.primitives import PointMark, cut_away_words
+from ...marks.primitives import PointMark
 from ...scene.clipping import is_kept
 from ...scene.picking import pixel_of
 from . import overlay
@@ -120,18 +120,14 @@ class PointMarks(QtCore.QObject):
             if is_there
         ]
 
-    def cut_away(self) -> tuple[str, ...]:
-        """Return words on marks that are cut away, from the longest to the shortest; () for none."""
-        gone = [
+    def cut_away(self) -> list[PointMark]:
+        """Return the marks that are cut away."""
+        return [
             mark
             for group in self._groups.values()
             for mark, is_there in zip(group.marks, is_kept(self._view.clip, group.positions), strict=True)
             if not is_there
         ]
-        if not gone:
-            return ()
-        words = cut_away_words(gone)
-        return words, words.replace(" by the clip plane", "")
 
     # ------------------------------------------------------------------ what is hidden
     def _seen(self, group: MarkGroup) -> np.ndarray:

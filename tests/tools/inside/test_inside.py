@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.document.edits import put_point
 from app.document.looks import Clip
 from app.document.shared_parts.pins import add_pins
 from bihdist_core.distances.distance_types import Spec
+from bihdist_core.sources.source import Curve, SurfacePoint
 from tests.qt.parts import parts
 from tests.shapes import bumpy, grid
 
@@ -92,11 +94,26 @@ def test_a_click_hits_what_is_seen_and_marks_that_are_cut_away_are_gone(opened):
     assert panel.view.over.points.placed("pins") == []
     source = panel.marks.source
     assert plane.depths(surface.vertices[[source]])[0] < 0
-    cut_away = panel.view.over.points.cut_away
+    cut_away = panel.view.over.cut_away
     assert cut_away()[0] == f"Vertex {source} and 1 other mark are cut away by the clip plane."
     dock.flip.click()
     s.settle(0.1)
     assert cut_away() == ()
+
+
+def test_a_curve_that_is_cut_away_is_named(opened):
+    s, _ = opened(bumpy(600))
+    surface = s.window.session.loaded().surface
+    far = int(surface.vertices[surface.faces][:, :, 0].min(axis=1).argmax())
+    curve = Curve((SurfacePoint(far, (0.8, 0.1, 0.1)), SurfacePoint(far, (0.1, 0.8, 0.1))))
+    s.session.apply(lambda document: put_point(document, document.points[0].name, curve))
+    s.settle(0.1)
+    over = s.window.grid.panels[0].view.over
+    assert over.cut_away() == ()
+    s.session.show(replace(s.document, clip=Clip()))
+    assert over.cut_away()[0] == "The curve of 2 points is cut away by the clip plane."
+    s.session.show(replace(s.document, clip=Clip((-1.0, 0.0, 0.0))))
+    assert over.cut_away() == ()
 
 
 def test_a_height_field_is_cut_as_it_is_drawn(opened):
