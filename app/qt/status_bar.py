@@ -11,15 +11,15 @@ from bihdist_core import PointCloud, Surface
 from bihdist_core.analysis.surface_notes import surface_notes
 from bihdist_core.counts import counted
 from bihdist_core.distances.answers import Answer
+from bihdist_core.tetrahedra import SolidBoundary
 
 from ..document.page import Recipe
 from ..drawing.numbers import coordinates
 from ..drawing.painters.qt import number_width, paint_number
 from ..scene.style import Style
+from .look.form import in_row
 from .look.icons import pixmap
-from .look.layouts import in_row
-from .look.look import LOOK
-from .look.painting import paint_rounded, smooth_painter
+from .look.look import LOOK, paint_rounded, smooth_painter
 
 HEIGHT = 28
 SAID_MS = 8000
@@ -76,6 +76,8 @@ class StatusBar(QtWidgets.QStatusBar):
         else:
             self._vertices = _size(surface)
             self._faces = counted(len(surface.faces), "face") if len(surface.faces) else "no faces"
+            if isinstance(surface, SolidBoundary):
+                self._faces = counted(len(surface.tetrahedra), "tetrahedron", "tetrahedra")
             lettered = [("", surface)]
             if beside:
                 lettered = list(zip("ABCDEFGH", (surface, *beside), strict=False))

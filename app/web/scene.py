@@ -72,7 +72,8 @@ def scene_of(
     surfaces, answers
         The meshes by name, and the answers of the panels.
     stored : mapping
-        More about the mesh: `bits` of a coordinate; `backs`, whether its inside can be seen; `differs`, by how much
+        More about the mesh: `counts` of its vertices and faces; `operator`, what it is if not by cotangents of the
+        faces; `bits` of a coordinate; `backs`, whether its inside can be seen; `differs`, by how much
         each distance differs from that on the original, as a fraction of its maximum; `sources`, the number of sources
         for which that was computed.
     credit : str
@@ -104,8 +105,6 @@ def scene_of(
         "cite": bibtex(),
         "mesh": {
             "name": _text(surface.name),
-            "vertices": int((surface.component_of_vertex >= 0).sum()),
-            "faces": len(surface.faces),
             "unit": "mesh units",
             **stored,
         },

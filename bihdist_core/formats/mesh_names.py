@@ -75,7 +75,7 @@ MESH_FORMATS = tuple(name for name in FORMATS if name.startswith("."))
 
 ARRAY_FILES = (".mat", ".npz", ".npy")
 """Those that hold arrays of any kind."""
-SOLIDS = (".mesh", ".msh")
+SOLIDS = (".mesh", ".msh", ".vtu")
 """Those of tetrahedra, mostly."""
 SHARED = (".gii", FREESURFER, *ARRAY_FILES)
 """The formats of files that may hold something else than a mesh."""

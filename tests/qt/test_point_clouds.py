@@ -1,17 +1,15 @@
 """Points without faces in the window: picking, fields, and what needs faces."""
 
-import sys
-
 import numpy as np
 import pytest
 from qtpy import QtCore, QtTest, QtWidgets
 
 from app.document.document import usual_specs
-from bihdist_core import BiharmonicDistance, PointCloud
+from bihdist_core import BiharmonicDistance, PointCloud, TetrahedralMesh
+from bihdist_core.formats.field_output import write_fields
+from tests.core.test_tetrahedra import ball
 from tests.qt.parts import parts
 from tests.shapes import bumpy
-
-pytestmark = pytest.mark.skipif(sys.version_info >= (3, 15), reason="no wheels of robust_laplacian")
 
 
 @pytest.fixture
@@ -20,6 +18,10 @@ def scan(shared_screen, tmp_path_factory):
     if not path.exists():
         np.savetxt(path, bumpy(900).vertices, fmt="%.17g")
     return shared_screen(path, usual_specs(str(path)))
+
+
+def grabbed(view):
+    return view.grab().toImage()
 
 
 def test_a_click_puts_the_source_on_the_nearest_point(scan):
@@ -62,6 +64,27 @@ def test_a_numpy_array_of_points_is_opened_unless_it_has_values_of_the_mesh(scan
     assert scan.refusals == ["few.npy has 7 values, and mesh.off has 300 vertices."]
     parts(scan.window).files.open(str(tmp_path / "more.npy"))
     scan.until(lambda: scan.session.is_complete and scan.window.status.counts.text == "60 points  no faces")
+
+
+def test_a_solid_says_how_many_tetrahedra_there_are(scan, tmp_path):
+    solid = TetrahedralMesh(*ball(60), "ball.vtu")
+    write_fields(tmp_path / "ball.vtu", solid, {"x": solid.vertices[:, 0]})
+    scan.open(str(tmp_path / "ball.vtu"))
+    scan.until(lambda: scan.session.is_complete)
+    assert scan.window.status.counts.text == f"60 vertices  {len(solid.tetrahedra)} tetrahedra"
+
+
+def test_notes_make_way_for_the_progress(scan):
+    scan.until(lambda: scan.session.is_complete)
+    panel = scan.panels[0]
+    panel.view.over.write(("3 maxima",))
+    shown = grabbed(panel.view)
+    panel.show_waiting((0.5, "Eigenpairs"), is_old=False)
+    covered = grabbed(panel.view)
+    panel.show_waiting(None)
+    assert covered != shown
+    assert grabbed(panel.view) == shown
+    panel.view.over.write(())
 
 
 def test_a_mesh_after_points_has_all_tools(scan, mesh_file):

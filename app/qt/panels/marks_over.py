@@ -9,7 +9,7 @@ from qtpy import QtCore, QtGui
 from bihdist_core.arrays import AnyArray, FloatArray
 
 from ...drawing.axes import axes_shapes, middle
-from ...drawing.line_looks import SOURCE
+from ...drawing.glyphs import SOURCE
 from ...drawing.painters.qt import box_of, paint, rectangle, rgba_of
 from ...drawing.pointer import REACH, ring_shapes
 from ...drawing.scale_bar import corner_of_bar, scale_bar_shapes
@@ -45,6 +45,7 @@ class MarksOver:
         self.pointed: Pointed | None = None
         self.sentence = ""
         self.notes: Sequence[str] = ()
+        self._is_covered = False  # at the top, by the progress
         self.strokes: Sequence[AnyArray] = ()  # (k, 3) each: what has been drawn
         self._has_axes = False
         self._scale_unit = ""
@@ -62,6 +63,12 @@ class MarksOver:
         """Show how many extrema there are, in the first words for which there is room; () for nothing."""
         if notes != self.notes:
             self.notes = notes
+            self._view.update()
+
+    def cover_top(self, is_covered: bool) -> None:
+        """Leave out the legend and the notes while the progress lies over them."""
+        if is_covered != self._is_covered:
+            self._is_covered = is_covered
             self._view.update()
 
     def show_axes(self, has_axes: bool) -> None:
@@ -134,7 +141,7 @@ class MarksOver:
             *text_shapes(self.points.texts(), room),
             *self.points.standing_shapes(),
         ]
-        if not self.sentence:
+        if not self.sentence and not self._is_covered:
             shapes += overlay.legend_shapes(room, view.scene.style, self.legend)
             top = ROW * LOOK.scale if self.legend else 0.0
             for notes, of_extrema in ((self.notes, True), (self.cut_away(), False)):

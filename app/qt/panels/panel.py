@@ -14,7 +14,7 @@ from bihdist_core.distances.answers import Answer
 from ...document.document import COMPARISON, Inset
 from ...document.looks import AS_IT_IS, TWENTY_STEPS, Clip, Isolines, Shading
 from ...document.quantities import DistanceFrom
-from ...marks.field_marks import label_rows
+from ...marks.marked_panel import label_rows
 from ...marks.primitives import Caption
 from ...scene.bands import band_edges, beyond
 from ...scene.clipping import clip_plane, cut_through
@@ -29,7 +29,7 @@ from ...session.base import Greys
 from ...session.isoline_points import IsolinePoint
 from ...session.loaded_mesh import LoadedMesh
 from ...session.questions import Question
-from ..look.layouts import in_column
+from ..look.form import in_column
 from ..look.look import LOOK
 from .answer_words import copied_words, reading_of, value_words
 from .colour_bar import MOST_LABELS, ColourBar
@@ -336,6 +336,7 @@ class DistancePanel(QtWidgets.QWidget):
         """Show what is being computed, None for nothing; `is_old` where the field is not the one asked for."""
         self._stand_back(progress is not None and is_old)
         self._place_waiting()
+        self.view.over.cover_top(progress is not None and not self._is_compact)
         if progress is None:
             self.waiting.hide()
         else:
@@ -344,6 +345,7 @@ class DistancePanel(QtWidgets.QWidget):
     def show_behind(self, is_behind: bool) -> None:
         """Let the field be pale, without words, while it is too far behind a source that moves."""
         self.waiting.hide()
+        self.view.over.cover_top(False)
         self._stand_back(is_behind)
 
     def _stand_back(self, is_behind: bool) -> None:

@@ -35,9 +35,9 @@ from ...figures.chart_look import ChartLook
 from ...figures.error_figure import ErrorFigure
 from ...scene.style import curve_colours, style_of
 from ...session.loaded_mesh import LoadedMesh
+from .answers import correspondence
 from .maps import SAME_IDS, MapFile, Maps, Truth, map_in
 from .pairs import whole_pairs
-from .prediction_answers import correspondence
 
 MAX_KEPT_VALUES = 40_000_000
 """Numbers of four bytes that are kept of geodesic distances: from 400 vertices of a surface of 100,000."""

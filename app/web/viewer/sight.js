@@ -43,7 +43,8 @@ export class Sight {
   }
 
   get tree() {
-    return (this.faceTree ??= new FaceTree(this.shape));
+    const { shape } = this, { places, corners: faces } = shape.drawn;
+    return (this.faceTree ??= new FaceTree(shape.isOfPoints ? { m: faces.length / 3, places, faces } : shape));
   }
 
   #aspect(k) {
@@ -66,7 +67,8 @@ export class Sight {
     if (!(start >= 0 && start < Infinity)) return null;
     const isLeft = (vertex) => shape.depth(shape.place(vertex)) >= 0;
     const hit = this.tree.hit({ origin: plus(origin, direction, start), direction }, isLeft);
-    return hit && shape.depth(hit.point) > -1e-6 ? { ...hit, away: hit.away + start } : null;
+    if (!hit || shape.depth(hit.point) <= -1e-6) return null;
+    return { ...hit, away: hit.away + start, ...(shape.isOfPoints && { vertex: shape.nearest(hit.point) }) };
   }
 
   /** Whether the surface leaves a vertex in sight, as a translucent one does. */
