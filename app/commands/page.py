@@ -11,10 +11,9 @@ from bihdist_core.formats.mesh_names import mesh_name
 
 from ..document.document import usual_specs
 from ..web.options import USUAL, other_names, page_rows
-from .figure_options import add_recipe, chosen_recipe
+from .figure import add_recipe, chosen_recipe
 from .options import MESH, add_distance, add_output, add_rows, add_sources, count
-from .result import Facts, Result
-from .terminal import progress_line, tell
+from .terminal import Facts, Result, progress_line, tell
 
 if TYPE_CHECKING:
     from ..web.export import Page

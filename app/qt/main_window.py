@@ -38,8 +38,8 @@ from .files.files import Files
 from .files.session_actions import SessionFile
 from .guide import Guide
 from .held_keys import HeldKeys
+from .look.form import in_column, quiet_label
 from .look.icons import window_icon
-from .look.layouts import in_column, quiet_label
 from .look.look import LOOK
 from .pages.messages import Notice, Question, tell
 from .preferences import fit_to_screen

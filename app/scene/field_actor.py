@@ -14,7 +14,7 @@ from bihdist_core.analysis.label_borders import label_weights
 from bihdist_core.arrays import AnyArray, ByteArray, FloatArray, IntArray
 
 from ..document.looks import MOST_ISOLINES, NO_LINES, TWENTY_STEPS, Isolines, Shading
-from ..drawing.line_looks import SECTION
+from ..drawing.glyphs import SECTION
 from ..session.base import Greys
 from .clipping import ClipPlane, Cut
 from .drawable import copies_of, has_backs, vertex_faces, with_cut

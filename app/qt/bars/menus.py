@@ -22,8 +22,7 @@ from ..context import Context
 from ..files.files import Files
 from ..files.mesh_repairs import MeshRepairs
 from ..views import Views
-from .colour_menu import ColourMenu
-from .isoline_menu import IsolineMenu
+from .colour_menu import ColourMenu, IsolineMenu
 
 THUMBNAIL = 56
 
@@ -109,21 +108,8 @@ class Menus:
             bar.addMenu(name) for name in ("&File", "&Edit", "&View", "&Panels", "&Tools", "&Help")
         )
         self._of_meshes = (panels, tools)
-        self._fill(
-            file,
-            [
-                "open",
-                self.recent,
-                self.samples,
-                "close mesh",
-                None,
-                "open beside",
-                "close beside",
-                None,
-                "add field",
-                None,
-            ],
-        )
+        self._fill(file, ["open", self.recent, self.samples, "close mesh", None])
+        self._fill(file, ["open beside", "close beside", None, "add field", None])
         self.operators = self._choices(
             "Operator", lambda word: context[MeshRepairs].choose_operator(word), OPERATORS.items()
         )
@@ -135,10 +121,7 @@ class Menus:
         self._fill(edit, ["copy camera", "paste camera", None, "clear by-products", "clear surface", None])
         self._fill(edit, ["preferences"])
         # What the tool bar's menu shows one below the other has submenus here, so that all is seen on small screens.
-        self._fill(
-            view,
-            ["reset", standard, self.up, keys, None, *cameras, None, *at_pointer, None],
-        )
+        self._fill(view, ["reset", standard, self.up, keys, None, *cameras, None, *at_pointer, None])
         self._fill(view, [*docks("View"), None])
         self._fill(view, [self.isolines, self.colours, self.range, self.shading, None, self.theme, "full screen"])
         edits = (f"panel {word}" for word in panel_edits() if word != ADD)
@@ -198,13 +181,9 @@ class Menus:
     def _fill_recent(self) -> None:
         self.recent.clear()
         for path in remembered.recent():
-            action = self.recent.addAction(_shortened(path))
+            action = self.recent.addAction(path if len(path) <= 70 else f"… {path[-68:]}")
             action.setToolTip(path)
             action.setProperty("path", path)
             action.triggered.connect(lambda *_, path=path: self._context[Files].open(path))
         if self.recent.isEmpty():
             self.recent.addAction("Nothing yet").setEnabled(False)
-
-
-def _shortened(path: str) -> str:
-    return path if len(path) <= 70 else f"… {path[-68:]}"

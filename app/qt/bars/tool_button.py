@@ -2,7 +2,7 @@
 
 from qtpy import QtCore, QtGui
 
-from ..look.bare_button import BareButton
+from ..look.controls import BareButton
 from ..look.icons import SIDE, pixmap
 from ..look.look import LOOK
 

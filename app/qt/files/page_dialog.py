@@ -12,8 +12,7 @@ from ...web.contents import Contents
 from ...web.export import EIGENPAIR_BYTES, check_size, eigenpair_bytes, needed_eigenpairs, size_words, write_page
 from ...web.stored_mesh import PRECISIONS
 from ..context import Context
-from ..look.form import Choice
-from ..look.layouts import quiet_label
+from ..look.form import Choice, quiet_label
 from .job_dialog import FileKind, JobDialog
 
 PRECISION_NAMES = dict(zip(PRECISIONS, ("24 bits", "Single precision"), strict=True))

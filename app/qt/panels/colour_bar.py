@@ -21,8 +21,7 @@ from ...drawing.shapes import Box, Path, Pen, Shape, Text, rounded
 from ...marks.primitives import LegendRow
 from ...scene.bands import bar_colours
 from ...scene.style import PAPER, Style
-from ..look.look import LOOK
-from ..look.painting import smooth_painter
+from ..look.look import LOOK, smooth_painter
 from ..look.theme import contrast
 from .bar_layout import UNDEFINED, Reading, lay_out
 

@@ -7,8 +7,7 @@ from qtpy import QtGui
 from bihdist_core.distances.answers import Answer
 
 from ...document.document import Document, Panel
-from ...marks.field_marks import starts
-from ...marks.marked_panel import MarkedPanel, marks_of_tools
+from ...marks.marked_panel import MarkedPanel, marks_of_tools, starts
 from ...marks.primitives import Caption
 from ...session.isoline_points import IsolinePoint, passed
 from ...session.questions import vertex_at

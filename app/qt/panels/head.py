@@ -15,10 +15,9 @@ from ...document.quantities import Difference, Quantity, kind_name, quantity_nam
 from ...document.repairs import OPERATORS
 from ...drawing.painters.qt import paint, rgba_of
 from ...drawing.shapes import Box, Path, Shape, Text, disc, rounded
+from ..look.form import in_column
 from ..look.icons import pixmap
-from ..look.layouts import in_column
-from ..look.look import LOOK
-from ..look.painting import smooth_painter
+from ..look.look import LOOK, smooth_painter
 from .flat_button import ICON_SIDE, FlatButton
 from .number_box import ReadPopUp
 from .parameters import ChoiceControl, Control, FixedWord, NumberControl, parameter_control, signs

@@ -9,7 +9,7 @@ from qtpy import QtCore, QtGui
 from bihdist_core.arrays import AnyArray, FloatArray
 
 from ...drawing.axes import axes_shapes, middle
-from ...drawing.line_looks import SOURCE
+from ...drawing.glyphs import SOURCE
 from ...drawing.painters.qt import box_of, paint, rectangle, rgba_of
 from ...drawing.pointer import REACH, ring_shapes
 from ...drawing.scale_bar import corner_of_bar, scale_bar_shapes

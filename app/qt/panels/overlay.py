@@ -12,8 +12,7 @@ from ...drawing.painters.qt import rgba_of, text_width
 from ...drawing.shapes import Box, Path, Point, Shape, Text, rounded
 from ...marks.primitives import LegendRow, PointMark
 from ...scene.style import Style
-from ..look.look import LOOK
-from ..look.painting import paint_rounded, translucent
+from ..look.look import LOOK, paint_rounded, translucent
 from .mark_shapes import mark_shapes, sample_shapes
 
 LABEL_HEIGHT, LABEL_PADDING, LABEL_GAP, LABEL_TEXT = 24.0, 8.0, 7.0, 12.0

@@ -8,8 +8,7 @@ from qtpy import QtCore, QtGui, QtWidgets
 from bihdist_core.distances.distance_types import Parameter, Value
 
 from ...drawing.painters.qt import number_width
-from ..look.look import LOOK
-from ..look.painting import baseline
+from ..look.look import LOOK, baseline
 from .flat_button import GAP, HEIGHT, PAD, FlatButton
 from .number_box import STEPS, NumberPopUp, ValueSlider, meaning, shown_value, symbol, value_of_step
 

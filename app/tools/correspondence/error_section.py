@@ -12,9 +12,9 @@ from bihdist_core.formats.vertex_maps import MAP_FORMATS, write_map
 from ...document.document import Document
 from ...document.file_names import file_name
 from ...qt.context import Context
-from ...qt.docks.dock import PAD
+from ...qt.docks.instrument import PAD
 from ...qt.files.saving import save
-from ...qt.look.layouts import hairline, heading, in_column, in_row, push_button, quiet_label
+from ...qt.look.form import hairline, heading, in_column, in_row, push_button, quiet_label
 from ...qt.look.look import LOOK
 from ...qt.panels.badges import curve_colour
 from ...qt.panels.flat_button import menu_button

@@ -12,7 +12,7 @@ from bihdist_core.formats.vertex_maps import MAP_FORMATS
 
 from ...document.file_names import file_name
 from ...qt.context import Context
-from ...qt.files.chart_files import paper_theme, save_figure
+from ...qt.files.exports import paper_theme, save_figure
 from ...qt.files.saving import ask_file, file_filter, save
 from ...qt.panels.flat_button import add_entry, menu_button
 from .map_errors import MapErrorRequest, is_same_ids

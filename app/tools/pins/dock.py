@@ -21,10 +21,8 @@ from ...drawing.numbers import coordinates, number, percent, share
 from ...qt.context import Context
 from ...qt.docks.instrument import Instrument
 from ...qt.files.saving import ask_file
-from ...qt.look.form import error_label
-from ...qt.look.layouts import in_column, in_row, quiet_label
-from ...qt.look.segments import Segments
-from ...qt.look.text_box import TextBox, mark_wrong
+from ...qt.look.controls import Segments, TextBox, mark_wrong
+from ...qt.look.form import error_label, in_column, in_row, quiet_label
 from ...qt.panels.badges import add_colours
 from ...qt.panels.events import MarkClick
 from ...qt.panels.flat_button import add_entry, menu_button
