@@ -79,9 +79,9 @@ static void flip(const Triangles *T, i32 s, i32 *outer) {
   glue(T, f + 1, 2 * (g + 2));
 }
 
-/* Flip sides of m triangles until all are Delaunay, but so often at most that rounding cannot go round in circles;
- * returns how often.  waiting (m, 3), is_waiting (m, 3), 0 before. */
-static i64 flip_all(i64 m, const Triangles *T, i32 *waiting, unsigned char *is_waiting) {
+/* Flip sides of m triangles until all are Delaunay, but so often at most that rounding cannot go round in circles.
+ * waiting (m, 3), is_waiting (m, 3), 0 before. */
+static void flip_all(i64 m, const Triangles *T, i32 *waiting, unsigned char *is_waiting) {
   enum { MANY = 1000 };
   i64 count = 0, flips = 0;
   for (i32 s = 0; s < 3 * m; s++)
@@ -94,7 +94,6 @@ static i64 flip_all(i64 m, const Triangles *T, i32 *waiting, unsigned char *is_w
     for (int k = 0; k < 4; k++)
       if (!is_waiting[outer[k]]) waiting[count++] = outer[k], is_waiting[outer[k]] = 1;
   }
-  return flips;
 }
 
 /* What grows with the angle of d about a direction, of which `axes` (2, 3) are across, from -2 to 2. */
@@ -115,7 +114,7 @@ static void find_axes(const double *d, double *axes) {
   for (int k = 0; k < 3; k++) axes[k] *= length;
 }
 
-/* The side of a triangle's back, of which there are m, where side s is on its front. */
+/* The side of the back of one of m faces that is behind side s of its front. */
 static i32 behind(i64 m, i32 s) { return (i32)(3 * m) + s - s % 3 + (3 - s % 3) % 3; }
 
 /* Glue the fronts and backs of m faces about an edge with `count` sides, each to the next by its angle (count,). */
@@ -142,9 +141,9 @@ static void glue_around(i64 m, const Triangles *T, const double *x, i64 count, i
 /* Make m faces, corner and length (m, 3), an intrinsic Delaunay triangulation; or, with x (n, 3), their tufted cover,
  * where corner and length (2 m, 3) have their backs behind them, with corners 0, 2 and 1.  edge (m, 3): that of each
  * side, from 0 to e - 1.  With M triangles in all: twin (M, 3); work (e + 1 + 3 M,), is_waiting (M, 3), 0 before, angle
- * (m, 3).  Returns how many sides were flipped. */
-API i64 bih_make_delaunay(i64 m, i64 e, const i64 *edge, const double *x, i32 *corner, double *length, i32 *twin,
-                          i32 *work, unsigned char *is_waiting, double *angle) {
+ * (m, 3). */
+API void bih_make_delaunay(i64 m, i64 e, const i64 *edge, const double *x, i32 *corner, double *length, i32 *twin,
+                           i32 *work, unsigned char *is_waiting, double *angle) {
   Triangles T = {corner, length, twin};
   i32 *first = work, *sorted = work + e + 1;
   zero(first, 4 * (e + 1));
@@ -157,7 +156,7 @@ API i64 bih_make_delaunay(i64 m, i64 e, const i64 *edge, const double *x, i32 *c
     if (x) glue_around(m, &T, x, count, side, angle);
     else if (count == 2) glue(&T, side[0], 2 * side[1] + (corner[next(side[0])] == corner[next(side[1])]));
   }
-  return flip_all(x ? 2 * m : m, &T, sorted, is_waiting);
+  flip_all(x ? 2 * m : m, &T, sorted, is_waiting);
 }
 
 /* Eigenvectors (3, 3), by columns, of a symmetric matrix; its diagonal becomes the eigenvalues (Jacobi). */
@@ -192,8 +191,9 @@ static int side_of(Point a, Point b) {
   return turn * turn <= TIE * TIE * square(a) * square(b) ? 0 : turn > 0 ? 1 : -1;
 }
 
-/* Points of x in the plane that fits k of them, near (k,), best, inverted at a circle about the one in the middle,
- * which is at 0 and comes first; p and id (k + 1,).  Those in one place are one.  Returns how many there are. */
+/* p and id (k + 1,): points of x in the plane that fits near (k,) best, inverted at a circle about the one in the
+ * middle, which is at 0 and comes first, and their numbers; of those in one place the nearest alone.  Returns how many
+ * there are. */
 static i64 invert(i64 k, const double *x, i64 middle, const i64 *near, Point *p, i64 *id) {
   double d[MOST][3], far = 0, mean[3] = {0}, C[3][3] = {{0}}, V[3][3];
   for (i64 i = 0; i < k; i++) {
@@ -224,10 +224,10 @@ static i64 invert(i64 k, const double *x, i64 middle, const i64 *near, Point *p,
   return count;
 }
 
-/* For each of the points first to end - 1 of x (n, 3): star (k, 2), of which the first `size` are with it the Delaunay
- * triangles in the plane of near (k,), k points about it.  These are the edges of the convex hull of it and the others
- * after an inversion, which makes circles through it lines.  What is on one circle is cut from its first point, so that
- * stars agree.  k is at most MOST - 1. */
+/* The Delaunay triangles about each of the points first to end - 1 of x (n, 3), in the plane of the k points near it,
+ * near (k,), at most MOST - 1: of star (k, 2) the first `size` are their other corners.  An inversion makes circles
+ * through the point lines, and so these are the edges of the convex hull of what it makes of the others, and of the
+ * point.  Points on one circle are joined to the one with the least number, so that the stars of all of them agree. */
 API void bih_stars(i64 first, i64 end, i64 k, const double *x, const i64 *near, i32 *size, i32 *star) {
   for (i64 middle = first; middle < end; middle++, near += k, star += 2 * k, size++) {
     Point p[MOST];
