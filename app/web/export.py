@@ -22,10 +22,11 @@ from bihdist_core.intrinsic import COTAN, TUFTED
 from bihdist_core.progress import Progress, part
 from bihdist_core.tetrahedra import SolidBoundary
 
-from ..document.document import MeshFile
+from ..document.document import Document, MeshFile
 from ..document.page import Recipe
 from ..document.repairs import OPERATORS
 from ..figures.export import compute, open_document
+from ..scene.clipping import clip_plane, cut_through
 from ..session.array_store import ArrayStore
 from ..session.loaded_mesh import LoadedMesh, checked_path
 from .contents import Contents
@@ -196,6 +197,7 @@ def page_of(
     scene = scene_of(recipe, contents, surfaces, answers, stored, credit)
     by_poles = {spec for spec in contents.fields.values() if spec.distance_type.on_pages == "poles"}
     scene["notes"] += left_out
+    scene["cut"] = _cut(loaded.surface, document, mesh)
     scene |= stored_functions(of_matrices.laplacian, by_poles, laplacian)
     offered = _offered(contents, on_page, laplacian, scene["functions"], room)
     named = contents.with_offered(spec for spec, *_ in offered)
@@ -223,6 +225,16 @@ def _operator_words(laplacian: Laplacian) -> str:
         return "Linear elements in tetrahedra"
     areas = "Voronoi" if laplacian.areas_kind == "voronoi" else laplacian.areas_kind
     return OPERATORS[laplacian.operator] + ("" if laplacian.operator == TUFTED else f", {areas} areas")
+
+
+def _cut(surface: Surface, document: Document, mesh: StoredMesh) -> Json | None:
+    """Return where the clip plane cuts a solid, with the numbers that vertices have in the page; None for no cut."""
+    cut = cut_through(surface, clip_plane(document.clip, surface))
+    if cut is None:
+        return None
+    ends = np.argsort(mesh.ids)[np.searchsorted(np.sort(mesh.ids), cut.ends)]
+    weights = np.round(cut.weights, 6).tolist()
+    return {"ends": ends.ravel().tolist(), "weights": weights, "faces": cut.faces.ravel().tolist()}
 
 
 def _values(own: Answer) -> FloatArray:

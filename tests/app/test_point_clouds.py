@@ -1,7 +1,6 @@
 """Commands on points without faces."""
 
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -20,8 +19,6 @@ from app.scene.stand_in import stand_in
 from app.tools.source.gestures import source_from_strokes
 from bihdist_core import BiharmonicDistance, PointCloud, SourceSet, SurfacePoint, read_surface
 from tests.shapes import bumpy
-
-pytestmark = pytest.mark.skipif(sys.version_info >= (3, 15), reason="no wheels of robust_laplacian")
 
 
 @pytest.fixture

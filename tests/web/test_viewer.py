@@ -4,22 +4,27 @@ import json
 import math
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 import pyvista as pv
 
-from app.document.looks import Isolines, Shading
+from app.document.document import comparison
+from app.document.looks import Clip, Isolines, Shading
 from app.marks.primitives import PointMark, cut_away_words
 from app.samples import mesh_path
 from app.scene.camera import Projection, standard_camera
+from app.scene.clipping import clip_plane, cut_through
 from app.scene.drawable import copies_of, crease_of, drawable
 from app.scene.levels import levels
 from app.scene.splats import at_corners
-from app.web.stored_mesh import StoredMatrices
-from bihdist_core import Laplacian, PointCloud, read_surface
+from app.web.export import _cut
+from app.web.stored_mesh import StoredMatrices, StoredMesh
+from bihdist_core import Laplacian, PointCloud, TetrahedralMesh, read_surface
 from bihdist_core.distances.difference import difference_in_unit
+from tests.core.test_tetrahedra import ball
 from tests.shapes import bumpy, grid, sphere, torus
 
 VIEWER = Path(__file__).parents[2] / "app" / "web" / "viewer"
@@ -326,6 +331,44 @@ def test_the_nearest_point_is_hit(cloud):
     hits = np.array([each["hit"] for each in found], float)
     assert (hits == np.arange(600)).mean() > 0.98
     assert np.mean([each["seen"] for each in found]) > 0.98
+
+
+# ---------------------------------------------------------------------- clip planes
+@pytest.fixture(scope="module")
+def solid():
+    """A solid that a plane cuts, as it is on a page, and where."""
+    surface, clip = TetrahedralMesh(*ball(300), "ball").shape, Clip((0.0, 0.0, 1.0), 0.6)
+    plane = clip_plane(clip, surface)
+    mesh = StoredMesh.of(surface, "float32", Laplacian(TetrahedralMesh(*ball(300))))
+    stored, at = mesh.surface, _cut(surface, replace(comparison("ball"), clip=clip), mesh)
+    given = {**as_mesh(stored), "clip": [*plane.normal, plane.offset], "cut": at}
+    return mesh, given, cut_through(surface, plane)
+
+
+def test_a_cut_through_a_solid_is_the_windows_with_the_values_between(solid):
+    mesh, given, cut = solid
+    k, x = len(cut.points), mesh.surface.vertices
+    said = ask("drawn", mesh=given)
+    assert np.reshape(said["corners"], (-1, 3))[-len(cut.faces) :].tolist() == (cut.faces + len(x)).tolist()
+    places = np.reshape(said["places"], (-1, 3))[-k:] * np.linalg.norm(np.ptp(x, axis=0)) / 2
+    assert np.abs(places + (x.min(axis=0) + x.max(axis=0)) / 2 - cut.points).max() < 3e-4
+    assert np.allclose(np.reshape(said["normals"], (-1, 3))[-k:], cut.normal, atol=1e-6)
+    values = np.sin(3 * np.arange(len(x)))
+    values[::7] = -1000
+    original = np.empty(len(x))
+    original[mesh.ids] = values
+    found = ask("between", mesh=given, values=values.tolist(), none=-1000)
+    np.testing.assert_allclose(found, cut.at_points(original, -1000.0), atol=1e-5)
+
+
+def test_what_is_behind_a_cut_is_neither_hit_nor_seen(solid):
+    mesh, given, _ = solid
+    x, plane = mesh.surface.vertices, given["clip"]
+    view = {"position": [0, 0, 9], "focal": [0, 0, 0], "up": [0, 1, 0], "angle": 20, "parallel": None}
+    found = ask("projected", mesh=given, view=view, aspect=1.0, acts=[])
+    behind = (x[:, 2] < plane[3] - 0.2) & (np.hypot(x[:, 0], x[:, 1]) < 0.5)
+    assert behind.sum() > 30
+    assert not any(each["hit"] is not None or each["seen"] for each, k in zip(found, behind, strict=True) if k)
 
 
 @pytest.mark.parametrize(("source", "pins"), [(0, []), (0, [1]), (0, [1, 2]), (3, [1]), (3, [1, 0]), (3, [])])

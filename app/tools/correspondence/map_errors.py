@@ -294,7 +294,7 @@ def charts(row: ChartRow) -> list[ErrorFigure]:
     """Return the error curves of the maps that the panels of a row show or predict by."""
     document, surfaces = row.document, row.surfaces
     if len(document.surfaces) != 2:
-        raise ParameterError("A chart of errors is of maps between two meshes; name a second mesh, and its --map.")
+        raise ParameterError("A chart of errors is of maps between two meshes; add a second mesh, and maps to it.")
     if not row.answers:
         return []
     one, two = (surfaces[mesh.name] for mesh in document.surfaces)

@@ -2,6 +2,7 @@
 import { outside } from "./shape.js";
 import { withLabels } from "./labels.js";
 import { continued } from "./splats.js";
+import { putBetween } from "./cut.js";
 import { VERTEX_SHADER, FRAGMENT_SHADER } from "./shaders.js";
 
 const UNDEFINED = -1000, MOST_PIXELS = 2 ** 24;
@@ -73,11 +74,12 @@ export class Drawing {
     const { gl } = this, held = this.panels[panel], scale = high > low ? 1 / (high - low) : 0;
     if (!labels) held.labels = null;
     else if (held.labels?.values !== values) held.labels = { values, held: this.#labelled(values) };
-    const { drawn, isOfPoints } = this.shape, { copies } = drawn, shares = new Float32Array(values.length + copies.length);
+    const { drawn, isOfPoints } = this.shape, { copies, cut } = drawn, shares = new Float32Array(values.length + copies.length);
     const share = (value) => (value === value ? (value - low) * scale : UNDEFINED);
     for (let k = 0; k < values.length; k++) shares[k] = share(values[k]);
     if (isOfPoints) continued(shares, values.length, drawn, UNDEFINED);
     else for (let k = 0; k < copies.length; k++) shares[values.length + k] = shares[copies[k]];
+    if (cut) putBetween(shares, cut, UNDEFINED);
     gl.bindBuffer(gl.ARRAY_BUFFER, held.values);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, shares);
     const at = Float32Array.from(levels, (value) => (value - low) * scale);

@@ -1,5 +1,6 @@
 /** A mesh as it is drawn: moved to the origin and of radius about 1, so that single precision is enough. */
 import { split } from "./creases.js";
+import { cutPlaces, withCut, joinedArrays } from "./cut.js";
 import { hexagons } from "./splats.js";
 import { dot } from "./vectors.js";
 
@@ -8,10 +9,11 @@ export class Shape {
    * drawn: `places` and `normals` of the vertices and, from n on, of their `copies` at creases, and the `corners` of faces
    * among these; of points without faces those of hexagons.  hasBacks: the faces turn counterclockwise outside, and their other side can be seen.
    * @param {import("./unpack.js").Mesh} mesh
-   * @param {{crease: number | null, backs: boolean, clip: number[] | null, opacity: number}} shading clip: x, y and z of a plane's normal,
+   * @param {{crease: number | null, backs: boolean, clip: number[] | null, opacity: number,
+   *   cut?: {ends: number[], weights: number[], faces: number[]} | null}} shading cut: of a solid, see cut.js; clip: x, y and z of a plane's normal,
    *   beyond which the surface is cut away, and its distance from the origin along that
    */
-  constructor(mesh, { crease, backs, clip, opacity } = { crease: null, backs: false, opacity: 1 }) {
+  constructor(mesh, { crease, backs, clip, cut, opacity } = { crease: null, backs: false, opacity: 1 }) {
     const { n, m, positions, faces, faceComponents } = mesh;
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
     for (let k = 0; k < 3 * n; k++) {
@@ -32,6 +34,13 @@ export class Shape {
     this.opacity = opacity;
     const normal = clip && clip.slice(0, 3), onPlane = clip && this.inward(normal.map((x) => clip[3] * x));
     this.clip = clip && [...normal.map((x) => -x), dot(normal, onPlane)];
+    /** What lines of sight meet. */
+    this.met = this.isOfPoints ? { ...this.drawn, faces: this.drawn.corners } : this;
+    if (cut) {
+      const at = cutPlaces(this.places, cut, this.clip), corners = cut.faces.map((corner) => n + corner);
+      this.met = { places: joinedArrays(this.places, at), faces: joinedArrays(faces, corners) };
+      this.drawn = withCut(this.drawn, at, cut, this.clip);
+    }
   }
 
   #split(crease) {

@@ -43,8 +43,7 @@ export class Sight {
   }
 
   get tree() {
-    const { shape } = this, { places, corners: faces } = shape.drawn;
-    return (this.faceTree ??= new FaceTree(shape.isOfPoints ? { m: faces.length / 3, places, faces } : shape));
+    return (this.faceTree ??= new FaceTree(this.shape.met));
   }
 
   #aspect(k) {
@@ -55,9 +54,10 @@ export class Sight {
     return [(2 * x) / this.boxes[k].width - 1, 1 - (2 * y) / this.boxes[k].height];
   }
 
-  /** What is met at a place of a view, see `FaceTree.hit`. */
+  /** What is met at a place of a view, see `FaceTree.hit`; nothing on the cut through a solid. */
   hit(k, x, y) {
-    return this.#met(this.camera.ray(...this.#inView(k, x, y), this.#aspect(k)));
+    const met = this.#met(this.camera.ray(...this.#inView(k, x, y), this.#aspect(k)));
+    return met && met.vertex < this.shape.n ? met : null;
   }
 
   /** What a line of sight meets of what the clip plane leaves. */
