@@ -133,7 +133,7 @@ def _lines(nodes: AnyArray, places: FloatArray, drawn: AnyArray) -> list[Line]:
 def _is_spur(points: FloatArray, ends: IntArray) -> bool:
     """Return whether a line is a tick that leaves others, from the number of lines (2,) that meet at its ends."""
     length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-    return bool(length < BRIDGED and ends.min() == 1 and ends.max() > 2)
+    return bool(length < TICK and ends.min() == 1 and ends.max() > 2)
 
 
 def _bridged(drawn: AnyArray, length: AnyArray) -> AnyArray:
