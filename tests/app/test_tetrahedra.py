@@ -63,6 +63,12 @@ def test_a_figure_of_a_solid_from_python_is_drawn_again_from_its_archive(solid, 
     assert np.array_equal(again.pixels, drawn.pixels)
 
 
+def test_sources_of_pictures_are_on_the_boundary(solid, path, tmp_path, capsys):
+    within = np.setdiff1d(np.arange(len(solid.vertices)), solid.shape.faces)[0]
+    said = refused(capsys, "figure", path, "--sources", str(within), "-o", tmp_path / "a.png")
+    assert f"vertex {within} is not on the boundary; only commands without a picture" in said
+
+
 def test_a_batch_measures_solids_and_says_that_they_have_no_areas(solid, path, tmp_path, capsys):
     words = ["batch", path, "--do", "fields", "--sources", "250", "--workers", "1", "-o"]
     ran(capsys, *words, tmp_path / "out")
